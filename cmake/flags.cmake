@@ -1,0 +1,12 @@
+# The one place for compiler flags. Every target of the project links microtrace_flags.
+add_library(microtrace_flags INTERFACE)
+target_compile_features(microtrace_flags INTERFACE cxx_std_20)
+target_compile_options(microtrace_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+  # a*b+c must round twice on every machine: fused, the bits would depend on compiler and instruction set.
+  -ffp-contract=off)
+if(MICROTRACE_SANITIZE)
+  target_compile_options(microtrace_flags INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(microtrace_flags INTERFACE -fsanitize=address,undefined)
+endif()

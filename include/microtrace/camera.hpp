@@ -1,0 +1,86 @@
+#pragma once
+/// Cameras: where the rays of a picture start and go.
+///
+/// To add one: a struct here and in `Camera`, its rays in src/scene/camera.cpp, its reader in
+/// src/io/json_scene.cpp and the JSON schema, a scene, golden rays in tests/unit/camera_test.cpp.
+
+#include <microtrace/math.hpp>
+#include <microtrace/ray.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <variant>
+
+namespace microtrace {
+
+struct ImageSize {
+  std::uint32_t width = 640, height = 480;  ///< pixels, at least 1
+};
+
+/// Where a camera stands and looks, in world space. direction and up have any length and are not
+/// parallel; up need not be perpendicular to direction.
+struct Pose {
+  DVec3 position{0};
+  DVec3 direction{0, 0, -1};
+  DVec3 up{0, 1, 0};
+};
+
+/// Depths along the viewing direction between which a camera sees.
+struct DepthRange {
+  double near = 0;
+  double far = std::numeric_limits<double>::infinity();
+};
+
+/// Central projection with square pixels onto the plane at distance focus. docs/derivations.md
+/// derives its rays.
+struct PerspectiveCamera {
+  Pose pose;
+  double vertical_fov = 1;  ///< full opening angle, radians, in (0, pi)
+  double focus = 1;         ///< distance of the image plane; cancels out of every ray
+  /// If set, a window of this width / height is fitted whole into the picture, as glTF cameras ask.
+  /// If not, the vertical angle spans the picture's height whatever its width.
+  std::optional<double> aspect_ratio{};
+  DepthRange depth{};
+};
+
+/// Parallel projection with square pixels.
+struct OrthographicCamera {
+  Pose pose;
+  double height = 2;                     ///< of the picture, in world units
+  std::optional<double> aspect_ratio{};  ///< as in PerspectiveCamera
+  DepthRange depth{};
+};
+
+/// The whole sphere of directions: longitude across, latitude down, the viewing direction in the
+/// middle.
+struct EnvironmentCamera {
+  Pose pose;
+};
+
+using Camera = std::variant<PerspectiveCamera, OrthographicCamera, EnvironmentCamera>;
+
+/// The rays of one camera for one picture. Directions have unit length, computed in float64 and
+/// rounded once.
+class RayGenerator {
+ public:
+  RayGenerator(const Camera& camera, ImageSize size);
+
+  /// The ray through pixel coordinates (x, y): (0, 0) is the picture's upper left corner, (0.5,
+  /// 0.5) the centre of its first pixel; fractions and points outside the picture are allowed.
+  [[nodiscard]] Ray operator()(double x, double y) const;
+
+  /// The origin that all rays share, if they do.
+  [[nodiscard]] std::optional<Vec3> common_origin() const;
+
+ private:
+  // Perspective: origin and d ~ corner + x right + y down. Orthographic: the same for the origin, d
+  // fixed. Environment: the frame itself.
+  enum class Kind { perspective, orthographic, environment };
+  Kind kind_;
+  DVec3 position_, forward_, corner_, right_, down_;
+  DepthRange depth_;
+  ImageSize size_;
+};
+
+}  // namespace microtrace

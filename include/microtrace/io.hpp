@@ -1,0 +1,41 @@
+#pragma once
+/// Files in and out.
+
+#include <microtrace/error.hpp>
+#include <microtrace/film.hpp>
+#include <microtrace/scene.hpp>
+
+#include <filesystem>
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace {
+
+struct LoadedScene {
+  Scene scene;
+  std::vector<Diagnostic> warnings;  ///< oddities survived and features not honoured, in file order
+};
+
+/// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
+/// other endings. Throws Error.
+[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands in messages, files named in the scene are sought in
+/// `folder`. Throws Error.
+[[nodiscard]] LoadedScene parse_scene(std::string_view bytes, const std::string& name,
+                                      const std::filesystem::path& folder);
+
+enum class PpmEncoding { binary, ascii };  ///< P6 or P3
+
+/// Writes a picture; the kind is the ending's: .ppm by the library itself, any other by
+/// OpenImageIO, whose module is loaded then. Integer formats are sRGB-encoded 8 bit, float formats
+/// linear. The file appears whole or not at all. Throws Error.
+void save_image(const Film& film, const std::filesystem::path& path,
+                PpmEncoding ppm = PpmEncoding::binary);
+
+/// The bytes of a PPM file.
+[[nodiscard]] std::string encode_ppm(const Film& film, PpmEncoding ppm = PpmEncoding::binary);
+
+}  // namespace microtrace

@@ -1,0 +1,23 @@
+#include <microtrace/error.hpp>
+
+#include <utility>
+
+namespace microtrace {
+
+std::string Diagnostic::text() const {
+  std::string out = file;
+  if (line != 0) out += ":" + std::to_string(line) + ":" + std::to_string(column);
+  if (!out.empty()) out += ": ";
+  if (!pointer.empty()) out += pointer + ": ";
+  out += message;
+  if (!excerpt.empty()) out += "\n" + excerpt;
+  return out;
+}
+
+Error::Error(ErrorKind kind, Diagnostic where)
+    : std::runtime_error(where.text()), kind_(kind), diagnostic_(std::move(where)) {}
+
+Error::Error(ErrorKind kind, std::string file, std::string message)
+    : Error(kind, Diagnostic{.file = std::move(file), .message = std::move(message)}) {}
+
+}  // namespace microtrace

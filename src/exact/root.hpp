@@ -1,0 +1,37 @@
+#pragma once
+/// The exact parameter of a hit: a root of a polynomial of degree at most two with dyadic coefficients.
+
+#include "exact/dyadic.hpp"
+
+#include <compare>
+
+namespace microtrace::exact {
+
+/// t = (p + sign sqrt(q)) / r with r > 0 and q >= 0; rational where sign is 0.
+struct Root {
+  Dyadic p, q, r;
+  int sign = 0;
+};
+
+/// The rational p / r, r not zero.
+[[nodiscard]] Root rational(Dyadic p, Dyadic r);
+
+/// The number t itself.
+[[nodiscard]] Root rational(float t);
+
+/// The order of the two real numbers, decided without rounding.
+[[nodiscard]] std::strong_ordering operator<=>(const Root& x, const Root& y);
+[[nodiscard]] bool operator==(const Root& x, const Root& y);
+
+/// Doubles lo <= hi around a number.
+struct Enclosure {
+  double lo, hi;
+};
+
+/// Doubles around t, a few units in the last place apart.
+[[nodiscard]] Enclosure enclose(const Root& t);
+
+/// The float32 nearest to t, ties to even, overflow to infinity: IEEE 754 roundTiesToEven.
+[[nodiscard]] float round_to_float(const Root& t);
+
+}  // namespace microtrace::exact

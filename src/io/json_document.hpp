@@ -1,0 +1,56 @@
+#pragma once
+/// A JSON text with the place of every value, so that any later complaint can name file, line,
+/// column and pointer.
+
+#include <microtrace/error.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microtrace::io {
+
+struct JsonValue {
+  enum class Kind { null, boolean, number, string, array, object };
+
+  Kind kind = Kind::null;
+  bool boolean = false;
+  bool is_integer = false;  ///< number written without fraction or exponent and within +-2^53
+  double number = 0;        ///< always finite
+  std::string string;
+  std::vector<JsonValue> items;  ///< of an array
+  std::vector<std::pair<std::string, JsonValue>>
+      members;                 ///< of an object, in file order, keys unique
+  std::size_t offset = 0;      ///< byte at which the value starts
+  std::size_t key_offset = 0;  ///< byte at which its key starts, in an object
+
+  /// The member of that name, or null.
+  [[nodiscard]] const JsonValue* find(std::string_view key) const;
+};
+
+class JsonDocument {
+ public:
+  /// Parses a whole text. Throws Error (invalid_scene; limit where nesting exceeds 256 or the text
+  /// 1 GiB) with line, column and excerpt for: not JSON, not UTF-8, a number beyond double's range,
+  /// a key twice in an object.
+  JsonDocument(std::string_view text, std::string file);
+
+  [[nodiscard]] const JsonValue& root() const { return root_; }
+  [[nodiscard]] const std::string& file() const { return file_; }
+
+  /// A message about the byte at `offset`, with line, column and caret.
+  [[nodiscard]] Diagnostic at(std::size_t offset, std::string pointer, std::string message) const;
+
+ private:
+  std::string_view text_;  // the caller's; outlives the document
+  std::string file_;
+  JsonValue root_;
+};
+
+/// Appends one reference token to a JSON pointer, escaped as RFC 6901 says.
+[[nodiscard]] std::string child(const std::string& pointer, std::string_view key);
+[[nodiscard]] std::string child(const std::string& pointer, std::size_t index);
+
+}  // namespace microtrace::io
