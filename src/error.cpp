@@ -3,6 +3,16 @@
 #include <utility>
 
 namespace microtrace {
+namespace {
+
+Diagnostic about_file(std::string file, std::string message) {
+  Diagnostic diagnostic;
+  diagnostic.file = std::move(file);
+  diagnostic.message = std::move(message);
+  return diagnostic;
+}
+
+}  // namespace
 
 std::string Diagnostic::text() const {
   std::string out = file;
@@ -18,6 +28,6 @@ Error::Error(ErrorKind kind, Diagnostic where)
     : std::runtime_error(where.text()), kind_(kind), diagnostic_(std::move(where)) {}
 
 Error::Error(ErrorKind kind, std::string file, std::string message)
-    : Error(kind, Diagnostic{.file = std::move(file), .message = std::move(message)}) {}
+    : Error(kind, about_file(std::move(file), std::move(message))) {}
 
 }  // namespace microtrace

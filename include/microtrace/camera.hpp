@@ -70,9 +70,6 @@ class RayGenerator {
   /// 0.5) the centre of its first pixel; fractions and points outside the picture are allowed.
   [[nodiscard]] Ray operator()(double x, double y) const;
 
-  /// The origin that all rays share, if they do.
-  [[nodiscard]] std::optional<Vec3> common_origin() const;
-
  private:
   // Perspective: origin and d ~ corner + x right + y down. Orthographic: the same for the origin, d
   // fixed. Environment: the frame itself.

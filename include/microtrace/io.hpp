@@ -31,9 +31,18 @@ enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
 /// Writes a picture; the kind is the ending's: .ppm by the library itself, any other by
 /// OpenImageIO, whose module is loaded then. Integer formats are sRGB-encoded 8 bit, float formats
-/// linear. The file appears whole or not at all. Throws Error.
+/// linear. The file appears whole or not at all. "-" is standard output, and takes PPM. Throws
+/// Error.
 void save_image(const Film& film, const std::filesystem::path& path,
                 PpmEncoding ppm = PpmEncoding::binary);
+
+/// Throws the Error that save_image would throw at once for this path, and writes nothing: to be
+/// asked before a long rendering.
+void check_image_path(const std::filesystem::path& path);
+
+/// Removes the temporary files of pictures being saved. Safe in a signal handler that then ends the
+/// process.
+void remove_unfinished_files() noexcept;
 
 /// The bytes of a PPM file.
 [[nodiscard]] std::string encode_ppm(const Film& film, PpmEncoding ppm = PpmEncoding::binary);

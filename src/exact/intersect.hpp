@@ -1,6 +1,6 @@
 #pragma once
-/// The first hit of a ray with a shape, decided in exact arithmetic: slow, scalar, right. All speed comes from asking
-/// rarely; src/accel asks only where its rounded computation can't be sure.
+/// The first hit of a ray with a shape, decided in exact arithmetic: slow, scalar, right. All speed
+/// comes from asking rarely; src/accel asks only where its rounded computation can't be sure.
 
 #include "exact/root.hpp"
 
@@ -14,8 +14,9 @@ namespace microtrace::exact {
 /// Whether the ray's query is one that can hit (see Ray).
 [[nodiscard]] bool is_valid(const Ray& ray);
 
-/// The least t in the closed [t_min, t_max] for which o + t d lies in the shape's closed point set; nothing if there is
-/// none, or if the ray or the shape is not valid. A ray within a plane, a flat shape or a quadric hits where it enters.
+/// The least t in the closed [t_min, t_max] for which o + t d lies in the shape's closed point set;
+/// nothing if there is none, or if the ray or the shape is not valid. A ray within a plane, a flat
+/// shape or a quadric hits where it enters.
 [[nodiscard]] std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Plane& plane, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Disc& disc, const Ray& ray);

@@ -1,5 +1,6 @@
 #pragma once
-/// The exact parameter of a hit: a root of a polynomial of degree at most two with dyadic coefficients.
+/// The exact parameter of a hit: a root of a polynomial of degree at most two with dyadic
+/// coefficients.
 
 #include "exact/dyadic.hpp"
 
@@ -28,7 +29,8 @@ struct Enclosure {
   double lo, hi;
 };
 
-/// Doubles around t, a few units in the last place apart.
+/// Doubles around t, a few units in the last place apart; where |t| is about 2^1000 or more, or
+/// 2^-1000 or less, the upper bound may be infinity or the lower one 0.
 [[nodiscard]] Enclosure enclose(const Root& t);
 
 /// The float32 nearest to t, ties to even, overflow to infinity: IEEE 754 roundTiesToEven.

@@ -12,6 +12,12 @@
 
 namespace microtrace::io {
 
+inline constexpr std::size_t max_json_depth = 256;                    ///< of nested values
+inline constexpr std::size_t max_json_size = std::size_t{1} << 30;    ///< bytes
+inline constexpr std::size_t max_json_values = std::size_t{1} << 24;  ///< of all kinds together
+
+struct JsonMember;
+
 struct JsonValue {
   enum class Kind { null, boolean, number, string, array, object };
 
@@ -20,27 +26,31 @@ struct JsonValue {
   bool is_integer = false;  ///< number written without fraction or exponent and within +-2^53
   double number = 0;        ///< always finite
   std::string string;
-  std::vector<JsonValue> items;  ///< of an array
-  std::vector<std::pair<std::string, JsonValue>>
-      members;                 ///< of an object, in file order, keys unique
-  std::size_t offset = 0;      ///< byte at which the value starts
-  std::size_t key_offset = 0;  ///< byte at which its key starts, in an object
+  std::vector<JsonValue> items;     ///< of an array
+  std::vector<JsonMember> members;  ///< of an object, in file order, keys unique
+  std::size_t offset = 0;           ///< byte at which the value starts
+  std::size_t key_offset = 0;       ///< byte at which its key starts, in an object
 
   /// The member of that name, or null.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
 };
 
+struct JsonMember {
+  std::string key;
+  JsonValue value;
+};
+
 class JsonDocument {
  public:
-  /// Parses a whole text. Throws Error (invalid_scene; limit where nesting exceeds 256 or the text
-  /// 1 GiB) with line, column and excerpt for: not JSON, not UTF-8, a number beyond double's range,
-  /// a key twice in an object.
-  JsonDocument(std::string_view text, std::string file);
+  /// Parses a whole text (RFC 8259); a UTF-8 byte order mark before it is skipped. Throws Error
+  /// (invalid_scene; limit where one of the maxima above is exceeded) with line, column and excerpt
+  /// for: not JSON, not UTF-8, a number beyond double's range, a key twice in an object.
+  JsonDocument(std::string_view text, std::string file, std::size_t max_values = max_json_values);
 
   [[nodiscard]] const JsonValue& root() const { return root_; }
   [[nodiscard]] const std::string& file() const { return file_; }
 
-  /// A message about the byte at `offset`, with line, column and caret.
+  /// A message about the byte at `offset` of the text, with line, column and caret.
   [[nodiscard]] Diagnostic at(std::size_t offset, std::string pointer, std::string message) const;
 
  private:

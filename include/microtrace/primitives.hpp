@@ -1,0 +1,72 @@
+#pragma once
+/// From a PrimitiveId to the shape that bears it.
+
+#include <microtrace/hit.hpp>
+#include <microtrace/scene.hpp>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace microtrace {
+
+[[nodiscard]] inline Triangle triangle_of(const Mesh& mesh, std::size_t index) {
+  const auto& [a, b, c] = mesh.triangles[index];
+  return {.a = mesh.positions[a], .b = mesh.positions[b], .c = mesh.positions[c]};
+}
+
+/// All primitives of a scene by number. The scene must outlive this and stay as it is.
+class Primitives {
+ public:
+  /// Throws Error (limit) if the scene has 2^32 primitives or more.
+  explicit Primitives(const Scene& scene);
+
+  /// The place in Scene::objects of the object that a primitive belongs to.
+  [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
+  [[nodiscard]] const Object& object(PrimitiveId id) const {
+    return scene_->objects[object_index(id)];
+  }
+
+  /// f(shape) for the primitive's own shape; a Triangle if it is one of a mesh.
+  template <class F>
+  decltype(auto) visit(PrimitiveId id, F&& f) const {
+    const std::size_t k = object_index(id);
+    return std::visit(
+        [&](const auto& shape) -> decltype(auto) {
+          if constexpr (is_mesh<decltype(shape)>)
+            return f(triangle_of(shape, id - first_ids_[k]));
+          else
+            return f(shape);
+        },
+        scene_->objects[k].shape);
+  }
+
+  /// f(id, shape) for every primitive in the order of their numbers.
+  template <class F>
+  void for_each(F&& f) const {
+    for (std::size_t k = 0; k < scene_->objects.size(); ++k) {
+      std::visit(
+          [&](const auto& shape) {
+            PrimitiveId id = first_ids_[k];
+            if constexpr (is_mesh<decltype(shape)>) {
+              for (std::size_t i = 0; i < shape.triangles.size(); ++i)
+                f(id++, triangle_of(shape, i));
+            } else {
+              f(id, shape);
+            }
+          },
+          scene_->objects[k].shape);
+    }
+  }
+
+ private:
+  template <class T>
+  static constexpr bool is_mesh = std::is_same_v<std::remove_cvref_t<T>, Mesh>;
+
+  const Scene* scene_;
+  std::vector<PrimitiveId> first_ids_;  // of each object
+};
+
+}  // namespace microtrace

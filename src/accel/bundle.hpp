@@ -1,0 +1,67 @@
+#pragma once
+/// Rays with one origin, traced together.
+
+#include "accel/closest_hit.hpp"
+#include "accel/filters/shape_filter.hpp"
+#include "exact/intersect.hpp"
+
+#include <microtrace/primitives.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace microtrace {
+
+class Bundle {
+ private:
+  [[nodiscard]] auto root_on(const Ray& ray) const {
+    return [this, &ray](PrimitiveId id) {
+      return primitives_->visit(id,
+                                [&](const auto& shape) { return exact::first_hit(shape, ray); });
+    };
+  }
+
+ public:
+  static constexpr std::size_t kCapacity = 64;
+
+  /// rays: 1 to kCapacity valid rays with equal origins; they and the primitives must outlive the
+  /// bundle.
+  Bundle(const Primitives& primitives, std::span<const Ray> rays)
+      : primitives_(&primitives), rays_(rays) {
+    filterable_ = is_filterable(rays[0].o);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      filterable_ &= is_filterable(rays[i].d);
+      directions_[i] = rays[i].d;
+      ranges_[i] = {.t_min = rays[i].t_min, .t_max = rays[i].t_max};
+    }
+  }
+
+  /// All rays against one primitive. Every primitive must be met once, in any order.
+  template <class AnyShape>
+  void meet(PrimitiveId id, const AnyShape& shape) {
+    if (filterable_ && is_filterable(shape)) {
+      const auto filter = seen_from(rays_[0].o, shape);
+      for (std::size_t i = 0; i < rays_.size(); ++i)
+        closest_[i].consider(id, filter(directions_[i], ranges_[i]), root_on(rays_[i]));
+    } else {
+      for (std::size_t i = 0; i < rays_.size(); ++i)
+        closest_[i].consider(id, {.certainty = Certainty::unsure}, root_on(rays_[i]));
+    }
+  }
+
+  [[nodiscard]] std::optional<Hit> hit(std::size_t i) const {
+    return closest_[i].rounded(root_on(rays_[i]));
+  }
+
+ private:
+  const Primitives* primitives_;
+  std::span<const Ray> rays_;
+  bool filterable_ = false;
+  std::array<DVec3, kCapacity> directions_;
+  std::array<Range, kCapacity> ranges_;
+  std::array<ClosestHit, kCapacity> closest_;
+};
+
+}  // namespace microtrace

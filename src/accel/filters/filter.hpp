@@ -1,0 +1,90 @@
+#pragma once
+/// Floating-point filters: each decides a hit in float64 with a proven error bound, or says that it
+/// can't.
+///
+/// A filter is a shape seen from one origin o: what depends on o alone is computed once (for all
+/// the rays of a camera), then each direction costs a few multiplications. The constructors take
+/// float32 data; every bound below counts roundings as Higham does (Accuracy and Stability of
+/// Numerical Algorithms, 2002, section 3.1): a sum of products in which each term sees at most k
+/// roundings errs by at most gamma_k = k U / (1 - k U) times the sum of the terms' magnitudes, its
+/// "permanent". The code uses k + 1 or more in place of k: that covers 1 - k U and the rounding of
+/// the permanent itself.
+
+#include <microtrace/math.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace microtrace {
+
+/// Unit roundoff of float64.
+inline constexpr double kRoundoff = 0x1p-53;
+
+/// Coordinates within this keep every intermediate result far from overflow, and all that underflow
+/// can add to a form of degree six below kUnderflow: 2^-1075 times at most 2^(6 * 64), a few
+/// hundred times. Anything larger is left to exact arithmetic.
+inline constexpr float kLargestCoordinate = 0x1p64F;
+inline constexpr double kUnderflow = 0x1p-600;
+
+[[nodiscard]] constexpr double gamma(int roundings) {
+  return roundings * kRoundoff;
+}
+
+enum class Certainty { miss, hit, unsure };
+
+/// What a filter found. If the shape is hit, lo is below the exact t; if that is certain, hi is
+/// above it.
+struct Verdict {
+  Certainty certainty = Certainty::miss;
+  double lo = -std::numeric_limits<double>::infinity();
+  double hi = std::numeric_limits<double>::infinity();
+};
+
+/// The closed range in which a ray looks for hits.
+struct Range {
+  double t_min, t_max;
+};
+
+/// A rounded number and a bound on its distance from the exact one.
+struct Approximate {
+  double value, error;
+
+  [[nodiscard]] bool is_positive() const { return value > error; }
+  [[nodiscard]] bool is_negative() const { return value < -error; }
+};
+
+/// Sum of x_i y_i where each product with its own past sees at most `roundings` roundings, the
+/// sum's two included.
+[[nodiscard]] inline Approximate dot_product(const DVec3& x, const DVec3& y, int roundings) {
+  const double a = x.x * y.x, b = x.y * y.y, c = x.z * y.z;
+  return {.value = a + b + c,
+          .error = gamma(roundings + 1) * (std::abs(a) + std::abs(b) + std::abs(c)) + kUnderflow};
+}
+
+/// Whether filters may be asked about a number; not so for NaN.
+[[nodiscard]] inline bool is_filterable(float x) {
+  return std::abs(x) <= kLargestCoordinate;
+}
+[[nodiscard]] inline bool is_filterable(const Vec3& v) {
+  return is_filterable(v.x) && is_filterable(v.y) && is_filterable(v.z);
+}
+
+/// Where numerator / denominator lies in the range. The quotient q of the rounded parts obeys
+/// |q - q*| <= (error_n + |q| error_d) / (|d| - error_d); the factors below cover the roundings of
+/// q and of the bound.
+[[nodiscard]] inline Verdict quotient_verdict(const Approximate& numerator,
+                                              const Approximate& denominator, const Range& range) {
+  const double size = std::abs(denominator.value);
+  if (!(size > 4 * denominator.error)) return {.certainty = Certainty::unsure};
+  const double t = numerator.value / denominator.value;
+  const double error = (numerator.error + std::abs(t) * denominator.error) /
+                           (size - denominator.error) * (1 + gamma(16)) +
+                       std::abs(t) * gamma(8) + kUnderflow;
+  const double lo = t - error, hi = t + error;
+  if (hi < range.t_min || lo > range.t_max) return {.certainty = Certainty::miss};
+  const bool within = lo >= range.t_min && hi <= range.t_max;
+  return {.certainty = within ? Certainty::hit : Certainty::unsure, .lo = lo, .hi = hi};
+}
+
+}  // namespace microtrace

@@ -1,0 +1,61 @@
+#pragma once
+#include "accel/filters/filter.hpp"
+
+#include <microtrace/shape.hpp>
+
+namespace microtrace {
+
+/// A plane seen from o: t = n.(point - o) / n.d.
+class PlaneFilter {
+ public:
+  PlaneFilter(const Vec3& point, const Vec3& normal, const Vec3& o)
+      : normal_(normal), height_(dot_product(normal, DVec3(point) - DVec3(o), 4)) {}
+  PlaneFilter(const Plane& plane, const Vec3& o) : PlaneFilter(plane.point, plane.normal, o) {}
+
+  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+    return quotient_verdict(height_, dot_product(normal_, d, 3), range);
+  }
+
+ private:
+  DVec3 normal_;
+  Approximate height_;
+};
+
+/// A disc seen from o: its plane, then the squared distance of the crossing from the centre.
+class DiscFilter {
+ public:
+  DiscFilter(const Disc& disc, const Vec3& o)
+      : plane_(disc.center, disc.normal, o),
+        from_center_(DVec3(o) - DVec3(disc.center)),
+        radius2_(double{disc.radius} * disc.radius) {}
+
+  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+    Verdict crossing = plane_(d, range);
+    if (crossing.certainty == Certainty::miss) return crossing;
+    // A ray nearly within the plane: nothing is known of t, so nothing of the distance.
+    if (!std::isfinite(crossing.lo)) return crossing;
+    const double t = (crossing.lo + crossing.hi) / 2, radius_of_t = crossing.hi - crossing.lo;
+    double distance2 = 0, error = 0;
+    for (int k = 0; k < 3; ++k) {
+      // q = (o - c) + t d: three roundings of its terms, and t's own distance from the exact
+      // parameter.
+      const double q = from_center_[k] + t * d[k];
+      const double q_error = gamma(4) * (std::abs(from_center_[k]) + std::abs(t * d[k])) +
+                             radius_of_t * std::abs(d[k]) + kUnderflow;
+      distance2 += q * q;
+      error += (2 * std::abs(q) + q_error) * q_error;
+    }
+    error = error * (1 + gamma(8)) + gamma(6) * (distance2 + radius2_) + kUnderflow;
+    const double outside = distance2 - radius2_;
+    if (outside > error) return {.certainty = Certainty::miss};
+    if (!(outside < -error)) crossing.certainty = Certainty::unsure;
+    return crossing;
+  }
+
+ private:
+  PlaneFilter plane_;
+  DVec3 from_center_;
+  double radius2_;  // exact: a product of two float32
+};
+
+}  // namespace microtrace

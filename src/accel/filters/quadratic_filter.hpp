@@ -1,0 +1,124 @@
+#pragma once
+#include "accel/filters/filter.hpp"
+
+#include <microtrace/shape.hpp>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+
+/// The two roots (-b -+ s) / a in order, each numerator with its bound; a > 0 certain, s the root
+/// of the discriminant. The first root certainly in range is the hit; a root that may or may not be
+/// in range ends the search.
+[[nodiscard]] inline Verdict first_root_verdict(const Approximate& a, const Approximate& b,
+                                                const Approximate& s, const Range& range) {
+  const double error = b.error + s.error + gamma(2) * (std::abs(b.value) + s.value);
+  const Verdict near = quotient_verdict({.value = -b.value - s.value, .error = error}, a, range);
+  if (near.certainty != Certainty::miss) return near;
+  return quotient_verdict({.value = -b.value + s.value, .error = error}, a, range);
+}
+
+/// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x),
+/// for error <= x.
+[[nodiscard]] inline Approximate square_root(const Approximate& x) {
+  const double root = std::sqrt(x.value);
+  return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(4) * root};
+}
+
+/// A sphere seen from o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 = 0, whose
+/// discriminant is by Lagrange's identity r^2 d.d - |d x m|^2, free of the cancellation of (d.m)^2
+/// - (d.d)(m.m - r^2).
+class SphereFilter {
+ public:
+  SphereFilter(const Sphere& sphere, const Vec3& o)
+      : m_(DVec3(o) - DVec3(sphere.center)), radius2_(double{sphere.radius} * sphere.radius) {
+    const double m2 = glm::dot(m_, m_);
+    outside_ = {.value = m2 - radius2_, .error = gamma(8) * (m2 + radius2_) + kUnderflow};
+  }
+
+  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+    // v = d x m: m's rounding, the product's, the difference's: |v - v*| <= gamma_3 p for the
+    // permanent p of a component, so |v^2 - v*^2| <= 2 gamma_3 |v| p + (gamma_3 p)^2.
+    const DVec3 left(d.y * m_.z, d.z * m_.x, d.x * m_.y);
+    const DVec3 right(d.z * m_.y, d.x * m_.z, d.y * m_.x);
+    const DVec3 v = left - right, p = glm::abs(left) + glm::abs(right);
+    const double v2 = glm::dot(v, v), d2 = glm::dot(d, d), rd2 = radius2_ * d2;
+    const Approximate discriminant = {.value = rd2 - v2,
+                                      .error = gamma(7) * (glm::dot(glm::abs(v), p) + v2 + rd2) +
+                                               gamma(4) * gamma(4) * glm::dot(p, p) + kUnderflow};
+    if (discriminant.is_negative()) return {.certainty = Certainty::miss};
+    const Approximate b = dot_product(d, m_, 4);
+    if (b.is_positive() && outside_.is_positive()) return {.certainty = Certainty::miss};
+    if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
+    return first_root_verdict({.value = d2, .error = gamma(4) * d2 + kUnderflow}, b,
+                              square_root(discriminant), range);
+  }
+
+ private:
+  DVec3 m_;
+  double radius2_;         // exact: a product of two float32
+  Approximate outside_{};  // m.m - r^2: positive outside the sphere
+};
+
+/// A quadric Q(p) = 0 seen from o: Q(o + t d) = alpha t^2 + (grad Q(o) . d) t + Q(o).
+class QuadricFilter {
+ public:
+  QuadricFilter(const Quadric& q, const Vec3& origin)
+      : squares_(q.a, q.b, q.c), mixed_(q.f, q.e, q.d) {
+    const DVec3 o = origin, linear(q.g, q.h, q.i), magnitude = glm::abs(o);
+    const auto gradient = [&](const DVec3& square, const DVec3& mix, const DVec3& line,
+                              const DVec3& p) {
+      return DVec3(2 * square.x * p.x + mix.z * p.y + mix.y * p.z + line.x,
+                   2 * square.y * p.y + mix.z * p.x + mix.x * p.z + line.y,
+                   2 * square.z * p.z + mix.y * p.x + mix.x * p.y + line.z);
+    };
+    gradient_ = gradient(squares_, mixed_, linear, o);
+    gradient_permanent_ =
+        gradient(glm::abs(squares_), glm::abs(mixed_), glm::abs(linear), magnitude);
+    const double terms = form(squares_, mixed_, o) + glm::dot(linear, o) + double{q.j};
+    // Products of two float32 are exact, of three have one rounding; up to eight sums follow.
+    value_ = {.value = terms,
+              .error = gamma(14) * (form(glm::abs(squares_), glm::abs(mixed_), magnitude) +
+                                    glm::dot(glm::abs(linear), magnitude) + std::abs(q.j)) +
+                       kUnderflow};
+  }
+
+  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+    const DVec3 size = glm::abs(d);
+    Approximate alpha = {
+        .value = form(squares_, mixed_, d),
+        .error = gamma(9) * form(glm::abs(squares_), glm::abs(mixed_), size) + kUnderflow};
+    // beta is half the gradient's product: three sums in the gradient, one product, two sums.
+    Approximate beta = {.value = glm::dot(gradient_, d) / 2,
+                        .error = gamma(8) * glm::dot(gradient_permanent_, size) + kUnderflow};
+    const double b2 = beta.value * beta.value, ac = alpha.value * value_.value;
+    const Approximate discriminant = {
+        .value = b2 - ac,
+        .error = ((2 * std::abs(beta.value) + beta.error) * beta.error +
+                  std::abs(alpha.value) * value_.error + std::abs(value_.value) * alpha.error +
+                  alpha.error * value_.error + gamma(3) * (b2 + std::abs(ac))) *
+                     (1 + gamma(8)) +
+                 kUnderflow};
+    if (discriminant.is_negative()) return {.certainty = Certainty::miss};
+    if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
+    if (alpha.is_negative()) {
+      alpha.value = -alpha.value;
+      beta.value = -beta.value;
+    }
+    return first_root_verdict(alpha, beta, square_root(discriminant), range);
+  }
+
+ private:
+  // a x^2 + b y^2 + c z^2 + d xy + e xz + f yz
+  static double form(const DVec3& square, const DVec3& mix, const DVec3& p) {
+    return square.x * p.x * p.x + square.y * p.y * p.y + square.z * p.z * p.z + mix.z * p.x * p.y +
+           mix.y * p.x * p.z + mix.x * p.y * p.z;
+  }
+
+  DVec3 squares_,
+      mixed_;  // (a, b, c) and (f, e, d): mixed_[k] multiplies the two other coordinates
+  DVec3 gradient_{}, gradient_permanent_{};
+  Approximate value_{};
+};
+
+}  // namespace microtrace

@@ -1,0 +1,45 @@
+#pragma once
+/// The filter of each shape, and the shapes that filters may be asked about.
+
+#include "accel/filters/planar_filter.hpp"
+#include "accel/filters/quadratic_filter.hpp"
+#include "accel/filters/triangle_filter.hpp"
+
+namespace microtrace {
+
+[[nodiscard]] inline SphereFilter seen_from(const Vec3& o, const Sphere& s) {
+  return {s, o};
+}
+[[nodiscard]] inline PlaneFilter seen_from(const Vec3& o, const Plane& p) {
+  return {p, o};
+}
+[[nodiscard]] inline DiscFilter seen_from(const Vec3& o, const Disc& d) {
+  return {d, o};
+}
+[[nodiscard]] inline TriangleFilter seen_from(const Vec3& o, const Triangle& t) {
+  return {t, o};
+}
+[[nodiscard]] inline QuadricFilter seen_from(const Vec3& o, const Quadric& q) {
+  return {q, o};
+}
+
+/// A negative radius makes an empty shape, which the squares in the filters would not notice.
+[[nodiscard]] inline bool is_filterable(const Sphere& s) {
+  return is_filterable(s.center) && is_filterable(s.radius) && s.radius >= 0;
+}
+[[nodiscard]] inline bool is_filterable(const Plane& p) {
+  return is_filterable(p.point) && is_filterable(p.normal);
+}
+[[nodiscard]] inline bool is_filterable(const Disc& d) {
+  return is_filterable(d.center) && is_filterable(d.normal) && is_filterable(d.radius) &&
+         d.radius >= 0;
+}
+[[nodiscard]] inline bool is_filterable(const Triangle& t) {
+  return is_filterable(t.a) && is_filterable(t.b) && is_filterable(t.c);
+}
+[[nodiscard]] inline bool is_filterable(const Quadric& q) {
+  return is_filterable(Vec3(q.a, q.b, q.c)) && is_filterable(Vec3(q.d, q.e, q.f)) &&
+         is_filterable(Vec3(q.g, q.h, q.i)) && is_filterable(q.j);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,38 @@
+#pragma once
+/// The command line.
+
+#include <microtrace/io.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace microtrace::cli {
+
+enum class Statistics { none, text, json };
+
+struct Arguments {
+  std::string scene;             ///< a file, or "-" for standard input
+  std::filesystem::path output;  ///< a file, or "-" for standard output
+  std::optional<ImageSize> size{};
+  std::string camera;  ///< a name or an index; empty: the first
+  unsigned threads = 0;
+  PpmEncoding ppm = PpmEncoding::binary;
+  Statistics statistics = Statistics::none;
+  bool quiet = false;
+  bool strict = false;
+  bool validate = false;
+};
+
+/// Reads the command line. Prints help or version to standard output, and usage errors to standard
+/// error; then the exit code stands in `exit_code` and there is nothing to do.
+struct Parsed {
+  Arguments arguments;
+  std::optional<int> exit_code{};
+};
+[[nodiscard]] Parsed parse_arguments(int argc, char** argv);
+
+/// The camera that --camera names. Throws Error (usage) with the names there are.
+[[nodiscard]] const Camera& choose_camera(const Scene& scene, const std::string& wanted);
+
+}  // namespace microtrace::cli

@@ -1,0 +1,79 @@
+#include "cli/arguments.hpp"
+#include "cli/progress_bar.hpp"
+#include "cli/statistics.hpp"
+
+#include <microtrace/render.hpp>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <iterator>
+#include <unistd.h>
+
+namespace {
+
+using namespace microtrace;
+
+// Only calls that are safe in a signal handler.
+void stop_at_once(int signal) {
+  remove_unfinished_files();
+  _exit(128 + signal);
+}
+
+LoadedScene load(const std::string& scene) {
+  if (scene != "-") return load_scene(scene);
+  const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
+  return parse_scene(bytes, "(standard input)", ".");
+}
+
+// Under --strict a scene with warnings is refused.
+void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& arguments) {
+  for (const Diagnostic& warning : warnings) {
+    if (arguments.strict) throw Error(ErrorKind::invalid_scene, warning);
+    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+  }
+}
+
+void run(const cli::Arguments& arguments) {
+  cli::Stopwatch watch;
+  const auto [scene, warnings] = load(arguments.scene);
+  report(warnings, arguments);
+  const Camera& camera = cli::choose_camera(scene, arguments.camera);
+  watch.loaded();
+  if (arguments.validate) return;
+
+  check_image_path(arguments.output);
+  const ImageSize size = arguments.size.value_or(scene.size);
+  const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
+  const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
+  const Film film = render(scene, camera, size, {.threads = threads, .progress = progress});
+  watch.rendered();
+
+  save_image(film, arguments.output, arguments.ppm);
+  watch.written();
+  watch.report(arguments.statistics, scene, size, threads);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, stop_at_once);
+  std::signal(SIGTERM, stop_at_once);
+  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
+  const auto [arguments, exit_code] = cli::parse_arguments(argc, argv);
+  if (exit_code) return *exit_code;
+  try {
+    run(arguments);
+    return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+    return static_cast<int>(ErrorKind::limit);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(ErrorKind::internal);
+  }
+}

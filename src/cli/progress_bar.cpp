@@ -1,0 +1,46 @@
+#include "cli/progress_bar.hpp"
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <unistd.h>
+
+namespace microtrace::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+bool can_draw() {
+  const char* terminal = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+void draw(double share, double seconds) {
+  constexpr int kWidth = 40;
+  const int filled = static_cast<int>(share * kWidth);
+  const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                          std::string(static_cast<std::size_t>(kWidth - filled), '.');
+  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left\x1b[K", bar.c_str(),
+               static_cast<int>(share * 100), seconds / share * (1 - share));
+}
+
+}  // namespace
+
+std::function<void(double)> progress_bar() {
+  if (!can_draw()) return {};
+  return [start = Clock::now(), last = Clock::time_point(), drawn = false](double share) mutable {
+    using namespace std::chrono_literals;
+    const Clock::time_point now = Clock::now();
+    if (share >= 1) {
+      if (drawn) std::fputs("\r\x1b[K", stderr);
+    } else if (now - start > 500ms && now - last > 100ms) {
+      draw(share, std::chrono::duration<double>(now - start).count());
+      last = now;
+      drawn = true;
+    }
+  };
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,10 @@
+#pragma once
+#include <functional>
+
+namespace microtrace::cli {
+
+/// Draws a progress bar with the time left on standard error, from the first half second on; clears
+/// it at the end. Empty where standard error is no terminal, or a dumb one.
+[[nodiscard]] std::function<void(double)> progress_bar();
+
+}  // namespace microtrace::cli

@@ -1,0 +1,43 @@
+#include "cli/statistics.hpp"
+
+#include <cstdio>
+#include <sys/resource.h>
+
+namespace microtrace::cli {
+namespace {
+
+double peak_memory_mib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+}  // namespace
+
+double Stopwatch::lap() {
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  last_ = now;
+  return seconds;
+}
+
+void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
+                       unsigned threads) const {
+  if (kind == Statistics::none) return;
+  std::size_t primitives = 0;
+  for (const Object& object : scene.objects) primitives += primitive_count(object.shape);
+  const double rays = double{1} * size.width * size.height;
+  const char* format =
+      kind == Statistics::json
+          ? R"({"objects": %zu, "primitives": %zu, "width": %u, "height": %u, "threads": %u, )"
+            R"("load_s": %.6f, "render_s": %.6f, "write_s": %.6f, "rays": %.0f, )"
+            R"("rays_per_s": %.0f, "peak_memory_mib": %.1f})"
+            "\n"
+          : "objects      %zu\nprimitives   %zu\npicture      %u x %u\nthreads      %u\n"
+            "load         %.6f s\nrender       %.6f s\nwrite        %.6f s\nrays         %.0f\n"
+            "rays/s       %.0f\npeak memory  %.1f MiB\n";
+  std::fprintf(stderr, format, scene.objects.size(), primitives, size.width, size.height, threads,
+               load_, render_, write_, rays, rays / render_, peak_memory_mib());
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,27 @@
+#pragma once
+#include "cli/arguments.hpp"
+
+#include <chrono>
+
+namespace microtrace::cli {
+
+/// Where the time of a run went.
+class Stopwatch {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  void loaded() { load_ = lap(); }
+  void rendered() { render_ = lap(); }
+  void written() { write_ = lap(); }
+
+  /// Times in seconds, rays, and memory, to standard error.
+  void report(Statistics kind, const Scene& scene, ImageSize size, unsigned threads) const;
+
+ private:
+  double lap();
+
+  Clock::time_point last_ = Clock::now();
+  double load_ = 0, render_ = 0, write_ = 0;
+};
+
+}  // namespace microtrace::cli

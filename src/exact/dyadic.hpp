@@ -1,0 +1,89 @@
+#pragma once
+/// Exact arithmetic on dyadic rationals, the numbers m 2^k with integers m and k: every finite
+/// float is one, and sums, differences and products of them are again. Nothing rounds, nothing
+/// allocates.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace microtrace::exact {
+
+/// A dyadic rational: sign, and a magnitude of 64-bit limbs, the lowest worth 2^(64 exponent).
+///
+/// Capacity: a float32 is a multiple of 2^-149 below 2^128 in magnitude, so a form of degree k in
+/// float32s is a multiple of 2^-149k below c 2^128k, where c sums its coefficients' magnitudes. The
+/// largest one evaluated compares two roots of quadrics: degree 24, c < 2^37 (docs/exactness.md
+/// derives it), so its limbs stand for 2^(-64*56) to 2^(64*49 - 1): 105 of them. A product has two
+/// more, zero, before it is trimmed.
+class Dyadic {
+ public:
+  static constexpr int capacity = 112;  ///< limbs
+
+  Dyadic() {}            // not "= default": the limbs stay uninitialised even in Dyadic{}
+  Dyadic(float value);   ///< exact; value is finite
+  Dyadic(double value);  ///< exact; value is finite
+  Dyadic(const Dyadic& other) { copy(other); }
+  Dyadic& operator=(const Dyadic& other) {
+    if (this != &other) copy(other);
+    return *this;
+  }
+
+  /// -1, 0 or 1.
+  [[nodiscard]] int sign() const { return sign_; }
+
+  /// The magnitude's limbs from the lowest, which is worth 2^(64 exponent()), to the highest.
+  [[nodiscard]] std::span<const std::uint64_t> limbs() const {
+    return {limbs_.data(), static_cast<std::size_t>(size_)};
+  }
+  [[nodiscard]] int exponent() const { return exponent_; }
+
+  Dyadic operator-() const;
+  friend Dyadic operator+(const Dyadic& x, const Dyadic& y) { return sum(x, y, y.sign_); }
+  friend Dyadic operator-(const Dyadic& x, const Dyadic& y) { return sum(x, y, -y.sign_); }
+  friend Dyadic operator*(const Dyadic& x, const Dyadic& y);
+
+  /// The sign of x - y.
+  friend int compare(const Dyadic& x, const Dyadic& y);
+
+  /// The magnitude's leading bits: |x| = (mantissa + delta) 2^exponent, 1/2 <= mantissa < 1 of 53
+  /// bits, and 0 <= delta < 2^-53. Not for zero.
+  struct Leading {
+    double mantissa;
+    int exponent;
+  };
+  [[nodiscard]] Leading leading() const;
+
+ private:
+  Dyadic(int sign, std::uint64_t mantissa, int exponent);
+  void copy(const Dyadic& other);
+  void trim();
+  /// The position above the highest limb.
+  [[nodiscard]] int top() const { return exponent_ + size_; }
+  /// The limb worth 2^(64 position).
+  [[nodiscard]] std::uint64_t at(int position) const {
+    const auto index = static_cast<unsigned>(position - exponent_);
+    return index < static_cast<unsigned>(size_) ? limbs_[index] : 0;
+  }
+  /// x + y where y's sign is replaced.
+  static Dyadic sum(const Dyadic& x, const Dyadic& y, int sign_of_y);
+  static int compare_magnitudes(const Dyadic& x, const Dyadic& y);
+  void add_magnitudes(const Dyadic& x, const Dyadic& y);
+  /// |x| - |y|, where |x| > |y|.
+  void subtract_magnitudes(const Dyadic& x, const Dyadic& y);
+
+  int sign_ = 0;
+  int exponent_ = 0;  // counts limbs
+  int size_ = 0;      // limbs in use; the highest and the lowest of them are not zero
+  std::array<std::uint64_t, capacity> limbs_;
+};
+
+[[nodiscard]] inline Dyadic twice(const Dyadic& x) {
+  return x + x;
+}
+[[nodiscard]] inline Dyadic square(const Dyadic& x) {
+  return x * x;
+}
+
+}  // namespace microtrace::exact

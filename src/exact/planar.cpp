@@ -1,0 +1,49 @@
+#include "exact/intersect.hpp"
+#include "exact/range.hpp"
+#include "exact/vector.hpp"
+
+#include <cmath>
+
+namespace microtrace::exact {
+namespace {
+
+bool is_normal(const Vec3& n) {
+  return is_finite(n) && (n.x != 0 || n.y != 0 || n.z != 0);
+}
+
+}  // namespace
+
+std::optional<Root> first_hit(const Plane& plane, const Ray& ray) {
+  if (!is_valid(ray) || !is_finite(plane.point) || !is_normal(plane.normal)) return std::nullopt;
+  const Vector n = vector(plane.normal);
+  const Dyadic distance = dot(n, vector(plane.point) - vector(ray.o));
+  const Dyadic speed = dot(n, vector(ray.d));
+  if (speed.sign() != 0) return first_in_range(rational(distance, speed), ray);
+  if (distance.sign() != 0) return std::nullopt;
+  return rational(ray.t_min);
+}
+
+std::optional<Root> first_hit(const Disc& disc, const Ray& ray) {
+  if (!is_valid(ray) || !is_finite(disc.center) || !is_normal(disc.normal) ||
+      !std::isfinite(disc.radius) || disc.radius < 0) {
+    return std::nullopt;
+  }
+  const Vector n = vector(disc.normal), d = vector(ray.d);
+  const Vector m = vector(ray.o) - vector(disc.center);
+  const Dyadic r_squared = square(disc.radius);
+  const Dyadic distance = -dot(n, m);
+  const Dyadic speed = dot(n, d);
+  if (speed.sign() != 0) {
+    // |m + (distance / speed) d| <= r, times |speed| and squared.
+    const Vector offset = speed * m + distance * d;
+    if (compare(dot(offset, offset), r_squared * square(speed)) > 0) return std::nullopt;
+    return first_in_range(rational(distance, speed), ray);
+  }
+  if (distance.sign() != 0) return std::nullopt;
+  // Within the plane: the line's part in the ball of the same centre and radius.
+  const auto roots = quadratic_roots(dot(d, d), dot(d, m), dot(m, m) - r_squared);
+  if (!roots) return std::nullopt;
+  return first_in_range(roots->lo, roots->hi, ray);
+}
+
+}  // namespace microtrace::exact

@@ -1,0 +1,32 @@
+#pragma once
+/// Steps shared by the shapes: validity, the ray's closed interval, roots of a quadratic
+/// polynomial.
+
+#include "exact/root.hpp"
+
+#include <microtrace/ray.hpp>
+
+#include <optional>
+
+namespace microtrace::exact {
+
+[[nodiscard]] bool is_finite(const Vec3& v);
+
+/// Whether t_min <= t <= t_max.
+[[nodiscard]] bool in_range(const Root& t, const Ray& ray);
+
+/// t itself if it is in range.
+[[nodiscard]] std::optional<Root> first_in_range(const Root& t, const Ray& ray);
+
+/// The least number that [lo, hi] and [t_min, t_max] share.
+[[nodiscard]] std::optional<Root> first_in_range(const Root& lo, const Root& hi, const Ray& ray);
+
+struct RootPair {
+  Root lo, hi;  ///< lo <= hi
+};
+
+/// The real roots of a t^2 + 2 b t + c, a not zero; nothing if there are none.
+[[nodiscard]] std::optional<RootPair> quadratic_roots(const Dyadic& a, const Dyadic& b,
+                                                      const Dyadic& c);
+
+}  // namespace microtrace::exact

@@ -1,0 +1,140 @@
+#include "exact/root.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+namespace microtrace::exact {
+namespace {
+
+/// The sign of x + s sqrt(a): s is -1, 0 or 1, a >= 0.
+int sign_of_sum(const Dyadic& x, int s, const Dyadic& a) {
+  if (s == 0 || a.sign() == 0) return x.sign();
+  if (x.sign() == 0 || x.sign() == s) return s;
+  // The terms have opposite signs: the one with the larger square wins.
+  return x.sign() * compare(square(x), a);
+}
+
+/// The sign of x + s sqrt(a) + t sqrt(b): s and t are -1, 0 or 1, a and b >= 0.
+int sign_of_sum(const Dyadic& x, int s, const Dyadic& a, int t, const Dyadic& b) {
+  if (s == 0 || a.sign() == 0) return sign_of_sum(x, t, b);
+  if (t == 0 || b.sign() == 0) return sign_of_sum(x, s, a);
+  const int roots = s == t ? s : s * compare(a, b);
+  if (roots == 0) return x.sign();
+  if (x.sign() == 0 || x.sign() == roots) return roots;
+  // Opposite signs again: x^2 - (s sqrt(a) + t sqrt(b))^2 = x^2 - a - b - 2 s t sqrt(a b).
+  return x.sign() * sign_of_sum(square(x) - a - b, -s * t, twice(twice(a * b)));
+}
+
+/// A positive number mantissa * 2^exponent, known to a relative error stated where it is made.
+struct Scaled {
+  double mantissa;
+  int exponent;
+};
+
+/// |x|, x not zero: 53 bits truncated, error 2 u with u = 2^-53.
+Scaled magnitude(const Dyadic& x) {
+  const Dyadic::Leading leading = x.leading();
+  return {leading.mantissa, leading.exponent};
+}
+
+/// |p| + sqrt(q), not zero: error 3 u, of which the square root brings (2 u) / 2 + u and the sum
+/// one more.
+Scaled magnitude_plus_sqrt(const Dyadic& p, const Dyadic& q) {
+  if (q.sign() == 0) return magnitude(p);
+  Scaled root = magnitude(q);
+  if (root.exponent % 2 != 0) {
+    root.mantissa *= 2;
+    --root.exponent;
+  }
+  root = {std::sqrt(root.mantissa), root.exponent / 2};
+  if (p.sign() == 0) return root;
+  Scaled large = magnitude(p);
+  if (large.exponent < root.exponent) std::swap(large, root);
+  const int shift = std::max(root.exponent - large.exponent, -200);
+  return {large.mantissa + std::ldexp(root.mantissa, shift), large.exponent};
+}
+
+/// Bounds of a positive number with mantissa in [1/8, 8] and an error of 9 u at most: 16 u leaves
+/// room for the rounding of the bounds and for second-order terms. Beyond 2^1000 or below 2^-1000
+/// they are as wide as the range of double.
+Enclosure bounds(const Scaled& x) {
+  constexpr double margin = 0x1p-49;
+  constexpr int limit = 1000;
+  if (x.exponent > limit) {
+    return {std::ldexp(0.125, limit), std::numeric_limits<double>::infinity()};
+  }
+  if (x.exponent < -limit) return {0.0, std::ldexp(8.0, -limit)};
+  return {std::ldexp(x.mantissa * (1 - margin), x.exponent),
+          std::ldexp(x.mantissa * (1 + margin), x.exponent)};
+}
+
+}  // namespace
+
+Root rational(Dyadic p, Dyadic r) {
+  if (r.sign() < 0) return {-p, {}, -r, 0};
+  return {p, {}, r, 0};
+}
+
+Root rational(float t) {
+  return {Dyadic(t), {}, Dyadic(1.0f), 0};
+}
+
+std::strong_ordering operator<=>(const Root& x, const Root& y) {
+  // x - y times the positive x.r y.r.
+  const Dyadic difference = x.p * y.r - y.p * x.r;
+  int sign = difference.sign();
+  if (x.sign != 0 || y.sign != 0) {
+    sign = sign_of_sum(difference, x.sign, square(y.r) * x.q, -y.sign, square(x.r) * y.q);
+  }
+  return sign <=> 0;
+}
+
+bool operator==(const Root& x, const Root& y) {
+  return (x <=> y) == 0;
+}
+
+Enclosure enclose(const Root& t) {
+  const Dyadic q = t.sign == 0 ? Dyadic() : t.q;
+  const bool cancels = q.sign() != 0 && t.p.sign() == -t.sign;
+  int sign = t.p.sign() != 0 ? t.p.sign() : t.sign;
+  Scaled numerator, denominator;
+  if (cancels) {
+    // p + s sqrt(q) = (p^2 - q) / (p - s sqrt(q)): the difference is exact, the denominator's terms
+    // have one sign.
+    const Dyadic product = square(t.p) - q;
+    if (product.sign() == 0) return {0, 0};
+    sign *= product.sign();
+    numerator = magnitude(product);
+    denominator = magnitude_plus_sqrt(t.p, q);
+    const Scaled r = magnitude(t.r);
+    denominator = {denominator.mantissa * r.mantissa, denominator.exponent + r.exponent};
+  } else {
+    if (t.p.sign() == 0 && q.sign() == 0) return {0, 0};
+    numerator = magnitude_plus_sqrt(t.p, q);
+    denominator = magnitude(t.r);
+  }
+  const Enclosure magnitudes = bounds(
+      {numerator.mantissa / denominator.mantissa, numerator.exponent - denominator.exponent});
+  if (sign < 0) return {-magnitudes.hi, -magnitudes.lo};
+  return magnitudes;
+}
+
+float round_to_float(const Root& t) {
+  const Enclosure e = enclose(t);
+  const auto below = static_cast<float>(e.lo);
+  const auto above = static_cast<float>(e.hi);
+  if (std::bit_cast<std::uint32_t>(below) == std::bit_cast<std::uint32_t>(above)) return below;
+  // The enclosure straddles the midpoint of two neighbouring floats. IEEE 754 rounds as if 2^128
+  // followed the largest.
+  const auto value = [](float f) { return std::isinf(f) ? std::copysign(0x1p128, f) : double{f}; };
+  const Root midpoint = rational(Dyadic((value(below) + value(above)) / 2), Dyadic(1.0f));
+  const std::strong_ordering order = t <=> midpoint;
+  if (order != 0) return order < 0 ? below : above;
+  return std::bit_cast<std::uint32_t>(below) % 2 == 0 ? below : above;
+}
+
+}  // namespace microtrace::exact

@@ -1,0 +1,91 @@
+#include "io/file.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+
+namespace microtrace::io {
+namespace {
+
+constexpr std::size_t chunk = 64 * 1024;
+
+[[noreturn]] void fail(const std::string& name, std::string what, int code) {
+  throw Error(ErrorKind::io, name, what.append(": ").append(std::generic_category().message(code)));
+}
+
+[[noreturn]] void fail_too_large(const std::string& name, std::size_t limit) {
+  std::string message = "is larger than ";
+  message.append(std::to_string(limit)).append(" bytes, the most that is read; split it");
+  throw Error(ErrorKind::limit, name, message);
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { ::close(number_); }
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// Reads until `bytes` holds `wanted` or the file ends; true at its end.
+bool fill(int descriptor, const std::string& name, std::string& bytes, std::size_t wanted) {
+  std::size_t have = bytes.size();
+  bytes.resize(wanted);
+  bool ended = false;
+  while (have < wanted && !ended) {
+    const ssize_t got = ::read(descriptor, bytes.data() + have, wanted - have);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) fail(name, "can't be read", errno);
+    have += static_cast<std::size_t>(got);
+    ended = got == 0;
+  }
+  bytes.resize(have);
+  return ended;
+}
+
+}  // namespace
+
+std::string read_descriptor(int descriptor, const std::string& name, std::size_t limit,
+                            const std::function<void(std::string_view)>& inspect) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) fail(name, "can't be read", errno);
+  if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, name, "is a directory, not a file");
+  const std::size_t claimed =
+      S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
+  if (claimed > limit) fail_too_large(name, limit);
+
+  // One byte beyond the limit, or beyond the claim, tells whether there is more.
+  std::string bytes;
+  bool ended = fill(descriptor, name, bytes, std::min(chunk, limit + 1));
+  if (inspect) inspect(bytes);
+  if (!ended && claimed > bytes.size()) ended = fill(descriptor, name, bytes, claimed + 1);
+  while (!ended && bytes.size() <= limit) {
+    ended = fill(descriptor, name, bytes, std::min(bytes.size() * 2, limit + 1));
+  }
+  if (bytes.size() > limit) fail_too_large(name, limit);
+  return bytes;
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit,
+                      const std::function<void(std::string_view)>& inspect) {
+  const std::string name = path.string();
+  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
+  if (number < 0) fail(name, "can't be opened", errno);
+  const Descriptor descriptor(number);
+  return read_descriptor(descriptor.number(), name, limit, inspect);
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+  return read_file(path, limit, {});
+}
+
+}  // namespace microtrace::io

@@ -1,0 +1,15 @@
+#pragma once
+/// Help for a name that is not known.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace microtrace::io {
+
+/// What to add to a message about `name`: `; did you mean "radius"?` if a known name is near by
+/// edit distance, else `; known are "a", "b"`, or nothing where none is known.
+[[nodiscard]] std::string suggestion(std::string_view name,
+                                     std::span<const std::string_view> known);
+
+}  // namespace microtrace::io

@@ -1,0 +1,73 @@
+#pragma once
+/// The sRGB encoding of linear light in 8 bits (IEC 61966-2-1), exact: the code of v is the integer
+/// nearest to 255 times the transfer function of v. Only + - * / at compile time, so no C library
+/// can change a picture.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace::io {
+
+/// x^(1/5) for x in (0, 1], by Newton's method from above, where it descends until rounding ends
+/// it.
+constexpr double fifth_root(double x) {
+  double r = 1;
+  for (;;) {
+    const double r4 = (r * r) * (r * r);
+    const double next = r - (r - x / r4) / 5;
+    if (!(next < r)) return r;
+    r = next;
+  }
+}
+
+/// The linear light of an sRGB value in [0, 1]. x^2.4 = x^2 (x^2)^(1/5).
+constexpr double linear_from_srgb(double encoded) {
+  if (encoded <= 0.04045) return encoded / 12.92;
+  const double x = (encoded + 0.055) / 1.055;
+  return x * x * fifth_root(x * x);
+}
+
+/// Entry k is the least float32 whose code is above k.
+constexpr std::array<float, 255> make_srgb_thresholds() {
+  std::array<float, 255> thresholds{};
+  for (std::size_t k = 0; k < thresholds.size(); ++k) {
+    const double exact = linear_from_srgb((static_cast<double>(k) + 0.5) / 255);
+    auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(exact));
+    if (static_cast<double>(std::bit_cast<float>(bits)) < exact) ++bits;
+    thresholds[k] = std::bit_cast<float>(bits);
+  }
+  return thresholds;
+}
+
+inline constexpr std::array<float, 255> srgb_thresholds = make_srgb_thresholds();
+
+/// Bins of 128 to the octave from 2^-13 to 1: narrow enough to hold one threshold at most.
+inline constexpr std::uint32_t srgb_first_bin = std::bit_cast<std::uint32_t>(0x1p-13F) >> 16;
+inline constexpr std::size_t srgb_bin_count =
+    (std::bit_cast<std::uint32_t>(1.0F) >> 16) - srgb_first_bin;
+
+/// The code at the start of each bin.
+constexpr std::array<std::uint8_t, srgb_bin_count> make_srgb_bins() {
+  std::array<std::uint8_t, srgb_bin_count> bins{};
+  std::size_t code = 0;
+  for (std::uint32_t bin = 0; bin < bins.size(); ++bin) {
+    const float start = std::bit_cast<float>((srgb_first_bin + bin) << 16);
+    while (code < 255 && start >= srgb_thresholds[code]) ++code;
+    bins[bin] = static_cast<std::uint8_t>(code);
+  }
+  return bins;
+}
+
+inline constexpr std::array<std::uint8_t, srgb_bin_count> srgb_bins = make_srgb_bins();
+
+/// The 8-bit sRGB code of linear light; values outside [0, 1] are clamped, NaN gives 0.
+constexpr std::uint8_t encode_srgb(float v) {
+  if (!(v >= srgb_thresholds[0])) return 0;
+  if (v >= srgb_thresholds[254]) return 255;
+  const std::uint8_t code = srgb_bins[(std::bit_cast<std::uint32_t>(v) >> 16) - srgb_first_bin];
+  return static_cast<std::uint8_t>(code + (v >= srgb_thresholds[code] ? 1 : 0));
+}
+
+}  // namespace microtrace::io

@@ -1,0 +1,65 @@
+#include "render/tiles.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+std::uint64_t tiles_across(std::uint32_t pixels) {
+  return (std::uint64_t{pixels} + kTileEdge - 1) / kTileEdge;
+}
+
+Tile tile_at(std::uint64_t index, ImageSize size) {
+  const std::uint64_t columns = tiles_across(size.width);
+  const auto x0 = static_cast<std::uint32_t>(index % columns * kTileEdge);
+  const auto y0 = static_cast<std::uint32_t>(index / columns * kTileEdge);
+  return {.x0 = x0,
+          .y0 = y0,
+          .x1 = std::min(x0 + kTileEdge, size.width),
+          .y1 = std::min(y0 + kTileEdge, size.height)};
+}
+
+}  // namespace
+
+void for_each_tile(ImageSize size, unsigned threads, const std::function<void(const Tile&)>& draw,
+                   const std::function<void(double)>& progress) {
+  const std::uint64_t count = tiles_across(size.width) * tiles_across(size.height);
+  // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
+  // enough to share evenly.
+  const std::uint64_t run = std::clamp<std::uint64_t>(count / (std::uint64_t{threads} * 32), 1, 64);
+  std::atomic<std::uint64_t> next{0}, done{0};
+  std::mutex report;
+  std::exception_ptr failure;
+
+  const auto work = [&] {
+    try {
+      for (std::uint64_t first; (first = next.fetch_add(run)) < count;) {
+        const std::uint64_t last = std::min(first + run, count);
+        for (std::uint64_t index = first; index < last; ++index) draw(tile_at(index, size));
+        done += last - first;
+        if (progress) {
+          const std::scoped_lock lock(report);
+          progress(static_cast<double>(done) / static_cast<double>(count));
+        }
+      }
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(report);
+      if (!failure) failure = std::current_exception();
+    }
+  };
+
+  {
+    std::vector<std::jthread> helpers;
+    for (unsigned i = 1; i < threads && i < count; ++i) helpers.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,99 @@
+#include "scene/trigonometry.hpp"
+
+#include <microtrace/camera.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+struct Frame {
+  DVec3 forward, right, up;  // orthonormal, right-handed with +y up: right = forward x up
+};
+
+Frame frame_of(const Pose& pose) {
+  const DVec3 forward = glm::normalize(pose.direction);
+  const DVec3 right = glm::normalize(glm::cross(forward, pose.up));
+  return {.forward = forward, .right = right, .up = glm::cross(right, forward)};
+}
+
+double aspect(ImageSize size) {
+  return double{1} * size.width / size.height;
+}
+
+// Half the picture's height where a window of half height `half` and the given aspect is to be seen
+// whole.
+double fitted(double half, const std::optional<double>& window_aspect, ImageSize size) {
+  return window_aspect ? half * std::max(1.0, *window_aspect / aspect(size)) : half;
+}
+
+float at_least_above_zero(double t) {
+  return std::max(static_cast<float>(t), std::numeric_limits<float>::denorm_min());
+}
+
+}  // namespace
+
+RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
+  const Pose& pose = std::visit([](const auto& c) -> const Pose& { return c.pose; }, camera);
+  const Frame frame = frame_of(pose);
+  position_ = pose.position;
+  forward_ = frame.forward;
+
+  // The picture's plane: `half` up and down from its middle, in units of the focus (perspective) or
+  // of the world.
+  const auto set_plane = [&](Kind kind, double half, const DVec3& middle) {
+    kind_ = kind;
+    right_ = frame.right * (2 * half * aspect(size) / size.width);
+    down_ = frame.up * (-2 * half / size.height);
+    corner_ = middle - frame.right * (half * aspect(size)) + frame.up * half;
+  };
+  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
+    const double half = tan_radians(perspective->vertical_fov / 2);
+    set_plane(Kind::perspective, fitted(half, perspective->aspect_ratio, size), forward_);
+    depth_ = perspective->depth;
+  } else if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera)) {
+    const double half = orthographic->height / 2;
+    set_plane(Kind::orthographic, fitted(half, orthographic->aspect_ratio, size), position_);
+    depth_ = orthographic->depth;
+  } else {
+    kind_ = Kind::environment;
+    right_ = frame.right;
+    down_ = -frame.up;
+  }
+}
+
+Ray RayGenerator::operator()(double x, double y) const {
+  Ray ray;
+  switch (kind_) {
+    case Kind::perspective: {
+      const DVec3 toward = corner_ + right_ * x + down_ * y;  // reaches depth 1
+      const double length = std::sqrt(glm::dot(toward, toward));
+      ray.o = Vec3(position_);
+      ray.d = Vec3(toward * (1 / length));
+      ray.t_min = at_least_above_zero(depth_.near * length);
+      ray.t_max = static_cast<float>(depth_.far * length);
+      break;
+    }
+    case Kind::orthographic:
+      ray.o = Vec3(corner_ + right_ * x + down_ * y);
+      ray.d = Vec3(forward_);
+      ray.t_min = at_least_above_zero(depth_.near);
+      ray.t_max = static_cast<float>(depth_.far);
+      break;
+    case Kind::environment: {
+      const double longitude = (x / size_.width - 0.5) * 360;
+      const double latitude = (0.5 - y / size_.height) * 180;
+      const double level = cos_degrees(latitude);
+      ray.o = Vec3(position_);
+      ray.d = Vec3(forward_ * (level * cos_degrees(longitude)) +
+                   right_ * (level * sin_degrees(longitude)) - down_ * sin_degrees(latitude));
+      break;
+    }
+  }
+  return ray;
+}
+
+}  // namespace microtrace

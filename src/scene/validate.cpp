@@ -1,0 +1,188 @@
+#include "scene/validate.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+using Rule = std::optional<BrokenRule>;
+
+template <typename Number>
+std::string shortest(Number x) {
+  std::array<char, 32> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), x);
+  return {digits.data(), result.ptr};
+}
+
+/// The first of the rules that is broken.
+template <typename... Rules>
+Rule first(Rules&&... rules) {
+  Rule result;
+  (void)((result = std::forward<Rules>(rules)).has_value() || ...);
+  return result;
+}
+
+Rule broken(std::string field, std::string message) {
+  return BrokenRule{.field = std::move(field), .message = std::move(message)};
+}
+
+bool is_finite(float x) {
+  return std::isfinite(x);
+}
+bool is_finite(double x) {
+  return std::abs(x) < float32_bound;
+}
+bool is_finite(const Vec3& v) {
+  return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
+bool is_finite(const DVec3& v) {
+  return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
+
+template <typename T>
+Rule finite(const char* field, const T& value) {
+  if (is_finite(value)) return {};
+  return broken(field, "must be finite in float32; the largest number is about 3.4e38");
+}
+
+template <typename Number>
+Rule positive(const char* field, Number x) {
+  if (x > 0) return finite(field, x);
+  return broken(field, std::string("must be positive, is ").append(decimal(x)));
+}
+
+template <typename Vector>
+Rule not_zero(const char* field, const Vector& v) {
+  if (const Rule rule = finite(field, v)) return rule;
+  if (Vec3(v) != Vec3(0)) return {};
+  return broken(field, "must not be zero");
+}
+
+Rule check(const Sphere& s) {
+  return first(finite("center", s.center), positive("radius", s.radius));
+}
+
+Rule check(const Plane& p) {
+  return first(finite("point", p.point), not_zero("normal", p.normal));
+}
+
+Rule check(const Disc& d) {
+  return first(finite("center", d.center), not_zero("normal", d.normal),
+               positive("radius", d.radius));
+}
+
+Rule check(const Triangle& t) {
+  return first(finite("a", t.a), finite("b", t.b), finite("c", t.c));
+}
+
+Rule check(const Quadric& q) {
+  const bool all_finite = is_finite(q.a) && is_finite(q.b) && is_finite(q.c) && is_finite(q.d) &&
+                          is_finite(q.e) && is_finite(q.f) && is_finite(q.g) && is_finite(q.h) &&
+                          is_finite(q.i) && is_finite(q.j);
+  if (!all_finite) return broken("coefficients", "must be finite in float32");
+  const bool varies = q.a != 0 || q.b != 0 || q.c != 0 || q.d != 0 || q.e != 0 || q.f != 0 ||
+                      q.g != 0 || q.h != 0 || q.i != 0;
+  if (varies) return {};
+  return broken("coefficients", "at least one of a to i must not be zero");
+}
+
+Rule check(const Mesh& mesh) {
+  for (const Vec3& position : mesh.positions) {
+    if (const Rule rule = finite("positions", position)) return rule;
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t index : triangle) {
+      if (index < mesh.positions.size()) continue;
+      std::string message = "index ";
+      message.append(std::to_string(index)).append(" is not below the number of positions, ");
+      return broken("triangles", message.append(std::to_string(mesh.positions.size())));
+    }
+  }
+  return {};
+}
+
+Rule check(const Pose& pose) {
+  Rule rule = first(finite("position", pose.position), not_zero("direction", pose.direction),
+                    not_zero("up", pose.up));
+  if (rule) return rule;
+  // Nearer to parallel than this, rounding would turn the picture about the direction.
+  constexpr double least_sine = 1e-9;
+  const double sine =
+      glm::length(glm::cross(glm::normalize(pose.direction), glm::normalize(pose.up)));
+  if (sine > least_sine) return {};
+  return broken("up", "must not be parallel to direction");
+}
+
+Rule check(const std::optional<double>& aspect_ratio, const DepthRange& depth) {
+  if (aspect_ratio) {
+    if (const Rule rule = positive("aspect_ratio", *aspect_ratio)) return rule;
+  }
+  if (!(depth.near >= 0 && is_finite(depth.near))) {
+    return broken("near",
+                  std::string("must be finite and not negative, is ").append(decimal(depth.near)));
+  }
+  if (depth.far > depth.near) return {};
+  return broken("far", std::string("must be greater than near, is ").append(decimal(depth.far)));
+}
+
+Rule check(const PerspectiveCamera& camera) {
+  if (const Rule rule = check(camera.pose)) return rule;
+  if (!(camera.vertical_fov > 0 && camera.vertical_fov < std::numbers::pi)) {
+    const double degrees = camera.vertical_fov * (180 / std::numbers::pi);
+    return broken("vertical_fov",
+                  std::string("must lie between 0 and 180 degrees, is ").append(decimal(degrees)));
+  }
+  return first(positive("focus", camera.focus), check(camera.aspect_ratio, camera.depth));
+}
+
+Rule check(const OrthographicCamera& camera) {
+  return first(check(camera.pose), positive("height", camera.height),
+               check(camera.aspect_ratio, camera.depth));
+}
+
+Rule check(const EnvironmentCamera& camera) {
+  return check(camera.pose);
+}
+
+Rule check_side(const char* field, std::uint32_t side) {
+  if (side == 0) return broken(field, "must be at least 1 pixel, is 0");
+  if (side <= max_image_side) return {};
+  std::string message = "must be at most ";
+  message.append(std::to_string(max_image_side)).append(" pixels, is ");
+  return BrokenRule{field, message.append(std::to_string(side)), ErrorKind::limit};
+}
+
+}  // namespace
+
+std::optional<BrokenRule> validate(const Shape& shape) {
+  return std::visit([](const auto& s) { return check(s); }, shape);
+}
+
+std::optional<BrokenRule> validate(const Camera& camera) {
+  return std::visit([](const auto& c) { return check(c); }, camera);
+}
+
+std::optional<BrokenRule> validate(ImageSize size) {
+  Rule rule = first(check_side("width", size.width), check_side("height", size.height));
+  if (rule) return rule;
+  const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+  if (pixels <= max_image_pixels) return {};
+  std::string message = "the picture must have at most ";
+  message.append(std::to_string(max_image_pixels)).append(" pixels, has ");
+  return BrokenRule{"", message.append(std::to_string(pixels)), ErrorKind::limit};
+}
+
+std::string decimal(double x) {
+  return shortest(x);
+}
+std::string decimal(float x) {
+  return shortest(x);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,275 @@
+#!/usr/bin/env python3
+"""The program as its users meet it: exit codes, messages, what is left behind.
+
+usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import json
+import os
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+PROGRAM = os.path.abspath(sys.argv[1])
+SOURCE = Path(sys.argv[2]).resolve()
+SCENE = SOURCE / "scenes/perspective1.json"
+GIB = 1 << 30
+
+
+def minimal(**changes):
+    scene = {
+        "version": 1,
+        "image": {"width": 4, "height": 3},
+        "cameras": [{"type": "perspective", "position": [0, 0, 10], "direction": [0, 0, -1],
+                     "vertical_fov": 60}],
+        "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}],
+    }
+    scene.update(changes)
+    return json.dumps(scene)
+
+
+class CommandLine(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def run_program(self, *arguments, **options):
+        options.setdefault("cwd", self.folder)
+        options.setdefault("timeout", 60)
+        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
+                              **options)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def assert_refused(self, scene_text, code, *fragments, name="scene.json"):
+        """The scene fails with that code, one message with all fragments, and no file but itself."""
+        self.write(name, scene_text)
+        start = time.monotonic()
+        result = self.run_program(name, "-o", "out.ppm")
+        message = result.stderr.decode(errors="replace")
+        self.assertEqual(result.returncode, code, message)
+        self.assertTrue(message.startswith("error: "), message)
+        self.assertIn(name, message)
+        for fragment in fragments:
+            self.assertIn(fragment, message)
+        self.assertEqual(os.listdir(self.folder), [name])
+        self.assertLess(time.monotonic() - start, 20)
+        return message
+
+    # The main job
+
+    def test_renders_to_the_named_file(self):
+        result = self.run_program(SCENE, "-o", "a.ppm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, b"")
+        data = (self.folder / "a.ppm").read_bytes()
+        self.assertTrue(data.startswith(b"P6\n640 480\n255\n"))
+        self.assertEqual(len(data), 15 + 640 * 480 * 3)
+
+    def test_default_output_is_named_after_the_scene(self):
+        self.assertEqual(self.run_program(SCENE, "--size", "8x6").returncode, 0)
+        self.assertEqual(os.listdir(self.folder), ["perspective1.ppm"])
+
+    def test_standard_streams(self):
+        with open(SCENE, "rb") as scene:
+            result = self.run_program("-", "-o", "-", "--size", "8x6", stdin=scene)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(result.stdout.startswith(b"P6\n8 6\n255\n"))
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_ascii_holds_the_same_pixels(self):
+        binary = self.run_program(SCENE, "-o", "-", "--size", "40x30").stdout
+        text = self.run_program(SCENE, "-o", "-", "--size", "40x30", "--ppm", "ascii").stdout
+        tokens = text.split()
+        self.assertEqual(tokens[:4], [b"P3", b"40", b"30", b"255"])
+        self.assertEqual(bytes(map(int, tokens[4:])), binary[len(b"P6\n40 30\n255\n"):])
+
+    def test_cameras_by_name_and_number(self):
+        cameras = [{"name": name, "type": "orthographic", "position": [x, 0, 10],
+                    "direction": [0, 0, -1], "height": 2} for name, x in (("near", 0), ("far", 50))]
+        self.write("two.json", minimal(cameras=cameras))
+        pictures = [self.run_program("two.json", "-o", "-", *c).stdout
+                    for c in ([], ["-c", "near"], ["-c", "1"], ["--camera", "far"])]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertEqual(pictures[2], pictures[3])
+        self.assertNotEqual(pictures[0], pictures[2])
+        wrong = self.run_program("two.json", "-c", "middle")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn(b"0 (near), 1 (far)", wrong.stderr)
+
+    def test_threads_do_not_change_the_picture(self):
+        pictures = {self.run_program(SCENE, "-o", "-", "-t", threads).stdout
+                    for threads in (1, 2, 3, 16)}
+        self.assertEqual(len(pictures), 1)
+
+    def test_statistics(self):
+        result = self.run_program(SCENE, "-o", "a.ppm", "--stats=json", "-t", "2")
+        numbers = json.loads(result.stderr)
+        self.assertEqual(numbers["primitives"], 6)
+        self.assertEqual(numbers["rays"], 640 * 480)
+        self.assertEqual(numbers["threads"], 2)
+        self.assertIn(b"rays/s", self.run_program(SCENE, "-o", "a.ppm", "--stats").stderr)
+
+    def test_validate_draws_nothing(self):
+        self.assertEqual(self.run_program(SCENE, "--validate").returncode, 0)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    # Usage
+
+    def test_help_and_version(self):
+        for option in ("-h", "--help", "--version"):
+            result = self.run_program(option)
+            self.assertEqual(result.returncode, 0)
+            self.assertIn(b"microtrace", result.stdout)
+            self.assertEqual(result.stderr, b"")
+        self.assertIn(b"Exit codes", self.run_program("--help").stdout)
+
+    def test_usage_errors(self):
+        for arguments in ([], ["--no-such-option", SCENE], [SCENE, "--size", "640"],
+                          [SCENE, "--size", "0x4"], [SCENE, "--size", "1000000000x1000000000"],
+                          [SCENE, "--size", "-3x4"], [SCENE, "--threads", "0"],
+                          [SCENE, "--threads", "many"], [SCENE, "--ppm", "p7"],
+                          [SCENE, "--stats=xml"], [SCENE, "-o", "picture.xyz"], [SCENE, SCENE], ["-"]):
+            result = self.run_program(*arguments, stdin=subprocess.DEVNULL)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertNotEqual(result.stderr, b"", arguments)
+            self.assertEqual(os.listdir(self.folder), [], arguments)
+
+    # Broken scenes
+
+    def test_not_json(self):
+        self.assert_refused("", 3, "empty")
+        self.assert_refused("   \n", 3, "empty")
+        self.assert_refused("sphere 1 2 3", 3, "scene.json:1:1")
+        self.assert_refused('{"version": 1,}', 3, "scene.json:1:15", "^")
+        self.assert_refused('{"version": NaN}', 3, "scene.json:1:13")
+        self.assert_refused(b'{"version": 1, "a": "\xff"}', 3, "UTF-8")
+        self.assert_refused('{"version": 1', 3, "scene.json:1:")
+
+    def test_bad_values_name_their_place(self):
+        sphere = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
+        camera = {"type": "perspective", "position": [0, 0, 10], "direction": [0, 0, -1],
+                  "vertical_fov": 60}
+        for changes, pointer in (
+            ({"objects": [dict(sphere, radius=-1)]}, "/objects/0/radius: "),
+            ({"objects": [sphere, {"type": "sphere", "center": [0, 0, 0]}]}, "/objects/1"),
+            ({"objects": [dict(sphere, radius="1")]}, "/objects/0/radius: "),
+            ({"objects": [dict(sphere, center=[0, 0])]}, "/objects/0/center: "),
+            ({"objects": [{"type": "plane", "point": [0, 0, 0], "normal": [0, 0, 0]}]},
+             "/objects/0/normal: "),
+            ({"cameras": [dict(camera, direction=[0, 0, 0])]}, "/cameras/0/direction: "),
+            ({"cameras": [dict(camera, up=[0, 0, 5])]}, "/cameras/0/up: "),
+            ({"cameras": [dict(camera, vertical_fov=180)]}, "/cameras/0/vertical_fov: "),
+            ({"image": {"width": 0, "height": 0}}, "/image/width: "),
+            ({"version": 99}, "/version: "),
+        ):
+            message = self.assert_refused(minimal(**changes), 3, pointer, "^")
+            self.assertRegex(message, r"^error: scene\.json:1:\d+: /")
+
+    def test_number_beyond_range(self):
+        text = minimal().replace('"radius": 1', '"radius": 1e999')
+        self.assert_refused(text, 3, "scene.json:1:")
+        text = minimal().replace('"radius": 1', '"radius": 1e39')
+        self.assert_refused(text, 3, "/objects/0/radius: ")
+
+    def test_unknown_key_suggests_the_nearest(self):
+        text = minimal().replace('"radius"', '"raduis"')
+        self.assert_refused(text, 3, "/objects/0/raduis: ", '"radius"')
+
+    def test_huge_picture(self):
+        text = minimal(image={"width": 10**9, "height": 10**9})
+        self.write("scene.json", text)
+        result = self.run_program("scene.json", preexec_fn=lambda: resource.setrlimit(
+            resource.RLIMIT_DATA, (2 * GIB, 2 * GIB)))
+        self.assertIn(result.returncode, (3, 6))
+        self.assertIn(b"/image/width: ", result.stderr)
+
+    def test_mesh_file_missing(self):
+        text = minimal(objects=[{"type": "mesh", "file": "not/there.glb"}])
+        self.assert_refused(text, 5, "/objects/0/file: ", "not/there.glb")
+
+    def test_garbage_of_100_mb(self):
+        with open(self.folder / "scene.json", "wb") as file:
+            file.write(os.urandom(1 << 20) * 100)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        result = self.run_program("scene.json", "-o", "out.ppm", timeout=10)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
+        self.assertEqual(result.returncode, 3)
+        self.assertLess(max(before, after), 400 * 1024)  # KiB
+        self.assertEqual(os.listdir(self.folder), ["scene.json"])
+
+    def test_nesting(self):
+        self.assert_refused("[" * 10000 + "]" * 10000, 6, "scene.json:1:")
+        self.assert_refused('{"a":' * 10000, 6, "scene.json:1:")
+
+    # Files
+
+    def test_scene_that_cannot_be_read(self):
+        for scene in ("missing.json", ".", "/proc/self/mem/x"):
+            result = self.run_program(scene, "-o", "out.ppm")
+            self.assertEqual(result.returncode, 5, result.stderr)
+            self.assertIn(scene.encode(), result.stderr)
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_output_that_cannot_be_written(self):
+        for output in ("/dev/full", "missing/folder/out.ppm", "/proc/out.ppm", "."):
+            result = self.run_program(SCENE, "-o", output)
+            self.assertIn(result.returncode, (2, 5), (output, result.stderr))
+            self.assertNotEqual(result.stderr, b"")
+            self.assertEqual(os.listdir(self.folder), [])
+        self.assertEqual(self.run_program(SCENE, "-o", "/dev/full").returncode, 5)
+        with open("/dev/full", "wb") as full:
+            result = subprocess.run([PROGRAM, SCENE, "-o", "-"], stdout=full, stderr=subprocess.PIPE)
+        self.assertEqual(result.returncode, 5)
+
+    def test_short_write_leaves_the_old_picture(self):
+        self.write("out.ppm", "precious")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100000, 100000))
+        result = self.run_program(SCENE, "-o", "out.ppm", preexec_fn=limit)
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertEqual(os.listdir(self.folder), ["out.ppm"])
+        self.assertEqual((self.folder / "out.ppm").read_text(), "precious")
+
+    def test_closed_pipe(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        result = subprocess.run([PROGRAM, SCENE, "-o", "-"], stdout=writer, stderr=subprocess.PIPE)
+        os.close(writer)
+        self.assertEqual(result.returncode, 5)
+
+    def test_interrupt_leaves_nothing(self):
+        process = subprocess.Popen([PROGRAM, SCENE, "--size", "16000x16000", "-t", "1"],
+                                   cwd=self.folder, stderr=subprocess.PIPE)
+        time.sleep(0.5)
+        start = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=10)
+        self.assertEqual(process.returncode, 130, message)
+        self.assertLess(time.monotonic() - start, 2)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    # Start-up
+
+    def test_json_to_ppm_maps_no_picture_library(self):
+        result = subprocess.run([PROGRAM, SCENE, "-o", "/dev/null"], capture_output=True,
+                                env=dict(os.environ, LD_DEBUG="files", ASAN_OPTIONS="detect_leaks=0"))
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"libstdc++", result.stderr)  # the trace works
+        for library in (b"OpenImageIO", b"OpenEXR", b"libpng", b"Imath"):
+            self.assertNotIn(library, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,0 +1,201 @@
+#include "io/json_document.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::io {
+namespace {
+
+using ::testing::HasSubstr;
+using Kind = JsonValue::Kind;
+
+/// The text of every token that the tree points at, found by the offsets alone.
+void collect(std::string_view text, const JsonValue& value, std::string& out) {
+  out.append(text.substr(value.offset, 5)).append("|");
+  for (const JsonValue& item : value.items) collect(text, item, out);
+  for (const auto& [key, member] : value.members) {
+    out.append(text.substr(member.key_offset, 3)).append(":");
+    collect(text, member, out);
+  }
+}
+
+Error error_of(std::string_view text) {
+  try {
+    const JsonDocument document(text, "s.json");
+  } catch (const Error& error) {
+    return error;
+  }
+  return {ErrorKind::internal, "", "no error"};
+}
+
+TEST(JsonDocument, KnowsWhereEveryTokenStarts) {
+  const std::string_view text =
+      "\xEF\xBB\xBF \r\n{ \"a\" :\t[null ,true,false , -12.5e+3,7 ], \"\\\"b\\\\\" : { } ,\n"
+      "\"c\":\"x\\\"y\\u00e9,:\" ,\"d\":[[ ],[{\"e\":0 }] , -0], \"f\":[1.5]}";
+  const JsonDocument document(text, "s.json");
+  std::string found;
+  collect(text, document.root(), found);
+  EXPECT_EQ(found,
+            "{ \"a\"|\"a\":[null|null |true,|false|-12.5|7 ], |\"\\\":{ } ,|\"c\":\"x\\\"y|"
+            "\"d\":[[ ],|[ ],[|[{\"e\"|{\"e\":|\"e\":0 }] |-0], |\"f\":[1.5]|1.5]}|");
+  EXPECT_EQ(document.root().find("\"b\\")->kind, Kind::object);
+  EXPECT_EQ(document.root().find("c")->string, "x\"y\xC3\xA9,:");
+}
+
+TEST(JsonDocument, ReadsARootThatIsNoContainer) {
+  for (const std::string_view text : {"null", " true", "1", "\"s\"", "  -1e3  "}) {
+    const JsonDocument document(text, "s.json");
+    EXPECT_EQ(document.root().offset, text.find_first_not_of(' ')) << text;
+  }
+}
+
+TEST(JsonDocument, ReadsNumbersToTheLastBit) {
+  const std::string_view text =
+      "[0.1, 1e-400, -0, -0.0, 9007199254740993, 18446744073709551616, 1.0, 9007199254740992,"
+      " -9007199254740992, 9007199254740994, 4.9e-324, 1.7976931348623157e308]";
+  const JsonDocument document(text, "s.json");
+  const std::vector<JsonValue>& items = document.root().items;
+  EXPECT_EQ(items[0].number, 0.1);
+  EXPECT_EQ(items[1].number, 0);
+  EXPECT_TRUE(std::signbit(items[2].number));
+  EXPECT_TRUE(std::signbit(items[3].number));
+  EXPECT_EQ(items[4].number, 9007199254740992.0);
+  EXPECT_EQ(items[5].number, 0x1p64);
+  EXPECT_EQ(items[10].number, std::numeric_limits<double>::denorm_min());
+  EXPECT_EQ(items[11].number, std::numeric_limits<double>::max());
+  for (const std::size_t i : {2U, 7U, 8U}) EXPECT_TRUE(items[i].is_integer) << i;
+  for (const std::size_t i : {0U, 3U, 5U, 6U, 9U}) EXPECT_FALSE(items[i].is_integer) << i;
+}
+
+struct BadText {
+  std::string_view text;
+  std::size_t line, column;
+  std::string_view message;
+};
+
+class Refuses : public ::testing::TestWithParam<BadText> {};
+
+TEST_P(Refuses, WithTheExactPlace) {
+  const Error error = error_of(GetParam().text);
+  EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+  EXPECT_EQ(error.diagnostic().line, GetParam().line) << error.what();
+  EXPECT_EQ(error.diagnostic().column, GetParam().column) << error.what();
+  EXPECT_EQ(error.diagnostic().message, GetParam().message);
+}
+
+using namespace std::string_view_literals;
+
+INSTANTIATE_TEST_SUITE_P(
+    JsonDocument, Refuses,
+    ::testing::Values(
+        BadText{"", 0, 0, "is empty"}, BadText{" \n\t ", 0, 0, "is empty"},
+        BadText{"\xEF\xBB\xBF\n", 0, 0, "is empty"},
+        BadText{"{", 1, 2, "expected a key in double quotes or '}', found the end of the text"},
+        BadText{"{\"a\":[1,2", 1, 10, "expected ',' or ']', found the end of the text"},
+        BadText{"{\"a\":1,\n  }", 1, 7, "a comma must not stand before '}'; remove it"},
+        BadText{"[1, ]", 1, 3, "a comma must not stand before ']'; remove it"},
+        BadText{"[,1]", 1, 2, "expected a value or ']', found ','"},
+        BadText{"[1,,2]", 1, 4, "expected a value, found ','"},
+        BadText{"[1 2]", 1, 4, "expected ',' or ']', found \"2\""},
+        BadText{"[01]", 1, 3, "expected ',' or ']', found \"1\""},
+        BadText{"[1-2]", 1, 3, "expected ',' or ']', found \"-2\""},
+        BadText{"{\"a\" 1}", 1, 6, "expected ':' after the key, found \"1\""},
+        BadText{"{\"a\"::1}", 1, 6, "expected a value, found ':'"},
+        BadText{"{\"a\":}", 1, 6, "expected a value, found '}'"},
+        BadText{"{a:1}", 1, 2, "expected a key in double quotes or '}', found \"a\""},
+        BadText{"{\"a\":1 \"b\":2}", 1, 8, "expected ',' or '}', found a string"},
+        BadText{"{1:2}", 1, 2, "expected a key in double quotes or '}', found \"1\""},
+        BadText{"[1}", 1, 3, "expected ',' or ']', found '}'"},
+        BadText{"[] []", 1, 4, "expected nothing more after the end of the JSON value, found '['"},
+        BadText{"{}\n\0x"sv, 2, 1, "a zero byte stands outside strings; this is not a JSON text"},
+        BadText{"\0\0\0"sv, 1, 1, "a zero byte stands outside strings; this is not a JSON text"},
+        BadText{"[1,\0 2]"sv, 1, 4, "a zero byte stands outside strings; this is not a JSON text"},
+        BadText{"[1 // one\n]", 1, 4, "comments are not JSON; remove it"},
+        BadText{"/* */ []", 1, 1, "comments are not JSON; remove it"},
+        BadText{"['a']", 1, 2, "strings take double quotes in JSON"},
+        BadText{"[NaN]", 1, 2, "\"NaN\" is not JSON; write a finite number"},
+        BadText{"[-Infinity]", 1, 2, "\"-Infinity\" is not JSON; write a finite number"},
+        BadText{"[+1]", 1, 2, "expected a value or ']', found \"+1\"; a number takes no plus sign"},
+        BadText{"[.5]", 1, 2,
+                "expected a value or ']', found \".5\"; a number starts with a digit"},
+        BadText{"[1.]", 1, 2, "\"1.\" is not a JSON number: expected digit after '.'"},
+        BadText{"[True]", 1, 2, "expected a value or ']', found \"True\""},
+        BadText{"[nul]", 1, 2, "expected a value or ']', found \"nul\""},
+        BadText{"[1e999]", 1, 2, "the number is out of range; the largest is about 1.8e308"},
+        BadText{"[\n -1e999]", 2, 2, "the number is out of range; the largest is about 1.8e308"},
+        BadText{"[\"abc", 1, 2, "the string that starts here is not closed"},
+        BadText{"[\"abc\n\"]", 1, 2,
+                "the string that starts here is not closed on its line; a line break within a "
+                "string is written \\n"},
+        BadText{"[\"a\tb\"]", 1, 4,
+                "a control character within a string must be escaped, as in \\t or \\u0009"},
+        BadText{"[\"a\0b\"]"sv, 1, 4,
+                "a control character within a string must be escaped, as in \\t or \\u0009"},
+        BadText{"[\"a\\x\"]", 1, 5,
+                "unknown escape; after a backslash may stand \" \\ / b f n r t or u and four hex "
+                "digits"},
+        BadText{"[\"\\u12\"]", 1, 7, "\\u must be followed by four hex digits"},
+        BadText{"[\"\\ud800 \"]", 1, 9, "a \\u surrogate must stand in a pair, high then low"},
+        BadText{"[\"\xC3(\"]", 1, 4, "is not UTF-8 here; save the file as UTF-8"},
+        BadText{"[\"\xED\xA0\x80\"]", 1, 4, "is not UTF-8 here; save the file as UTF-8"},
+        BadText{"\xFF\xFE{\0"sv, 1, 1, "is not UTF-8 here; save the file as UTF-8"},
+        BadText{"{\"a\":1, \"b\":2,\n \"a\":3}", 2, 2, "the key \"a\" stands twice in this object"},
+        BadText{"\xEF\xBB\xBF[1 2]", 1, 4, "expected ',' or ']', found \"2\""}));
+
+TEST(JsonDocument, NamesThePointerOfABadValue) {
+  EXPECT_EQ(error_of(R"({"a":[0,{"b/c~":1e999}]})").diagnostic().pointer, "/a/1/b~1c~0");
+  EXPECT_EQ(error_of(R"({"a":[0,{"b":1,"b":2}]})").diagnostic().pointer, "/a/1");
+  EXPECT_EQ(error_of(R"([{"a":1},{"x":2,"x":3}])").diagnostic().pointer, "/1");
+}
+
+TEST(JsonDocument, RefusesDeepNestingAtItsPlace) {
+  const std::string deep = std::string(255, '[') + "{\"a\":1}" + std::string(255, ']');
+  EXPECT_NO_THROW(JsonDocument(deep, "s.json"));
+  const Error error = error_of(std::string(256, '[') + "{");
+  EXPECT_EQ(error.kind(), ErrorKind::limit);
+  EXPECT_EQ(error.diagnostic().column, 257U);
+  std::string objects;
+  for (int i = 0; i < 10'000; ++i) objects += "{\"a\":";
+  EXPECT_EQ(error_of(objects).kind(), ErrorKind::limit);
+  EXPECT_EQ(error_of(std::string(100'000'000, '[')).kind(), ErrorKind::limit);
+}
+
+TEST(JsonDocument, RefusesMoreValuesThanItsLimit) {
+  EXPECT_NO_THROW(JsonDocument("[1,{\"a\":[]}]", "s.json", 4));
+  try {
+    const JsonDocument document("[1,{\"a\":[]}]", "s.json", 3);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_EQ(error.diagnostic().column, 9U);
+    EXPECT_EQ(error.diagnostic().pointer, "/1/a");
+  }
+}
+
+TEST(JsonDocument, ManyKeysTakeNoQuadraticTime) {
+  std::string text = "{";
+  for (int i = 0; i < 200'000; ++i) {
+    text.append("\"k").append(std::to_string(i)).append("\":0,");
+  }
+  EXPECT_THAT(error_of(text + "\"k7\":1}").what(), HasSubstr("\"k7\" stands twice"));
+}
+
+TEST(JsonDocument, ShowsTheLineWithACaret) {
+  EXPECT_STREQ(error_of("{\n\t\"a\":\t1 2\n}").what(),
+               "s.json:2:9: expected ',' or '}', found \"2\"\n"
+               " \"a\": 1 2\n"
+               "        ^");
+}
+
+TEST(JsonDocument, EscapesPointersAsRfc6901Says) {
+  EXPECT_EQ(child("", "a/b"), "/a~1b");
+  EXPECT_EQ(child("/x", "m~n"), "/x/m~0n");
+  EXPECT_EQ(child("/x", std::size_t{3}), "/x/3");
+}
+
+}  // namespace
+}  // namespace microtrace::io

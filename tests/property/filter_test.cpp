@@ -1,0 +1,104 @@
+// Every verdict of a filter that claims to be certain must equal the exact answer, and every
+// enclosure must hold it.
+
+#include "accel/filters/shape_filter.hpp"
+#include "exact/intersect.hpp"
+#include "support/adversarial_rays.hpp"
+#include "support/reproduction.hpp"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+using namespace adversarial;
+
+constexpr int kCasesPerKind = 40000;
+
+exact::Root number(double t) {
+  return exact::rational(exact::Dyadic(t), exact::Dyadic(1.0F));
+}
+
+struct Count {
+  int asked = 0, certain = 0;
+  [[nodiscard]] double share() const { return asked == 0 ? 1 : double{1} * certain / asked; }
+};
+
+template <class S>
+void check(const Ray& ray, const S& shape, Count& count) {
+  if (!exact::is_valid(ray) || !is_filterable(ray.o) || !is_filterable(ray.d) ||
+      !is_filterable(shape))
+    return;
+  const Verdict verdict =
+      seen_from(ray.o, shape)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
+  const auto root = exact::first_hit(shape, ray);
+  ++count.asked;
+  if (verdict.certainty != Certainty::unsure) {
+    ++count.certain;
+    ASSERT_EQ(verdict.certainty == Certainty::hit, root.has_value()) << reproduction(ray, shape);
+  }
+  if (!root) return;
+  if (std::isfinite(verdict.lo)) {
+    ASSERT_LE(number(verdict.lo), *root) << reproduction(ray, shape);
+  }
+  if (verdict.certainty == Certainty::hit) {
+    ASSERT_GE(number(verdict.hi), *root) << reproduction(ray, shape);
+    // Narrow enough to round t at once, nearly always.
+    ASSERT_TRUE(std::isfinite(verdict.hi)) << reproduction(ray, shape);
+  }
+}
+
+// As they come, and with the range's ends placed at the hit or an ulp beside it.
+template <class MakeCase>
+Count check_kind(std::uint64_t seed, MakeCase make_case) {
+  Random random(seed);
+  Count count;
+  for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
+    const auto [ray, shape] = make_case(random);
+    check(ray, shape, count);
+    if (i % 4 != 0) continue;
+    Count ignored;
+    if (const auto root = exact::first_hit(shape, ray))
+      check(with_range_near(random, ray, exact::round_to_float(*root)), shape, ignored);
+  }
+  return count;
+}
+
+TEST(Filter, Triangle) {
+  for (const TriangleKind kind : triangle_kinds) {
+    SCOPED_TRACE(name(kind));
+    const Count count = check_kind(1, [&](Random& random) { return triangle_case(random, kind); });
+    if (kind == TriangleKind::unit) {
+      EXPECT_GT(count.share(), 0.9999);
+    }
+  }
+}
+
+template <class MakeCase>
+void check_all_kinds(MakeCase make_case) {
+  for (const ShapeKind kind : shape_kinds) {
+    SCOPED_TRACE(name(kind));
+    const Count count = check_kind(2, [&](Random& random) { return make_case(random, kind); });
+    if (kind == ShapeKind::random) {
+      EXPECT_GT(count.share(), 0.999);
+    }
+  }
+}
+
+TEST(Filter, Sphere) {
+  check_all_kinds(sphere_case);
+}
+TEST(Filter, Plane) {
+  check_all_kinds(plane_case);
+}
+TEST(Filter, Disc) {
+  check_all_kinds(disc_case);
+}
+TEST(Filter, Quadric) {
+  check_all_kinds(quadric_case);
+}
+
+}  // namespace
+}  // namespace microtrace

@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Checks that each part of the source includes only what it may; see docs/architecture.md.
+
+usage: layers.py SOURCE_FOLDER
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(sys.argv[1])
+
+# part -> parts of src/ that it may include, beside itself. Public headers belong to no part; which of them a part may name
+# is PUBLIC below.
+MAY_INCLUDE = {
+    "exact": set(),
+    "scene": set(),
+    "accel": {"exact", "scene"},
+    "render": {"scene"},
+    "io": {"scene"},
+    "cli": {"scene"},
+    "modules": {"io"},
+}
+# Public headers that a part must not see.
+HIDDEN = {
+    "exact": {"scene", "camera", "film", "io", "render", "intersector", "primitives"},
+    "scene": {"film", "io", "render", "intersector"},
+    "accel": {"camera", "film", "io", "render"},
+    "render": {"io"},
+    "io": {"render", "intersector"},
+}
+# Libraries that only these folders may include.
+LIBRARIES = {
+    r"CGAL/|gmp": ["tests/oracle"],
+    r"tiny_gltf|nlohmann/": ["src/io"],
+    r"OpenImageIO/": ["src/modules", "tests/image"],
+    r"CLI/": ["src/cli"],
+    r"embree|benchmark/": ["bench"],
+    r"\w*mmintrin\.h": [],
+}
+
+
+def includes(path):
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        if match:
+            yield number, match[1]
+
+
+def complaints():
+    files = [p for folder in ("include", "src", "tests", "bench") for p in (ROOT / folder).rglob("*")
+             if p.suffix in (".hpp", ".cpp")]
+    assert len(files) > 20, "the sources are not where this script looks"
+    for path in files:
+        place = path.relative_to(ROOT)
+        part = place.parts[1] if place.parts[0] == "src" and len(place.parts) > 2 else None
+        for number, name in includes(path):
+            first = name.split("/")[0]
+            if part and first in MAY_INCLUDE and first != part and first not in MAY_INCLUDE[part]:
+                yield f"{place}:{number}: {part} may not include {name}"
+            if part and first == "microtrace" and name[11:-4] in HIDDEN.get(part, ()):
+                yield f"{place}:{number}: {part} may not include <{name}>"
+            if place.parts[0] == "include" and first not in ("microtrace", "glm") and "/" in name:
+                yield f"{place}:{number}: a public header may include only std, GLM and microtrace"
+            for library, folders in LIBRARIES.items():
+                if re.match(library, name) and not any(str(place).startswith(f) for f in folders):
+                    yield f"{place}:{number}: {name} belongs in {' or '.join(folders) or 'no file yet'}"
+        lines = len(path.read_text().splitlines())
+        if lines > 300 and place.parts[0] in ("src", "include"):
+            yield f"{place}: {lines} lines; split what is over 300"
+
+
+found = list(complaints())
+print("\n".join(found) or "every include is within its layer")
+sys.exit(1 if found else 0)
