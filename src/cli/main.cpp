@@ -60,7 +60,9 @@ void run(const cli::Arguments& arguments) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, stop_at_once);
   std::signal(SIGTERM, stop_at_once);
-  std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error of the write
+  // A closed pipe and a file size limit are errors of the write, with a message.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   const auto [arguments, exit_code] = cli::parse_arguments(argc, argv);
   if (exit_code) return *exit_code;
   try {

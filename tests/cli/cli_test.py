@@ -153,7 +153,7 @@ class CommandLine(unittest.TestCase):
         self.assert_refused("", 3, "empty")
         self.assert_refused("   \n", 3, "empty")
         self.assert_refused("sphere 1 2 3", 3, "scene.json:1:1")
-        self.assert_refused('{"version": 1,}', 3, "scene.json:1:15", "^")
+        self.assert_refused('{"version": 1,}', 3, "scene.json:1:14", "^")
         self.assert_refused('{"version": NaN}', 3, "scene.json:1:13")
         self.assert_refused(b'{"version": 1, "a": "\xff"}', 3, "UTF-8")
         self.assert_refused('{"version": 1', 3, "scene.json:1:")
@@ -186,7 +186,7 @@ class CommandLine(unittest.TestCase):
 
     def test_unknown_key_suggests_the_nearest(self):
         text = minimal().replace('"radius"', '"raduis"')
-        self.assert_refused(text, 3, "/objects/0/raduis: ", '"radius"')
+        self.assert_refused(text, 3, "/objects/0", "raduis", '"radius"')
 
     def test_huge_picture(self):
         text = minimal(image={"width": 10**9, "height": 10**9})

@@ -1,0 +1,51 @@
+#pragma once
+/// The nearest hit of a ray with a scene, by a bounding volume hierarchy.
+
+#include <microtrace/hit.hpp>
+#include <microtrace/primitives.hpp>
+#include <microtrace/ray.hpp>
+#include <microtrace/scene.hpp>
+
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace microtrace {
+
+struct BvhOptions {
+  bool fast_build = false;  ///< a tree that is made sooner and traced slower, for previews
+  unsigned threads = 0;     ///< for the build; 0: one for each processor that this process may use
+};
+
+/// Immutable; any number of threads may use one at a time.
+///
+/// Every answer is the hit that is least by (t, PrimitiveId) over the real numbers, for the float32
+/// numbers that scene and ray hold. Options, instruction set, the order of the work and the way of
+/// asking can't change it; docs/exactness.md says why.
+class Bvh {
+ public:
+  /// The scene must outlive this and stay as it is. Throws Error (limit) where memory or primitive
+  /// numbers run out.
+  explicit Bvh(const Scene& scene, const BvhOptions& options = {});
+  ~Bvh();
+  Bvh(Bvh&&) noexcept;
+  Bvh& operator=(Bvh&&) noexcept;
+
+  /// Nothing if the ray hits nothing or is not valid (see Ray).
+  [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
+
+  /// Whether intersect(ray) would find something; sooner.
+  [[nodiscard]] bool occluded(const Ray& ray) const;
+
+  /// hits[i] answers rays[i]; both have one length. Fastest where runs of rays start at one point
+  /// and go nearly the same way, as those of neighbouring pixels do.
+  void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+
+  [[nodiscard]] const Primitives& primitives() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,36 @@
+// A program that uses the installed library: every public header, a scene from memory, a picture.
+#include <microtrace/camera.hpp>
+#include <microtrace/error.hpp>
+#include <microtrace/film.hpp>
+#include <microtrace/hit.hpp>
+#include <microtrace/intersector.hpp>
+#include <microtrace/io.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/ray.hpp>
+#include <microtrace/render.hpp>
+#include <microtrace/scene.hpp>
+#include <microtrace/shape.hpp>
+
+#include <cstdio>
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  try {
+    const auto [scene, warnings] = microtrace::parse_scene(R"({
+      "version": 1,
+      "cameras": [{"type": "perspective", "position": [0, 0, 5], "direction": [0, 0, -1], "up": [0, 1, 0],
+                   "vertical_fov": 60}],
+      "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "color": [1, 0, 0]}]
+    })",
+                                                           "memory.json", ".");
+    const microtrace::Film film = microtrace::render(scene, scene.cameras[0].camera, {9, 9});
+    microtrace::save_image(film, argv[1]);
+    const microtrace::Vec3 middle = film.row(4)[4], corner = film.row(0)[0];
+    const bool right =
+        warnings.empty() && middle == microtrace::Vec3(1, 0, 0) && corner == microtrace::Vec3(0);
+    return right ? 0 : 1;
+  } catch (const microtrace::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
