@@ -23,6 +23,9 @@ class Primitives {
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
   explicit Primitives(const Scene& scene);
 
+  /// Numbers run from 0 to count() - 1.
+  [[nodiscard]] PrimitiveId count() const { return count_; }
+
   /// The place in Scene::objects of the object that a primitive belongs to.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
   [[nodiscard]] const Object& object(PrimitiveId id) const {
@@ -67,6 +70,7 @@ class Primitives {
 
   const Scene* scene_;
   std::vector<PrimitiveId> first_ids_;  // of each object
+  PrimitiveId count_ = 0;
 };
 
 }  // namespace microtrace

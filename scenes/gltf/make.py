@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the glTF scenes of this folder: cube.glb and knot.glb.
 
-knot.glb is a (2, 3) torus knot of 16 x 48 quadrilaterals in four colours over a floor.
+knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colours over a floor.
 """
 
 import json
@@ -129,7 +129,7 @@ def unit(v):
     return tuple(x / length for x in v)
 
 
-def knot(rings=48, sides=16, radius=0.55):
+def knot(rings=96, sides=8, radius=0.55):
     asset = Asset(["red", "green", "blue", "gold", "grey"])
     points = []
     for i in range(rings):
@@ -147,8 +147,8 @@ def knot(rings=48, sides=16, radius=0.55):
         for k in range(sides):
             a, b = i * sides + k, i * sides + (k + 1) % sides
             c, d = (a + sides) % len(points), (b + sides) % len(points)
-            # Bands of four quadrilaterals wind around the tube once for each of its turns.
-            band = bands[asset.colours[(k // 4 + i // 4) % 4]]
+            # Four bands wind along the tube, eight turns in all, and so close where it does.
+            band = bands[asset.colours[(k // 2 + i // 3) % 4]]
             band += [(a, b, d), (a, d, c)]
     asset.mesh("Knot", points, bands)
     floor = [(-6, -4, -6), (6, -4, -6), (6, -4, 4), (-6, -4, 4)]

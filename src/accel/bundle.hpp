@@ -3,6 +3,7 @@
 
 #include "accel/closest_hit.hpp"
 #include "accel/filters/shape_filter.hpp"
+#include "accel/slow_path.hpp"
 #include "exact/intersect.hpp"
 
 #include <microtrace/primitives.hpp>
@@ -41,15 +42,24 @@ class Bundle {
   /// All rays against one primitive. Every primitive must be met once, in any order.
   template <class AnyShape>
   void meet(PrimitiveId id, const AnyShape& shape) {
+    for_each_verdict(shape, [&](std::size_t i, const Verdict& verdict) {
+      closest_[i].consider(id, verdict, root_on(rays_[i]));
+    });
+  }
+
+  /// f(i, verdict) for every ray.
+  template <class AnyShape, class F>
+  void for_each_verdict(const AnyShape& shape, const F& f) const {
     if (filterable_ && is_filterable(shape)) {
       const auto filter = seen_from(rays_[0].o, shape);
-      for (std::size_t i = 0; i < rays_.size(); ++i)
-        closest_[i].consider(id, filter(directions_[i], ranges_[i]), root_on(rays_[i]));
+      for (std::size_t i = 0; i < rays_.size(); ++i) f(i, filter(directions_[i], ranges_[i]));
     } else {
-      for (std::size_t i = 0; i < rays_.size(); ++i)
-        closest_[i].consider(id, {.certainty = Certainty::unsure}, root_on(rays_[i]));
+      for (std::size_t i = 0; i < rays_.size(); ++i) f(i, Verdict{.certainty = Certainty::unsure});
     }
   }
+
+  /// The nearest hit so far in the kernels' form.
+  [[nodiscard]] Best best(std::size_t i) const { return best_of(closest_[i], rays_[i]); }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t i) const {
     return closest_[i].rounded(root_on(rays_[i]));

@@ -30,6 +30,15 @@ class ClosestHit {
     consider_exactly(id, root_of);
   }
 
+  struct Candidate {
+    PrimitiveId id;
+    double lo, hi;  ///< around the exact t
+  };
+  [[nodiscard]] std::optional<Candidate> candidate() const {
+    if (!found_) return std::nullopt;
+    return Candidate{.id = id_, .lo = lo_, .hi = hi_};
+  }
+
   /// The hit with its t rounded to the nearest float32.
   [[nodiscard]] std::optional<Hit> rounded(const RootOf auto& root_of) const {
     if (!found_) return std::nullopt;

@@ -97,7 +97,8 @@ std::string excerpt(std::string_view text, std::size_t offset) {
   std::size_t line_end = std::min(text.find('\n', offset), text.size());
   if (line_end > offset && text[line_end - 1] == '\r') --line_end;
 
-  std::size_t start = offset - std::min(offset - line_start, before);
+  const bool is_short = line_end - line_start <= width;
+  std::size_t start = is_short ? line_start : offset - std::min(offset - line_start, before);
   while (start > line_start && start < offset && continues(text[start])) ++start;
   const std::size_t end = std::min(line_end, start + width);
 

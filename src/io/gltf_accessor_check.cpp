@@ -23,13 +23,6 @@ class Checker {
       asset_.fail(at, "ends at byte " + std::to_string(end) + " of a buffer of " +
                           std::to_string(length) + " bytes");
     }
-    if (view.byteStride % 4 != 0) {
-      asset_.fail(at.member("byteStride"),
-                  "must be a multiple of 4, is " + std::to_string(view.byteStride));
-    }
-    if (view.byteStride > view.byteLength) {
-      asset_.fail(at.member("byteStride"), "is greater than byteLength");
-    }
   }
 
   void accessor(std::size_t index) const {

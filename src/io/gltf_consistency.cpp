@@ -2,6 +2,7 @@
 
 #include "io/gltf_uri.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <string>
@@ -44,6 +45,20 @@ void check_cameras(Asset& asset) {
     const JsonValue* far = projection.value->find("zfar");
     if (far != nullptr && far->number <= projection.member("znear").value->number) {
       asset.fail(projection.member("zfar"), "must be greater than znear");
+    }
+  }
+}
+
+void check_strides(const Asset& asset) {
+  for (std::size_t i = 0; i < asset.array("bufferViews").size(); ++i) {
+    const Element at = asset.element("bufferViews", i);
+    const JsonValue* stride = at.value->find("byteStride");
+    if (stride == nullptr) continue;
+    if (std::fmod(stride->number, 4) != 0) {
+      asset.fail(at.member("byteStride"), "must be a multiple of 4");
+    }
+    if (stride->number > at.member("byteLength").value->number) {
+      asset.fail(at.member("byteStride"), "is greater than byteLength");
     }
   }
 }
@@ -103,6 +118,7 @@ void check_animations(const Asset& asset) {
 
 void check_consistency(Asset& asset) {
   check_cameras(asset);
+  check_strides(asset);
   check_bounds(asset);
   check_images(asset);
   check_animations(asset);

@@ -19,8 +19,8 @@ struct Frame {
 };
 
 Frame view_frame() {
-  const DVec3 back = DVec3(3, 2, 6) / 7.0;  // 3^2 + 2^2 + 6^2 = 7^2
-  const DVec3 right = DVec3(2, 0, -1) / std::sqrt(5.0);
+  const DVec3 back = DVec3(4, 4, 7) / 9.0;  // 4^2 + 4^2 + 7^2 = 9^2
+  const DVec3 right = DVec3(7, 0, -4) / std::sqrt(65.0);
   return {.right = right, .up = glm::cross(back, right), .back = back};
 }
 

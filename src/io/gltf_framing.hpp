@@ -9,7 +9,7 @@
 
 namespace microtrace::io::gltf {
 
-/// A perspective camera of 45 degrees for a 4:3 picture, looking along (-3, -2, -6) with +y up:
+/// A perspective camera of 45 degrees for a 4:3 picture, looking along (-4, -4, -7) with +y up:
 /// onto the front, from the right and above. All vertices of the scene's meshes lie in the inner 90
 /// % of the picture, and touch its edges on two opposite sides; except that the camera keeps a
 /// distance of 1/64 of the bounding box's diagonal from the nearest vertex. Vertices that are not

@@ -13,6 +13,7 @@
 #include "io/gltf_schema.hpp"
 #include "io/gltf_surfaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -61,12 +62,28 @@ class SceneMaker {
              const std::vector<std::vector<Surface>>& surfaces)
       : asset_(asset), model_(model), tree_(tree), surfaces_(surfaces) {}
 
+  /// Throws Error (limit) before memory is taken for too many instances.
+  void check_size(const std::vector<PlacedNode>& nodes) const {
+    std::size_t triangles = 0, vertices = 0;
+    for (const PlacedNode& placed : nodes) {
+      const int mesh = model_.nodes[placed.node].mesh;
+      if (mesh < 0) continue;
+      for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
+        triangles += surface.mesh.triangles.size();
+        vertices += surface.mesh.positions.size();
+      }
+      if (std::max(triangles, vertices) <= gltf::max_elements) continue;
+      asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
+                  "brings the scene to more than 2^27 triangles or vertices, the most that is read",
+                  ErrorKind::limit);
+    }
+  }
+
   void add_mesh(const PlacedNode& placed) {
     const int mesh = model_.nodes[placed.node].mesh;
     if (mesh < 0) return;
     const auto index = static_cast<std::size_t>(mesh);
     for (const Surface& surface : surfaces_[index]) {
-      count(placed, surface);
       Mesh world = baked(surface.mesh, placed.world_from_node);
       if (!is_finite(world)) {
         asset_.warn(primitive(index, surface),
@@ -86,14 +103,6 @@ class SceneMaker {
     return asset_.element("meshes", mesh).member("primitives").item(surface.number);
   }
 
-  void count(const PlacedNode& placed, const Surface& surface) {
-    triangles_ += surface.mesh.triangles.size();
-    if (triangles_ <= gltf::max_elements) return;
-    asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
-                "brings the scene to more than 2^27 triangles, the most that is read",
-                ErrorKind::limit);
-  }
-
   [[nodiscard]] std::string name(const PlacedNode& placed, std::size_t mesh,
                                  const Surface& surface) const {
     const tinygltf::Mesh& source = model_.meshes[mesh];
@@ -109,7 +118,6 @@ class SceneMaker {
   const std::vector<std::vector<Surface>>& surfaces_;
   std::vector<Object> objects_;
   gltf::UniqueNames names_;
-  std::size_t triangles_ = 0;
 };
 
 LoadedScene load(Asset& asset, const gltf::Container& container,
@@ -126,6 +134,7 @@ LoadedScene load(Asset& asset, const gltf::Container& container,
 
   const std::vector<PlacedNode> nodes = tree.place(world_from_asset);
   SceneMaker maker(asset, model, tree, surfaces);
+  maker.check_size(nodes);
   for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
   LoadedScene result;
   if (container.extra_bytes != 0) {

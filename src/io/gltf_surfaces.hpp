@@ -14,7 +14,7 @@
 namespace microtrace::io::gltf {
 
 /// No asset has more elements in accessors without a buffer view, more indices in all its
-/// primitives, and no scene more triangles in all instances of its meshes.
+/// primitives, and no scene more triangles or vertices in all instances of its meshes.
 inline constexpr std::size_t max_elements = std::size_t{1} << 27;
 
 /// One primitive of a mesh: only the vertices that its triangles use, in the order of the file.

@@ -59,7 +59,6 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool binary(binary_t& /*value*/) override { return false; }  // JSON texts have none
-
   bool start_object(std::size_t /*size*/) override { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t /*size*/) override { return open(JsonValue::Kind::array); }
 
@@ -175,7 +174,9 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonValue::Kind kind) {
     const std::size_t start = next_token().token;
     if (open_.size() == max_json_depth) {
-      fail(ErrorKind::limit, start, "arrays and objects are nested more than 256 deep");
+      // The pointer would fill the screen.
+      throw Error(ErrorKind::limit,
+                  document_.at(start, "", "arrays and objects are nested more than 256 deep"));
     }
     // Values grow only within the innermost open one, so the pointers stay good.
     open_.push_back(&add(of_kind(kind), start));
@@ -263,7 +264,8 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
   builder.require_end();
 }
 
-Diagnostic JsonDocument::at(std::size_t offset, std::string pointer, std::string message) const {
+Diagnostic JsonDocument::at(std::size_t offset, const std::string& pointer,
+                            std::string message) const {
   // The byte order mark is no part of the first line.
   const std::size_t skipped = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   const std::string_view text = text_.substr(skipped);
@@ -272,7 +274,7 @@ Diagnostic JsonDocument::at(std::size_t offset, std::string pointer, std::string
   return {.file = file_,
           .line = place.line,
           .column = place.column,
-          .pointer = std::move(pointer),
+          .pointer = printable(pointer),
           .message = std::move(message),
           .excerpt = excerpt(text, offset)};
 }

@@ -50,8 +50,10 @@ class JsonDocument {
   [[nodiscard]] const JsonValue& root() const { return root_; }
   [[nodiscard]] const std::string& file() const { return file_; }
 
-  /// A message about the byte at `offset` of the text, with line, column and caret.
-  [[nodiscard]] Diagnostic at(std::size_t offset, std::string pointer, std::string message) const;
+  /// A message about the byte at `offset` of the text, with line, column and caret. Control
+  /// characters in the pointer are shown as \x1b.
+  [[nodiscard]] Diagnostic at(std::size_t offset, const std::string& pointer,
+                              std::string message) const;
 
  private:
   std::string_view text_;  // the caller's; outlives the document

@@ -1,5 +1,6 @@
 #include "io/json_mesh.hpp"
 
+#include "io/excerpt.hpp"
 #include "io/file.hpp"
 #include "io/gltf_scene.hpp"
 #include "scene/trigonometry.hpp"
@@ -72,7 +73,7 @@ std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& 
   try {
     return read_file(path, max_file_size);
   } catch (const Error& error) {
-    std::string message = path.string();
+    std::string message = printable(path.string());
     json.fail(message.append(" ").append(error.diagnostic().message), error.kind());
   }
 }
@@ -102,7 +103,7 @@ LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folde
   const auto transform = json.find("transform");
   const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
   const std::string bytes = read_mesh_file(file, path);
-  return load_gltf(bytes, path.string(), path.parent_path(), world_from_asset);
+  return load_gltf(bytes, printable(path.string()), path.parent_path(), world_from_asset);
 }
 
 }  // namespace microtrace::io

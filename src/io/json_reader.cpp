@@ -44,7 +44,13 @@ void JsonReader::fail_unknown(std::string_view what, std::string_view name,
 
 void JsonReader::require(const std::optional<BrokenRule>& rule) const {
   if (!rule) return;
-  if (const auto field = find(rule->field)) field->fail(rule->message, rule->kind);
+  if (const auto field = find(rule->field)) {
+    const JsonValue& found = field->value();
+    const bool underflows = found.number != 0 && static_cast<float>(found.number) == 0;
+    std::string message = rule->message;
+    if (underflows) message += " once rounded to float32";
+    field->fail(std::move(message), rule->kind);
+  }
   fail(rule->field.empty() ? rule->message
                            : std::string(rule->field).append(" ").append(rule->message),
        rule->kind);

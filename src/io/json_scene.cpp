@@ -41,7 +41,8 @@ Vec3 read_color(const JsonReader& json, const Colors& colors) {
   if (found != colors.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [name, color] : colors) names.push_back(name);
-  json.fail_unknown(names.empty() ? "name (there are no /colors)" : "name", json.string(), names);
+  if (names.empty()) json.fail("is a name, but the scene names no colours in /colors");
+  json.fail_unknown("colour name", json.string(), names);
 }
 
 /// A side of the picture; numbers too large for ImageSize stay too large.

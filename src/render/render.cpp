@@ -1,7 +1,7 @@
 #include "render/tiles.hpp"
 
 #include <microtrace/error.hpp>
-#include <microtrace/intersector.hpp>
+#include <microtrace/bvh.hpp>
 #include <microtrace/render.hpp>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Film make_film(ImageSize size) {
 
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
-  const Intersector intersector(scene);
+  const Bvh bvh(scene);
   const RayGenerator ray_through(camera, size);
   // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next float32.
   const float t_min = std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity());
@@ -47,11 +47,11 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
         ray.t_min = std::max(ray.t_min, t_min);
       }
     }
-    intersector.intersect(std::span(rays).first(count), std::span(hits).first(count));
+    bvh.intersect(std::span(rays).first(count), std::span(hits).first(count));
     const std::optional<Hit>* hit = hits.data();
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++hit) {
-        film.at(x, y) = *hit ? intersector.primitives().object((*hit)->id).color : scene.background;
+        film.at(x, y) = *hit ? bvh.primitives().object((*hit)->id).color : scene.background;
       }
     }
   };

@@ -7,12 +7,12 @@
 namespace microtrace {
 
 Primitives::Primitives(const Scene& scene) : scene_(&scene) {
-  std::size_t next = 0;
   for (const Object& object : scene.objects) {
-    first_ids_.push_back(static_cast<PrimitiveId>(next));
-    next += primitive_count(object.shape);
-    if (next > std::numeric_limits<PrimitiveId>::max())
+    first_ids_.push_back(count_);
+    const std::size_t more = primitive_count(object.shape);
+    if (more > std::numeric_limits<PrimitiveId>::max() - count_)
       throw Error(ErrorKind::limit, "", "the scene has 2^32 primitives or more");
+    count_ += static_cast<PrimitiveId>(more);
   }
 }
 

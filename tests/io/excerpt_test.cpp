@@ -42,6 +42,8 @@ TEST(Excerpt, CutsLongLines) {
   const std::string line(1000, 'x');
   const std::string shown = excerpt(line, 500);
   EXPECT_EQ(shown, "..." + std::string(120, 'x') + "...\n" + std::string(83, ' ') + "^");
+  EXPECT_EQ(excerpt(line.substr(0, 120), 119),
+            line.substr(0, 120) + "\n" + std::string(119, ' ') + "^");
   EXPECT_THAT(excerpt(line, 3), StartsWith(std::string(120, 'x') + "...\n   ^"));
 }
 

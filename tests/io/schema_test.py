@@ -19,6 +19,7 @@ BEYOND_SCHEMA = {
     "key_twice": "keys are unique",
     "key_twice_deep": "keys are unique",
     "mesh_directory": "a file exists",
+    "mesh_file_hostile": "a file exists",
     "mesh_missing": "a file exists",
     "mesh_not_gltf": "the contents of another file",
     "name_like_a_pointer_taken": "names are unique",

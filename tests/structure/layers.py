@@ -23,11 +23,11 @@ MAY_INCLUDE = {
 }
 # Public headers that a part must not see.
 HIDDEN = {
-    "exact": {"scene", "camera", "film", "io", "render", "intersector", "primitives"},
-    "scene": {"film", "io", "render", "intersector"},
+    "exact": {"scene", "camera", "film", "io", "render", "bvh", "primitives"},
+    "scene": {"film", "io", "render", "bvh"},
     "accel": {"camera", "film", "io", "render"},
     "render": {"io"},
-    "io": {"render", "intersector"},
+    "io": {"render", "bvh"},
 }
 # Libraries that only these folders may include.
 LIBRARIES = {

@@ -21,6 +21,11 @@ class Writer {
  public:
   Writer() { out_ << std::setprecision(std::numeric_limits<float>::max_digits10); }
 
+  Writer& operator()(float x) {
+    out_ << x;
+    return *this;
+  }
+
   Writer& operator()(const char* key, float x) {
     out_ << ", \"" << key << "\": " << x;
     return *this;
@@ -55,9 +60,11 @@ std::string object(const Triangle& t) {
 }
 
 std::string object(const Quadric& q) {
-  return R"("type": "quadric")" + Writer()("a", q.a)("b", q.b)("c", q.c)("d", q.d)("e", q.e)(
-                                      "f", q.f)("g", q.g)("h", q.h)("i", q.i)("j", q.j)
-                                      .text();
+  return R"("type": "quadric", "coefficients": {"a": )" +
+         Writer()(q.a)("b", q.b)("c", q.c)("d", q.d)("e", q.e)("f", q.f)("g", q.g)("h", q.h)(
+             "i", q.i)("j", q.j)
+             .text() +
+         '}';
 }
 
 /// The axis furthest from v.

@@ -101,6 +101,7 @@ TEST(Exact, Disc) {
   EXPECT_TRUE(hits_at(7, disc, ray({-7, 1, 5}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(0, disc, ray({0, 1, 0}, {1, 0, 0})));
   EXPECT_TRUE(misses(disc, ray({6, 1, 0}, {1, 0, 0})));
+  EXPECT_TRUE(misses(disc, ray({-7, 2, 0}, {1, 0, 0})));  // parallel, beside the plane
   EXPECT_TRUE(misses(disc, ray({-7, 1, 0x1.400002p2f}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(1, Disc{{0, 1, 0}, {0, 1, 0}, 0}, ray({0, 2, 0}, {0, -1, 0})));
   EXPECT_TRUE(misses(Disc{{0, 1, 0}, {0, 1, 0}, -1}, ray({0, 2, 0}, {0, -1, 0})));
@@ -116,6 +117,21 @@ TEST(Exact, SphereIsASurface) {
   EXPECT_TRUE(misses(sphere, ray({-5, 0x1.800002p1f, 0}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(5, Sphere{{0, 0, 0}, 0}, ray({-5, 0, 0}, {1, 0, 0})));
   EXPECT_TRUE(misses(Sphere{{0, 0, 0}, -1}, ray({-5, 0, 0}, {1, 0, 0})));
+}
+
+TEST(Exact, EachCoefficientOfAQuadricCounts) {
+  const Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+  EXPECT_TRUE(hits_at(3, Quadric{.a = 1, .j = -9}, ray({0, 2, 2}, x)));
+  EXPECT_TRUE(hits_at(3, Quadric{.b = 1, .j = -9}, ray({2, 0, 2}, y)));
+  EXPECT_TRUE(hits_at(3, Quadric{.c = 1, .j = -9}, ray({2, 2, 0}, z)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.d = 1, .j = -1}, ray({0, 2, 0}, x)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.d = 1, .j = -1}, ray({2, 0, 0}, y)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.e = 1, .j = -1}, ray({0, 0, 2}, x)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.e = 1, .j = -1}, ray({2, 0, 0}, z)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.f = 1, .j = -1}, ray({0, 0, 2}, y)));
+  EXPECT_TRUE(hits_at(0.5f, Quadric{.f = 1, .j = -1}, ray({0, 2, 0}, z)));
+  EXPECT_TRUE(hits_at(2, Quadric{.d = 1, .e = 1, .f = 1, .j = -12}, ray({0, 0, 0}, {1, 1, 1})));
+  EXPECT_TRUE(hits_at(4, Quadric{.g = 1, .h = 2, .i = 3, .j = -24}, ray({0, 0, 0}, {1, 1, 1})));
 }
 
 TEST(Exact, QuadricWithVanishingCoefficients) {

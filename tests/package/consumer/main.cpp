@@ -3,7 +3,7 @@
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/hit.hpp>
-#include <microtrace/intersector.hpp>
+#include <microtrace/bvh.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>

@@ -1,0 +1,83 @@
+#include "vs_embree_scenes.hpp"
+
+#include "rays.hpp"
+#include "support/generated_meshes.hpp"
+
+#include <microtrace/io.hpp>
+#include <microtrace/primitives.hpp>
+
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+#include <glm/common.hpp>
+
+namespace microtrace::bench {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+BenchScene make_scene(std::string name, Mesh mesh, const Pose& pose, double vertical_fov) {
+  // Embree reads 16 bytes of each position.
+  mesh.positions.reserve(mesh.positions.size() + 2);
+  BenchScene made{.name = std::move(name),
+                  .scene = {},
+                  .camera = {.pose = pose, .vertical_fov = vertical_fov * kDegree}};
+  made.scene.objects.push_back({.name = made.name, .shape = std::move(mesh)});
+  return made;
+}
+
+BenchScene named_sphere(std::string name, std::size_t triangles) {
+  const Pose pose{.position = {0.3, 0.5, 2}, .direction = {-0.3, -0.5, -2}};
+  return make_scene(std::move(name), generated::displaced_sphere(triangles), pose, 45);
+}
+
+}  // namespace
+
+const std::vector<std::string>& generated_scene_names() {
+  static const std::vector<std::string> names{"sphere", "hall", "terrain"};
+  return names;
+}
+
+BenchScene generated_scene(const std::string& name, bool small) {
+  const std::size_t million = small ? 10'000 : 1'000'000;
+  if (name == "sphere") return named_sphere(name, million);
+  if (name == "hall") {
+    const Pose pose{.position = {-18, 3, 1}, .direction = {1, -0.03, -0.12}};
+    return make_scene(name, generated::hall(million), pose, 60);
+  }
+  if (name == "terrain") {
+    const Pose pose{.position = {0, 0.9, 1.2}, .direction = {0, -0.9, -1.2}};
+    return make_scene(name, generated::terrain(10 * million), pose, 45);
+  }
+  throw std::invalid_argument("no scene is named " + name + "; there are sphere, hall, terrain");
+}
+
+BenchScene sphere_scene(std::size_t triangles) {
+  return named_sphere("sphere " + std::to_string(triangles), triangles);
+}
+
+BenchScene scene_from_file(const std::string& path) {
+  const Scene scene = load_scene(path).scene;
+  Mesh all;
+  const auto add = [&](const Triangle& triangle) {
+    const auto first = static_cast<std::uint32_t>(all.positions.size());
+    all.positions.insert(all.positions.end(), {triangle.a, triangle.b, triangle.c});
+    all.triangles.push_back({first, first + 1, first + 2});
+  };
+  Primitives(scene).for_each([&](PrimitiveId, const auto& shape) {
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>) add(shape);
+  });
+  if (all.triangles.empty()) throw std::invalid_argument(path + " has no triangles");
+  DVec3 lo(all.positions[0]), hi = lo;
+  for (const Vec3& p : all.positions) {
+    lo = glm::min(lo, DVec3(p));
+    hi = glm::max(hi, DVec3(p));
+  }
+  const DVec3 direction = DVec3(-0.6, -0.35, -0.7) * extent(all);
+  const Pose pose{.position = (lo + hi) / 2.0 - direction, .direction = direction};
+  return make_scene(std::filesystem::path(path).stem(), std::move(all), pose, 45);
+}
+
+}  // namespace microtrace::bench

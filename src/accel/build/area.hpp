@@ -1,0 +1,32 @@
+#pragma once
+#include "accel/build/float4.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace microtrace::build {
+
+/// Surface areas relative to a box that holds all the others. Lengths are scaled by a power of two
+/// to be at most 4, so that areas neither overflow nor, for any ratio of sizes below 2^60,
+/// underflow.
+class AreaMeasure {
+ public:
+  explicit AreaMeasure(const Box& whole) {
+    const Float4 e = half_extent(whole);
+    const float largest = std::max({e[0], e[1], e[2], 0.0F});
+    const int exponent = std::bit_cast<std::int32_t>(largest) >> 23;  // biased
+    if (largest > 0) scale_ = std::bit_cast<float>(std::clamp(253 - exponent, 1, 253) << 23);
+  }
+
+  /// Of a box that is not empty: a quarter of the half surface, and a little of the perimeter:
+  /// boxes on one line have no area, but are better cut short all the same.
+  [[nodiscard]] float operator()(const Box& b) const {
+    const Float4 e = half_extent(b) * splat(scale_);
+    return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
+  }
+
+ private:
+  float scale_ = 0;
+};
+
+}  // namespace microtrace::build

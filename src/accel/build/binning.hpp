@@ -1,0 +1,89 @@
+#pragma once
+/// The choice of a plane between two halves of a set by the surface area heuristic, its candidates
+/// those between equal bins of the centroids: I. Wald, On fast construction of SAH-based bounding
+/// volume hierarchies, 2007.
+
+#include "accel/build/area.hpp"
+#include "accel/build/reference.hpp"
+
+#include <array>
+#include <span>
+
+namespace microtrace::build {
+
+inline constexpr int kMaxBins = 32;
+
+/// A quarter of the sum of a box's corners: stays finite, and orders boxes as their centroids do.
+[[nodiscard]] inline Float4 centroid(const Box& b) {
+  return b.lo * splat(0.25F) + b.hi * splat(0.25F);
+}
+
+/// Which bin a reference falls into, along each axis.
+class BinMapping {
+ public:
+  BinMapping(const Box& centroids, int bins);
+
+  [[nodiscard]] int bins() const { return bins_; }
+  [[nodiscard]] Int4 operator()(const Reference& r) const {
+    const Float4 place = min((masked(centroid(r.box)) - origin_) * scale_, splat(last_));
+    return __builtin_convertvector(place, Int4);
+  }
+  /// Whether all references fall into one bin along every axis.
+  [[nodiscard]] bool is_degenerate() const {
+    return scale_[0] == 0 && scale_[1] == 0 && scale_[2] == 0;
+  }
+
+ private:
+  // The fourth lane is made 0: whatever it holds, it must not cost an overflow or a subnormal.
+  static Float4 masked(Float4 x) {
+    return std::bit_cast<Float4>(std::bit_cast<Int4>(x) & Int4{-1, -1, -1, 0});
+  }
+
+  Float4 origin_, scale_{};
+  float last_;
+  int bins_;
+};
+
+/// How many references, and their weight.
+struct Load {
+  std::uint32_t count = 0, weight = 0;
+
+  Load& operator+=(const Load& b) {
+    count += b.count;
+    weight += b.weight;
+    return *this;
+  }
+};
+
+/// Blocks needed for a weight.
+[[nodiscard]] inline std::uint32_t blocks(std::uint32_t weight) {
+  return weight / 8 + (weight % 8 != 0 ? 1 : 0);
+}
+
+/// Left is what falls into bins up to `last_bin` along `axis`.
+struct Split {
+  int axis = -1, last_bin = 0;
+  float cost = std::numeric_limits<float>::infinity();  ///< area times blocks, of both halves
+  Box left, right;
+  Load left_load, right_load;
+
+  [[nodiscard]] bool exists() const { return axis >= 0; }
+};
+
+/// What has fallen into the bins.
+class Bins {
+ public:
+  void clear(int bins);
+  void add(std::span<const Reference> references, const BinMapping& mapping);
+  void add(const Bins& other, int bins);
+  [[nodiscard]] Split best_split(int bins, const AreaMeasure& area) const;
+  [[nodiscard]] Load load_up_to(int axis, int last_bin) const;
+
+ private:
+  void try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const;
+
+  std::array<std::array<Box, kMaxBins>, 3> boxes_;
+  std::array<std::array<Load, kMaxBins>, 3> loads_;
+};
+
+}  // namespace microtrace::build

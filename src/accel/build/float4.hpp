@@ -1,0 +1,43 @@
+#pragma once
+/// Four floats that move together, in the compilers' own portable vectors: the builder handles
+/// boxes as two of them. The fourth lane carries other data and is never looked at as a number.
+
+#include <cstdint>
+#include <limits>
+
+namespace microtrace::build {
+
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = std::int32_t __attribute__((vector_size(16)));
+
+[[nodiscard]] inline Float4 min(Float4 a, Float4 b) {
+  return a < b ? a : b;
+}
+[[nodiscard]] inline Float4 max(Float4 a, Float4 b) {
+  return a > b ? a : b;
+}
+[[nodiscard]] inline Float4 splat(float x) {
+  return Float4{x, x, x, x};
+}
+
+/// Axis-aligned, closed; empty if lo > hi.
+struct Box {
+  Float4 lo = splat(std::numeric_limits<float>::infinity());
+  Float4 hi = splat(-std::numeric_limits<float>::infinity());
+
+  void include(const Box& b) {
+    lo = min(lo, b.lo);
+    hi = max(hi, b.hi);
+  }
+  void include(Float4 p) {
+    lo = min(lo, p);
+    hi = max(hi, p);
+  }
+};
+
+/// Half of each extent. Halves, because an extent itself may exceed the largest float.
+[[nodiscard]] inline Float4 half_extent(const Box& b) {
+  return b.hi * splat(0.5F) - b.lo * splat(0.5F);
+}
+
+}  // namespace microtrace::build

@@ -1,0 +1,240 @@
+#include "accel/build/tree_writer.hpp"
+
+#include "accel/build/binning.hpp"
+#include "accel/build/collapse.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace microtrace::build {
+namespace {
+
+// Subtrees up to this many references are written by one thread.
+constexpr std::uint32_t kJobSize = 1U << 13U;
+
+// Places in the three arrays of a tree.
+struct Places {
+  std::size_t nodes = 0, blocks = 0, others = 0;
+
+  Places& operator+=(const Places& b) {
+    nodes += b.nodes;
+    blocks += b.blocks;
+    others += b.others;
+    return *this;
+  }
+};
+
+bool is_of_triangles(const BinaryNode& leaf) {
+  return leaf.weight == leaf.count * kTriangleWeight;
+}
+
+Places leaf_size(const BinaryNode& leaf) {
+  if (is_of_triangles(leaf)) return {.blocks = blocks(leaf.weight)};
+  return {.others = leaf.count};
+}
+
+Places size_as_child(const BinaryNode& node) {
+  return node.plan.is_leaf ? leaf_size(node) : Places{.nodes = 1};
+}
+
+// What is below an inner node.
+Places size_below(const BinaryNode& node) {
+  Places size;
+  for (const BinaryNode* child : WideChildren(node)) {
+    size += size_as_child(*child);
+    if (!child->plan.is_leaf) size += size_below(*child);
+  }
+  return size;
+}
+
+void set_box(WideNode& node, std::size_t i, const Box& box) {
+  node.lo_x[i] = box.lo[0];
+  node.lo_y[i] = box.lo[1];
+  node.lo_z[i] = box.lo[2];
+  node.hi_x[i] = box.hi[0];
+  node.hi_y[i] = box.hi[1];
+  node.hi_z[i] = box.hi[2];
+}
+
+float largest_component(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+TriangleBlock empty_block() {
+  TriangleBlock block{};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (int i = 0; i < kWidth; ++i) {
+    block.v0_x[i] = block.v0_y[i] = block.v0_z[i] = nan;
+    block.id[i] = std::numeric_limits<PrimitiveId>::max();
+  }
+  return block;
+}
+
+void put(TriangleBlock& block, std::size_t i, PrimitiveId id, const Triangle& t) {
+  const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
+  block.v0_x[i] = t.a.x;
+  block.v0_y[i] = t.a.y;
+  block.v0_z[i] = t.a.z;
+  block.e1_x[i] = e1.x;
+  block.e1_y[i] = e1.y;
+  block.e1_z[i] = e1.z;
+  block.e2_x[i] = e2.x;
+  block.e2_y[i] = e2.y;
+  block.e2_z[i] = e2.z;
+  block.id[i] = id;
+  block.largest_edge = std::max({block.largest_edge, largest_component(e1), largest_component(e2)});
+}
+
+class Writer {
+ public:
+  Writer(const Primitives& primitives, Tree& tree) : primitives_(primitives), tree_(tree) {}
+
+  void write(const BinaryTree& planned, WorkerPool& pool) {
+    ids_ = planned.ids.data();
+    const BinaryNode& root = planned.root;
+    Places next;
+    if (root.plan.is_leaf) {
+      resize(leaf_size(root));
+      tree_.root = write_leaf(root, next);
+      return;
+    }
+    Places size = collect_jobs(root);
+    pool.run(jobs_.size(), [&](std::size_t i) { jobs_[i].size = size_below(*jobs_[i].node); });
+    for (const Job& job : jobs_) size += job.size;
+    ++size.nodes;
+    resize(size);
+    next.nodes = 1;
+    tree_.root = 0;
+    write_node(root, 0, next);
+    pool.run(jobs_.size(), [&](std::size_t i) {
+      Places begin = jobs_[i].begin;
+      write_node(*jobs_[i].node, jobs_[i].place, begin);
+    });
+  }
+
+ private:
+  // All below a small inner node whose parent is large.
+  struct Job {
+    const BinaryNode* node;
+    Places size, begin;
+    std::size_t place = 0;
+  };
+
+  static bool is_job(const BinaryNode& parent, const BinaryNode& child) {
+    return parent.count > kJobSize && child.count <= kJobSize;
+  }
+
+  // In the order in which write_node meets them. Returns what is outside all jobs.
+  Places collect_jobs(const BinaryNode& node) {
+    if (node.count <= kJobSize) return size_below(node);
+    Places size;
+    for (const BinaryNode* child : WideChildren(node)) {
+      size += size_as_child(*child);
+      if (child->plan.is_leaf) continue;
+      if (is_job(node, *child))
+        jobs_.push_back({.node = child, .size = {}, .begin = {}});
+      else
+        size += collect_jobs(*child);
+    }
+    return size;
+  }
+
+  void resize(const Places& size) {
+    if (size.nodes > child_ref::kMaxNodes || size.blocks > child_ref::kMaxLeafEntries ||
+        size.others > child_ref::kMaxLeafEntries)
+      throw Error(ErrorKind::limit, "",
+                  "the scene has too many primitives for one tree; split it into several pictures");
+    tree_.nodes.resize(size.nodes);
+    tree_.blocks.resize(size.blocks);
+    tree_.others.resize(size.others);
+  }
+
+  // `next`: the places not yet taken.
+  void write_node(const BinaryNode& node, std::size_t place, Places& next) {
+    const WideChildren children(node);
+    std::array<std::size_t, kWidth> places{};
+    WideNode& wide = tree_.nodes[place];
+    wide = empty_node();
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const BinaryNode& child = children[i];
+      set_box(wide, i, child.box);
+      if (child.plan.is_leaf) {
+        wide.child[i] = write_leaf(child, next);
+      } else {
+        places[i] = next.nodes++;
+        wide.child[i] = static_cast<ChildRef>(places[i]);
+      }
+    }
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      const BinaryNode& child = children[i];
+      if (child.plan.is_leaf) continue;
+      if (is_job(node, child)) {
+        Job& job = jobs_[job_++];
+        job.begin = next;
+        job.place = places[i];
+        next += job.size;
+      } else {
+        write_node(child, places[i], next);
+      }
+    }
+  }
+
+  ChildRef write_leaf(const BinaryNode& leaf, Places& next) {
+    const std::span<const PrimitiveId> ids(ids_ + leaf.begin, leaf.count);
+    if (!is_of_triangles(leaf)) {
+      std::copy(ids.begin(), ids.end(),
+                tree_.others.begin() + static_cast<std::ptrdiff_t>(next.others));
+      return child_ref::kOthers | reference(next.others, leaf.count);
+    }
+    const std::uint32_t count = blocks(leaf.weight);
+    for (std::size_t i = 0; i < count; ++i) {
+      TriangleBlock& block = tree_.blocks[next.blocks + i];
+      block = empty_block();
+      const auto rest = ids.subspan(i * kWidth);
+      for (std::size_t k = 0; k < std::min<std::size_t>(kWidth, rest.size()); ++k)
+        put(block, k, rest[k]);
+    }
+    return child_ref::kTriangles | reference(next.blocks, count);
+  }
+
+  static ChildRef reference(std::size_t& next, std::uint32_t count) {
+    const auto first = static_cast<ChildRef>(next);
+    next += count;
+    return first << 3U | (count - 1);
+  }
+
+  void put(TriangleBlock& block, std::size_t place, PrimitiveId id) {
+    primitives_.visit(id, [&](const auto& shape) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>)
+        build::put(block, place, id, shape);
+    });
+  }
+
+  const Primitives& primitives_;
+  Tree& tree_;
+  const PrimitiveId* ids_ = nullptr;
+  std::vector<Job> jobs_;
+  std::size_t job_ = 0;  // next for write_node to meet
+};
+
+}  // namespace
+
+WideNode empty_node() {
+  WideNode node{};
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (int i = 0; i < kWidth; ++i) {
+    node.lo_x[i] = node.lo_y[i] = node.lo_z[i] = infinity;
+    node.hi_x[i] = node.hi_y[i] = node.hi_z[i] = -infinity;
+  }
+  return node;
+}
+
+void write_tree(const BinaryTree& planned, const Primitives& primitives, WorkerPool& pool,
+                Tree& tree) {
+  Writer(primitives, tree).write(planned, pool);
+}
+
+}  // namespace microtrace::build

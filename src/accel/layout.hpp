@@ -1,0 +1,47 @@
+#pragma once
+/// The tree in memory: what the builder writes and the kernels read. Plain data, no functions of
+/// external linkage: kernels for several instruction sets include this.
+
+#include <cstdint>
+
+namespace microtrace {
+
+inline constexpr int kWidth = 8;  ///< children of a node, triangles of a block
+
+/// A reference to a child: nothing, a node, or a leaf.
+using ChildRef = std::uint32_t;
+
+/// An inner node: the boxes of up to eight children, one array for each of their planes. Unused
+/// places have the empty box (lo = +infinity, hi = -infinity), which no ray enters. Boxes hold
+/// every point of what is below them.
+struct alignas(64) WideNode {
+  float lo_x[kWidth], lo_y[kWidth], lo_z[kWidth];
+  float hi_x[kWidth], hi_y[kWidth], hi_z[kWidth];
+  ChildRef child[kWidth];
+};
+static_assert(sizeof(WideNode) == 256);  // 224 and padding: four cache lines
+
+/// Up to eight triangles of moderate size (every |coordinate| at most 2^38). Unused places have NaN
+/// for v0 and are never hit.
+struct alignas(32) TriangleBlock {
+  float v0_x[kWidth], v0_y[kWidth], v0_z[kWidth];  ///< corner a
+  float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];  ///< b - a, rounded
+  float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];  ///< c - a, rounded
+  std::uint32_t id[kWidth];                        ///< PrimitiveId
+  float largest_edge;                              ///< at least every |component| of e1 and e2
+};
+static_assert(sizeof(TriangleBlock) == 352);
+
+/// Leaves refer to `count` consecutive blocks, or to `count` consecutive entries of the list of
+/// other bounded primitives. Bits 31-30: 0 node, 1 triangle blocks, 2 others. A node's index in
+/// bits 29-0; a leaf's first entry in bits 29-3 and count - 1 in bits 2-0.
+namespace child_ref {
+inline constexpr ChildRef kTriangles = 1U << 30U;
+inline constexpr ChildRef kOthers = 2U << 30U;
+inline constexpr ChildRef kKind = 3U << 30U;
+inline constexpr std::uint32_t kMaxNodes = 1U << 30U;
+inline constexpr std::uint32_t kMaxLeafEntries = 1U << 27U;
+inline constexpr std::uint32_t kMaxLeafCount = 8;
+}  // namespace child_ref
+
+}  // namespace microtrace

@@ -1,0 +1,74 @@
+#include "accel/slow_path.hpp"
+
+#include "accel/filters/shape_filter.hpp"
+#include "exact/intersect.hpp"
+
+#include <cmath>
+
+namespace microtrace {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+float rounded_down(double x) {
+  const auto f = static_cast<float>(x);
+  return f > x ? std::nextafter(f, -kInfinity) : f;
+}
+float rounded_up(double x) {
+  const auto f = static_cast<float>(x);
+  return f < x ? std::nextafter(f, kInfinity) : f;
+}
+
+}  // namespace
+
+Best outwards(double lo, double hi, PrimitiveId id) {
+  return {.lo = rounded_down(lo), .hi = rounded_up(hi), .id = id};
+}
+
+Best best_of(const ClosestHit& closest, const Ray& ray) {
+  const auto found = closest.candidate();
+  return found ? outwards(found->lo, found->hi, found->id) : no_hit(ray);
+}
+
+Judge::Judge(const Primitives& primitives, const Ray& ray)
+    : primitives_(&primitives),
+      ray_(&ray),
+      filterable_(is_filterable(ray.o) && is_filterable(ray.d)) {}
+
+void Judge::consider(std::uint32_t id, Best& best) const {
+  ClosestHit closest;
+  if (best.id != kNoPrimitive) consider(best.id, closest);
+  consider(id, closest);
+  if (closest.candidate()) best = best_of(closest, *ray_);
+}
+
+Hit Judge::hit(std::uint32_t id) const {
+  ClosestHit closest;
+  consider(id, closest);
+  return *closest.rounded([this](PrimitiveId which) { return root(which); });
+}
+
+SlowPath Judge::slow_path() {
+  return {.context = this, .consider = [](void* judge, std::uint32_t id, Best& best) {
+            static_cast<const Judge*>(judge)->consider(id, best);
+          }};
+}
+
+void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
+  const auto root_of = [this](PrimitiveId which) { return root(which); };
+  primitives_->visit(id, [&](const auto& shape) {
+    Verdict verdict{.certainty = Certainty::unsure};
+    if (filterable_ && is_filterable(shape)) {
+      const Range range{.t_min = ray_->t_min, .t_max = ray_->t_max};
+      verdict = seen_from(ray_->o, shape)(DVec3(ray_->d), range);
+    }
+    closest.consider(id, verdict, root_of);
+  });
+}
+
+std::optional<exact::Root> Judge::root(std::uint32_t id) const {
+  return primitives_->visit(id,
+                            [this](const auto& shape) { return exact::first_hit(shape, *ray_); });
+}
+
+}  // namespace microtrace

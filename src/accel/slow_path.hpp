@@ -1,0 +1,47 @@
+#pragma once
+/// The stages behind the float32 kernels: float64 filters, then exact arithmetic.
+
+#include "accel/closest_hit.hpp"
+#include "accel/kernels/kernel.hpp"
+
+#include <microtrace/primitives.hpp>
+#include <microtrace/ray.hpp>
+
+#include <optional>
+
+namespace microtrace {
+
+/// The best of a ray before there is one.
+[[nodiscard]] inline Best no_hit(const Ray& ray) {
+  return {.lo = ray.t_max, .hi = ray.t_max, .id = kNoPrimitive};
+}
+
+/// A hit with t in [lo, hi] in the kernels' form: the interval rounded outwards.
+[[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
+[[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray);
+
+/// One ray's questions to primitives, by number.
+class Judge {
+ public:
+  /// Both must outlive the judge.
+  Judge(const Primitives& primitives, const Ray& ray);
+
+  /// Takes primitive id into account; best may come from a kernel.
+  void consider(std::uint32_t id, Best& best) const;
+
+  /// The hit of a primitive that the ray is known to hit, t rounded once.
+  [[nodiscard]] Hit hit(std::uint32_t id) const;
+
+  /// For kernels; the judge must outlive it.
+  [[nodiscard]] SlowPath slow_path();
+
+ private:
+  void consider(std::uint32_t id, ClosestHit& closest) const;
+  [[nodiscard]] std::optional<exact::Root> root(std::uint32_t id) const;
+
+  const Primitives* primitives_;
+  const Ray* ray_;
+  bool filterable_;
+};
+
+}  // namespace microtrace

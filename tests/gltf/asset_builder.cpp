@@ -1,0 +1,162 @@
+#include "gltf/asset_builder.hpp"
+
+#include "io/gltf_scene.hpp"
+
+namespace microtrace::tests {
+namespace {
+
+std::string little_endian(std::uint32_t value) {
+  std::string bytes;
+  for (unsigned shift = 0; shift < 32; shift += 8)
+    bytes += static_cast<char>(value >> shift & 0xFF);
+  return bytes;
+}
+
+template <typename Integer>
+std::string narrowed(const std::vector<std::uint32_t>& numbers) {
+  return bytes_of(std::vector<Integer>(numbers.begin(), numbers.end()));
+}
+
+}  // namespace
+
+std::size_t AssetBuilder::add(const char* array, nlohmann::json item) {
+  json[array].push_back(std::move(item));
+  return json[array].size() - 1;
+}
+
+std::size_t AssetBuilder::add_view(std::string_view bytes, std::size_t stride) {
+  buffer = padded(std::move(buffer), '\0');
+  nlohmann::json view = {
+      {"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+  if (stride != 0) view["byteStride"] = stride;
+  buffer += bytes;
+  return add("bufferViews", std::move(view));
+}
+
+std::size_t AssetBuilder::add_positions(const std::vector<Vec3>& positions) {
+  const std::size_t view = add_view(bytes_of(positions));
+  return add("accessors", {{"bufferView", view},
+                           {"componentType", f32},
+                           {"count", positions.size()},
+                           {"type", "VEC3"},
+                           {"min", {-1e9, -1e9, -1e9}},
+                           {"max", {1e9, 1e9, 1e9}}});
+}
+
+std::size_t AssetBuilder::add_indices(const std::vector<std::uint32_t>& indices,
+                                      ComponentType type) {
+  const std::string bytes = type == u8    ? narrowed<std::uint8_t>(indices)
+                            : type == u16 ? narrowed<std::uint16_t>(indices)
+                                          : bytes_of(indices);
+  const std::size_t view = add_view(bytes);
+  return add("accessors", {{"bufferView", view},
+                           {"componentType", type},
+                           {"count", indices.size()},
+                           {"type", "SCALAR"}});
+}
+
+std::size_t AssetBuilder::add_object(nlohmann::json primitive) {
+  const std::size_t mesh =
+      add("meshes", {{"primitives", nlohmann::json::array({std::move(primitive)})}});
+  const std::size_t node = add("nodes", {{"mesh", mesh}});
+  if (!json.contains("scenes")) {
+    json["scene"] = 0;
+    add("scenes", nlohmann::json::object());
+  }
+  json["scenes"][0]["nodes"].push_back(node);
+  return node;
+}
+
+nlohmann::json AssetBuilder::with_buffer(const char* uri) const {
+  nlohmann::json result = json;
+  if (buffer.empty()) return result;
+  nlohmann::json object = {{"byteLength", buffer.size()}};
+  if (uri != nullptr) object["uri"] = uri;
+  result["buffers"] = nlohmann::json::array({object});
+  return result;
+}
+
+std::string AssetBuilder::embedded() const {
+  return with_buffer(("data:application/octet-stream;base64," + base64(buffer)).c_str()).dump(1);
+}
+
+std::string AssetBuilder::glb() const {
+  return glb_file(
+      {{json_chunk, padded(with_buffer(nullptr).dump(), ' ')}, {bin_chunk, padded(buffer, '\0')}});
+}
+
+std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version) {
+  std::string body;
+  for (const GlbChunk& chunk : chunks) {
+    body += little_endian(static_cast<std::uint32_t>(chunk.data.size()));
+    body += little_endian(chunk.type) + chunk.data;
+  }
+  return "glTF" + little_endian(version) +
+         little_endian(static_cast<std::uint32_t>(body.size() + 12)) + body;
+}
+
+std::string padded(std::string bytes, char filler) {
+  while (bytes.size() % 4 != 0) bytes += filler;
+  return bytes;
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t group = 0;
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k) {
+      group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+AssetBuilder cube() {
+  AssetBuilder asset;
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  }
+  const std::size_t positions = asset.add_positions(corners);
+  const std::size_t indices =
+      asset.add_indices({0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                         2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5},
+                        u16);
+  asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.25, 0.125, 1}}}}});
+  const std::size_t node = asset.add_object(
+      {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 0}});
+  asset.json["nodes"][node]["name"] = "Cube";
+  return asset;
+}
+
+LoadedScene load(const std::string& bytes) {
+  return io::load_gltf(bytes, "test.gltf", "nowhere");
+}
+LoadedScene load(const AssetBuilder& asset) {
+  return load(asset.embedded());
+}
+
+std::vector<std::array<Vec3, 3>> triangles_of(const Object& object) {
+  const Mesh& mesh = std::get<Mesh>(object.shape);
+  std::vector<std::array<Vec3, 3>> result;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    result.push_back({mesh.positions.at(a), mesh.positions.at(b), mesh.positions.at(c)});
+  }
+  return result;
+}
+
+std::vector<std::string> texts(const std::vector<Diagnostic>& warnings) {
+  std::vector<std::string> result;
+  for (const Diagnostic& warning : warnings) {
+    result.push_back(warning.pointer + ": " + warning.message);
+  }
+  return result;
+}
+
+}  // namespace microtrace::tests

@@ -1,0 +1,69 @@
+#pragma once
+/// Small glTF assets made in memory, and what tests ask of them.
+
+#include <microtrace/io.hpp>
+#include <microtrace/math.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace microtrace::tests {
+
+enum ComponentType { u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+/// The bytes of a list of numbers as they lie in memory.
+template <typename Number>
+std::string bytes_of(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+/// Grows the JSON of an asset with one buffer, and the buffer.
+struct AssetBuilder {
+  nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
+  std::string buffer;
+
+  /// Appends to an array of the root object and returns the new index.
+  std::size_t add(const char* array, nlohmann::json item);
+  /// Appends bytes to the buffer, aligned to 4, and a view of them.
+  std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
+  std::size_t add_positions(const std::vector<Vec3>& positions);
+  std::size_t add_indices(const std::vector<std::uint32_t>& indices, ComponentType type);
+  /// A mesh of one primitive on a node of its own in the default scene; the node's index.
+  std::size_t add_object(nlohmann::json primitive);
+
+  /// The asset with its buffer as a data URI, and as a GLB file.
+  [[nodiscard]] std::string embedded() const;
+  [[nodiscard]] std::string glb() const;
+  [[nodiscard]] nlohmann::json with_buffer(const char* uri) const;
+};
+
+struct GlbChunk {
+  std::uint32_t type;
+  std::string data;
+};
+inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
+
+/// A GLB file with these chunks as they are.
+[[nodiscard]] std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version = 2);
+[[nodiscard]] std::string padded(std::string bytes, char filler);
+[[nodiscard]] std::string base64(std::string_view bytes);
+
+/// The cube [-1, 1]^3: 8 vertices, 12 triangles with u16 indices, a red material, a node "Cube".
+[[nodiscard]] AssetBuilder cube();
+
+/// Loads bytes as "test.gltf" from an empty folder name.
+[[nodiscard]] LoadedScene load(const std::string& bytes);
+[[nodiscard]] LoadedScene load(const AssetBuilder& asset);
+
+/// The corners of an object's triangles, one after another.
+[[nodiscard]] std::vector<std::array<Vec3, 3>> triangles_of(const Object& object);
+
+/// The texts "/pointer: message" of warnings.
+[[nodiscard]] std::vector<std::string> texts(const std::vector<Diagnostic>& warnings);
+
+}  // namespace microtrace::tests

@@ -1,0 +1,94 @@
+#include "gltf/asset_builder.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+nlohmann::json perspective() {
+  return {{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}};
+}
+
+/// The cube and a node 1 with this camera, first child of nothing.
+AssetBuilder with_camera(const nlohmann::json& camera) {
+  AssetBuilder asset = cube();
+  asset.json["cameras"] = nlohmann::json::array({camera});
+  asset.json["nodes"].push_back({{"camera", 0}, {"name", "Eye"}});
+  asset.json["scenes"][0]["nodes"].push_back(1);
+  return asset;
+}
+
+TEST(GltfCamera, Perspective) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["nodes"][1]["translation"] = {1, 2, 3};
+  const LoadedScene loaded = load(asset);
+  ASSERT_EQ(loaded.scene.cameras.size(), 1U);
+  EXPECT_EQ(loaded.scene.cameras[0].name, "Eye");
+  const auto& camera = std::get<PerspectiveCamera>(loaded.scene.cameras[0].camera);
+  EXPECT_EQ(camera.pose.position, DVec3(1, 2, 3));
+  EXPECT_EQ(camera.pose.direction, DVec3(0, 0, -1));
+  EXPECT_EQ(camera.pose.up, DVec3(0, 1, 0));
+  EXPECT_EQ(camera.vertical_fov, 0.75);
+  EXPECT_FALSE(camera.aspect_ratio.has_value());
+  EXPECT_EQ(camera.depth.near, 0.5);
+  EXPECT_EQ(camera.depth.far, std::numeric_limits<double>::infinity());
+}
+
+TEST(GltfCamera, PerspectiveWithAllProperties) {
+  nlohmann::json camera = perspective();
+  camera["perspective"].update({{"aspectRatio", 1.5}, {"zfar", 100}});
+  const LoadedScene loaded = load(with_camera(camera));
+  const auto& found = std::get<PerspectiveCamera>(loaded.scene.cameras.at(0).camera);
+  EXPECT_EQ(found.aspect_ratio, 1.5);
+  EXPECT_EQ(found.depth.far, 100);
+}
+
+TEST(GltfCamera, Orthographic) {
+  const LoadedScene loaded =
+      load(with_camera({{"type", "orthographic"},
+                        {"orthographic", {{"xmag", 3}, {"ymag", 2}, {"znear", 0}, {"zfar", 9}}}}));
+  const auto& camera = std::get<OrthographicCamera>(loaded.scene.cameras.at(0).camera);
+  EXPECT_EQ(camera.height, 4);
+  EXPECT_EQ(camera.aspect_ratio, 1.5);
+  EXPECT_EQ(camera.depth.near, 0);
+  EXPECT_EQ(camera.depth.far, 9);
+}
+
+TEST(GltfCamera, ScaleDoesNotDistort) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["nodes"][1].update({{"scale", {3, 1e-5, 7}}, {"rotation", {0, 1, 0, 0}}});
+  const LoadedScene loaded = load(asset);
+  const auto& camera = std::get<PerspectiveCamera>(loaded.scene.cameras.at(0).camera);
+  EXPECT_EQ(camera.pose.direction, DVec3(0, 0, 1));
+  EXPECT_EQ(camera.pose.up, DVec3(0, 1, 0));
+}
+
+TEST(GltfCamera, NamesAreUniqueAndInTreeOrder) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["cameras"][0]["name"] = "Lens";
+  asset.json["nodes"].push_back({{"camera", 0}});
+  asset.json["nodes"].push_back({{"camera", 0}, {"name", "Eye"}, {"children", {4}}});
+  asset.json["nodes"].push_back({{"camera", 0}, {"name", "Inner"}});
+  asset.json["scenes"][0]["nodes"] = {3, 2, 1, 0};
+  std::vector<std::string> names;
+  for (const NamedCamera& camera : load(asset).scene.cameras) names.push_back(camera.name);
+  EXPECT_THAT(names, ElementsAre("Eye", "Inner", "Lens", "Eye (2)"));
+}
+
+TEST(GltfCamera, WithoutOrientationIsLeftOut) {
+  AssetBuilder asset = with_camera(perspective());
+  asset.json["nodes"][1]["scale"] = {1, 0, 1};
+  const LoadedScene loaded = load(asset);
+  ASSERT_EQ(loaded.scene.cameras.size(), 1U);
+  EXPECT_EQ(loaded.scene.cameras[0].name, "framed");
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/nodes/1/camera")));
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,185 @@
+#include "gltf/asset_builder.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+using Corners = std::array<Vec3, 3>;
+
+/// Six vertices that tell each other apart: (0, 0, 0), (1, 1, 0), (2, 4, 0), ...
+std::vector<Vec3> points(int count) {
+  std::vector<Vec3> result;
+  for (int i = 0; i < count; ++i) result.emplace_back(i, i * i, 0);
+  return result;
+}
+
+Corners corners(int a, int b, int c) {
+  const std::vector<Vec3> p = points(1 + std::max({a, b, c}));
+  return {p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)],
+          p[static_cast<std::size_t>(c)]};
+}
+
+std::vector<Corners> loaded(const AssetBuilder& asset) {
+  const LoadedScene scene = load(asset);
+  return scene.scene.objects.empty() ? std::vector<Corners>{}
+                                     : triangles_of(scene.scene.objects[0]);
+}
+
+TEST(GltfGeometry, IndicesOfEachTypeAndNone) {
+  for (const ComponentType type : {u8, u16, u32}) {
+    SCOPED_TRACE(type);
+    AssetBuilder asset;
+    const std::size_t positions = asset.add_positions(points(6));
+    const std::size_t indices = asset.add_indices({5, 0, 2, 2, 1, 5}, type);
+    asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+    EXPECT_THAT(loaded(asset), ElementsAre(corners(5, 0, 2), corners(2, 1, 5)));
+  }
+  AssetBuilder asset;
+  asset.add_object({{"attributes", {{"POSITION", asset.add_positions(points(6))}}}});
+  EXPECT_THAT(loaded(asset), ElementsAre(corners(0, 1, 2), corners(3, 4, 5)));
+}
+
+TEST(GltfGeometry, OnlyUsedVerticesAreKept) {
+  AssetBuilder asset;
+  const std::size_t positions = asset.add_positions(points(300));
+  const std::size_t indices = asset.add_indices({299, 7, 150, 7, 8, 299}, u16);
+  asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  const LoadedScene scene = load(asset);
+  const Mesh& mesh = std::get<Mesh>(scene.scene.objects[0].shape);
+  EXPECT_THAT(mesh.positions, ElementsAre(Vec3(7, 49, 0), Vec3(8, 64, 0), Vec3(150, 22500, 0),
+                                          Vec3(299, 89401, 0)));
+  EXPECT_THAT(mesh.triangles, ElementsAre(std::array{3U, 0U, 2U}, std::array{0U, 1U, 3U}));
+}
+
+TEST(GltfGeometry, StripsAndFansWindAsTheSpecificationSays) {
+  for (const int mode : {5, 6}) {
+    SCOPED_TRACE(mode);
+    AssetBuilder asset;
+    asset.add_object(
+        {{"attributes", {{"POSITION", asset.add_positions(points(5))}}}, {"mode", mode}});
+    if (mode == 5) {
+      EXPECT_THAT(loaded(asset), ElementsAre(corners(0, 1, 2), corners(1, 3, 2), corners(2, 3, 4)));
+    } else {
+      EXPECT_THAT(loaded(asset), ElementsAre(corners(1, 2, 0), corners(2, 3, 0), corners(3, 4, 0)));
+    }
+  }
+}
+
+TEST(GltfGeometry, InterleavedPositionsStepByTheStride) {
+  AssetBuilder asset;
+  std::vector<float> numbers = {99};  // before the accessor's offset
+  for (const Vec3& p : points(3)) {
+    for (const float number : {p.x, p.y, p.z, -7.F, -8.F}) numbers.push_back(number);
+  }
+  numbers.resize(numbers.size() - 2);  // the last element needs no full stride
+  const std::size_t view = asset.add_view(bytes_of(numbers), 20);
+  const std::size_t accessor = asset.add("accessors", {{"bufferView", view},
+                                                       {"byteOffset", 4},
+                                                       {"componentType", f32},
+                                                       {"count", 3},
+                                                       {"type", "VEC3"},
+                                                       {"min", {0, 0, 0}},
+                                                       {"max", {2, 4, 0}}});
+  asset.add_object({{"attributes", {{"POSITION", accessor}}}});
+  EXPECT_THAT(loaded(asset), ElementsAre(corners(0, 1, 2)));
+}
+
+nlohmann::json sparse(std::size_t count, std::size_t indices, ComponentType type,
+                      std::size_t values) {
+  return {{"count", count},
+          {"indices", {{"bufferView", indices}, {"componentType", type}}},
+          {"values", {{"bufferView", values}}}};
+}
+
+TEST(GltfGeometry, SparseElementsReplaceOthers) {
+  AssetBuilder asset;
+  const std::size_t accessor = asset.add_positions(points(3));
+  const std::size_t indices = asset.add_view(bytes_of<std::uint8_t>({0, 2}));
+  const std::size_t values = asset.add_view(bytes_of<Vec3>({Vec3(10), Vec3(20)}));
+  asset.json["accessors"][accessor]["sparse"] = sparse(2, indices, u8, values);
+  asset.add_object({{"attributes", {{"POSITION", accessor}}}});
+  EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(10), Vec3(1, 1, 0), Vec3(20)}));
+}
+
+TEST(GltfGeometry, AccessorsWithoutViewAreZero) {
+  AssetBuilder asset;
+  const std::size_t changed = asset.add_view(bytes_of<std::uint32_t>({1, 2}));
+  const std::size_t values = asset.add_view(bytes_of<Vec3>({Vec3(1, 0, 0), Vec3(0, 1, 0)}));
+  const std::size_t positions =
+      asset.add("accessors", {{"componentType", f32},
+                              {"count", 3},
+                              {"type", "VEC3"},
+                              {"min", {0, 0, 0}},
+                              {"max", {1, 1, 0}},
+                              {"sparse", sparse(2, changed, u32, values)}});
+  const std::size_t which = asset.add_view(bytes_of<std::uint16_t>({0, 1}));
+  const std::size_t vertices = asset.add_view(bytes_of<std::uint8_t>({2, 1}));
+  const std::size_t indices = asset.add("accessors", {{"componentType", u8},
+                                                      {"count", 3},
+                                                      {"type", "SCALAR"},
+                                                      {"sparse", sparse(2, which, u16, vertices)}});
+  asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0)}));
+}
+
+TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
+  struct Case {
+    nlohmann::json primitive;
+    const char* warning;
+  };
+  const std::vector<Case> cases = {
+      {{{"attributes", {{"NORMAL", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
+      {{{"attributes", nlohmann::json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
+      {{{"attributes", {{"POSITION", 0}}}, {"mode", 0}}, "/mode: points and lines are not drawn"},
+      {{{"attributes", {{"POSITION", 0}}}, {"mode", 3}}, "/mode: points and lines are not drawn"},
+      {{{"attributes", {{"POSITION", 1}}}}, "vertices that make no whole triangle"},
+  };
+  for (const Case& c : cases) {
+    AssetBuilder asset;
+    asset.add_positions(points(6));
+    asset.add_positions(points(2));
+    asset.add_object(c.primitive);
+    const LoadedScene scene = load(asset);
+    EXPECT_THAT(scene.scene.objects, IsEmpty());
+    EXPECT_THAT(texts(scene.warnings),
+                ElementsAre(HasSubstr("nothing to draw"), HasSubstr(c.warning)));
+    EXPECT_EQ(scene.scene.cameras.size(), 1U);
+  }
+}
+
+TEST(GltfGeometry, PositionsThatAreNotFiniteStayAndAreWarnedOf) {
+  AssetBuilder asset;
+  asset.add_object(
+      {{"attributes",
+        {{"POSITION", asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, NAN, 0)})}}}});
+  const LoadedScene scene = load(asset);
+  ASSERT_EQ(scene.scene.objects.size(), 1U);
+  EXPECT_TRUE(std::isnan(triangles_of(scene.scene.objects[0])[0][2].y));
+  EXPECT_THAT(texts(scene.warnings),
+              ElementsAre(HasSubstr("/meshes/0/primitives/0: has vertices that are not finite")));
+}
+
+TEST(GltfGeometry, IntegersMayBeWrittenWithAPoint) {
+  AssetBuilder asset = cube();
+  std::string text = asset.embedded();
+  const std::string count = "\"count\": 36";
+  text.replace(text.find(count), count.size(), "\"count\": 36.0");
+  EXPECT_EQ(triangles_of(load(text).scene.objects[0]).size(), 12U);
+}
+
+TEST(GltfGeometry, DefaultMaterialIsWhite) {
+  AssetBuilder asset;
+  asset.add_object({{"attributes", {{"POSITION", asset.add_positions(points(3))}}}});
+  EXPECT_EQ(load(asset).scene.objects[0].color, Vec3(1));
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,330 @@
+#include "gltf/asset_builder.hpp"
+#include "io/gltf_scene.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr auto invalid = ErrorKind::invalid_scene;
+constexpr auto unsupported = ErrorKind::unsupported;
+constexpr auto io = ErrorKind::io;
+constexpr auto limit = ErrorKind::limit;
+
+/// The cube with one change: the value at `where` set, or removed if `value` is empty.
+struct Mutation {
+  const char* where;
+  const char* value;
+  ErrorKind kind = invalid;
+  const char* pointer = nullptr;  ///< of the complaint, if not `where`
+};
+
+// Accessor 0 of the cube holds 8 positions (96 bytes), accessor 1 36 indices (72 bytes).
+const Mutation mutations[] = {
+    // The asset as a whole.
+    {"/asset", "", invalid, ""},
+    {"/asset", "[]", invalid},
+    {"/asset/version", "", invalid, "/asset"},
+    {"/asset/version", "2.0"},
+    {"/asset/version", "\"two\""},
+    {"/asset/version", "\"2\""},
+    {"/asset/version", "\"2.0.1\""},
+    {"/asset/version", "\"1.0\"", unsupported},
+    {"/asset/version", "\"3.0\"", unsupported},
+    {"/asset/minVersion", "\"2.1\"", invalid},
+    {"/asset", R"({"version": "2.1", "minVersion": "2.1"})", unsupported, "/asset/minVersion"},
+    {"/extensionsRequired", R"(["KHR_draco_mesh_compression"])", unsupported,
+     "/extensionsRequired/0"},
+    {"/extensionsRequired", R"(["KHR_materials_unlit", "X_a/b~c"])", unsupported,
+     "/extensionsRequired/1"},
+    {"/extensionsRequired", "[1]", invalid, "/extensionsRequired/0"},
+    {"/extensionsUsed", R"(["X_a", "X_b", "X_a"])", invalid, "/extensionsUsed/2"},
+    {"/extensions", "[]"},
+    {"/nodes/0/extensions", R"({"X": 1})", invalid, "/nodes/0/extensions/X"},
+    {"/nodes", "{}"},
+    {"/nodes/0", "0"},
+    {"/nodes/0/name", "7"},
+    {"/skins", "null"},
+
+    // Indices into arrays.
+    {"/scene", "1"},
+    {"/scene", "-1"},
+    {"/scene", "0.5"},
+    {"/scene", "\"0\""},
+    {"/scene", "1e300"},
+    {"/scenes/0/nodes/0", "1"},
+    {"/nodes/0/mesh", "1"},
+    {"/nodes/0/camera", "0"},
+    {"/nodes/0/skin", "0"},
+    {"/meshes/0/primitives/0/indices", "2"},
+    {"/meshes/0/primitives/0/material", "1"},
+    {"/meshes/0/primitives/0/attributes/POSITION", "2"},
+    {"/accessors/0/bufferView", "2"},
+    {"/bufferViews/0/buffer", "1"},
+    {"/images", R"([{"bufferView": 9}])", invalid, "/images/0/bufferView"},
+    {"/textures", R"([{"source": 0}])", invalid, "/textures/0/source"},
+    {"/materials/0/normalTexture", R"({"index": 0})", invalid, "/materials/0/normalTexture/index"},
+
+    // Buffers and views.
+    {"/buffers/0/byteLength", "0"},
+    {"/buffers/0/byteLength", "169"},
+    {"/buffers/0/byteLength", "167", invalid, "/bufferViews/1"},
+    {"/buffers/0/byteLength", "9007199254740992", limit},
+    {"/buffers/0/byteLength", "", invalid, "/buffers/0"},
+    {"/bufferViews/0/byteLength", "95", invalid, "/accessors/0"},
+    {"/bufferViews/1/byteLength", "73", invalid, "/bufferViews/1"},
+    {"/bufferViews/1/byteOffset", "97", invalid, "/bufferViews/1"},
+    {"/bufferViews/1/byteOffset", "9007199254740992", invalid, "/bufferViews/1"},
+    {"/bufferViews/1/byteOffset", "1e300"},
+    {"/bufferViews/0/byteStride", "0"},
+    {"/bufferViews/0/byteStride", "3"},
+    {"/bufferViews/0/byteStride", "14"},
+    {"/bufferViews/0/byteStride", "256"},
+    {"/bufferViews/0/byteStride", "100"},
+    {"/bufferViews/0/byteStride", "8", invalid, "/accessors/0"},
+    {"/bufferViews/0/byteStride", "16", invalid, "/accessors/0"},
+    {"/bufferViews/1/byteStride", "4", invalid, "/accessors/1"},
+    {"/bufferViews/0/target", "1"},
+
+    // Accessors.
+    {"/accessors/0/count", "9", invalid, "/accessors/0"},
+    {"/accessors/0/count", "0"},
+    {"/accessors/0/count", "9007199254740992", invalid, "/accessors/0"},
+    {"/accessors/0/byteOffset", "4", invalid, "/accessors/0"},
+    {"/accessors/0/byteOffset", "-4"},
+    {"/accessors/0/componentType", "5124"},
+    {"/accessors/0/componentType", "5125", invalid, "/meshes/0/primitives/0/attributes/POSITION"},
+    {"/accessors/0/type", "\"VEC5\""},
+    {"/accessors/0/type", "\"VEC2\"", invalid, "/accessors/0/min"},
+    {"/accessors/0/min", "[0, 0]"},
+    {"/accessors/0/max", "[]"},
+    {"/accessors/0/normalized", "1"},
+    {"/accessors/1/type", "\"VEC2\"", invalid, "/accessors/1"},
+    {"/accessors/1/componentType", "5122", invalid, "/meshes/0/primitives/0/indices"},
+    {"/accessors/1/componentType", "5125", invalid, "/accessors/1"},
+    {"/accessors/1", R"({"bufferView": 1, "byteOffset": 1, "componentType": 5123, "count": 3,
+                         "type": "SCALAR"})"},
+    {"/accessors/1", R"({"componentType": 5125, "count": 9007199254740992, "type": "SCALAR"})",
+     limit, "/meshes/0/primitives/0/indices"},
+
+    // Sparse accessors.
+    {"/accessors/0/sparse", R"({"count": 1})"},
+    {"/accessors/0/sparse",
+     R"({"count": 9, "indices": {"bufferView": 1, "componentType": 5123},
+         "values": {"bufferView": 0}})",
+     invalid, "/accessors/0/sparse/count"},
+    {"/accessors/0/sparse",
+     R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5122},
+         "values": {"bufferView": 0}})",
+     invalid, "/accessors/0/sparse/indices/componentType"},
+    {"/accessors/0/sparse",  // the indices 0, 2, 1 of the first triangle
+     R"({"count": 3, "indices": {"bufferView": 1, "componentType": 5123},
+         "values": {"bufferView": 0}})",
+     invalid, "/accessors/0/sparse/indices"},
+    {"/accessors/0/sparse",  // the 1 and the 0 before it as one number beyond the count
+     R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 4, "componentType": 5125},
+         "values": {"bufferView": 0}})",
+     invalid, "/accessors/0/sparse/indices"},
+    {"/accessors/0/sparse",
+     R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 72, "componentType": 5123},
+         "values": {"bufferView": 0}})",
+     invalid, "/accessors/0/sparse/indices"},
+    {"/accessors/0/sparse",
+     R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5123},
+         "values": {"bufferView": 0, "byteOffset": 88}})",
+     invalid, "/accessors/0/sparse/values"},
+
+    // Meshes and materials.
+    {"/meshes/0/primitives", "[]"},
+    {"/meshes/0/primitives", "", invalid, "/meshes/0"},
+    {"/meshes/0/primitives/0/attributes", "", invalid, "/meshes/0/primitives/0"},
+    {"/meshes/0/primitives/0/attributes", R"({"position": 0})", invalid,
+     "/meshes/0/primitives/0/attributes/position"},
+    {"/meshes/0/primitives/0/attributes", R"({"POSITION": 0, "_X": 1})", invalid,
+     "/meshes/0/primitives/0/attributes/_X"},
+    {"/meshes/0/primitives/0/mode", "7"},
+    {"/materials/0/alphaMode", "\"GLASS\""},
+    {"/materials/0/doubleSided", "0"},
+    {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1, 1]"},
+    {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 2, 1, 1]", invalid,
+     "/materials/0/pbrMetallicRoughness/baseColorFactor/1"},
+
+    // Nodes.
+    {"/nodes/0/children", "[0]", invalid, "/nodes/0/children/0"},
+    {"/nodes", R"([{"children": [1]}, {"children": [0]}])", invalid, "/nodes/0"},
+    {"/nodes", R"([{}, {"children": [2]}, {"children": [1]}])", invalid, "/nodes/1"},
+    {"/nodes", R"([{"children": [1]}, {}, {"children": [1]}])", invalid, "/nodes/2/children/0"},
+    {"/nodes", R"([{"children": [1, 1]}, {}])", invalid, "/nodes/0/children/1"},
+    {"/nodes", R"([{}, {"children": [0]}])", invalid, "/scenes/0/nodes/0"},
+    {"/scenes/0/nodes", "[0, 0]", invalid, "/scenes/0/nodes/1"},
+    {"/nodes/0/matrix", "[1, 0, 0]"},
+    {"/nodes/0/matrix", "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]"},
+    {"/nodes/0",
+     R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], "scale": [1, 1, 1]})", invalid,
+     "/nodes/0/scale"},
+    {"/nodes/0/rotation", "[0, 0, 0, 0]"},
+    {"/nodes/0/rotation", "[0, 0, 0, 2]", invalid, "/nodes/0/rotation/3"},
+    {"/nodes/0/translation", "[1, 2]"},
+    {"/nodes/0/scale", R"([1, "2", 3])", invalid, "/nodes/0/scale/1"},
+
+    // Cameras.
+    {"/cameras", R"([{"type": "fisheye"}])", invalid, "/cameras/0/type"},
+    {"/cameras", R"([{"type": "perspective"}])", invalid, "/cameras/0"},
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1}}])", invalid,
+     "/cameras/0/perspective"},
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 0, "znear": 1}}])", invalid,
+     "/cameras/0/perspective/yfov"},
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 3.15, "znear": 1}}])", invalid,
+     "/cameras/0/perspective/yfov"},
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 0}}])", invalid,
+     "/cameras/0/perspective/znear"},
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1, "zfar": 1}}])",
+     invalid, "/cameras/0/perspective/zfar"},
+    {"/cameras",
+     R"([{"type": "perspective", "perspective": {"yfov": 1, "znear": 1, "aspectRatio": 0}}])",
+     invalid, "/cameras/0/perspective/aspectRatio"},
+    {"/cameras",
+     R"([{"type": "orthographic",
+          "orthographic": {"xmag": 0, "ymag": 1, "znear": 0, "zfar": 1}}])",
+     invalid, "/cameras/0/orthographic/xmag"},
+    {"/cameras",
+     R"([{"type": "orthographic", "perspective": {"yfov": 1, "znear": 1},
+          "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 1}}])",
+     invalid, "/cameras/0/perspective"},
+
+    // Where the data comes from.
+    {"/buffers/0/uri", "\"cube.bin\"", io},
+    {"/buffers/0/uri", "\".\"", io},
+    {"/buffers/0/uri", "\"../cube.bin\""},
+    {"/buffers/0/uri", "\"/dev/zero\""},
+    {"/buffers/0/uri", "\"%2e%2e/cube.bin\""},
+    {"/buffers/0/uri", "\"file:cube.bin\""},
+    {"/buffers/0/uri", "\"https://example.org/cube.bin\""},
+    {"/buffers/0/uri", "\"a\\\\b\""},
+    {"/buffers/0/uri", "\"a\\u0000\""},
+    {"/buffers/0/uri", "\"\""},
+    {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAA\""},
+    {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"", invalid,
+     "/buffers/0/byteLength"},
+    {"/buffers/0/uri", "\"data:application/octet-stream;base64\""},
+    {"/buffers/0/uri", "7"},
+    {"/images", R"([{"uri": "../a.png"}])", invalid, "/images/0/uri"},
+    {"/images", R"([{}])", invalid, "/images/0"},
+};
+
+std::string mutated(const Mutation& mutation) {
+  nlohmann::json json = nlohmann::json::parse(cube().embedded());
+  const nlohmann::json::json_pointer where(mutation.where);
+  if (*mutation.value != '\0') {
+    json[where] = nlohmann::json::parse(mutation.value);
+  } else {
+    json[where.parent_pointer()].erase(where.back());
+  }
+  return json.dump(1);
+}
+
+TEST(GltfMalformed, EveryMutationOfTheCubeIsRefusedAtItsPlace) {
+  for (const Mutation& mutation : mutations) {
+    SCOPED_TRACE(std::string(mutation.where) + " = " + mutation.value);
+    try {
+      (void)load(mutated(mutation));
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), mutation.kind) << error.what();
+      EXPECT_EQ(error.diagnostic().pointer,
+                mutation.pointer != nullptr ? mutation.pointer : mutation.where)
+          << error.what();
+      EXPECT_EQ(error.diagnostic().file, "test.gltf");
+      EXPECT_GT(error.diagnostic().line, 0U);
+      EXPECT_THAT(error.diagnostic().excerpt, HasSubstr("^"));
+    }
+  }
+}
+
+TEST(GltfMalformed, IndexOfNoVertexAndRestartAreRefused) {
+  for (const auto& [type, last, message] :
+       {std::tuple{u8, 3U, "vertex 3 of only 3"}, std::tuple{u16, 65535U, "restart"},
+        std::tuple{u8, 255U, "restart"}, std::tuple{u32, 0xFFFFFFFFU, "restart"}}) {
+    AssetBuilder asset;
+    const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
+    const std::size_t indices = asset.add_indices({0, 1, last}, type);
+    // Points and lines are not drawn, but checked.
+    asset.add_object(
+        {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", 3}});
+    try {
+      (void)load(asset);
+      ADD_FAILURE() << "accepted " << last;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), invalid);
+      EXPECT_EQ(error.diagnostic().pointer, "/accessors/1");
+      EXPECT_THAT(error.diagnostic().message, HasSubstr(message));
+    }
+  }
+}
+
+TEST(GltfMalformed, QuantisedPositionsAreUnsupported) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+  asset.json["accessors"][0]["componentType"] = 5120;
+  try {
+    (void)load(asset);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), unsupported);
+    EXPECT_EQ(error.diagnostic().pointer, "/meshes/0/primitives/0/attributes/POSITION");
+  }
+}
+
+TEST(GltfMalformed, MissingBufferNamesThePathTried) {
+  try {
+    (void)load(cube().with_buffer("sub/no%20such.bin").dump());
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.diagnostic().message, HasSubstr("nowhere/sub/no such.bin"));
+  }
+}
+
+TEST(GltfMalformed, InstancesBeyondTheLimitAreRefusedBeforeTheyFillMemory) {
+  AssetBuilder asset;
+  const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
+  const std::size_t indices =
+      asset.add("accessors", {{"componentType", u8}, {"count", 3 << 16}, {"type", "SCALAR"}});
+  asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
+  for (std::size_t i = 1; i <= 2048; ++i) {
+    asset.json["nodes"].push_back({{"mesh", 0}});
+    asset.json["scenes"][0]["nodes"].push_back(i);
+  }
+  try {
+    (void)load(asset);
+    FAIL() << "accepted 2049 * 2^16 triangles";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), limit);
+    EXPECT_EQ(error.diagnostic().pointer, "/nodes/2048/mesh");
+  }
+}
+
+/// Any single wrong byte is read or refused, never anything else.
+TEST(GltfMalformed, EveryByteOfABinaryFileMayBeWrong) {
+  const std::string good = cube().glb();
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    for (const char byte : {'\0', '\xFF', '"', '9', '}'}) {
+      std::string bad = good;
+      bad[i] = byte;
+      try {
+        (void)load(bad);
+      } catch (const Error& error) {
+        EXPECT_NE(error.kind(), ErrorKind::internal) << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, good.size());
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,155 @@
+#include "gltf/asset_builder.hpp"
+#include "io/gltf_scene.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// The triangle (0, 0, 0), (1, 0, 0), (0, 2, 0) on node 0.
+AssetBuilder triangle() {
+  AssetBuilder asset;
+  asset.add_object(
+      {{"attributes",
+        {{"POSITION", asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, 2, 0)})}}}});
+  return asset;
+}
+
+std::vector<std::array<Vec3, 3>> first_object(const LoadedScene& loaded) {
+  return triangles_of(loaded.scene.objects.at(0));
+}
+
+TEST(GltfNode, ScaleThenRotationThenTranslation) {
+  AssetBuilder asset = triangle();
+  const double half = std::sqrt(0.5);
+  asset.json["nodes"][0].update({{"translation", {10, 20, 30}},
+                                 {"rotation", {0, 0, half, half}},  // x to y, y to -x
+                                 {"scale", {2, 3, 4}}});
+  const auto triangles = first_object(load(asset));
+  ASSERT_EQ(triangles.size(), 1U);
+  EXPECT_EQ(triangles[0][0], Vec3(10, 20, 30));
+  EXPECT_EQ(triangles[0][1], Vec3(10, 22, 30));
+  EXPECT_EQ(triangles[0][2], Vec3(4, 20, 30));
+}
+
+TEST(GltfNode, MatrixIsColumnMajorAndEqualsItsParts) {
+  AssetBuilder parts = triangle();
+  // The unit quaternion (1, 1, 1, 1) / 2 turns x to y, y to z, z to x.
+  parts.json["nodes"][0].update({{"translation", {0.1, -7, 1e5}},
+                                 {"rotation", {0.5, 0.5, 0.5, 0.5}},
+                                 {"scale", {0.3, 2, -5}}});
+  AssetBuilder matrix = triangle();
+  matrix.json["nodes"][0]["matrix"] = {0, 0.3, 0, 0, 0, 0, 2, 0, -5, 0, 0, 0, 0.1, -7, 1e5, 1};
+  EXPECT_EQ(first_object(load(parts)), first_object(load(matrix)));
+  // The scale mirrors, so the corners 1 and 2 change places.
+  EXPECT_EQ(first_object(load(matrix))[0][2], Vec3(0.1F, static_cast<float>(-7 + 0.3), 1e5F));
+}
+
+TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
+  AssetBuilder asset = triangle();
+  // Two steps far away that cancel: float32 would lose the 0.125.
+  asset.json["nodes"][0]["translation"] = {-1e9, 0.125, 0};
+  asset.json["nodes"].push_back(
+      {{"children", {0}}, {"translation", {1e9 + 0.125, 0, 0}}, {"name", "above"}});
+  asset.json["nodes"].push_back({{"children", {1}}, {"scale", {2, 2, 2}}, {"name", "top"}});
+  asset.json["scenes"][0]["nodes"] = {2};
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(
+      first_object(loaded),
+      ElementsAre(std::array{Vec3(0.25F, 0.25F, 0), Vec3(2.25F, 0.25F, 0), Vec3(0.25F, 4.25F, 0)}));
+  EXPECT_EQ(loaded.scene.objects[0].name, "top/above/node0/mesh0");
+}
+
+TEST(GltfNode, MirroringTurnsTrianglesOver) {
+  AssetBuilder asset = triangle();
+  asset.json["nodes"][0]["scale"] = {-1, 1, 1};
+  EXPECT_THAT(first_object(load(asset)),
+              ElementsAre(std::array{Vec3(0), Vec3(0, 2, 0), Vec3(-1, 0, 0)}));
+  asset.json["nodes"][0]["scale"] = {-1, -1, 1};
+  EXPECT_THAT(first_object(load(asset)),
+              ElementsAre(std::array{Vec3(0), Vec3(-1, 0, 0), Vec3(0, -2, 0)}));
+}
+
+TEST(GltfNode, TheCallersTransformComesLast) {
+  DMat4 world_from_asset(2);
+  world_from_asset[3] = {100, 0, 0, 1};
+  const LoadedScene loaded =
+      io::load_gltf(triangle().embedded(), "test.gltf", "", world_from_asset);
+  EXPECT_THAT(first_object(loaded),
+              ElementsAre(std::array{Vec3(100, 0, 0), Vec3(102, 0, 0), Vec3(100, 4, 0)}));
+}
+
+TEST(GltfNode, RotationsAreNormalisedAndWarnedOfBeyondTolerance) {
+  AssetBuilder asset = triangle();
+  asset.json["nodes"][0]["rotation"] = {0, 0, 0.7071068, 0.7071068};
+  EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
+  asset.json["nodes"][0]["rotation"] = {0, 0, 0.5, 0.5};
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/nodes/0/rotation")));
+  EXPECT_NEAR(first_object(loaded)[0][1].y, 1, 1e-7);
+}
+
+TEST(GltfNode, OnlyTheDefaultSceneIsDrawn) {
+  AssetBuilder asset = triangle();
+  asset.json["nodes"][0]["name"] = "first";
+  asset.json["nodes"].push_back({{"mesh", 0}, {"name", "second"}});
+  asset.json["scenes"].push_back({{"nodes", {1}}});
+  asset.json["scene"] = 1;
+  ASSERT_EQ(load(asset).scene.objects.size(), 1U);
+  EXPECT_EQ(load(asset).scene.objects[0].name, "second/mesh0");
+  asset.json.erase("scene");
+  EXPECT_EQ(load(asset).scene.objects.at(0).name, "first/mesh0");
+  EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
+  asset.json.erase("scenes");
+  EXPECT_EQ(load(asset).scene.objects.size(), 2U);
+  EXPECT_THAT(texts(load(asset).warnings), ElementsAre(HasSubstr("no scene")));
+}
+
+TEST(GltfNode, ObjectsComeInTreeOrderWithDifferentNames) {
+  AssetBuilder asset = triangle();
+  asset.json["meshes"][0]["name"] = "leaf";
+  asset.json["nodes"] = {{{"name", "a"}, {"children", {2, 1}}, {"mesh", 0}},
+                         {{"name", "b"}, {"mesh", 0}},
+                         {{"name", "b"}, {"mesh", 0}},
+                         {{"name", "a/b"}, {"mesh", 0}}};
+  asset.json["scenes"][0]["nodes"] = {3, 0};
+  std::vector<std::string> names;
+  for (const Object& object : load(asset).scene.objects) names.push_back(object.name);
+  EXPECT_THAT(names, ElementsAre("a/b/leaf", "a/leaf", "a/b/leaf (2)", "a/b/leaf (3)"));
+}
+
+TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
+  AssetBuilder asset = triangle();
+  nlohmann::json& primitives = asset.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  primitives[1]["material"] =
+      asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 0.5}}}}});
+  const LoadedScene loaded = load(asset);
+  ASSERT_EQ(loaded.scene.objects.size(), 2U);
+  EXPECT_EQ(loaded.scene.objects[0].name, "node0/mesh0:0");
+  EXPECT_EQ(loaded.scene.objects[1].name, "node0/mesh0:1");
+  EXPECT_EQ(loaded.scene.objects[0].color, Vec3(1));
+  EXPECT_EQ(loaded.scene.objects[1].color, Vec3(0, 1, 0));
+}
+
+TEST(GltfNode, TreesMayBeDeep) {
+  AssetBuilder asset = triangle();
+  constexpr int depth = 100000;
+  nlohmann::json nodes = nlohmann::json::array();
+  for (int i = 0; i < depth; ++i)
+    nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
+  nodes.push_back({{"mesh", 0}});
+  asset.json["nodes"] = nodes;
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(first_object(loaded)[0][0], Vec3(depth, 0, 0));
+  EXPECT_LE(loaded.scene.objects[0].name.size(), 300U);
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,88 @@
+#include "gltf/asset_builder.hpp"
+#include "io/gltf_uri.hpp"
+
+#include <gmock/gmock.h>
+
+namespace microtrace::io::gltf {
+namespace {
+
+using testing::HasSubstr;
+
+// RFC 4648, section 10.
+TEST(GltfUri, Base64TestVectors) {
+  EXPECT_EQ(decode_base64(""), "");
+  EXPECT_EQ(decode_base64("Zg=="), "f");
+  EXPECT_EQ(decode_base64("Zm8="), "fo");
+  EXPECT_EQ(decode_base64("Zm9v"), "foo");
+  EXPECT_EQ(decode_base64("Zm9vYmFy"), "foobar");
+}
+
+TEST(GltfUri, Base64TakesBackWhatAnEncoderMakes) {
+  std::string bytes;
+  for (int i = 0; i < 600; ++i) {
+    EXPECT_EQ(decode_base64(tests::base64(bytes)), bytes);
+    bytes += static_cast<char>(i * 7 + i / 256);
+  }
+}
+
+TEST(GltfUri, BrokenBase64IsRefused) {
+  for (const char* text :
+       {"Z", "Zg", "Zg=", "Z===", "====", "Zm9v=", "Zg==Zg==", "Zm 9", "Zm9-", "Zm\n9", "=m9v"}) {
+    EXPECT_FALSE(decode_base64(text)) << text;
+  }
+}
+
+TEST(GltfUri, DataUrisAreTakenApart) {
+  const auto uri = split_data_uri("data:application/gltf-buffer;a=b;base64,AAA=");
+  ASSERT_TRUE(uri);
+  EXPECT_EQ(uri->media_type, "application/gltf-buffer");
+  EXPECT_TRUE(uri->is_base64);
+  EXPECT_EQ(uri->data, "AAA=");
+  EXPECT_FALSE(split_data_uri("data:,x")->is_base64);
+  EXPECT_FALSE(split_data_uri("data:text/plain;base64"));
+  EXPECT_FALSE(split_data_uri("data:text/plain;;base64,AAAA"));
+  EXPECT_TRUE(is_data_uri("DATA:,"));
+  EXPECT_FALSE(is_data_uri("data.bin"));
+}
+
+TEST(GltfUri, RelativePathsAreDecoded) {
+  EXPECT_EQ(relative_path("a.bin").path, "a.bin");
+  EXPECT_EQ(relative_path("sub/./a%20b%2Ebin").path, "sub/./a b.bin");
+  EXPECT_EQ(relative_path("%C3%A4.bin").path, "\xC3\xA4.bin");
+  EXPECT_EQ(relative_path("..a/b..").path, "..a/b..");
+  EXPECT_EQ(relative_path("sub/a:b").path, "sub/a:b");
+}
+
+TEST(GltfUri, PathsOutOfTheFolderAreRefused) {
+  const std::pair<std::string, const char*> cases[] = {
+      {"", "empty"},
+      {"../a.bin", ".."},
+      {"..", ".."},
+      {"a/../../b", ".."},
+      {"a/..", ".."},
+      {"%2e%2E/a.bin", ".."},
+      {"a%2F..%2f..%2Fb", ".."},
+      {"/etc/hostname", "absolute"},
+      {"%2Fetc/hostname", "absolute"},
+      {"//host/a.bin", "absolute"},
+      {"file:///etc/hostname", "scheme"},
+      {"http://example.org/a.bin", "scheme"},
+      {"C:a.bin", "scheme"},
+      {":", "scheme"},
+      {"..\\a.bin", "backslash"},
+      {"a%5Cb", "backslash"},
+      {"a%00.bin", "control"},
+      {std::string("a\0b", 3), "control"},
+      {"a\nb", "control"},
+      {"a%", "hexadecimal"},
+      {"a%4", "hexadecimal"},
+      {"a%g0", "hexadecimal"},
+  };
+  for (const auto& [uri, reason] : cases) {
+    EXPECT_THAT(relative_path(uri).refusal, HasSubstr(reason)) << uri;
+    EXPECT_EQ(relative_path(uri).path, "") << uri;
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,100 @@
+#include "gltf/asset_builder.hpp"
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct Ignored {
+  const char* add;  ///< a JSON merge patch (RFC 7396) to the cube
+  const char* pointer;
+  const char* message;
+};
+
+TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
+  const Ignored cases[] = {
+      {R"({"extensionsUsed": ["KHR_materials_unlit", "KHR_lights_punctual"]})", "/extensionsUsed/1",
+       "KHR_lights_punctual"},
+      {R"({"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+           "textures": [{}]})",
+       "/materials/0/pbrMetallicRoughness/baseColorTexture", "textures"},
+      {R"({"materials": [{"normalTexture": {"index": 0}}], "textures": [{}]})",
+       "/materials/0/normalTexture", "flat"},
+      {R"({"materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}]})",
+       "/materials/0/pbrMetallicRoughness/metallicFactor", "flat"},
+      {R"({"materials": [{"emissiveFactor": [0, 0, 1]}]})", "/materials/0/emissiveFactor",
+       "emission"},
+      {R"({"materials": [{"alphaMode": "MASK"}]})", "/materials/0/alphaMode", "transparency"},
+      {R"({"skins": [{"joints": [0]}], "nodes": [{"mesh": 0, "skin": 0}]})", "/nodes/0/skin",
+       "skins"},
+      {R"({"animations": [{"channels": [{"sampler": 0, "target": {"path": "scale"}}],
+                           "samplers": [{"input": 0, "output": 0}]}]})",
+       "/animations/0", "animations"},
+      {R"({"meshes": [{"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 0}}]}]})",
+       "/meshes/0/primitives/0/attributes/COLOR_0", "vertex colours"},
+      {R"({"meshes": [{"primitives": [{"attributes": {"POSITION": 0},
+                                       "indices": 1, "targets": [{"POSITION": 0}]}]}]})",
+       "/meshes/0/primitives/0/targets", "morph"},
+      {R"({"meshs": []})", "/meshs", "no property"},
+      {R"({"cameras": []})", "/cameras", "empty"},
+  };
+  for (const Ignored& c : cases) {
+    SCOPED_TRACE(c.add);
+    AssetBuilder asset = cube();
+    asset.json.merge_patch(nlohmann::json::parse(c.add));
+    EXPECT_THAT(
+        texts(load(asset).warnings),
+        testing::Contains(AllOf(HasSubstr(std::string(c.pointer) + ": "), HasSubstr(c.message))));
+  }
+}
+
+TEST(GltfWarning, HonouredFeaturesGiveNone) {
+  AssetBuilder asset = cube();
+  asset.json.merge_patch(nlohmann::json::parse(
+      R"({"extensionsUsed": ["KHR_materials_unlit"], "extensionsRequired": ["KHR_materials_unlit"],
+          "extras": {"anything": [null]},
+          "materials": [{"name": "m", "extensions": {"KHR_materials_unlit": {}},
+                         "alphaMode": "OPAQUE", "doubleSided": true,
+                         "pbrMetallicRoughness": {"metallicFactor": 1, "roughnessFactor": 1}}]})"));
+  EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
+}
+
+TEST(GltfWarning, OneKindIsOneWarningWithItsCountAndTheFirstPlace) {
+  AssetBuilder asset = cube();
+  asset.json["materials"] = {nlohmann::json::object(),
+                             {{"alphaMode", "BLEND"}},
+                             {{"alphaMode", "MASK"}},
+                             {{"alphaMode", "BLEND"}}};
+  EXPECT_THAT(texts(load(asset).warnings),
+              ElementsAre(AllOf(HasSubstr("/materials/1/alphaMode"), HasSubstr("(3 places)"))));
+}
+
+TEST(GltfWarning, WarningsComeInFileOrderAndTheirNumberIsBounded) {
+  AssetBuilder asset = cube();
+  for (int i = 0; i < 5000; ++i) {
+    asset.json["extensionsUsed"].push_back("X_" + std::to_string(i));
+  }
+  const LoadedScene loaded = load(asset);
+  ASSERT_EQ(loaded.warnings.size(), 101U);
+  EXPECT_EQ(loaded.warnings[99].pointer, "/extensionsUsed/99");
+  EXPECT_THAT(loaded.warnings[100].message, HasSubstr("4900 more warnings"));
+  for (std::size_t i = 1; i < 100; ++i) {
+    EXPECT_GT(loaded.warnings[i].line, loaded.warnings[i - 1].line);
+  }
+}
+
+TEST(GltfWarning, BuffersWithoutDataLeaveTheirPrimitivesOut) {
+  const LoadedScene loaded = load(cube().with_buffer(nullptr).dump());
+  EXPECT_THAT(loaded.scene.objects, IsEmpty());
+  EXPECT_THAT(texts(loaded.warnings),
+              ElementsAre(HasSubstr("nothing to draw"),
+                          HasSubstr("/meshes/0/primitives/0: needs a buffer without data")));
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,130 @@
+#include <microtrace/io.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <gmock/gmock.h>
+
+namespace microtrace {
+namespace {
+
+constexpr std::string_view minimal = R"({
+  "version": 1,
+  "cameras": [{"type": "perspective", "position": [1, 2, 3], "direction": [0, 0, -2], "vertical_fov": 90}],
+  "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}]
+})";
+
+Scene parse(std::string_view text) {
+  return parse_scene(text, "s.json", ".").scene;
+}
+
+TEST(JsonScene, FillsInEveryDefault) {
+  const LoadedScene loaded = parse_scene(minimal, "s.json", ".");
+  EXPECT_TRUE(loaded.warnings.empty());
+  const Scene& scene = loaded.scene;
+  EXPECT_EQ(scene.size.width, 640U);
+  EXPECT_EQ(scene.size.height, 480U);
+  EXPECT_EQ(scene.background, Vec3(0));
+  EXPECT_EQ(scene.epsilon, 0);
+  ASSERT_EQ(scene.cameras.size(), 1U);
+  EXPECT_EQ(scene.cameras[0].name, "cameras/0");
+  const auto& camera = std::get<PerspectiveCamera>(scene.cameras[0].camera);
+  EXPECT_EQ(camera.pose.up, DVec3(0, 1, 0));
+  EXPECT_EQ(camera.focus, 1);
+  EXPECT_EQ(camera.aspect_ratio, std::nullopt);
+  EXPECT_EQ(camera.depth.near, 0);
+  EXPECT_TRUE(std::isinf(camera.depth.far));
+  ASSERT_EQ(scene.objects.size(), 1U);
+  EXPECT_EQ(scene.objects[0].name, "objects/0");
+  EXPECT_EQ(scene.objects[0].color, Vec3(1));
+}
+
+TEST(JsonScene, ReadsCameras) {
+  const Scene scene =
+      parse(R"({"version": 1, "objects": [{"type": "plane", "point": [0,0,0], "normal": [0,1,0]}],
+    "cameras": [
+      {"name": "p", "type": "perspective", "position": [1, 2, 3], "direction": [4, 5, 6], "up": [7, 8, 8], "vertical_fov": 90, "focus": 2.5},
+      {"name": "o", "type": "orthographic", "position": [0.1, 2, 3], "direction": [4, 5, 6], "height": 7},
+      {"type": "environment", "position": [1, 2, 3], "direction": [4, 5, 6]}]})");
+  ASSERT_EQ(scene.cameras.size(), 3U);
+  const auto& perspective = std::get<PerspectiveCamera>(scene.cameras[0].camera);
+  EXPECT_EQ(scene.cameras[0].name, "p");
+  EXPECT_EQ(perspective.pose.position, DVec3(1, 2, 3));
+  EXPECT_EQ(perspective.pose.direction, DVec3(4, 5, 6));
+  EXPECT_EQ(perspective.pose.up, DVec3(7, 8, 8));
+  EXPECT_EQ(perspective.vertical_fov, std::numbers::pi / 2);
+  EXPECT_EQ(perspective.focus, 2.5);
+  const auto& orthographic = std::get<OrthographicCamera>(scene.cameras[1].camera);
+  EXPECT_EQ(orthographic.pose.position.x, 0.1);  // cameras stay in float64
+  EXPECT_EQ(orthographic.height, 7);
+  EXPECT_EQ(std::get<EnvironmentCamera>(scene.cameras[2].camera).pose.position, DVec3(1, 2, 3));
+  EXPECT_EQ(scene.cameras[2].name, "cameras/2");
+}
+
+TEST(JsonScene, ReadsShapesInFileOrder) {
+  const Scene scene = parse(
+      R"({"version": 1, "image": {"width": 7, "height": 5}, "background": "sky", "epsilon": 0.25,
+    "colors": {"sky": [0.1, 0.2, 0.3], "red": [1, 0, 0]},
+    "cameras": [{"type": "environment", "position": [0,0,0], "direction": [1,0,0]}],
+    "objects": [
+      {"type": "disc", "center": [1,2,3], "normal": [4,5,6], "radius": 7, "color": "red"},
+      {"name": "t", "type": "triangle", "a": [1,2,3], "b": [4,5,6], "c": [7,8,9], "color": [0.5, 0.25, 1]},
+      {"type": "sphere", "center": [0.1, 16777217, -1e-60], "radius": 0.1},
+      {"type": "quadric", "coefficients": {"a":1,"b":2,"c":3,"d":4,"e":5,"f":6,"g":7,"h":8,"i":9,"j":10}},
+      {"type": "quadric", "coefficients": {"h": -1}},
+      {"type": "plane", "point": [1,2,3], "normal": [0,0,2]}]})");
+  EXPECT_EQ(scene.size.width, 7U);
+  EXPECT_EQ(scene.size.height, 5U);
+  EXPECT_EQ(scene.background, Vec3(0.1F, 0.2F, 0.3F));
+  EXPECT_EQ(scene.epsilon, 0.25F);
+  ASSERT_EQ(scene.objects.size(), 6U);
+  const auto& disc = std::get<Disc>(scene.objects[0].shape);
+  EXPECT_EQ(disc.center, Vec3(1, 2, 3));
+  EXPECT_EQ(disc.normal, Vec3(4, 5, 6));
+  EXPECT_EQ(disc.radius, 7);
+  EXPECT_EQ(scene.objects[0].color, Vec3(1, 0, 0));
+  const auto& triangle = std::get<Triangle>(scene.objects[1].shape);
+  EXPECT_EQ(scene.objects[1].name, "t");
+  EXPECT_EQ(triangle.a, Vec3(1, 2, 3));
+  EXPECT_EQ(triangle.b, Vec3(4, 5, 6));
+  EXPECT_EQ(triangle.c, Vec3(7, 8, 9));
+  EXPECT_EQ(scene.objects[1].color, Vec3(0.5F, 0.25F, 1));
+  const auto& sphere = std::get<Sphere>(scene.objects[2].shape);
+  EXPECT_EQ(sphere.center, Vec3(0.1F, 16777216.0F, 0));
+  EXPECT_EQ(sphere.radius, 0.1F);
+  EXPECT_EQ(scene.objects[2].name, "objects/2");
+  const auto& q = std::get<Quadric>(scene.objects[3].shape);
+  EXPECT_EQ(q.a + 10 * q.b + 100 * q.c, 321);
+  EXPECT_EQ(q.d + 10 * q.e + 100 * q.f, 654);
+  EXPECT_EQ(q.g + 10 * q.h + 100 * q.i + 1000 * q.j, 10987);
+  EXPECT_EQ(std::get<Quadric>(scene.objects[4].shape).h, -1);
+  EXPECT_EQ(std::get<Quadric>(scene.objects[4].shape).j, 0);
+  EXPECT_EQ(std::get<Plane>(scene.objects[5].shape).normal, Vec3(0, 0, 2));
+}
+
+TEST(JsonScene, NamesThePlaceOfAnError) {
+  std::string text(minimal);
+  text.replace(text.find("\"radius\": 1"), 11, "\"radius\": -1");
+  try {
+    (void)parse_scene(text, "scene.json", ".");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+    EXPECT_EQ(error.diagnostic().file, "scene.json");
+    EXPECT_EQ(error.diagnostic().line, 4U);
+    EXPECT_EQ(error.diagnostic().column, 65U);
+    EXPECT_EQ(error.diagnostic().pointer, "/objects/0/radius");
+    EXPECT_EQ(error.diagnostic().message, "must be positive, is -1");
+  }
+}
+
+TEST(JsonScene, TakesNoQuadraticTimeForManyObjects) {
+  std::string text(minimal.substr(0, minimal.rfind(']')));
+  for (int i = 0; i < 50'000; ++i) text += R"(,{"type":"sphere","center":[0,0,0],"radius":1})";
+  EXPECT_EQ(parse(text + "]}").objects.size(), 50'001U);
+}
+
+}  // namespace
+}  // namespace microtrace

@@ -1,0 +1,171 @@
+#include "scene/validate.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+namespace microtrace {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float least = std::numeric_limits<float>::denorm_min();
+constexpr float most = std::numeric_limits<float>::max();
+
+/// `field: message` of the first broken rule.
+template <typename T>
+std::string broken(const T& part) {
+  const auto rule = validate(part);
+  return rule ? rule->field + ": " + rule->message : "";
+}
+
+std::string field(const Shape& shape) {
+  const auto rule = validate(shape);
+  return rule ? rule->field : "";
+}
+
+std::string camera_field(const Camera& camera) {
+  const auto rule = validate(camera);
+  return rule ? rule->field : "";
+}
+
+TEST(ValidateShape, Sphere) {
+  EXPECT_EQ(field(Sphere{}), "");
+  EXPECT_EQ(field(Sphere{.center = Vec3(-most), .radius = least}), "");
+  EXPECT_EQ(broken(Shape(Sphere{.radius = -1})), "radius: must be positive, is -1");
+  EXPECT_EQ(broken(Shape(Sphere{.radius = 0})), "radius: must be positive, is 0");
+  EXPECT_EQ(broken(Shape(Sphere{.radius = nan})), "radius: must be positive, is nan");
+  EXPECT_EQ(field(Sphere{.radius = infinity}), "radius");
+  EXPECT_EQ(field(Sphere{.center = Vec3(0, nan, 0), .radius = -1}), "center");
+}
+
+TEST(ValidateShape, PlaneAndDisc) {
+  EXPECT_EQ(field(Plane{.normal = Vec3(0, least, 0)}), "");
+  EXPECT_EQ(broken(Shape(Plane{.normal = Vec3(0, -0.0F, 0)})), "normal: must not be zero");
+  EXPECT_EQ(field(Plane{.normal = Vec3(infinity, 0, 0)}), "normal");
+  EXPECT_EQ(field(Plane{.point = Vec3(infinity, 0, 0)}), "point");
+  EXPECT_EQ(field(Disc{}), "");
+  EXPECT_EQ(field(Disc{.radius = 0}), "radius");
+  EXPECT_EQ(field(Disc{.normal = Vec3(0)}), "normal");
+  EXPECT_EQ(field(Disc{.center = Vec3(nan)}), "center");
+}
+
+TEST(ValidateShape, TriangleMayBeDegenerateButIsFinite) {
+  EXPECT_EQ(field(Triangle{}), "");
+  EXPECT_EQ(field(Triangle{.a = Vec3(nan)}), "a");
+  EXPECT_EQ(field(Triangle{.b = Vec3(infinity)}), "b");
+  EXPECT_EQ(field(Triangle{.c = Vec3(-infinity)}), "c");
+}
+
+TEST(ValidateShape, QuadricVaries) {
+  EXPECT_EQ(field(Quadric{}), "coefficients");
+  EXPECT_EQ(field(Quadric{.j = 1}), "coefficients");
+  float Quadric::*const coefficients[] = {&Quadric::a, &Quadric::b, &Quadric::c,
+                                          &Quadric::d, &Quadric::e, &Quadric::f,
+                                          &Quadric::g, &Quadric::h, &Quadric::i};
+  for (float Quadric::*coefficient : coefficients) {
+    Quadric q;
+    q.*coefficient = least;
+    EXPECT_EQ(field(q), "");
+    q.*coefficient = nan;
+    EXPECT_EQ(field(q), "coefficients");
+  }
+  EXPECT_EQ(field(Quadric{.a = 1, .j = infinity}), "coefficients");
+}
+
+TEST(ValidateShape, MeshIndicesExist) {
+  Mesh mesh{.positions = {Vec3(0), Vec3(1), Vec3(2)}, .triangles = {{0, 1, 2}}};
+  EXPECT_EQ(field(mesh), "");
+  EXPECT_EQ(field(Mesh{}), "");
+  mesh.triangles.push_back({0, 3, 1});
+  EXPECT_EQ(broken(Shape(mesh)), "triangles: index 3 is not below the number of positions, 3");
+  mesh.positions[1].y = nan;
+  EXPECT_EQ(field(mesh), "positions");
+}
+
+TEST(ValidateCamera, Pose) {
+  const auto with = [](DVec3 position, DVec3 direction, DVec3 up) {
+    return camera_field(EnvironmentCamera{{position, direction, up}});
+  };
+  const DVec3 p(0), d(0, 0, -1), up(0, 1, 0);
+  EXPECT_EQ(with(p, d, up), "");
+  EXPECT_EQ(with(DVec3(1e39), d, up), "position");
+  EXPECT_EQ(with(DVec3(nan), d, up), "position");
+  EXPECT_EQ(with(p, DVec3(0), up), "direction");
+  EXPECT_EQ(with(p, DVec3(0, 0, 1e-50), up), "direction");
+  EXPECT_EQ(with(p, DVec3(1e-44), up), "");
+  EXPECT_EQ(with(p, DVec3(1e38, 1e38, -1e38), up), "");
+  EXPECT_EQ(with(p, d, DVec3(0)), "up");
+  EXPECT_EQ(with(p, d, DVec3(0, 0, 5)), "up");
+  EXPECT_EQ(with(p, DVec3(0.1, 0.2, 0.3), DVec3(-0.3, -0.6, -0.9)), "up");
+  EXPECT_EQ(with(p, d, DVec3(0, 1e-10, 1)), "up");
+  EXPECT_EQ(with(p, d, DVec3(0, 1e-8, 1)), "");
+}
+
+TEST(ValidateCamera, Perspective) {
+  const auto with_fov = [](double fov) {
+    PerspectiveCamera camera;
+    camera.vertical_fov = fov;
+    return camera_field(camera);
+  };
+  EXPECT_EQ(with_fov(1), "");
+  EXPECT_EQ(with_fov(1e-300), "");
+  EXPECT_EQ(with_fov(std::nextafter(std::numbers::pi, 0)), "");
+  for (const double fov : {0.0, -1.0, std::numbers::pi, 4.0, double{nan}}) {
+    EXPECT_EQ(with_fov(fov), "vertical_fov") << fov;
+  }
+  PerspectiveCamera camera;
+  camera.aspect_ratio = 1.5;
+  EXPECT_EQ(camera_field(camera), "");
+  camera.aspect_ratio = 0;
+  EXPECT_EQ(camera_field(camera), "aspect_ratio");
+  camera.focus = nan;
+  EXPECT_EQ(camera_field(camera), "focus");
+  camera.focus = 0;
+  EXPECT_EQ(camera_field(camera), "focus");
+}
+
+TEST(ValidateCamera, OrthographicAndDepth) {
+  OrthographicCamera camera;
+  EXPECT_EQ(camera_field(camera), "");
+  const auto with_depth = [&](double near, double far) {
+    camera.depth = {.near = near, .far = far};
+    return camera_field(camera);
+  };
+  EXPECT_EQ(with_depth(0.1, 100), "");
+  EXPECT_EQ(with_depth(-0.1, 100), "near");
+  EXPECT_EQ(with_depth(double{nan}, 100), "near");
+  EXPECT_EQ(with_depth(double{infinity}, double{infinity}), "near");
+  EXPECT_EQ(with_depth(1, 1), "far");
+  EXPECT_EQ(with_depth(1, double{nan}), "far");
+  camera.height = 0;
+  EXPECT_EQ(camera_field(camera), "height");
+  camera.height = 1e39;
+  EXPECT_EQ(camera_field(camera), "height");
+}
+
+TEST(ValidateImageSize, SidesAndProduct) {
+  EXPECT_EQ(broken(ImageSize{1, 1}), "");
+  EXPECT_EQ(broken(ImageSize{65536, 4096}), "");
+  EXPECT_EQ(broken(ImageSize{0, 1}), "width: must be at least 1 pixel, is 0");
+  EXPECT_EQ(validate(ImageSize{1, 0})->kind, ErrorKind::invalid_scene);
+  EXPECT_EQ(broken(ImageSize{1, 65537}), "height: must be at most 65536 pixels, is 65537");
+  EXPECT_EQ(validate(ImageSize{65537, 1})->kind, ErrorKind::limit);
+  EXPECT_EQ(validate(ImageSize{65536, 4097})->kind, ErrorKind::limit);
+  EXPECT_EQ(validate(ImageSize{65536, 65536})->field, "");
+  EXPECT_EQ(validate(ImageSize{0xFFFFFFFF, 0xFFFFFFFF})->kind, ErrorKind::limit);
+}
+
+TEST(Decimal, IsShortestAndRoundTrips) {
+  EXPECT_EQ(decimal(0.1), "0.1");
+  EXPECT_EQ(decimal(0.1F), "0.1");
+  EXPECT_EQ(decimal(-1.0), "-1");
+  EXPECT_EQ(decimal(1e300), "1e+300");
+}
+
+}  // namespace
+}  // namespace microtrace

@@ -1,0 +1,38 @@
+#pragma once
+/// How many cases the oracle's tests run, and from which seed.
+
+#include "support/adversarial_rays.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string>
+
+namespace microtrace::oracle {
+
+/// A number from the environment, or the fallback.
+[[nodiscard]] inline std::uint64_t from_environment(const char* variable, std::uint64_t fallback) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? fallback : std::stoull(text);
+}
+
+/// The share of MICROTRACE_ORACLE_CASES, 1000000 by default, that one test runs.
+[[nodiscard]] inline int case_count(double share) {
+  return static_cast<int>(
+      share * static_cast<double>(from_environment("MICROTRACE_ORACLE_CASES", 1'000'000)));
+}
+
+/// The generator of one test, seeded by MICROTRACE_ORACLE_SEED and the test's own number. Prints
+/// the seed.
+[[nodiscard]] inline adversarial::Random announced_random(std::uint64_t test) {
+  const std::uint64_t seed = from_environment("MICROTRACE_ORACLE_SEED", 1);
+  std::cout << "MICROTRACE_ORACLE_SEED=" << seed << '\n';
+  return adversarial::Random(seed * 1000 + test);
+}
+
+/// Prints what a test has compared with the oracle.
+inline void announce(int rays, int hits) {
+  std::cout << rays << " rays agree, " << hits << " of them hit\n";
+}
+
+}  // namespace microtrace::oracle

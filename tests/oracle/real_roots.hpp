@@ -1,0 +1,28 @@
+#pragma once
+/// First hits on planes, discs, spheres and quadrics by CGAL's rationals and their square-root
+/// extensions. Apart from src/exact/ on purpose: polynomials come from values of the shape's
+/// equation, roots from CGAL::make_root_of_2.
+
+#include "exact/root.hpp"
+#include "oracle/exact_numbers.hpp"
+
+#include <microtrace/ray.hpp>
+#include <microtrace/shape.hpp>
+
+#include <optional>
+
+#include <CGAL/Sqrt_extension.h>
+
+namespace microtrace::oracle {
+
+/// a + b sqrt(c), comparable with others of any c.
+using Real = CGAL::Sqrt_extension<Rational, Rational, CGAL::Tag_true, CGAL::Tag_true>;
+
+[[nodiscard]] std::optional<Real> first_parameter(const Plane& plane, const Ray& ray);
+[[nodiscard]] std::optional<Real> first_parameter(const Disc& disc, const Ray& ray);
+[[nodiscard]] std::optional<Real> first_parameter(const Sphere& sphere, const Ray& ray);
+[[nodiscard]] std::optional<Real> first_parameter(const Quadric& quadric, const Ray& ray);
+
+[[nodiscard]] Real to_real(const exact::Root& t);
+
+}  // namespace microtrace::oracle

@@ -1,0 +1,121 @@
+/// first_hit(Triangle) and first_hit(Plane) against CGAL: every hit or miss, the parameter and its
+/// order on a share of the hits.
+
+#include "exact/intersect.hpp"
+#include "oracle/cgal_intersections.hpp"
+#include "oracle/effort.hpp"
+#include "oracle/rounding_check.hpp"
+#include "support/adversarial_rays.hpp"
+#include "support/counterexamples.hpp"
+#include "support/reproduction.hpp"
+
+#include <optional>
+
+#include <gtest/gtest.h>
+
+namespace microtrace::oracle {
+namespace {
+
+using adversarial::ShapeKind;
+using adversarial::TriangleKind;
+using exact::first_hit;
+using exact::round_to_float;
+
+/// A hit's parameter, as found and as the oracle says.
+struct Parameter {
+  exact::Root found;
+  Rational expected;
+};
+
+Parameter parameter(const Triangle& triangle, const Ray& ray, const exact::Root& found) {
+  return {found, first_parameter(triangle, ray)};
+}
+
+::testing::AssertionResult is_right(const Parameter& t) {
+  const Rational found = to_rational(t.found.p) / to_rational(t.found.r);
+  if (t.found.sign != 0 || t.found.r.sign() <= 0 || found != t.expected) {
+    return ::testing::AssertionFailure() << "t is " << found << ", must be " << t.expected;
+  }
+  if (!is_enclosed(t.expected, enclose(t.found))) {
+    return ::testing::AssertionFailure() << "bounds do not enclose t = " << t.expected;
+  }
+  const float rounded = round_to_float(t.found);
+  if (!is_nearest(rounded, t.expected)) {
+    return ::testing::AssertionFailure() << t.expected << " rounds to " << rounded;
+  }
+  return ::testing::AssertionSuccess();
+}
+
+int sign(std::strong_ordering order) {
+  return order < 0 ? -1 : order > 0;
+}
+
+class TriangleKinds : public ::testing::TestWithParam<TriangleKind> {};
+
+TEST_P(TriangleKinds, AgreesOnHitParameterAndOrder) {
+  adversarial::Random random = announced_random(static_cast<std::uint64_t>(GetParam()));
+  const int count = case_count(0.07);
+  std::optional<Parameter> previous;
+  int ray_count = 0, hit_count = 0;
+  const auto check = [&](const Triangle& triangle, const Ray& ray) {
+    ++ray_count;
+    const auto found = first_hit(triangle, ray);
+    ASSERT_EQ(found.has_value(), hits(triangle, ray)) << adversarial::reproduction(ray, triangle);
+    if (!found || ++hit_count % 4 != 0) return;
+    const Parameter t = parameter(triangle, ray, *found);
+    ASSERT_TRUE(is_right(t)) << adversarial::reproduction(ray, triangle);
+    if (previous) {
+      ASSERT_EQ(sign(t.found <=> previous->found), CGAL::compare(t.expected, previous->expected))
+          << adversarial::reproduction(ray, triangle);
+    }
+    previous = t;
+  };
+  for (int i = 0; i < count && !HasFatalFailure(); ++i) {
+    const auto [ray, triangle] = adversarial::triangle_case(random, GetParam());
+    check(triangle, ray);
+    const auto hit = first_hit(triangle, ray);
+    if (!hit) continue;
+    check(triangle, adversarial::with_range_near(random, ray, round_to_float(*hit)));
+  }
+  EXPECT_GT(hit_count, count / 100) << "too few hits to mean anything";
+  announce(ray_count, hit_count);
+}
+
+INSTANTIATE_TEST_SUITE_P(TriangleOracle, TriangleKinds,
+                         ::testing::ValuesIn(adversarial::triangle_kinds),
+                         [](const auto& kind) { return adversarial::name(kind.param); });
+
+TEST(TriangleOracle, AgreesOnPublishedCounterexamples) {
+  for (const auto& example : adversarial::counterexamples) {
+    EXPECT_EQ(hits(example.triangle, example.ray), example.hit) << example.name;
+  }
+}
+
+class PlaneKinds : public ::testing::TestWithParam<ShapeKind> {};
+
+TEST_P(PlaneKinds, AgreesOnHit) {
+  adversarial::Random random = announced_random(100 + static_cast<std::uint64_t>(GetParam()));
+  const int count = case_count(0.02);
+  int ray_count = 0, hit_count = 0;
+  const auto check = [&](const Plane& plane, const Ray& ray) {
+    ++ray_count;
+    const auto found = first_hit(plane, ray);
+    ASSERT_EQ(found.has_value(), hits(plane, ray)) << adversarial::reproduction(ray, plane);
+    if (found) ++hit_count;
+  };
+  for (int i = 0; i < count && !HasFatalFailure(); ++i) {
+    const auto [ray, plane] = adversarial::plane_case(random, GetParam());
+    check(plane, ray);
+    const auto hit = first_hit(plane, ray);
+    if (!hit) continue;
+    check(plane, adversarial::with_range_near(random, ray, round_to_float(*hit)));
+  }
+  EXPECT_GT(hit_count, count / 100) << "too few hits to mean anything";
+  announce(ray_count, hit_count);
+}
+
+INSTANTIATE_TEST_SUITE_P(PlaneOracle, PlaneKinds, ::testing::ValuesIn(adversarial::shape_kinds),
+                         [](const auto& kind) { return adversarial::name(kind.param); });
+
+}  // namespace
+}  // namespace microtrace::oracle

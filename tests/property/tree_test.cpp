@@ -1,0 +1,259 @@
+// The tree that build_tree makes: everything that can be hit is in it, every box holds what is
+// below it, and it is the same for any number of threads.
+
+#include "accel/build/tree.hpp"
+
+#include "support/generated_meshes.hpp"
+#include "support/tree_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+Scene scene_of(std::vector<Shape> shapes) {
+  Scene scene;
+  for (Shape& shape : shapes) scene.objects.push_back({"", std::move(shape), Vec3(1)});
+  return scene;
+}
+
+class Random {
+ public:
+  /// In [-1, 1).
+  float symmetric() { return static_cast<float>(static_cast<std::int32_t>(bits_())) * 0x1p-31F; }
+  Vec3 in_cube() { return {symmetric(), symmetric(), symmetric()}; }
+  Triangle triangle(float size) {
+    const Vec3 p = in_cube();
+    return {p, p + size * in_cube(), p + size * in_cube()};
+  }
+
+ private:
+  std::mt19937 bits_{7};  // the same everywhere
+};
+
+Mesh soup(std::size_t triangles, float size) {
+  Random random;
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    const Triangle t = random.triangle(size);
+    mesh.positions.insert(mesh.positions.end(), {t.a, t.b, t.c});
+    mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return mesh;
+}
+
+// Builds, walks the tree, and expects the primitives that `expected(id)` names to be in it.
+template <class Expected>
+Tree check(const Scene& scene, Expected expected) {
+  const Primitives primitives(scene);
+  Tree tree = build_tree(primitives, {.fast = false, .threads = 2});
+  const TreeWalk walk(tree, primitives);
+  EXPECT_EQ(walk.fault(), "");
+  EXPECT_LE(walk.depth(), kMaxDepth);
+  primitives.for_each([&](PrimitiveId id, const auto&) {
+    const Place place = expected(id);
+    if (walk.place(id) != place && !testing::Test::HasFailure())
+      ADD_FAILURE() << "primitive " << id << " is in place " << static_cast<int>(walk.place(id))
+                    << ", not " << static_cast<int>(place);
+  });
+  return tree;
+}
+
+Tree check(const Scene& scene, Place place) {
+  return check(scene, [&](PrimitiveId) { return place; });
+}
+
+TEST(Tree, OfNothingIsANodeWithoutChildren) {
+  const Tree tree = check(scene_of({}), Place::nowhere);
+  ASSERT_EQ(tree.nodes.size(), 1);
+  EXPECT_EQ(tree.root, 0);
+  EXPECT_GT(tree.bounds.lo.x, tree.bounds.hi.x);
+}
+
+TEST(Tree, OfUpToABlockIsOneLeaf) {
+  for (std::size_t n = 1; n <= 9; ++n) {
+    const Tree tree = check(scene_of({soup(n, 1)}), Place::blocks);
+    if (n <= 8) {
+      EXPECT_EQ(tree.root, child_ref::kTriangles) << n;
+      EXPECT_EQ(tree.nodes.size(), 0);
+    } else {
+      EXPECT_EQ(tree.blocks.size(), 2);
+    }
+  }
+}
+
+TEST(Tree, HoldsMeshesOfAllSizes) {
+  for (const std::size_t n : {10, 17, 64, 65, 1000, 30000, 100000}) {
+    check(scene_of({soup(n, 0.01F)}), Place::blocks);
+    check(scene_of({generated::displaced_sphere(n)}), Place::blocks);
+    check(scene_of({generated::terrain(n)}), Place::blocks);
+    check(scene_of({generated::hall(n)}), Place::blocks);
+  }
+}
+
+TEST(Tree, SortsShapes) {
+  const float large = 0x1p39F, max = std::numeric_limits<float>::max();
+  const Vec3 x(1, 0, 0), y(0, 1, 0);
+  const std::vector<std::pair<Shape, Place>> cases = {
+      {Sphere{Vec3(1, 2, 3), 2}, Place::others},
+      {Sphere{Vec3(1, 2, 3), 0}, Place::others},
+      {Sphere{Vec3(1, 2, 3), -1}, Place::nowhere},
+      {Sphere{Vec3(kNan, 2, 3), 1}, Place::nowhere},
+      {Sphere{Vec3(1, 2, 3), kInfinity}, Place::nowhere},
+      {Sphere{Vec3(max, 2, 3), max}, Place::unbounded},
+      {Disc{Vec3(1, 2, 3), y, 2}, Place::others},
+      {Disc{Vec3(1, 2, 3), Vec3(0), 2}, Place::nowhere},
+      {Disc{Vec3(1, 2, 3), y, -2}, Place::nowhere},
+      {Disc{Vec3(max, 2, 3), Vec3(0x1p-149F), max}, Place::unbounded},
+      {Plane{Vec3(1), y}, Place::unbounded},
+      {Plane{Vec3(1), Vec3(0)}, Place::nowhere},
+      {Plane{Vec3(kInfinity), y}, Place::nowhere},
+      {Quadric{.a = 1, .j = -1}, Place::unbounded},
+      {Quadric{.a = 1, .j = kNan}, Place::nowhere},
+      {Triangle{x, y, Vec3(1)}, Place::blocks},
+      {Triangle{x, x, y}, Place::blocks},
+      {Triangle{x, x, x}, Place::blocks},
+      {Triangle{x, y, Vec3(0x1p38F)}, Place::blocks},
+      {Triangle{x, y, Vec3(0, -large, 0)}, Place::others},
+      {Triangle{Vec3(-max), Vec3(max), Vec3(-max, max, max)}, Place::others},
+      {Triangle{x, y, Vec3(0, kNan, 0)}, Place::nowhere},
+      {Triangle{Vec3(-kInfinity, 0, 0), y, x}, Place::nowhere},
+      {Mesh{}, Place::nowhere},
+      {Mesh{.positions = {x, y, Vec3(0), Vec3(kNan)}, .triangles = {{0, 1, 2}}}, Place::blocks}};
+  for (int copies = 1; copies <= 40; copies += 39) {
+    std::vector<Shape> shapes;
+    std::vector<Place> places;
+    for (int copy = 0; copy < copies; ++copy) {
+      for (const auto& [shape, place] : cases) {
+        shapes.push_back(shape);
+        if (primitive_count(shape) != 0) places.push_back(place);
+      }
+    }
+    check(scene_of(shapes), [&](PrimitiveId id) { return places[id]; });
+  }
+}
+
+TEST(Tree, BoxesOfCurvedShapesAreTight) {
+  const auto box = [](const Shape& shape) {
+    const Scene scene = scene_of({shape});
+    return build_tree(Primitives(scene), {}).bounds;
+  };
+  const Bounds sphere = box(Sphere{Vec3(1, 2, 3), 0.5F});
+  EXPECT_LT(sphere.lo.x, 0.5F);
+  EXPECT_FLOAT_EQ(sphere.lo.x, 0.5F);
+  EXPECT_GT(sphere.hi.z, 3.5F);
+  EXPECT_FLOAT_EQ(sphere.hi.z, 3.5F);
+  const Bounds disc = box(Disc{Vec3(0), Vec3(3e30F, 0, 4e30F), 10});
+  EXPECT_FLOAT_EQ(disc.hi.x, 8);
+  EXPECT_FLOAT_EQ(disc.hi.y, 10);
+  EXPECT_FLOAT_EQ(disc.lo.z, -6);
+  const Bounds flat = box(Disc{Vec3(0, 1, 0), Vec3(0, 0x1p-149F, 0), 1});
+  EXPECT_FLOAT_EQ(flat.lo.y, 1);
+  EXPECT_FLOAT_EQ(flat.hi.y, 1);
+}
+
+TEST(Tree, EndsWhereNoPlaneSeparates) {
+  Mesh duplicates{.positions = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(5)}, .triangles = {}};
+  duplicates.triangles.assign(100000, {0, 1, 2});
+  check(scene_of({duplicates}), Place::blocks);
+  duplicates.triangles.assign(100000, {3, 3, 3});
+  check(scene_of({duplicates}), Place::blocks);
+
+  // One centre, all sizes.
+  Mesh nested;
+  for (std::uint32_t i = 0; i < 20000; ++i) {
+    const auto r = static_cast<float>(i);
+    nested.positions.insert(nested.positions.end(), {{-r, -r, 0}, {r, r, 0}, {r, -r, 0}});
+    nested.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  check(scene_of({nested}), Place::blocks);
+  check(scene_of(std::vector<Shape>(1000, Sphere{})), Place::others);
+}
+
+// Centres at 2^-i: every plane between bins cuts off a few only.
+TEST(Tree, HasBoundedDepth) {
+  std::vector<Shape> shapes;
+  for (int i = -148; i < 126; ++i) {
+    const float x = std::ldexp(1.0F, i);
+    for (int copy = 0; copy < 20; ++copy) {
+      shapes.emplace_back(Triangle{{x, 0, 0}, {x, x, 0}, {x, 0, x}});
+      shapes.emplace_back(Triangle{{0, -x, 0}, {0, -x, 0}, {0, -x, 0}});
+    }
+  }
+  check(scene_of(shapes),
+        [](PrimitiveId id) { return id / 40 <= 148 + 38 ? Place::blocks : Place::others; });
+}
+
+TEST(Tree, BearsAnyScale) {
+  for (const float scale : {0x1p-149F, 0x1p-140F, 0x1p-100F, 0x1p-60F, 0x1p30F, 0x1p37F}) {
+    Mesh mesh = soup(3000, 0.1F);
+    for (Vec3& p : mesh.positions) p *= scale;
+    check(scene_of({mesh}), Place::blocks);
+    // Beside it one triangle of the largest size.
+    Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
+    check(scene, Place::blocks);
+  }
+  Mesh huge = soup(3000, 0.5F);
+  for (Vec3& p : huge.positions) p *= 0x1p127F;
+  check(scene_of({huge}), Place::others);
+}
+
+bool same(const Tree& a, const Tree& b) {
+  const auto bytes = [](const auto& x, const auto& y) {
+    return x.size() == y.size() &&
+           (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0);
+  };
+  return bytes(a.nodes, b.nodes) && bytes(a.blocks, b.blocks) && a.others == b.others &&
+         a.unbounded == b.unbounded && a.root == b.root;
+}
+
+TEST(Tree, IsTheSameForAnyNumberOfThreads) {
+  Scene scene = scene_of({generated::displaced_sphere(80000), generated::hall(60000), Plane{}});
+  for (int i = 0; i < 1000; ++i)
+    scene.objects.push_back({"", Sphere{Vec3(0.01F * static_cast<float>(i)), 0.1F}, Vec3(1)});
+  const Primitives primitives(scene);
+  for (const bool fast : {false, true}) {
+    const Tree one = build_tree(primitives, {.fast = fast, .threads = 1});
+    for (const unsigned threads : {1U, 2U, 3U, 8U})
+      EXPECT_TRUE(same(one, build_tree(primitives, {.fast = fast, .threads = threads})));
+  }
+}
+
+TEST(Tree, IsBetterThanOneOfObjectMedians) {
+  const std::vector<std::pair<Mesh, double>> cases = {{generated::displaced_sphere(50000), 0.9},
+                                                      {generated::terrain(50000), 0.9},
+                                                      {generated::hall(50000), 0.5},
+                                                      {soup(50000, 0.02F), 1}};
+  for (const auto& [mesh, most] : cases) {
+    const Scene scene = scene_of({mesh});
+    const Primitives primitives(scene);
+    const TreeCost cost = cost_of(build_tree(primitives, {}));
+    const TreeCost fast = cost_of(build_tree(primitives, {.fast = true}));
+    const TreeCost median = cost_of_object_medians(mesh);
+    EXPECT_LT(cost.total(), most * median.total());
+    EXPECT_LT(fast.total(), median.total());
+  }
+}
+
+TEST(Tree, IsSmall) {
+  for (const Mesh& mesh :
+       {generated::displaced_sphere(200000), generated::terrain(200000), generated::hall(200000)}) {
+    const auto triangles = static_cast<double>(mesh.triangles.size());
+    const Scene scene = scene_of({mesh});
+    const Tree tree = build_tree(Primitives(scene), {});
+    const double bytes = static_cast<double>(tree.nodes.size() * sizeof(WideNode) +
+                                             tree.blocks.size() * sizeof(TriangleBlock));
+    EXPECT_LT(bytes / triangles, 72);
+  }
+}
+
+}  // namespace
+}  // namespace microtrace

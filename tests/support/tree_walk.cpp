@@ -1,0 +1,208 @@
+#include "support/tree_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace microtrace {
+namespace {
+
+Bounds box_of_child(const WideNode& node, int i) {
+  return {.lo = {node.lo_x[i], node.lo_y[i], node.lo_z[i]},
+          .hi = {node.hi_x[i], node.hi_y[i], node.hi_z[i]}};
+}
+
+bool is_empty(const Bounds& b) {
+  return !(b.lo.x <= b.hi.x && b.lo.y <= b.hi.y && b.lo.z <= b.hi.z);
+}
+
+bool holds(const Bounds& b, const Vec3& p) {
+  return b.lo.x <= p.x && p.x <= b.hi.x && b.lo.y <= p.y && p.y <= b.hi.y && b.lo.z <= p.z &&
+         p.z <= b.hi.z;
+}
+
+bool holds(const Bounds& b, const Triangle& t) {
+  return holds(b, t.a) && holds(b, t.b) && holds(b, t.c);
+}
+
+// The six outermost points of a sphere, rounded away from the box's favour.
+bool holds(const Bounds& b, const Sphere& s) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(double{b.lo[k]} <= double{s.center[k]} - s.radius &&
+          double{s.center[k]} + s.radius <= double{b.hi[k]}))
+      return false;
+  }
+  return true;
+}
+
+bool holds(const Bounds& b, const Disc& d) {
+  return holds(b, d.center);
+}
+
+template <class Other>
+bool holds(const Bounds&, const Other&) {
+  return false;
+}
+
+double half_area(const Bounds& b) {
+  const DVec3 e = DVec3(b.hi) - DVec3(b.lo);
+  return e.x * e.y + e.y * e.z + e.z * e.x;
+}
+
+}  // namespace
+
+TreeWalk::TreeWalk(const Tree& tree, const Primitives& primitives)
+    : tree_(tree),
+      primitives_(primitives),
+      nodes_(tree.nodes.size()),
+      blocks_(tree.blocks.size()),
+      others_(tree.others.size()) {
+  for (const PrimitiveId id : tree.unbounded) put(id, Place::unbounded);
+  visit(tree.root, tree.bounds, 1);
+  const auto all = [](const std::vector<bool>& seen) {
+    return std::ranges::all_of(seen, std::identity());
+  };
+  expect(all(nodes_) && all(blocks_) && all(others_), "something is never reached");
+}
+
+void TreeWalk::expect(bool good, const std::string& what) {
+  if (!good && fault_.empty()) fault_ = what;
+}
+
+void TreeWalk::put(PrimitiveId id, Place place) {
+  if (id >= places_.size()) places_.resize(std::size_t{id} + 1);
+  expect(places_[id] == Place::nowhere, "primitive " + std::to_string(id) + " is there twice");
+  places_[id] = place;
+}
+
+void TreeWalk::visit(ChildRef ref, const Bounds& box, int depth) {
+  const std::uint32_t kind = ref & child_ref::kKind, index = ref & ~child_ref::kKind;
+  const std::uint32_t first = index >> 3U, count = (index & 7U) + 1;
+  const auto mark = [&](std::vector<bool>& seen, std::size_t i) {
+    const bool good = i < seen.size() && !seen[i];
+    expect(good, "a wrong or repeated reference " + std::to_string(ref));
+    if (good) seen[i] = true;
+    return good;
+  };
+  if (kind == child_ref::kTriangles) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (mark(blocks_, first + i)) visit_block(tree_.blocks[first + i], box);
+    }
+  } else if (kind == child_ref::kOthers) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (!mark(others_, first + i)) continue;
+      const PrimitiveId id = tree_.others[first + i];
+      put(id, Place::others);
+      primitives_.visit(id, [&](const auto& shape) {
+        expect(holds(box, shape), "primitive " + std::to_string(id) + " leaves its box");
+      });
+    }
+  } else {
+    depth_ = std::max(depth_, depth);
+    if (!mark(nodes_, index)) return;
+    const WideNode& node = tree_.nodes[index];
+    for (int i = 0; i < kWidth; ++i) {
+      const Bounds child = box_of_child(node, i);
+      if (is_empty(child)) {
+        expect(child.lo == Vec3(INFINITY) && child.hi == Vec3(-INFINITY),
+               "an unused place isn't empty");
+        continue;
+      }
+      expect(holds(box, child.lo) && holds(box, child.hi), "a child leaves its node's box");
+      visit(node.child[i], child, depth + 1);
+    }
+  }
+}
+
+void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
+  float largest = 0;
+  for (int i = 0; i < kWidth; ++i) {
+    const Vec3 a(block.v0_x[i], block.v0_y[i], block.v0_z[i]);
+    const Vec3 e1(block.e1_x[i], block.e1_y[i], block.e1_z[i]);
+    const Vec3 e2(block.e2_x[i], block.e2_y[i], block.e2_z[i]);
+    if (std::isnan(a.x)) {
+      expect(std::isnan(a.y) && std::isnan(a.z), "an unused place has numbers");
+      continue;
+    }
+    put(block.id[i], Place::blocks);
+    primitives_.visit(block.id[i], [&](const auto& shape) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>) {
+        expect(a == shape.a && e1 == shape.b - shape.a && e2 == shape.c - shape.a,
+               "block and triangle " + std::to_string(block.id[i]) + " differ");
+        expect(holds(box, shape), "triangle " + std::to_string(block.id[i]) + " leaves its box");
+      } else {
+        expect(false, "primitive " + std::to_string(block.id[i]) + " is no triangle");
+      }
+    });
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(e1[k]), std::abs(e2[k])});
+  }
+  expect(block.largest_edge == largest, "largest_edge is wrong");
+}
+
+TreeCost cost_of(const Tree& tree) {
+  const double whole = half_area(tree.bounds);
+  TreeCost cost{.nodes = 1};
+  for (const WideNode& node : tree.nodes) {
+    for (int i = 0; i < kWidth; ++i) {
+      const Bounds child = box_of_child(node, i);
+      if (is_empty(child)) continue;
+      const double chance = half_area(child) / whole;
+      if ((node.child[i] & child_ref::kKind) == 0)
+        cost.nodes += chance;
+      else
+        cost.blocks += chance * ((node.child[i] & 7U) + 1);
+    }
+  }
+  return cost;
+}
+
+namespace {
+
+struct Medians {
+  std::vector<Triangle> triangles;
+  double whole = 0;
+  TreeCost cost;
+
+  void add(std::size_t begin, std::size_t end, int level) {
+    Bounds box, centroids;
+    const auto centroid = [](const Triangle& t) { return (t.a + t.b + t.c) / 3.0F; };
+    for (std::size_t i = begin; i < end; ++i) {
+      const Triangle& t = triangles[i];
+      box.lo = glm::min(box.lo, glm::min(t.a, glm::min(t.b, t.c)));
+      box.hi = glm::max(box.hi, glm::max(t.a, glm::max(t.b, t.c)));
+      centroids.lo = glm::min(centroids.lo, centroid(t));
+      centroids.hi = glm::max(centroids.hi, centroid(t));
+    }
+    const double area = half_area(box);
+    if (level == 0) whole = area;
+    if (end - begin <= kWidth) {
+      cost.blocks += area / whole;
+      return;
+    }
+    if (level % 3 == 0) cost.nodes += area / whole;
+    const Vec3 e = centroids.hi - centroids.lo;
+    const int axis = e.x >= e.y && e.x >= e.z ? 0 : e.y >= e.z ? 1 : 2;
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto at = [&](std::size_t i) {
+      return triangles.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    std::nth_element(at(begin), at(middle), at(end), [&](const Triangle& x, const Triangle& y) {
+      return centroid(x)[axis] < centroid(y)[axis];
+    });
+    add(begin, middle, level + 1);
+    add(middle, end, level + 1);
+  }
+};
+
+}  // namespace
+
+TreeCost cost_of_object_medians(const Mesh& mesh) {
+  Medians medians;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    medians.triangles.push_back(triangle_of(mesh, i));
+  medians.add(0, medians.triangles.size(), 0);
+  return medians.cost;
+}
+
+}  // namespace microtrace
