@@ -74,8 +74,7 @@ std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double exte
     const DVec3 sum = n + random_point(seed, i);
     const double length = glm::length(sum);
     const DVec3 p = DVec3(ray.o) + double{traced.hits[i]->t} * d + 1e-5 * extent * n;
-    rays.push_back(
-        {.o = Vec3(p), .d = Vec3(length > 1e-6 ? sum / length : n), .t_max = t_max});
+    rays.push_back({.o = Vec3(p), .d = Vec3(length > 1e-6 ? sum / length : n), .t_max = t_max});
   }
   return rays;
 }

@@ -10,8 +10,8 @@
 namespace microtrace::bench {
 
 struct CompareOptions {
-  unsigned threads = 1;  ///< of both programs, for building and asking
-  unsigned runs = 7;     ///< of each program, in turn; the median counts
+  unsigned threads = 1;                           ///< of both programs, for building and asking
+  unsigned runs = 7;                              ///< of each program, in turn; the median counts
   ImageSize size{.width = 1920, .height = 1080};  ///< of the picture the rays come from
 };
 
@@ -24,7 +24,7 @@ struct BuildRow {
 };
 
 struct RayRow {
-  std::string scene, kind;
+  std::string scene{}, kind{};
   unsigned threads = 1;
   std::size_t rays = 0;
   double mrays_microtrace = 0, mrays_embree_fast = 0, mrays_embree_robust = 0;
@@ -37,9 +37,6 @@ struct SceneRows {
   BuildRow build;
   std::vector<RayRow> rays;  ///< primary, bounce, occlusion
 };
-
-/// Which instruction set this library's kernels use here.
-[[nodiscard]] std::string microtrace_isa();
 
 /// Throws std::runtime_error if Embree fails, or denormal numbers are flushed.
 [[nodiscard]] SceneRows compare(const BenchScene& scene, const CompareOptions& options);

@@ -205,8 +205,7 @@ void PeerScene::intersect(PeerMode mode, const PeerRays& rays, std::size_t begin
     else
       rtcIntersect1M(scene, &context, queries.data(), static_cast<unsigned>(n), sizeof(RTCRayHit));
     for (std::size_t k = 0; k < n; ++k)
-      hits[first + k] =
-          hit_of(queries[k].hit.geomID, queries[k].hit.primID, queries[k].ray.tfar);
+      hits[first + k] = hit_of(queries[k].hit.geomID, queries[k].hit.primID, queries[k].ray.tfar);
   });
 }
 

@@ -7,13 +7,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <embree3/rtcore.h>
 #include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
-
-#include <embree3/rtcore.h>
 
 namespace microtrace::bench {
 
@@ -30,8 +29,8 @@ struct PeerMode {
   bool coherent = false;  ///< the context's flag
 };
 inline constexpr int kStream = 256;  ///< rays of one call to rtcIntersect1M or rtcOccluded1M
-inline constexpr PeerMode kPeerModes[] = {{1, false},      {1, true},      {4, false}, {4, true},
-                                          {8, false},      {8, true},      {16, false}, {16, true},
+inline constexpr PeerMode kPeerModes[] = {{1, false},       {1, true},      {4, false},  {4, true},
+                                          {8, false},       {8, true},      {16, false}, {16, true},
                                           {kStream, false}, {kStream, true}};
 
 /// K rays, an array for each part in the order of RTCRayK.
@@ -52,7 +51,7 @@ struct PeerRays {
 };
 
 struct PeerOptions {
-  std::string isa;      ///< as Embree's configuration has it; empty: the processor's best
+  std::string isa{};    ///< as Embree's configuration has it; empty: the processor's best
   bool robust = false;  ///< RTC_SCENE_FLAG_ROBUST
   unsigned threads = 1;
 };

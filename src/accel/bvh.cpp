@@ -1,6 +1,7 @@
 #include "accel/build/tree.hpp"
 #include "accel/bundle.hpp"
 #include "accel/kernel_rays.hpp"
+#include "accel/kernels/dispatch.hpp"
 #include "accel/slow_path.hpp"
 #include "accel/tile_judge.hpp"
 

@@ -22,9 +22,4 @@ inline constexpr std::size_t max_file_size = std::size_t{1} << 30;
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect);
 
-/// The bytes that are left in standard input, as from a file of that name in messages.
-[[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,
-                                          std::size_t limit,
-                                          const std::function<void(std::string_view)>& inspect);
-
 }  // namespace microtrace::io

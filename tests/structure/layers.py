@@ -32,11 +32,11 @@ HIDDEN = {
 # Libraries that only these folders may include.
 LIBRARIES = {
     r"CGAL/|gmp": ["tests/oracle"],
-    r"tiny_gltf|nlohmann/": ["src/io"],
+    r"tiny_gltf|nlohmann/": ["src/io", "tests"],
     r"OpenImageIO/": ["src/modules", "tests/image"],
     r"CLI/": ["src/cli"],
     r"embree|benchmark/": ["bench"],
-    r"\w*mmintrin\.h": [],
+    r"\w*mmintrin\.h": ["src/accel/kernels/simd.hpp"],
 }
 
 

@@ -1,32 +1,48 @@
-#include "accel/kernels/kernel.hpp"
+#include "accel/kernels/dispatch.hpp"
 
 #include <cstdlib>
-#include <cstring>
+#include <string_view>
 
 namespace microtrace {
 namespace {
 
-const Kernels& choose() {
+bool is_available(const Kernels& kernels) {
 #if defined(__x86_64__)
-  const char* wanted = std::getenv("MICROTRACE_ISA");
-  const auto allowed = [&](const Kernels& kernels) {
-    return wanted == nullptr || std::strcmp(wanted, kernels.name) == 0;
-  };
   __builtin_cpu_init();
-  const bool avx2 = __builtin_cpu_supports("avx2");
-  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (avx512 && allowed(kAvx512Kernels)) return kAvx512Kernels;
-  if (avx2 && allowed(kAvx2Kernels)) return kAvx2Kernels;
+  if (&kernels == &kAvx512Kernels)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
+  if (&kernels == &kAvx2Kernels) return __builtin_cpu_supports("avx2");
 #endif
-  return kPortableKernels;
+  return &kernels == &kPortableKernels;
 }
+
+// The fastest first; the last runs everywhere.
+constexpr const Kernels* kAll[] = {
+#if defined(__x86_64__)
+    &kAvx512Kernels,
+    &kAvx2Kernels,
+#endif
+    &kPortableKernels,
+};
 
 }  // namespace
 
+std::vector<const Kernels*> available_kernels() {
+  std::vector<const Kernels*> available;
+  for (const Kernels* kernels : kAll) {
+    if (is_available(*kernels)) available.push_back(kernels);
+  }
+  return available;
+}
+
 const Kernels& best_kernels() {
-  static const Kernels& kernels = choose();
-  return kernels;
+  const char* wanted = std::getenv("MICROTRACE_ISA");
+  for (const Kernels* kernels : kAll) {
+    if (is_available(*kernels) && (wanted == nullptr || std::string_view(wanted) == kernels->name))
+      return *kernels;
+  }
+  return kPortableKernels;
 }
 
 }  // namespace microtrace

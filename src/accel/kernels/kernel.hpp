@@ -88,8 +88,4 @@ extern const Kernels kAvx2Kernels;
 extern const Kernels kAvx512Kernels;
 #endif
 
-/// The fastest set that this processor runs; the one that the environment variable MICROTRACE_ISA
-/// names (portable, avx2, avx512) if it runs.
-[[nodiscard]] const Kernels& best_kernels();
-
 }  // namespace microtrace

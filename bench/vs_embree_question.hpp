@@ -1,0 +1,47 @@
+#pragma once
+/// Many rays, asked of either program.
+
+#include "vs_embree_peer.hpp"
+
+#include <microtrace/bvh.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace microtrace::bench {
+
+enum class Kind {
+  primary,   ///< nearest hits of camera rays, tile by tile
+  bounce,    ///< nearest hits of cosine-distributed rays, shuffled
+  occlusion  ///< any hit of short cosine-distributed rays, tile by tile
+};
+
+/// The rays of one kind and the answers of both programs, which the askings overwrite.
+class Question {
+ public:
+  Question(Kind kind, std::vector<Ray> rays);
+  Question(const Question&) = delete;  // the packed rays refer to the others
+  Question& operator=(const Question&) = delete;
+
+  void ask_microtrace(const Bvh& bvh, unsigned threads);
+  void ask_embree(const PeerScene& scene, PeerMode mode, unsigned threads);
+
+  /// Share of rays for which the last answers differ in hit or miss, or in the triangle.
+  [[nodiscard]] double disagreements() const;
+
+  [[nodiscard]] std::size_t size() const { return rays_.size(); }
+  [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
+  /// Of microtrace; none for occlusion.
+  [[nodiscard]] std::span<const std::optional<Hit>> hits() const { return hits_; }
+
+ private:
+  Kind kind_;
+  std::vector<Ray> rays_;
+  PeerRays packed_;
+  std::vector<std::optional<Hit>> hits_;
+  std::vector<PeerHit> peer_hits_;
+  std::vector<std::uint8_t> occluded_, peer_occluded_;
+};
+
+}  // namespace microtrace::bench
