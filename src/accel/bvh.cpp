@@ -23,7 +23,6 @@ struct Bvh::Impl {
             .root = tree.root};
   }
 
-  /// For a valid ray, whatever its size.
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
@@ -53,16 +52,15 @@ namespace {
 
 // Asks every primitive: for rays whose size the kernels' error bounds don't cover.
 std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
+  if (!exact::is_valid(ray)) return std::nullopt;
   Bundle bundle(primitives, std::span(&ray, 1));
   primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.meet(id, shape); });
   return bundle.hit(0);
 }
 
-// How many rays from the front make a tile: valid, suited, and with the first one's origin.
+// How many rays from the front make a tile: suited to kernels, with the first one's origin.
 std::size_t tile_length(std::span<const Ray> rays) {
-  const auto belongs = [&](const Ray& ray) {
-    return ray.o == rays[0].o && exact::is_valid(ray) && suits_kernels(ray);
-  };
+  const auto belongs = [&](const Ray& ray) { return ray.o == rays[0].o && suits_kernels(ray); };
   const auto front = rays.first(std::min(rays.size(), Bundle::kCapacity));
   return static_cast<std::size_t>(std::find_if_not(front.begin(), front.end(), belongs) -
                                   front.begin());
@@ -93,17 +91,17 @@ bool Bvh::Impl::occluded(const Ray& ray) const {
 
 void Bvh::Impl::intersect_tile(std::span<const Ray> rays,
                                std::span<std::optional<Hit>> hits) const {
-  Bundle bundle(primitives, rays);
-  for (const PrimitiveId id : outside)
-    primitives.visit(id, [&](const auto& shape) { bundle.meet(id, shape); });
   if (has_tree) {
-    TileJudge judge(primitives, bundle, rays);
+    TileJudge judge(primitives, rays);
     KernelTile tile;
     fill_tile(rays, tile);
-    judge.fill_best(tile);
+    judge.begin(tile, outside);
     kernels->closest_of_tile(view(), tile, judge.slow_path());
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = judge.hit(tile, i);
   } else {
+    Bundle bundle(primitives, rays);
+    for (const PrimitiveId id : outside)
+      primitives.visit(id, [&](const auto& shape) { bundle.meet(id, shape); });
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = bundle.hit(i);
   }
 }
@@ -119,12 +117,11 @@ const Primitives& Bvh::primitives() const {
 }
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
-  if (!exact::is_valid(ray)) return std::nullopt;
   return impl_->intersect(ray);
 }
 
 bool Bvh::occluded(const Ray& ray) const {
-  return exact::is_valid(ray) && impl_->occluded(ray);
+  return impl_->occluded(ray);
 }
 
 void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {

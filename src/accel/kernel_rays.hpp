@@ -9,14 +9,14 @@
 
 namespace microtrace {
 
-/// Whether a valid ray keeps KernelRay's limits.
+/// Whether a ray is valid and keeps KernelRay's limits.
 [[nodiscard]] bool suits_kernels(const Ray& ray);
 
-/// For a ray that does.
+/// The caller's part of a KernelRay, for a ray that does.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray);
 
-/// 1 to kTileRays rays with one origin, all of which do. The best hits are left to the caller;
-/// places beyond the last ray are filled.
+/// The caller's part of a KernelTile for 1 to kTileRays such rays with one origin, but for their
+/// best hits.
 void fill_tile(std::span<const Ray> rays, KernelTile& tile);
 
 }  // namespace microtrace

@@ -43,9 +43,21 @@ void Judge::consider(std::uint32_t id, Best& best) const {
 }
 
 Hit Judge::hit(std::uint32_t id) const {
-  ClosestHit closest;
-  consider(id, closest);
-  return *closest.rounded([this](PrimitiveId which) { return root(which); });
+  // For a triangle that is known to be hit, its plane tells t.
+  const auto verdict_on = [this](const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
+      return TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
+    else
+      return seen_from(ray_->o, shape)(DVec3(ray_->d), range());
+  };
+  return primitives_->visit(id, [&](const auto& shape) {
+    if (filterable_ && is_filterable(shape)) {
+      const Verdict verdict = verdict_on(shape);
+      const auto below = static_cast<float>(verdict.lo), above = static_cast<float>(verdict.hi);
+      if (verdict.certainty == Certainty::hit && below == above) return Hit{.id = id, .t = below};
+    }
+    return Hit{.id = id, .t = exact::round_to_float(*exact::first_hit(shape, *ray_))};
+  });
 }
 
 SlowPath Judge::slow_path() {
@@ -59,8 +71,7 @@ void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
   primitives_->visit(id, [&](const auto& shape) {
     Verdict verdict{.certainty = Certainty::unsure};
     if (filterable_ && is_filterable(shape)) {
-      const Range range{.t_min = ray_->t_min, .t_max = ray_->t_max};
-      verdict = seen_from(ray_->o, shape)(DVec3(ray_->d), range);
+      verdict = seen_from(ray_->o, shape)(DVec3(ray_->d), range());
     }
     closest.consider(id, verdict, root_of);
   });

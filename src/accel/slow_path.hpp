@@ -37,6 +37,7 @@ class Judge {
 
  private:
   void consider(std::uint32_t id, ClosestHit& closest) const;
+  [[nodiscard]] Range range() const { return {.t_min = ray_->t_min, .t_max = ray_->t_max}; }
   [[nodiscard]] std::optional<exact::Root> root(std::uint32_t id) const;
 
   const Primitives* primitives_;

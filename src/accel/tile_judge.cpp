@@ -11,8 +11,16 @@ void put(KernelTile& tile, std::size_t i, const Best& best) {
 
 }  // namespace
 
-void TileJudge::fill_best(KernelTile& tile) const {
-  for (std::size_t i = 0; i < rays_.size(); ++i) put(tile, i, bundle_->best(i));
+Bundle& TileJudge::bundle() {
+  if (!bundle_) bundle_.emplace(*primitives_, rays_);
+  return *bundle_;
+}
+
+void TileJudge::begin(KernelTile& tile, std::span<const PrimitiveId> ids) {
+  for (const PrimitiveId id : ids)
+    primitives_->visit(id, [&](const auto& shape) { bundle().meet(id, shape); });
+  for (std::size_t i = 0; i < rays_.size(); ++i)
+    put(tile, i, ids.empty() ? no_hit(rays_[i]) : bundle().best(i));
 }
 
 std::optional<Hit> TileJudge::hit(const KernelTile& tile, std::size_t i) const {
@@ -20,7 +28,7 @@ std::optional<Hit> TileJudge::hit(const KernelTile& tile, std::size_t i) const {
   return Judge(*primitives_, rays_[i]).hit(tile.best_id[i]);
 }
 
-void TileJudge::consider_all(std::uint32_t id, KernelTile& tile) const {
+void TileJudge::consider_all(std::uint32_t id, KernelTile& tile) {
   const auto consider = [&](std::size_t i, const Verdict& verdict) {
     if (verdict.certainty == Certainty::miss || verdict.lo > tile.best_hi[i]) return;
     Best best{.lo = tile.best_lo[i], .hi = tile.best_hi[i], .id = tile.best_id[i]};
@@ -30,7 +38,7 @@ void TileJudge::consider_all(std::uint32_t id, KernelTile& tile) const {
       Judge(*primitives_, rays_[i]).consider(id, best);
     put(tile, i, best);
   };
-  primitives_->visit(id, [&](const auto& shape) { bundle_->for_each_verdict(shape, consider); });
+  primitives_->visit(id, [&](const auto& shape) { bundle().for_each_verdict(shape, consider); });
 }
 
 TileSlowPath TileJudge::slow_path() {
@@ -43,7 +51,7 @@ TileSlowPath TileJudge::slow_path() {
               },
           .consider_all =
               [](void* context, std::uint32_t id, KernelTile& tile) {
-                static_cast<const TileJudge*>(context)->consider_all(id, tile);
+                static_cast<TileJudge*>(context)->consider_all(id, tile);
               }};
 }
 

@@ -5,31 +5,33 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/slow_path.hpp"
 
+#include <optional>
 #include <span>
 
 namespace microtrace {
 
 class TileJudge {
  public:
-  /// All must outlive the judge. The bundle is of the same rays; what it has met counts already.
-  TileJudge(const Primitives& primitives, const Bundle& bundle, std::span<const Ray> rays)
-      : primitives_(&primitives), bundle_(&bundle), rays_(rays) {}
+  /// For rays that make a bundle. Both must outlive the judge.
+  TileJudge(const Primitives& primitives, std::span<const Ray> rays)
+      : primitives_(&primitives), rays_(rays) {}
 
-  /// Starts the tile from the bundle's hits.
-  void fill_best(KernelTile& tile) const;
+  /// Starts the tile with the hits of these primitives.
+  void begin(KernelTile& tile, std::span<const PrimitiveId> ids);
 
-  /// What the kernel found for ray i, t rounded once.
+  /// What the tile holds for ray i, t rounded once.
   [[nodiscard]] std::optional<Hit> hit(const KernelTile& tile, std::size_t i) const;
 
   /// For kernels; the judge must outlive it.
   [[nodiscard]] TileSlowPath slow_path();
 
  private:
-  void consider_all(std::uint32_t id, KernelTile& tile) const;
+  void consider_all(std::uint32_t id, KernelTile& tile);
+  Bundle& bundle();
 
   const Primitives* primitives_;
-  const Bundle* bundle_;
   std::span<const Ray> rays_;
+  std::optional<Bundle> bundle_;  // made on first need: most tiles meet triangles only
 };
 
 }  // namespace microtrace

@@ -9,61 +9,77 @@
 
 namespace microtrace {
 
-/// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of
-/// w_a = d.(B x C), w_b = d.(C x A), w_c = d.(A x B) say on which side of its edges the ray passes,
-/// and t = (A.n) / (d.n) with n = (b - a) x (c - a). Two strictly opposite signs are a miss; three
-/// equal ones a crossing of the triangle's plane within it.
-class TriangleFilter {
+/// A cross product, and the sums of the magnitudes of each component's two terms. Where the factors
+/// have one rounding each, a component has four.
+struct CrossProduct {
+  DVec3 value, permanent;
+
+  CrossProduct(const DVec3& x, const DVec3& y) {
+    const DVec3 left(x.y * y.z, x.z * y.x, x.x * y.y), right(x.z * y.y, x.x * y.z, x.y * y.x);
+    value = left - right;
+    permanent = glm::abs(left) + glm::abs(right);
+  }
+
+  /// Its product with d, itself exact: four roundings from before, one of the product, two of the
+  /// sum.
+  [[nodiscard]] Approximate along(const DVec3& d) const {
+    return {.value = glm::dot(d, value),
+            .error = gamma(8) * glm::dot(glm::abs(d), permanent) + kUnderflow};
+  }
+};
+
+/// The plane of a triangle seen from o: t = (A.n) / (d.n) with A = a - o and n = (b - a) x (c - a).
+class TrianglePlaneFilter {
  public:
-  TriangleFilter(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& o) {
-    const DVec3 p = a, q = b, r = c;
-    const DVec3 from_a = p - DVec3(o), from_b = q - DVec3(o), from_c = r - DVec3(o);
-    edges_ = {cross(from_b, from_c), cross(from_c, from_a), cross(from_a, from_b)};
-    normal_ = cross(q - p, r - p);
+  TrianglePlaneFilter(const Triangle& triangle, const Vec3& o)
+      : normal_(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a)) {
+    const DVec3 from_a = DVec3(triangle.a) - DVec3(o);
     // A one rounding, n four of its own, the product one, the sum two.
     height_ = {.value = glm::dot(from_a, normal_.value),
                .error = gamma(9) * glm::dot(glm::abs(from_a), normal_.permanent) + kUnderflow};
   }
+
+  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+    return quotient_verdict(height_, normal_.along(d), range);
+  }
+
+ private:
+  CrossProduct normal_;
+  Approximate height_{};
+};
+
+/// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of w_a = d.(B x C), w_b =
+/// d.(C x A), w_c = d.(A x B) say on which side of its edges the ray passes: two strictly opposite
+/// signs are a miss, three equal ones a crossing of the triangle's plane within it.
+class TriangleFilter {
+ public:
   TriangleFilter(const Triangle& triangle, const Vec3& o)
-      : TriangleFilter(triangle.a, triangle.b, triangle.c, o) {}
+      : TriangleFilter(triangle, o, DVec3(triangle.a) - DVec3(o), DVec3(triangle.b) - DVec3(o),
+                       DVec3(triangle.c) - DVec3(o)) {}
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
     bool inside_positive = true, inside_negative = true, any_positive = false, any_negative = false;
-    for (const Cross& edge : edges_) {
-      const Approximate w = along(d, edge);
+    for (const CrossProduct& edge : edges_) {
+      const Approximate w = edge.along(d);
       any_positive |= w.is_positive();
       any_negative |= w.is_negative();
       inside_positive &= w.is_positive();
       inside_negative &= w.is_negative();
     }
     if (any_positive && any_negative) return {.certainty = Certainty::miss};
-    Verdict crossing = quotient_verdict(height_, along(d, normal_), range);
+    Verdict crossing = plane_(d, range);
     if (crossing.certainty == Certainty::hit && !inside_positive && !inside_negative)
       crossing.certainty = Certainty::unsure;
     return crossing;
   }
 
  private:
-  struct Cross {
-    DVec3 value, permanent;
-  };
+  TriangleFilter(const Triangle& triangle, const Vec3& o, const DVec3& a, const DVec3& b,
+                 const DVec3& c)
+      : edges_{CrossProduct(b, c), CrossProduct(c, a), CrossProduct(a, b)}, plane_(triangle, o) {}
 
-  // The factors have one rounding each; with product and difference a component has four.
-  static Cross cross(const DVec3& x, const DVec3& y) {
-    const DVec3 left(x.y * y.z, x.z * y.x, x.x * y.y), right(x.z * y.y, x.x * y.z, x.y * y.x);
-    return {.value = left - right, .permanent = glm::abs(left) + glm::abs(right)};
-  }
-
-  // Four roundings from the cross product, one from the product with d (itself exact), two from the
-  // sum.
-  static Approximate along(const DVec3& d, const Cross& cross) {
-    return {.value = glm::dot(d, cross.value),
-            .error = gamma(8) * glm::dot(glm::abs(d), cross.permanent) + kUnderflow};
-  }
-
-  std::array<Cross, 3> edges_;
-  Cross normal_;
-  Approximate height_{};
+  std::array<CrossProduct, 3> edges_;
+  TrianglePlaneFilter plane_;
 };
 
 }  // namespace microtrace

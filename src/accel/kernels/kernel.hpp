@@ -30,35 +30,36 @@ struct SlowPath {
   void (*consider)(void* context, std::uint32_t id, Best& best);
 };
 
-/// A ray as kernels take it: |o| and t_min at most 2^38, the largest |d| within [2^-20, 2^20].
-/// These limits keep every float32 result below free of overflow, and what underflow adds below
-/// 2^-100.
+/// A ray as kernels take it: every |o_i| and t_min at most 2^38, the largest |d_i| within [2^-20,
+/// 2^20]. These limits keep every float32 result below free of overflow, and what underflow adds
+/// below 2^-100.
 struct KernelRay {
   float o[3], d[3];
   float t_min, t_max;
-  float d_sum;           ///< |d_x| + |d_y| + |d_z|, rounded up
-  float near_factor[3];  ///< 1 / d_i made smaller: a product with it is at most the exact distance
-  float far_factor[3];   ///< 1 / d_i made larger
+  // ---- by the kernel:
+  float near_factor[3], far_factor[3];  ///< see slabs.hpp
+  float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
   bool negative[3];
 };
 
 inline constexpr int kTileRays = 64;
 
-/// Rays with a common origin that go nearly the same way, an array for each of their parts; the
-/// limits are KernelRay's. Places beyond the last ray repeat a ray with best_hi = -infinity.
+/// Rays with a common origin, best nearly parallel; an array for each of their parts. The limits
+/// are KernelRay's. The caller fills what stands above the line; places beyond the last ray repeat
+/// one with best_hi = -infinity, so that it hits nothing.
 struct alignas(64) KernelTile {
   float d_x[kTileRays], d_y[kTileRays], d_z[kTileRays];
-  float near_x[kTileRays], near_y[kTileRays], near_z[kTileRays];  ///< near_factor of each ray
-  float far_x[kTileRays], far_y[kTileRays], far_z[kTileRays];
   float t_min[kTileRays];
   float best_lo[kTileRays], best_hi[kTileRays];  ///< as in Best
   std::uint32_t best_id[kTileRays];
   float o[3];
-  float d_sum;          ///< the largest of all rays
-  float least_t_min;    ///< of all rays
+  // ---- by the kernel:
+  float near[3][kTileRays], far[3][kTileRays];  ///< near_factor and far_factor of each ray
+  float d_sum;                                  ///< the largest of all rays
+  float least_t_min;                            ///< of all rays
   bool negative[3];     ///< whether d_i is below zero, for axes where that is the same for all rays
   bool common_sign[3];  ///< whether it is, and no d_i is so small that 1 / d_i overflows
-  float least_near[3], greatest_near[3];  ///< of near_factor, for axes with a common sign
+  float least_near[3], greatest_near[3];  ///< of the factors, for axes with a common sign
   float least_far[3], greatest_far[3];
 };
 
@@ -75,9 +76,9 @@ struct TileSlowPath {
 struct Kernels {
   const char* name;
   /// Updates best to the nearest hit of the tree, where that is nearer.
-  void (*closest)(const TreeView& tree, const KernelRay& ray, const SlowPath& slow, Best& best);
+  void (*closest)(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best);
   /// Whether there is any hit within the ray's range.
-  bool (*any)(const TreeView& tree, const KernelRay& ray, const SlowPath& slow);
+  bool (*any)(const TreeView& tree, KernelRay ray, const SlowPath& slow);
   /// The same as closest for all rays of a tile.
   void (*closest_of_tile)(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow);
 };

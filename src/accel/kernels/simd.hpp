@@ -55,9 +55,18 @@ template <class V>
 inline V greater(const V& a, const V& b) {
   return a > b ? a : b;
 }
+/// |a|, 0 for -0.
 template <class V>
 inline V magnitude(const V& a) {
-  return a > -a ? a : -a;
+  using Bits = typename FloatVector<sizeof(V) / 4>::bits_type;
+  return (V)((Bits)a & 0x7fffffff);  // the same bits under another type
+}
+
+/// Positive finite lanes moved by n units in the last place.
+template <int N>
+inline Float<N> moved_by_ulps(const Float<N>& a, int n) {
+  using Bits = typename FloatVector<N>::bits_type;
+  return (Float<N>)((Bits)a + n);
 }
 
 /// The lanes in which a <= b; false for NaN.

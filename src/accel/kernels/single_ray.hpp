@@ -7,6 +7,7 @@
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
+#include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
 namespace {
@@ -158,7 +159,8 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
 }
 
 template <int N>
-void closest(const TreeView& tree, const KernelRay& ray, const SlowPath& slow, Best& best) {
+void closest(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best) {
+  prepare_ray(ray);
   const auto block = [&](std::uint32_t index) {
     const TriangleBlock& triangles = tree.blocks[index];
     const BlockTest<N> test(triangles, ray, best.hi < kFarthestHit ? best.hi : kFarthestHit);
@@ -188,7 +190,8 @@ void closest(const TreeView& tree, const KernelRay& ray, const SlowPath& slow, B
 }
 
 template <int N>
-bool any(const TreeView& tree, const KernelRay& ray, const SlowPath& slow) {
+bool any(const TreeView& tree, KernelRay ray, const SlowPath& slow) {
+  prepare_ray(ray);
   const auto slowly = [&](std::uint32_t id) {
     Best best{ray.t_max, ray.t_max, kNoPrimitive};
     slow.consider(slow.context, id, best);

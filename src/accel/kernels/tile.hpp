@@ -7,6 +7,7 @@
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/single_ray.hpp"
+#include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
 namespace {
@@ -16,6 +17,7 @@ class TileWalk {
  public:
   TileWalk(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow)
       : tree_(tree), tile_(tile), slow_(slow) {
+    prepare_tile<N>(tile);
     update_limit();
   }
 
@@ -91,12 +93,11 @@ class TileWalk {
                          node.lo_z[lane] - tile_.o[2]};
     const float hi[3] = {node.hi_x[lane] - tile_.o[0], node.hi_y[lane] - tile_.o[1],
                          node.hi_z[lane] - tile_.o[2]};
-    const float* near[3] = {tile_.near_x, tile_.near_y, tile_.near_z};
-    const float* far[3] = {tile_.far_x, tile_.far_y, tile_.far_z};
     for (int i = 0; i < kTileRays; i += N) {
       F enter = load<N>(tile_.t_min + i), leave = load<N>(tile_.best_hi + i);
       for (int axis = 0; axis < 3; ++axis) {
-        const F near_factor = load<N>(near[axis] + i), far_factor = load<N>(far[axis] + i);
+        const F near_factor = load<N>(tile_.near[axis] + i),
+                far_factor = load<N>(tile_.far[axis] + i);
         if (tile_.common_sign[axis]) {
           const bool negative = tile_.negative[axis];
           enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
