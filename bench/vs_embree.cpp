@@ -102,7 +102,7 @@ void run(const Arguments& arguments) {
     scenes.emplace_back([file] { return scene_from_file(file); });
 
   std::printf(
-      "microtrace with %s kernels, Embree %s at high build quality, threads: %u, runs: %u,\n"
+      "microtrace with %s kernels, Embree %s, threads: %u, runs: %u,\n"
       "%s seconds, denormal numbers kept (no flush to zero) for both\n\n%s",
       best_kernels().name, RTC_VERSION_STRING, arguments.options.threads, arguments.options.runs,
       arguments.options.threads == 1 ? "processor" : "wall-clock", table_head().c_str());

@@ -16,10 +16,12 @@
 namespace microtrace::bench {
 namespace {
 
-// Embree's scenes for one instruction set. Which set is best depends on the kind of rays.
+// One of Embree's scenes. Which instruction set and build quality are best depends on the mesh and
+// the kind of rays.
 struct Peer {
-  std::string isa;
-  std::unique_ptr<PeerScene> fast, robust;
+  std::string name;
+  bool robust;
+  std::unique_ptr<PeerScene> scene;
 };
 
 struct Choice {
@@ -28,29 +30,30 @@ struct Choice {
   std::string name;
 };
 
-std::unique_ptr<PeerScene> built(const Mesh& mesh, const PeerOptions& options) {
-  auto scene = std::make_unique<PeerScene>(mesh, options);
-  scene->commit();
-  return scene;
-}
-
+// Robust scenes have one quality: Embree makes its spatial splits, which are what high adds, for
+// fast ones only.
 std::vector<Peer> make_peers(const Mesh& mesh, unsigned threads) {
-  const auto make = [&](const std::string& name, const std::string& isa) {
-    return Peer{.isa = name,
-                .fast = built(mesh, {.isa = isa, .threads = threads}),
-                .robust = built(mesh, {.isa = isa, .robust = true, .threads = threads})};
-  };
   std::vector<Peer> peers;
-  peers.push_back(make("native", ""));
-  if (peers[0].fast->is_16_wide()) {
-    peers[0].isa = "avx512";
-    peers.push_back(make("avx2", "avx2"));
-  }
+  const auto add = [&](const std::string& name, PeerOptions options) {
+    options.threads = threads;
+    peers.push_back({.name = name,
+                     .robust = options.robust,
+                     .scene = std::make_unique<PeerScene>(mesh, options)});
+    peers.back().scene->commit();
+  };
+  const auto add_all = [&](const std::string& name, const std::string& isa) {
+    add(name + " high", {.isa = isa});
+    add(name + " medium", {.isa = isa, .quality = RTC_BUILD_QUALITY_MEDIUM});
+    add(name, {.isa = isa, .robust = true});
+  };
+  const bool avx512 = PeerScene(mesh, {}).is_16_wide();
+  add_all(avx512 ? "avx512" : "native", "");
+  if (avx512) add_all("avx2", "avx2");
   return peers;
 }
 
-std::string name_of(const std::string& isa, PeerMode mode) {
-  return isa + (mode.width == kStream ? " stream" : " x" + std::to_string(mode.width)) +
+std::string name_of(const std::string& scene, PeerMode mode) {
+  return scene + (mode.width == kStream ? " stream" : " x" + std::to_string(mode.width)) +
          (mode.coherent ? " coherent" : "");
 }
 
@@ -60,14 +63,14 @@ Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& questi
   Choice best;
   double best_seconds = std::numeric_limits<double>::infinity();
   for (const Peer& peer : peers) {
-    const PeerScene& scene = robust ? *peer.robust : *peer.fast;
+    if (peer.robust != robust) continue;
     for (const PeerMode mode : kPeerModes) {
       std::vector<double> times;
       for (int i = 0; i < 3; ++i)
-        times.push_back(seconds(threads, [&] { question.ask_embree(scene, mode, threads); }));
+        times.push_back(seconds(threads, [&] { question.ask_embree(*peer.scene, mode, threads); }));
       if (median(times) >= best_seconds) continue;
       best_seconds = median(times);
-      best = {.scene = &scene, .mode = mode, .name = name_of(peer.isa, mode)};
+      best = {.scene = peer.scene.get(), .mode = mode, .name = name_of(peer.name, mode)};
     }
   }
   return best;
@@ -86,19 +89,24 @@ BuildRow compare_builds(const BenchScene& scene, const CompareOptions& options,
   const Mesh& mesh = scene.mesh();
   const auto triangles = static_cast<double>(mesh.triangles.size());
   BuildRow row{.scene = scene.name, .triangles = mesh.triangles.size(), .threads = options.threads};
-  std::vector<double> ours, theirs;
+  std::vector<double> ours, high, medium;
+  const auto build_embree = [&](RTCBuildQuality quality, std::vector<double>& times) {
+    PeerScene peer(mesh, {.quality = quality, .threads = options.threads});
+    const auto before = static_cast<double>(peer.bytes());
+    times.push_back(seconds(options.threads, [&] { peer.commit(); }));
+    return (static_cast<double>(peer.bytes()) - before) / triangles;
+  };
   for (unsigned i = 0; i < options.runs; ++i) {
     bvh.reset();
     ours.push_back(seconds(options.threads, [&] {
       bvh.emplace(scene.scene, BvhOptions{.threads = options.threads});
     }));
-    PeerScene peer(mesh, {.threads = options.threads});
-    const auto before = static_cast<double>(peer.bytes());
-    theirs.push_back(seconds(options.threads, [&] { peer.commit(); }));
-    row.bytes_per_triangle_embree = (static_cast<double>(peer.bytes()) - before) / triangles;
+    build_embree(RTC_BUILD_QUALITY_MEDIUM, medium);
+    row.bytes_per_triangle_embree = build_embree(RTC_BUILD_QUALITY_HIGH, high);
   }
   row.ms_microtrace = 1e3 * median(ours);
-  row.ms_embree = 1e3 * median(theirs);
+  row.ms_embree = 1e3 * median(high);
+  row.ms_embree_medium = 1e3 * median(medium);
   row.bytes_per_triangle_microtrace = static_cast<double>(bytes_of(*bvh)) / triangles;
   return row;
 }

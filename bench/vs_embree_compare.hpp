@@ -19,7 +19,7 @@ struct BuildRow {
   std::string scene;
   std::size_t triangles = 0;
   unsigned threads = 1;
-  double ms_microtrace = 0, ms_embree = 0;
+  double ms_microtrace = 0, ms_embree = 0, ms_embree_medium = 0;  ///< Embree: high, medium quality
   double bytes_per_triangle_microtrace = 0, bytes_per_triangle_embree = 0;  ///< without the mesh
 };
 
@@ -28,7 +28,8 @@ struct RayRow {
   unsigned threads = 1;
   std::size_t rays = 0;
   double mrays_microtrace = 0, mrays_embree_fast = 0, mrays_embree_robust = 0;
-  std::string mode_fast, mode_robust;  ///< Embree's best: instruction set, rays of a call, flag
+  std::string mode_fast, mode_robust;  ///< Embree's best: instruction set, build quality, rays of a
+                                       ///< call, flag
   double disagreements_fast = 0;       ///< share of rays that hit one thing here, another there
   double disagreements_robust = 0;
 };

@@ -144,8 +144,14 @@ void count_bytes(std::atomic<std::ptrdiff_t>& sum, std::ptrdiff_t bytes) {
 
 }  // namespace
 
-PeerRays::PeerRays(std::span<const Ray> rays)
-    : single(rays), by_4(pack<4>(rays)), by_8(pack<8>(rays)), by_16(pack<16>(rays)) {}
+PeerRays::PeerRays(std::span<const Ray> rays) : single(rays.begin(), rays.end()) {
+  for (Ray& ray : single) {
+    if (ray.t_min == std::numeric_limits<float>::denorm_min()) ray.t_min = 0;
+  }
+  by_4 = pack<4>(single);
+  by_8 = pack<8>(single);
+  by_16 = pack<16>(single);
+}
 
 PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
     : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)) {
@@ -163,7 +169,7 @@ PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
       },
       bytes_.get());
   scene_.reset(rtcNewScene(device_.get()));
-  rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+  rtcSetSceneBuildQuality(scene_.get(), options.quality);
   rtcSetSceneFlags(scene_.get(), options.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,

@@ -40,11 +40,12 @@ struct alignas(4 * K) RayPacket {
 };
 
 /// Rays laid out as each mode likes them, which is not part of the time measured. The last packet
-/// is filled up with copies of the last ray.
+/// is filled up with copies of the last ray. The least t_min > 0 becomes 0: products with a
+/// denormal number are slow. The answers are the same, as no ray starts on a surface.
 struct PeerRays {
   explicit PeerRays(std::span<const Ray> rays);
 
-  std::span<const Ray> single;
+  std::vector<Ray> single;
   std::vector<RayPacket<4>> by_4;
   std::vector<RayPacket<8>> by_8;
   std::vector<RayPacket<16>> by_16;
@@ -53,10 +54,11 @@ struct PeerRays {
 struct PeerOptions {
   std::string isa{};    ///< as Embree's configuration has it; empty: the processor's best
   bool robust = false;  ///< RTC_SCENE_FLAG_ROBUST
+  RTCBuildQuality quality = RTC_BUILD_QUALITY_HIGH;
   unsigned threads = 1;
 };
 
-/// An Embree scene at high build quality. Throws std::runtime_error where Embree reports an error.
+/// An Embree scene. Throws std::runtime_error where Embree reports an error.
 class PeerScene {
  public:
   /// The mesh is shared with Embree and must outlive this. Its positions need room for one more

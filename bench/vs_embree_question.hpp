@@ -21,8 +21,6 @@ enum class Kind {
 class Question {
  public:
   Question(Kind kind, std::vector<Ray> rays);
-  Question(const Question&) = delete;  // the packed rays refer to the others
-  Question& operator=(const Question&) = delete;
 
   void ask_microtrace(const Bvh& bvh, unsigned threads);
   void ask_embree(const PeerScene& scene, PeerMode mode, unsigned threads);

@@ -4,7 +4,7 @@
 /// finite is empty.
 ///
 /// To add one: a struct here and in `Shape`, its hit in src/exact/, its filter there too, its
-/// reader in src/io/json_scene.cpp and the JSON schema, a scene in scenes/, an oracle test.
+/// reader in src/io/scene_json/scene.cpp and the JSON schema, a scene in scenes/, an oracle test.
 
 #include <microtrace/math.hpp>
 

@@ -1,7 +1,7 @@
 #include "io/file.hpp"
-#include "io/gltf_scene.hpp"
-#include "io/json_document.hpp"
-#include "io/json_scene.hpp"
+#include "io/gltf/scene.hpp"
+#include "io/json/document.hpp"
+#include "io/scene_json/scene.hpp"
 
 #include <microtrace/io.hpp>
 

@@ -1,6 +1,6 @@
 #include "gltf/asset_builder.hpp"
 
-#include "io/gltf_scene.hpp"
+#include "io/gltf/scene.hpp"
 
 namespace microtrace::tests {
 namespace {

@@ -1,5 +1,5 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf_scene.hpp"
+#include "io/gltf/scene.hpp"
 
 #include <filesystem>
 #include <fstream>

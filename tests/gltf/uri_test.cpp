@@ -1,5 +1,6 @@
+#include "io/gltf/uri.hpp"
+
 #include "gltf/asset_builder.hpp"
-#include "io/gltf_uri.hpp"
 
 #include <gmock/gmock.h>
 

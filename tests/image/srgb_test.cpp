@@ -1,4 +1,4 @@
-#include "io/srgb.hpp"
+#include "io/image/srgb.hpp"
 
 #include <cmath>
 #include <cstddef>

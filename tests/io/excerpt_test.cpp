@@ -1,4 +1,4 @@
-#include "io/excerpt.hpp"
+#include "io/json/excerpt.hpp"
 
 #include <string>
 

@@ -1,6 +1,5 @@
-#include "io/json_mesh.hpp"
-
-#include "io/json_document.hpp"
+#include "io/json/document.hpp"
+#include "io/scene_json/mesh.hpp"
 
 #include <string>
 #include <variant>

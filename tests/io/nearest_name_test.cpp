@@ -1,4 +1,4 @@
-#include "io/nearest_name.hpp"
+#include "io/json/nearest_name.hpp"
 
 #include <array>
 #include <string>

@@ -3,6 +3,8 @@
 
 #include "accel/build/tree.hpp"
 
+#include "accel/build/presplit.hpp"
+#include "accel/build/shape_box.hpp"
 #include "support/generated_meshes.hpp"
 #include "support/tree_walk.hpp"
 
@@ -96,6 +98,62 @@ TEST(Tree, HoldsMeshesOfAllSizes) {
     check(scene_of({generated::displaced_sphere(n)}), Place::blocks);
     check(scene_of({generated::terrain(n)}), Place::blocks);
     check(scene_of({generated::hall(n)}), Place::blocks);
+  }
+}
+
+TEST(Tree, SplitsSlantingTriangles) {
+  const auto triangles = [](const Mesh& mesh) {
+    return static_cast<double>(mesh.triangles.size());
+  };
+  const auto references = [](const Mesh& mesh) {
+    const Scene scene = scene_of({mesh});
+    const Primitives primitives(scene);
+    return static_cast<double>(
+        TreeWalk(build_tree(primitives, {}), primitives).triangle_references());
+  };
+  // Many needles across a cube, and a heap of crumbs.
+  Mesh needles = soup(20000, 0.001F);
+  Random random;
+  for (std::size_t i = 0; i < 3000; i += 3) needles.positions[i] = random.in_cube();
+  check(scene_of({needles}), Place::blocks);
+  EXPECT_GT(references(needles), 1.1 * triangles(needles));
+  EXPECT_LE(references(needles), 1.3 * triangles(needles));
+
+  const Mesh hall = generated::turned(generated::hall(50000));
+  check(scene_of({hall}), Place::blocks);
+  EXPECT_GT(references(hall), 1.01 * triangles(hall));
+  const Mesh even = generated::displaced_sphere(50000);
+  EXPECT_EQ(references(even), triangles(even));
+}
+
+TEST(Tree, CutsHoldBothParts) {
+  Random random;
+  for (int i = 0; i < 20000; ++i) {
+    const float size = std::ldexp(1.0F, i % 60 - 30);
+    Triangle t = random.triangle(1);
+    for (Vec3* p : {&t.a, &t.b, &t.c}) *p *= size;
+    const build::Box whole = build::box_of(t);
+    const int axis = i % 3;
+    const float share = (random.symmetric() + 1) / 2;
+    const float plane = whole.lo[axis] + share * (whole.hi[axis] - whole.lo[axis]);
+    const auto parts = build::cut(t, whole, axis, plane);
+    EXPECT_LE(parts[0].hi[axis], plane);
+    EXPECT_GE(parts[1].lo[axis], plane);
+    // Points of the edges beside the plane, each in the part on its side.
+    const std::array<DVec3, 4> corners{t.a, t.b, t.c, t.a};
+    for (std::size_t edge = 0; edge < 3; ++edge) {
+      for (const double beside : {-0.1, -1e-7, 1e-7, 0.1}) {
+        const DVec3 p = corners[edge], d = corners[edge + 1] - p;
+        const double at = (double{plane} - p[axis]) / d[axis] + beside;
+        if (!(at >= 0 && at <= 1)) continue;
+        const DVec3 q = p + at * d;
+        const build::Box& part = parts[q[axis] > double{plane}];
+        for (int k = 0; k < 3; ++k) {
+          EXPECT_LE(double{part.lo[k]}, q[k] + 1e-15 * size);
+          EXPECT_GE(double{part.hi[k]}, q[k] - 1e-15 * size);
+        }
+      }
+    }
   }
 }
 
@@ -228,10 +286,12 @@ TEST(Tree, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(Tree, IsBetterThanOneOfObjectMedians) {
-  const std::vector<std::pair<Mesh, double>> cases = {{generated::displaced_sphere(50000), 0.9},
-                                                      {generated::terrain(50000), 0.9},
-                                                      {generated::hall(50000), 0.5},
-                                                      {soup(50000, 0.02F), 1}};
+  const std::vector<std::pair<Mesh, double>> cases = {
+      {generated::displaced_sphere(50000), 0.9},
+      {generated::terrain(50000), 0.9},
+      {generated::hall(50000), 0.5},
+      {generated::turned(generated::hall(50000)), 0.3},
+      {soup(50000, 0.02F), 1}};
   for (const auto& [mesh, most] : cases) {
     const Scene scene = scene_of({mesh});
     const Primitives primitives(scene);

@@ -19,4 +19,7 @@ namespace microtrace::generated {
 /// shafts of long thin ones, and most triangles tiny, in capitals and busts.
 [[nodiscard]] Mesh hall(std::size_t triangles);
 
+/// Turned so that no face of a hall lies along an axis: boxes fit badly.
+[[nodiscard]] Mesh turned(Mesh mesh);
+
 }  // namespace microtrace::generated

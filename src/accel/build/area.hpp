@@ -1,8 +1,13 @@
 #pragma once
 #include "accel/build/float4.hpp"
 
+#include <microtrace/math.hpp>
+
 #include <algorithm>
 #include <bit>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 namespace microtrace::build {
 
@@ -23,6 +28,13 @@ class AreaMeasure {
   [[nodiscard]] float operator()(const Box& b) const {
     const Float4 e = half_extent(b) * splat(scale_);
     return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
+  }
+
+  /// Of a triangle, as if by boxes that fit it ever more closely.
+  [[nodiscard]] float of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    const float half = 0.5F * scale_;  // as in half_extent
+    const Vec3 n = glm::abs(glm::cross((b - a) * half, (c - a) * half));
+    return 0.5F * (n.x + n.y + n.z);
   }
 
  private:

@@ -39,17 +39,16 @@ CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mappi
                         const Split& split, Reference* left, Reference* right) {
   const float infinity = std::numeric_limits<float>::infinity();
   CentroidBoxes boxes;
+  std::array<Reference*, 2> to{left, right};
   for (const Reference& r : from) {
-    const bool goes_left = mapping(r)[split.axis] <= split.last_bin;
-    Reference*& to = goes_left ? left : right;
-    *to++ = r;
+    const bool goes_right = mapping(r)[split.axis] > split.last_bin;
+    *to[goes_right]++ = r;
     const Float4 c = centroid(r.box);
-    const std::int32_t mask = goes_left ? -1 : 0;
-    const Int4 is_left{mask, mask, mask, mask};
-    boxes.left.lo = min(boxes.left.lo, is_left ? c : splat(infinity));
-    boxes.left.hi = max(boxes.left.hi, is_left ? c : splat(-infinity));
-    boxes.right.lo = min(boxes.right.lo, is_left ? splat(infinity) : c);
-    boxes.right.hi = max(boxes.right.hi, is_left ? splat(-infinity) : c);
+    const Int4 is_right = splat(static_cast<float>(goes_right)) > splat(0.5F);
+    boxes.left.lo = min(boxes.left.lo, is_right ? splat(infinity) : c);
+    boxes.left.hi = max(boxes.left.hi, is_right ? splat(-infinity) : c);
+    boxes.right.lo = min(boxes.right.lo, is_right ? c : splat(infinity));
+    boxes.right.hi = max(boxes.right.hi, is_right ? c : splat(-infinity));
   }
   return boxes;
 }

@@ -1,9 +1,17 @@
 #include "accel/build/binning.hpp"
 
 namespace microtrace::build {
+namespace {
+
+// Of a set that will be split further: no split falls on multiples of eight every time.
+float expected_blocks(const Load& load) {
+  return static_cast<float>(blocks(load.weight)) + 0.1F * static_cast<float>(load.weight);
+}
+
+}  // namespace
 
 BinMapping::BinMapping(const Box& centroids, int bins)
-    : origin_(masked(centroids.lo)), last_(static_cast<float>(bins - 1)), bins_(bins) {
+    : origin_(centroids.lo), last_(static_cast<float>(bins - 1)), bins_(bins) {
   for (int k = 0; k < 3; ++k) {
     const float extent = centroids.hi[k] - centroids.lo[k];
     // Of a smaller extent the reciprocal would overflow.
@@ -54,7 +62,7 @@ void Bins::try_axis(int axis, int bins, const AreaMeasure& area, Split& best) co
     box.include(boxes[i]);
     load += loads[i];
     right_cost[i] = load.count == 0 ? std::numeric_limits<float>::infinity()
-                                    : area(box) * static_cast<float>(build::blocks(load.weight));
+                                    : area(box) * expected_blocks(load);
   }
   box = {};
   load = {};
@@ -62,8 +70,7 @@ void Bins::try_axis(int axis, int bins, const AreaMeasure& area, Split& best) co
     box.include(boxes[i]);
     load += loads[i];
     if (load.count == 0) continue;
-    const float cost =
-        area(box) * static_cast<float>(build::blocks(load.weight)) + right_cost[i + 1];
+    const float cost = area(box) * expected_blocks(load) + right_cost[i + 1];
     if (cost < best.cost) {
       best.cost = cost;
       best.axis = axis;

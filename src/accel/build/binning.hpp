@@ -15,7 +15,7 @@ inline constexpr int kMaxBins = 32;
 
 /// A quarter of the sum of a box's corners: stays finite, and orders boxes as their centroids do.
 [[nodiscard]] inline Float4 centroid(const Box& b) {
-  return b.lo * splat(0.25F) + b.hi * splat(0.25F);
+  return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
 }
 
 /// Which bin a reference falls into, along each axis.
@@ -25,7 +25,7 @@ class BinMapping {
 
   [[nodiscard]] int bins() const { return bins_; }
   [[nodiscard]] Int4 operator()(const Reference& r) const {
-    const Float4 place = min((masked(centroid(r.box)) - origin_) * scale_, splat(last_));
+    const Float4 place = min((centroid(r.box) - origin_) * scale_, splat(last_));
     return __builtin_convertvector(place, Int4);
   }
   /// Whether all references fall into one bin along every axis.
@@ -34,11 +34,6 @@ class BinMapping {
   }
 
  private:
-  // The fourth lane is made 0: whatever it holds, it must not cost an overflow or a subnormal.
-  static Float4 masked(Float4 x) {
-    return std::bit_cast<Float4>(std::bit_cast<Int4>(x) & Int4{-1, -1, -1, 0});
-  }
-
   Float4 origin_, scale_{};
   float last_;
   int bins_;

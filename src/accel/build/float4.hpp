@@ -2,6 +2,7 @@
 /// Four floats that move together, in the compilers' own portable vectors: the builder handles
 /// boxes as two of them. The fourth lane carries other data and is never looked at as a number.
 
+#include <bit>
 #include <cstdint>
 #include <limits>
 
@@ -18,6 +19,11 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
 }
 [[nodiscard]] inline Float4 splat(float x) {
   return Float4{x, x, x, x};
+}
+
+/// With 0 for the fourth lane: other data in it, taken for a number, may be subnormal and slow.
+[[nodiscard]] inline Float4 xyz(Float4 v) {
+  return std::bit_cast<Float4>(std::bit_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }
 
 /// Axis-aligned, closed; empty if lo > hi.
@@ -37,7 +43,7 @@ struct Box {
 
 /// Half of each extent. Halves, because an extent itself may exceed the largest float.
 [[nodiscard]] inline Float4 half_extent(const Box& b) {
-  return b.hi * splat(0.5F) - b.lo * splat(0.5F);
+  return xyz(b.hi) * splat(0.5F) - xyz(b.lo) * splat(0.5F);
 }
 
 }  // namespace microtrace::build

@@ -2,8 +2,13 @@
 
 #include "accel/build/shape_box.hpp"
 
+#include <microtrace/error.hpp>
+
 namespace microtrace::build {
 namespace {
+
+// That many eighths of a block have a place in a leaf's reference, with room for split triangles.
+constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
 
 bool fits_blocks(const Box& b) {
   const Float4 size = max(max(b.hi, -b.hi), max(b.lo, -b.lo));
@@ -50,6 +55,10 @@ References gather(const Primitives& primitives) {
   primitives.for_each([&](PrimitiveId, const auto&) { ++count; });
   references.bounded.reserve(count);
   primitives.for_each(Gatherer(references));
+  std::uint64_t weight = 0;
+  for (const Reference& r : references.bounded) weight += r.weight();
+  if (weight > kMostWeight)
+    throw Error(ErrorKind::limit, "", "the scene has more than 2^30 triangles; leave some out");
   return references;
 }
 

@@ -36,7 +36,7 @@ struct References {
 };
 
 /// Sorts a scene's primitives into those with a finite box, those without, and those without a
-/// point, which are left out.
+/// point, which are left out. Throws Error (limit) if there are more than one tree can hold.
 [[nodiscard]] References gather(const Primitives& primitives);
 
 }  // namespace microtrace::build

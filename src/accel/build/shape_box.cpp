@@ -26,7 +26,7 @@ float rounded_down(double x) {
 }
 
 // center +- reach, where reach errs by a few units of roundoff.
-Box around(const Vec3& center, const DVec3& reach) {
+Box extended(const Vec3& center, const DVec3& reach) {
   Box box;
   for (int k = 0; k < 3; ++k) {
     const double c = center[k], slack = 0x1p-48 * (std::abs(c) + reach[k]);
@@ -68,7 +68,7 @@ Box box_of(const Triangle& t) {
 }
 
 Box box_of(const Sphere& s) {
-  return around(s.center, DVec3(s.radius));
+  return extended(s.center, DVec3(s.radius));
 }
 
 // Along axis k a disc reaches r sqrt(1 - n_k^2 / n.n).
@@ -76,7 +76,16 @@ Box box_of(const Disc& d) {
   const DVec3 n2 = DVec3(d.normal) * DVec3(d.normal);
   const double sum = n2.x + n2.y + n2.z;
   const DVec3 others(n2.y + n2.z, n2.z + n2.x, n2.x + n2.y);
-  return around(d.center, double{d.radius} * glm::sqrt(others / sum));
+  return extended(d.center, double{d.radius} * glm::sqrt(others / sum));
+}
+
+Box around(const DVec3& point, const DVec3& size) {
+  Box box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = rounded_down(point[k] - 0x1p-50 * size[k]);
+    box.hi[k] = -rounded_down(-(point[k] + 0x1p-50 * size[k]));
+  }
+  return box;
 }
 
 bool is_finite(const Box& b) {

@@ -19,6 +19,9 @@ namespace microtrace::build {
 [[nodiscard]] Box box_of(const Sphere& sphere);
 [[nodiscard]] Box box_of(const Disc& disc);
 
+/// A box that holds a point known within 2^-50 of `size`, which is no less than its coordinates.
+[[nodiscard]] Box around(const DVec3& point, const DVec3& size);
+
 [[nodiscard]] bool is_finite(const Box& box);
 
 }  // namespace microtrace::build

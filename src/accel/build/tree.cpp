@@ -2,6 +2,7 @@
 
 #include "accel/build/binning.hpp"
 #include "accel/build/collapse.hpp"
+#include "accel/build/presplit.hpp"
 #include "accel/build/reference.hpp"
 #include "accel/build/tree_writer.hpp"
 
@@ -29,6 +30,7 @@ void plan(BinaryTree& binary, WorkerPool& pool) {
 Tree build_tree(const Primitives& primitives, const BuildOptions& options) {
   References references = gather(primitives);
   Tree tree;
+  if (!options.fast) presplit(references.bounded, primitives);
   tree.unbounded = std::move(references.unbounded);
   WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
   BinaryTree binary = build_binary_tree(std::move(references.bounded),

@@ -145,8 +145,7 @@ class Writer {
   void resize(const Places& size) {
     if (size.nodes > child_ref::kMaxNodes || size.blocks > child_ref::kMaxLeafEntries ||
         size.others > child_ref::kMaxLeafEntries)
-      throw Error(ErrorKind::limit, "",
-                  "the scene has too many primitives for one tree; split it into several pictures");
+      throw Error(ErrorKind::limit, "", "the scene has too many triangles; leave some out");
     tree_.nodes.resize(size.nodes);
     tree_.blocks.resize(size.blocks);
     tree_.others.resize(size.others);

@@ -1,8 +1,8 @@
 /// Encodes pictures by OpenImageIO, behind the C interface of io/image_module_abi.hpp. It writes to
 /// memory, so that the library alone touches the disk and sees every failure.
 
-#include "io/image_module_abi.hpp"
-#include "io/srgb.hpp"
+#include "io/image/module_abi.hpp"
+#include "io/image/srgb.hpp"
 
 #include <exception>
 #include <memory>

@@ -1,9 +1,9 @@
 // A program that uses the installed library: every public header, a scene from memory, a picture.
+#include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/hit.hpp>
-#include <microtrace/bvh.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>

@@ -1,0 +1,60 @@
+#include "io/gltf/asset.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace microtrace::io::gltf {
+
+Element Element::member(std::string_view key) const {
+  const JsonValue* found = value->find(key);
+  return {found != nullptr ? found : value, child(pointer, key)};
+}
+
+Element Element::item(std::size_t index) const {
+  return {index < value->items.size() ? &value->items[index] : value, child(pointer, index)};
+}
+
+const std::vector<JsonValue>& Asset::array(std::string_view name) const {
+  static const std::vector<JsonValue> none;
+  const JsonValue* found = json_.root().find(name);
+  return found != nullptr ? found->items : none;
+}
+
+Element Asset::element(std::string_view name, std::size_t index) const {
+  return root().member(name).item(index);
+}
+
+void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
+  throw Error(kind, json_.at(at.value->offset, at.pointer, std::move(message)));
+}
+
+void Asset::warn(const Element& at, const std::string& message) {
+  Warning& warning = warnings_[message];
+  if (warning.count++ == 0 || at.value->offset < warning.offset) {
+    warning.offset = at.value->offset;
+    warning.pointer = at.pointer;
+  }
+}
+
+std::vector<Diagnostic> Asset::warnings() const {
+  constexpr std::size_t shown = 100;  // each costs a search for its line
+  std::vector<std::pair<std::string, Warning>> sorted(warnings_.begin(), warnings_.end());
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second.offset, a.first) < std::pair(b.second.offset, b.first);
+  });
+  std::vector<Diagnostic> result;
+  for (std::size_t i = 0; i < std::min(sorted.size(), shown); ++i) {
+    auto& [message, warning] = sorted[i];
+    if (warning.count > 1) message += " (" + std::to_string(warning.count) + " places)";
+    result.push_back(json_.at(warning.offset, warning.pointer, message));
+  }
+  if (sorted.size() > shown) {
+    std::string message = std::to_string(sorted.size() - shown) + " more warnings are left out";
+    result.emplace_back();
+    result.back().file = json_.file();
+    result.back().message = std::move(message);
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

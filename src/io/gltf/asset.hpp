@@ -1,0 +1,58 @@
+#pragma once
+/// The JSON of one glTF asset, and all that is said about it to the user.
+
+#include "io/json/document.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+/// A value of the asset's JSON and where it stands.
+struct Element {
+  const JsonValue* value;
+  std::string pointer;
+
+  /// The member of that name; the element itself, with the member's pointer, where it has none.
+  [[nodiscard]] Element member(std::string_view key) const;
+  /// The item of that number; as above.
+  [[nodiscard]] Element item(std::size_t index) const;
+};
+
+class Asset {
+ public:
+  /// The document must outlive the asset.
+  explicit Asset(const JsonDocument& json) : json_(json) {}
+
+  [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
+  [[nodiscard]] const std::string& file() const { return json_.file(); }
+
+  /// The items of an array of the root object, by its name; none where it is absent.
+  [[nodiscard]] const std::vector<JsonValue>& array(std::string_view name) const;
+  /// Item `index` of that array, which has it.
+  [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
+
+  [[noreturn]] void fail(const Element& at, std::string message,
+                         ErrorKind kind = ErrorKind::invalid_scene) const;
+
+  /// Warnings with one text become one diagnostic: the first place in the file, and their number.
+  void warn(const Element& at, const std::string& message);
+  /// All warnings in file order; beyond 100 texts, a last one says how many are left out.
+  [[nodiscard]] std::vector<Diagnostic> warnings() const;
+
+ private:
+  struct Warning {
+    std::size_t offset = 0, count = 0;
+    std::string pointer;
+  };
+
+  const JsonDocument& json_;
+  std::unordered_map<std::string, Warning> warnings_;  // by text
+};
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,30 @@
+#pragma once
+/// The bytes of an asset's buffers.
+
+#include "io/gltf/asset.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+/// All buffers of an asset together, and each file they come from, hold at most so many bytes.
+inline constexpr std::size_t max_buffer_bytes = std::size_t{1} << 32;
+
+struct Buffer {
+  std::string storage;                    ///< of bytes that did not come with the file
+  std::optional<std::string_view> bytes;  ///< byteLength of them; nothing for a buffer that has
+                                          ///< neither URI nor BIN chunk: extensions fill such
+};
+
+/// Reads the buffers that check_schema has accepted: the GLB file's `bin`, data URIs, files within
+/// `folder`. Throws Error with the buffer's pointer: invalid_scene for a bad URI or too few bytes,
+/// io for a file, limit.
+[[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
+                                               const std::filesystem::path& folder);
+
+}  // namespace microtrace::io::gltf

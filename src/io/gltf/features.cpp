@@ -1,0 +1,154 @@
+#include "io/gltf/features.hpp"
+
+#include "io/json/excerpt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// Pictures are flat: each material already looks unlit.
+constexpr std::array<std::string_view, 1> honoured = {"KHR_materials_unlit"};
+
+using Version = std::pair<unsigned, unsigned>;
+
+/// major.minor, in decimal digits.
+std::optional<Version> parse_version(std::string_view text) {
+  Version version;
+  const char* end = text.data() + text.size();
+  const auto major = std::from_chars(text.data(), end, version.first);
+  if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
+  const auto minor = std::from_chars(major.ptr + 1, end, version.second);
+  if (minor.ec != std::errc{} || minor.ptr != end) return std::nullopt;
+  return version;
+}
+
+std::optional<Version> version(const Asset& asset, const Element& info, const char* key) {
+  const JsonValue* value = info.value->find(key);
+  if (value == nullptr) return std::nullopt;
+  const std::optional<Version> parsed = parse_version(value->string);
+  if (!parsed) asset.fail(info.member(key), "must be a string like \"2.0\"");
+  return parsed;
+}
+
+void check_version(const Asset& asset) {
+  const Element info = asset.root().member("asset");
+  if (asset.root().value->find("asset") == nullptr) {
+    asset.fail(asset.root(), "lacks the required property \"asset\": this is not glTF 2.0");
+  }
+  const std::optional<Version> written = version(asset, info, "version");
+  const std::optional<Version> least = version(asset, info, "minVersion");
+  if (!written) asset.fail(info, "lacks the required property \"version\"");
+  if (written->first != 2) {
+    asset.fail(info.member("version"), "only glTF 2 is read; export the asset as glTF 2.0",
+               ErrorKind::unsupported);
+  }
+  if (!least) return;
+  if (*least > *written) asset.fail(info.member("minVersion"), "is greater than version");
+  if (*least > Version{2, 0}) {
+    asset.fail(info.member("minVersion"), "asks for more than glTF 2.0, which is what is read",
+               ErrorKind::unsupported);
+  }
+}
+
+bool differs(const JsonValue& object, const char* key, double standard) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr && value->number != standard;
+}
+
+class FeatureSearch {
+ public:
+  explicit FeatureSearch(Asset& asset) : asset_(asset) {}
+
+  void material(const Element& at) {
+    const Element pbr = at.member("pbrMetallicRoughness");
+    if (at.value->find("pbrMetallicRoughness") != nullptr) {
+      present(pbr, "baseColorTexture", "textures are not drawn yet; the base colour factor is");
+      present(pbr, "metallicRoughnessTexture", lighting);
+      for (const char* key : {"metallicFactor", "roughnessFactor"}) {
+        if (differs(*pbr.value, key, 1)) asset_.warn(pbr.member(key), lighting);
+      }
+    }
+    present(at, "normalTexture", lighting);
+    present(at, "occlusionTexture", lighting);
+    present(at, "emissiveTexture", emission);
+    if (const JsonValue* factor = at.value->find("emissiveFactor")) {
+      const auto shines = [](const JsonValue& item) { return item.number != 0; };
+      if (std::ranges::any_of(factor->items, shines)) {
+        asset_.warn(at.member("emissiveFactor"), emission);
+      }
+    }
+    const JsonValue* mode = at.value->find("alphaMode");
+    if (mode != nullptr && mode->string != "OPAQUE") {
+      asset_.warn(at.member("alphaMode"), "transparency is not drawn yet; the surface is opaque");
+    }
+  }
+
+  void primitive(const Element& at) {
+    present(at, "targets", "morph targets are not applied yet; the base shape is drawn");
+    present(at.member("attributes"), "COLOR_0",
+            "vertex colours are not drawn yet; the base colour factor is");
+  }
+
+  void present(const Element& at, const char* key, const std::string& message) {
+    if (at.value->find(key) != nullptr) asset_.warn(at.member(key), message);
+  }
+
+ private:
+  inline static const std::string lighting =
+      "is ignored, like all that changes lighting only: pictures are flat";
+  inline static const std::string emission = "emission is not drawn yet; the base colour factor is";
+
+  Asset& asset_;
+};
+
+}  // namespace
+
+void check_requirements(const Asset& asset) {
+  if (asset.root().value->kind != JsonValue::Kind::object) {
+    asset.fail(asset.root(), "must be an object: this is not glTF 2.0");
+  }
+  check_version(asset);
+  const std::vector<JsonValue>& required = asset.array("extensionsRequired");
+  for (std::size_t i = 0; i < required.size(); ++i) {
+    if (std::ranges::find(honoured, required[i].string) != honoured.end()) continue;
+    const Element at = asset.element("extensionsRequired", i);
+    if (required[i].kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
+    asset.fail(at,
+               "the asset requires extension " + in_quotes(required[i].string) +
+                   ", which is not supported; export it without",
+               ErrorKind::unsupported);
+  }
+}
+
+void warn_of_ignored_features(Asset& asset) {
+  const std::vector<JsonValue>& used = asset.array("extensionsUsed");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (std::ranges::find(honoured, used[i].string) != honoured.end()) continue;
+    asset.warn(asset.element("extensionsUsed", i),
+               "extension " + in_quotes(used[i].string) + " is not supported; it is ignored");
+  }
+  FeatureSearch search(asset);
+  for (std::size_t i = 0; i < asset.array("materials").size(); ++i) {
+    search.material(asset.element("materials", i));
+  }
+  for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
+    const Element primitives = asset.element("meshes", i).member("primitives");
+    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+      search.primitive(primitives.item(k));
+    }
+  }
+  for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
+    search.present(asset.element("nodes", i), "skin",
+                   "skins are not applied yet; the mesh is drawn in its node's place");
+  }
+  for (std::size_t i = 0; i < asset.array("animations").size(); ++i) {
+    asset.warn(asset.element("animations", i), "animations are not played yet");
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,15 @@
+#pragma once
+/// What an asset asks for and this program can or can't do.
+
+#include "io/gltf/asset.hpp"
+
+namespace microtrace::io::gltf {
+
+/// Checks the glTF version and the required extensions, and so must come before check_schema, as
+/// either may change the schema. Throws Error: invalid_scene, unsupported.
+void check_requirements(const Asset& asset);
+
+/// One warning for each kind of feature that is present and not honoured.
+void warn_of_ignored_features(Asset& asset);
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,199 @@
+#include "io/gltf/nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr std::size_t longest_name = 64, longest_path = 256;
+
+bool starts_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
+
+DMat4 translation_of(const std::vector<double>& t) {
+  DMat4 result(1);
+  if (!t.empty()) result[3] = {t[0], t[1], t[2], 1};
+  return result;
+}
+
+DMat4 scale_of(const std::vector<double>& s) {
+  DMat4 result(1);
+  for (int i = 0; i < 3 && !s.empty(); ++i) result[i][i] = s[static_cast<std::size_t>(i)];
+  return result;
+}
+
+/// The rotation matrix of the unit quaternion (x, y, z, w).
+DMat4 rotation_of(double x, double y, double z, double w) {
+  DMat4 result(1);
+  result[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
+  result[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
+  result[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
+  return result;
+}
+
+}  // namespace
+
+NodeTree::NodeTree(Asset& asset, const tinygltf::Model& model)
+    : asset_(asset), model_(model), parents_(model.nodes.size(), -1) {
+  if (model.nodes.size() > max_nodes) {
+    asset.fail(asset.root().member("nodes"), "has more than 2^20 nodes, the most that is read",
+               ErrorKind::limit);
+  }
+  find_parents();
+  check_reachable();
+  check_scenes();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) parent_from_node_.push_back(local(i));
+}
+
+void NodeTree::find_parents() {
+  for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+    const std::vector<int>& children = model_.nodes[i].children;
+    for (std::size_t k = 0; k < children.size(); ++k) {
+      const auto child = static_cast<std::size_t>(children[k]);
+      const auto at = [&] { return asset_.element("nodes", i).member("children").item(k); };
+      if (child == i) asset_.fail(at(), "makes the node its own child");
+      if (parents_[child] >= 0) {
+        asset_.fail(at(), "gives node " + std::to_string(child) + " a second parent, after node " +
+                              std::to_string(parents_[child]) + "; copy the node instead");
+      }
+      parents_[child] = static_cast<int>(i);
+    }
+  }
+}
+
+void NodeTree::check_reachable() const {
+  std::vector<bool> reached(parents_.size());
+  for (const std::size_t node : roots()) {
+    std::vector<std::size_t> open = {node};
+    while (!open.empty()) {
+      const std::size_t next = open.back();
+      open.pop_back();
+      reached[next] = true;
+      for (const int child : model_.nodes[next].children) {
+        open.push_back(static_cast<std::size_t>(child));
+      }
+    }
+  }
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    if (!reached[i]) {
+      asset_.fail(asset_.element("nodes", i), "is part of a cycle: no root leads to this node");
+    }
+  }
+}
+
+void NodeTree::check_scenes() const {
+  for (std::size_t i = 0; i < model_.scenes.size(); ++i) {
+    const std::vector<int>& nodes = model_.scenes[i].nodes;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (const int parent = parents_[static_cast<std::size_t>(nodes[k])]; parent >= 0) {
+        asset_.fail(asset_.element("scenes", i).member("nodes").item(k),
+                    "is a child of node " + std::to_string(parent) + "; scenes name roots only");
+      }
+    }
+  }
+}
+
+std::vector<std::size_t> NodeTree::roots() const {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < parents_.size(); ++i) {
+    if (parents_[i] < 0) result.push_back(i);
+  }
+  return result;
+}
+
+DMat4 NodeTree::local(std::size_t index) {
+  const tinygltf::Node& node = model_.nodes[index];
+  const Element at = asset_.element("nodes", index);
+  if (!node.matrix.empty()) {
+    for (const char* other : {"translation", "rotation", "scale"}) {
+      if (at.value->find(other) != nullptr) {
+        asset_.fail(at.member(other), "stands beside a matrix; give one or the other");
+      }
+    }
+    DMat4 result;
+    for (std::size_t i = 0; i < 16; ++i) {
+      result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+    }
+    if (result[0][3] != 0 || result[1][3] != 0 || result[2][3] != 0 || result[3][3] != 1) {
+      asset_.fail(at.member("matrix"), "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1");
+    }
+    return result;
+  }
+  DMat4 rotation(1);
+  if (!node.rotation.empty()) {
+    const std::vector<double>& q = node.rotation;
+    const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+    const double length = std::sqrt(square);
+    if (length == 0) asset_.fail(at.member("rotation"), "is zero, must be a unit quaternion");
+    if (std::abs(square - 1) > 1e-3) {
+      asset_.warn(at.member("rotation"), "is no unit quaternion; it is normalised");
+    }
+    rotation = rotation_of(q[0] / length, q[1] / length, q[2] / length, q[3] / length);
+  }
+  return translation_of(node.translation) * rotation * scale_of(node.scale);
+}
+
+std::vector<PlacedNode> NodeTree::place(const DMat4& world_from_asset) const {
+  std::vector<std::size_t> first;
+  if (model_.scenes.empty()) {
+    if (!model_.nodes.empty()) {
+      asset_.warn(asset_.root(), "the asset has no scene; all its nodes are drawn");
+    }
+    first = roots();
+  } else {
+    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+    for (const int node : model_.scenes[scene].nodes)
+      first.push_back(static_cast<std::size_t>(node));
+  }
+  std::vector<PlacedNode> result;
+  std::vector<PlacedNode> open;
+  for (std::size_t i = first.size(); i-- > 0;) {
+    open.push_back({first[i], world_from_asset * parent_from_node_[first[i]]});
+  }
+  while (!open.empty()) {
+    const PlacedNode next = open.back();
+    open.pop_back();
+    result.push_back(next);
+    const std::vector<int>& children = model_.nodes[next.node].children;
+    for (std::size_t i = children.size(); i-- > 0;) {
+      const auto child = static_cast<std::size_t>(children[i]);
+      open.push_back({child, next.world_from_node * parent_from_node_[child]});
+    }
+  }
+  return result;
+}
+
+std::string NodeTree::name(std::size_t node) const {
+  const std::string& given = model_.nodes[node].name;
+  return given.empty() ? "node" + std::to_string(node) : head(given, longest_name);
+}
+
+std::string NodeTree::path(std::size_t node) const {
+  std::string result = name(node);
+  for (int parent = parents_[node]; parent >= 0;
+       parent = parents_[static_cast<std::size_t>(parent)]) {
+    const std::string above = name(static_cast<std::size_t>(parent));
+    if (above.size() + 1 + result.size() > longest_path) return ".../" + result;
+    result = above + "/" + result;
+  }
+  return result;
+}
+
+std::string UniqueNames::make(const std::string& name) {
+  std::string result = name;
+  for (std::size_t& use = uses_[name]; use > 0 && uses_.contains(result);) {
+    result = name + " (" + std::to_string(++use) + ")";
+  }
+  ++uses_[result];
+  return result;
+}
+
+std::string head(std::string_view text, std::size_t size) {
+  if (text.size() <= size) return std::string(text);
+  while (size > 0 && !starts_character(text[size])) --size;
+  return std::string(text.substr(0, size));
+}
+
+}  // namespace microtrace::io::gltf

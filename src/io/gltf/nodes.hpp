@@ -1,0 +1,65 @@
+#pragma once
+/// The node tree: checked, walked, and composed.
+
+#include "io/gltf/asset.hpp"
+#include "io/gltf/model.hpp"
+
+#include <microtrace/math.hpp>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+inline constexpr std::size_t max_nodes = std::size_t{1} << 20;
+
+/// A node of the scene being drawn.
+struct PlacedNode {
+  std::size_t node;
+  DMat4 world_from_node;
+};
+
+class NodeTree {
+ public:
+  /// Checks that the nodes make disjoint trees and that scenes name their roots (glTF 2.0, section
+  /// 3.5.2), and that each transform is given in one way. Throws Error: invalid_scene, limit.
+  NodeTree(Asset& asset, const tinygltf::Model& model);
+
+  /// The nodes of the default scene, else of the first one, else all: parents before children,
+  /// children in their order.
+  [[nodiscard]] std::vector<PlacedNode> place(const DMat4& world_from_asset) const;
+
+  /// The names of the node and those above it, with slashes between; at most 256 bytes, of which
+  /// the last are kept. A node without name is called node0 by its index.
+  [[nodiscard]] std::string path(std::size_t node) const;
+  [[nodiscard]] std::string name(std::size_t node) const;
+
+ private:
+  void find_parents();
+  void check_reachable() const;
+  void check_scenes() const;
+  [[nodiscard]] std::vector<std::size_t> roots() const;
+  [[nodiscard]] DMat4 local(std::size_t node);
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  std::vector<int> parents_;  // -1 for roots
+  std::vector<DMat4> parent_from_node_;
+};
+
+/// Hands out each name once: a second "Cube" is called "Cube (2)".
+class UniqueNames {
+ public:
+  [[nodiscard]] std::string make(const std::string& name);
+
+ private:
+  std::unordered_map<std::string, std::size_t> uses_;
+};
+
+/// At most `size` bytes from the start of UTF-8 text, cut between characters.
+[[nodiscard]] std::string head(std::string_view text, std::size_t size);
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,172 @@
+#include "io/gltf/scene.hpp"
+
+#include "io/gltf/accessors.hpp"
+#include "io/gltf/asset.hpp"
+#include "io/gltf/buffers.hpp"
+#include "io/gltf/cameras.hpp"
+#include "io/gltf/consistency.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/features.hpp"
+#include "io/gltf/framing.hpp"
+#include "io/gltf/model.hpp"
+#include "io/gltf/nodes.hpp"
+#include "io/gltf/schema.hpp"
+#include "io/gltf/surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include <glm/matrix.hpp>
+
+namespace microtrace::io {
+namespace {
+
+using gltf::Asset, gltf::Element, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
+
+/// Base colour factors are linear and so is Object::color. No material means the default one.
+Vec3 color_of(const tinygltf::Model& model, int material) {
+  if (material < 0) return Vec3(1);
+  const auto& pbr = model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness;
+  const std::vector<double>& factor = pbr.baseColorFactor;
+  return Vec3(factor[0], factor[1], factor[2]);
+}
+
+/// The one rounding of geometry. A mirroring transform turns every triangle over, so that fronts
+/// stay fronts (glTF 2.0, section 3.7.4).
+Mesh baked(const Mesh& mesh, const DMat4& world_from_mesh) {
+  Mesh result;
+  result.positions.reserve(mesh.positions.size());
+  for (const Vec3& p : mesh.positions) {
+    result.positions.emplace_back(world_from_mesh * glm::dvec4(p, 1));
+  }
+  result.triangles = mesh.triangles;
+  if (glm::determinant(glm::dmat3(world_from_mesh)) < 0) {
+    for (auto& corners : result.triangles) std::swap(corners[1], corners[2]);
+  }
+  return result;
+}
+
+bool is_finite(const Mesh& mesh) {
+  for (const Vec3& p : mesh.positions) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
+  }
+  return true;
+}
+
+class SceneMaker {
+ public:
+  SceneMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
+             const std::vector<std::vector<Surface>>& surfaces)
+      : asset_(asset), model_(model), tree_(tree), surfaces_(surfaces) {}
+
+  /// Throws Error (limit) before memory is taken for too many instances.
+  void check_size(const std::vector<PlacedNode>& nodes) const {
+    std::size_t triangles = 0, vertices = 0;
+    for (const PlacedNode& placed : nodes) {
+      const int mesh = model_.nodes[placed.node].mesh;
+      if (mesh < 0) continue;
+      for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
+        triangles += surface.mesh.triangles.size();
+        vertices += surface.mesh.positions.size();
+      }
+      if (std::max(triangles, vertices) <= gltf::max_elements) continue;
+      asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
+                  "brings the scene to more than 2^27 triangles or vertices, the most that is read",
+                  ErrorKind::limit);
+    }
+  }
+
+  void add_mesh(const PlacedNode& placed) {
+    const int mesh = model_.nodes[placed.node].mesh;
+    if (mesh < 0) return;
+    const auto index = static_cast<std::size_t>(mesh);
+    for (const Surface& surface : surfaces_[index]) {
+      Mesh world = baked(surface.mesh, placed.world_from_node);
+      if (!is_finite(world)) {
+        asset_.warn(primitive(index, surface),
+                    "has vertices that are not finite in the world; triangles with them are not "
+                    "drawn");
+      }
+      objects_.push_back({.name = names_.make(name(placed, index, surface)),
+                          .shape = std::move(world),
+                          .color = color_of(model_, surface.material)});
+    }
+  }
+
+  [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
+
+ private:
+  [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const {
+    return asset_.element("meshes", mesh).member("primitives").item(surface.number);
+  }
+
+  [[nodiscard]] std::string name(const PlacedNode& placed, std::size_t mesh,
+                                 const Surface& surface) const {
+    const tinygltf::Mesh& source = model_.meshes[mesh];
+    std::string result = tree_.path(placed.node) + "/";
+    result += source.name.empty() ? "mesh" + std::to_string(mesh) : gltf::head(source.name, 64);
+    if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);
+    return result;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  const NodeTree& tree_;
+  const std::vector<std::vector<Surface>>& surfaces_;
+  std::vector<Object> objects_;
+  gltf::UniqueNames names_;
+};
+
+LoadedScene load(Asset& asset, const gltf::Container& container,
+                 const std::filesystem::path& folder, const DMat4& world_from_asset) {
+  gltf::check_requirements(asset);
+  gltf::check_schema(asset);
+  gltf::check_consistency(asset);
+  const tinygltf::Model model = gltf::parse_model(asset);
+  gltf::check_accessors(asset, model);
+  const NodeTree tree(asset, model);
+  const std::vector<gltf::Buffer> buffers = gltf::load_buffers(asset, container.bin, folder);
+  const auto surfaces = gltf::make_surfaces(asset, model, buffers);
+  gltf::warn_of_ignored_features(asset);
+
+  const std::vector<PlacedNode> nodes = tree.place(world_from_asset);
+  SceneMaker maker(asset, model, tree, surfaces);
+  maker.check_size(nodes);
+  for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
+  LoadedScene result;
+  if (container.extra_bytes != 0) {
+    asset.warn(asset.root(), std::to_string(container.extra_bytes) +
+                                 " bytes after the end of the GLB file are ignored");
+  }
+  result.scene.objects = maker.take();
+  result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
+  if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
+  if (result.scene.cameras.empty()) {
+    result.scene.cameras.push_back({.name = "framed", .camera = gltf::frame(result.scene.objects)});
+  }
+  result.warnings = asset.warnings();
+  return result;
+}
+
+}  // namespace
+
+LoadedScene load_gltf(std::string_view bytes, const std::string& name,
+                      const std::filesystem::path& folder, const DMat4& world_from_asset) {
+  try {
+    const gltf::Container container = gltf::open_container(bytes, name);
+    const JsonDocument json(container.json, container.is_glb ? name + " (JSON chunk)" : name);
+    Asset asset(json);
+    return load(asset, container, folder, world_from_asset);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::limit, name, "the asset needs more memory than there is");
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::internal, name, std::string("reading glTF failed: ") + error.what());
+  }
+}
+
+}  // namespace microtrace::io

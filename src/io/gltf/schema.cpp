@@ -1,0 +1,205 @@
+#include "io/gltf/schema.hpp"
+
+#include "io/json/excerpt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace microtrace::io::gltf {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+std::string text_of(double number) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  text << number;
+  return text.str();
+}
+
+template <typename Values, typename Text>
+std::string listed(const Values& values, Text&& text) {
+  std::string result;
+  for (const auto& value : values) {
+    if (!result.empty()) result += ", ";
+    result += text(value);
+  }
+  return result;
+}
+
+std::string range_of(const Rule& rule) {
+  std::string result;
+  if (std::isfinite(rule.min)) {
+    result += (rule.above_min ? " above " : " of at least ") + text_of(rule.min);
+  }
+  if (std::isfinite(rule.max)) {
+    result += (result.empty() ? " of" : " and") + std::string(" at most ") + text_of(rule.max);
+  }
+  return result;
+}
+
+/// JOINTS_0, TEXCOORD_12 and their like, and whatever an application calls _ITS_OWN.
+bool is_attribute_name(std::string_view name) {
+  constexpr std::array<std::string_view, 3> single = {"POSITION", "NORMAL", "TANGENT"};
+  constexpr std::array<std::string_view, 4> sets = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
+  if (name.starts_with('_') || std::ranges::find(single, name) != single.end()) return true;
+  return std::ranges::any_of(sets, [&](std::string_view set) {
+    return name.starts_with(set) && name.size() > set.size() &&
+           name.find_first_not_of("0123456789", set.size()) == std::string_view::npos;
+  });
+}
+
+class Checker {
+ public:
+  explicit Checker(Asset& asset) : asset_(asset) {}
+
+  void object(const Element& at, std::span<const Rule> rules) {
+    require(at, at.value->kind == Kind::object, "must be an object");
+    for (const Rule& rule : rules) {
+      if (rule.required && at.value->find(rule.key) == nullptr) {
+        asset_.fail(at, "lacks the required property " + in_quotes(rule.key));
+      }
+    }
+    for (const JsonMember& member : at.value->members) {
+      const Element element{&member.value, child(at.pointer, member.key)};
+      const auto rule = std::ranges::find(rules, member.key, &Rule::key);
+      if (rule != rules.end()) {
+        property(element, *rule);
+      } else if (member.key == "extensions") {
+        extensions(element);
+      } else if (member.key == "name") {
+        require(element, member.value.kind == Kind::string, "must be a string");
+      } else if (member.key != "extras") {
+        asset_.warn(element, "is no property that glTF 2.0 has here; it is ignored");
+      }
+    }
+  }
+
+ private:
+  void require(const Element& at, bool holds, const char* message) const {
+    if (!holds) asset_.fail(at, message);
+  }
+
+  void property(const Element& at, const Rule& rule) {
+    switch (rule.form) {
+      case Form::boolean:
+        return require(at, at.value->kind == Kind::boolean, "must be true or false");
+      case Form::integer:
+      case Form::number:
+        return number(at, rule);
+      case Form::string:
+        return string(at, rule);
+      case Form::index:
+        return index(at, rule);
+      case Form::indices:
+        array(at, rule, [&](const Element& item) { index(item, rule); });
+        return different(at, &JsonValue::number);
+      case Form::numbers:
+        return array(at, rule, [&](const Element& item) { number(item, rule); });
+      case Form::strings:
+        array(at, rule, [&](const Element& item) { string(item, rule); });
+        return different(at, &JsonValue::string);
+      case Form::object:
+        return object(at, rule.members);
+      case Form::objects:
+        return array(at, rule, [&](const Element& item) { object(item, rule.members); });
+      case Form::attributes:
+        return attributes(at, rule);
+      case Form::targets:
+        return array(at, rule, [&](const Element& item) { attributes(item, rule); });
+    }
+  }
+
+  void number(const Element& at, const Rule& rule) const {
+    const double number = at.value->number;
+    const bool integral = std::trunc(number) == number && std::abs(number) <= 0x1p53;
+    const bool integer = rule.form == Form::integer;
+    const std::string what = integer ? "must be an integer" : "must be a number";
+    if (at.value->kind != Kind::number || (integer && !integral)) asset_.fail(at, what);
+    if (number < rule.min || number > rule.max || (rule.above_min && number == rule.min)) {
+      asset_.fail(at, what + range_of(rule) + ", is " + text_of(number));
+    }
+    if (!rule.values.empty() && std::ranges::find(rule.values, number) == rule.values.end()) {
+      asset_.fail(at, "must be one of " + listed(rule.values, text_of) + ", is " + text_of(number));
+    }
+  }
+
+  void string(const Element& at, const Rule& rule) const {
+    const std::string& string = at.value->string;
+    require(at, at.value->kind == Kind::string, "must be a string");
+    if (!rule.strings.empty() && std::ranges::find(rule.strings, string) == rule.strings.end()) {
+      asset_.fail(
+          at, "must be one of " + listed(rule.strings, in_quotes) + ", is " + in_quotes(string));
+    }
+  }
+
+  void index(const Element& at, const Rule& rule) const {
+    const double number = at.value->number;
+    const std::string array = "/" + std::string(rule.target);
+    if (at.value->kind != Kind::number || std::trunc(number) != number || number < 0) {
+      asset_.fail(at, "must be an integer of at least 0, an index into " + array);
+    }
+    const std::size_t size = asset_.array(rule.target).size();
+    if (number >= static_cast<double>(size)) {
+      asset_.fail(at, "is " + text_of(number) + ", but " + array + " has only " +
+                          std::to_string(size) + " items, counted from 0");
+    }
+  }
+
+  template <typename CheckItem>
+  void array(const Element& at, const Rule& rule, CheckItem&& check) {
+    require(at, at.value->kind == Kind::array, "must be an array");
+    const std::size_t size = at.value->items.size();
+    if (size < rule.fewest || size > rule.most) {
+      asset_.fail(at, "must have " + std::string(size < rule.fewest ? "at least " : "at most ") +
+                          std::to_string(size < rule.fewest ? rule.fewest : rule.most) +
+                          " items, has " + std::to_string(size));
+    }
+    if (size == 0) asset_.warn(at, "is empty, which glTF 2.0 forbids; leave it out instead");
+    for (std::size_t i = 0; i < size; ++i) check(at.item(i));
+  }
+
+  template <typename Key>
+  void different(const Element& at, Key JsonValue::*key) const {
+    std::vector<std::pair<Key, std::size_t>> sorted;
+    for (const JsonValue& item : at.value->items) sorted.emplace_back(item.*key, sorted.size());
+    std::ranges::sort(sorted);
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first == sorted[i - 1].first) {
+        asset_.fail(at.item(sorted[i].second), "repeats an earlier item");
+      }
+    }
+  }
+
+  void attributes(const Element& at, const Rule& rule) const {
+    require(at, at.value->kind == Kind::object, "must be an object");
+    for (const JsonMember& member : at.value->members) {
+      const Element attribute{&member.value, child(at.pointer, member.key)};
+      require(attribute, is_attribute_name(member.key),
+              "is no attribute of glTF 2.0; an application's own start with _");
+      index(attribute, rule);
+    }
+  }
+
+  void extensions(const Element& at) const {
+    require(at, at.value->kind == Kind::object, "must be an object");
+    for (const JsonMember& member : at.value->members) {
+      const Element extension{&member.value, child(at.pointer, member.key)};
+      require(extension, member.value.kind == Kind::object, "must be an object");
+    }
+  }
+
+  Asset& asset_;
+};
+
+}  // namespace
+
+void check_schema(Asset& asset) {
+  Checker(asset).object(asset.root(), gltf_rules());
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,200 @@
+#include "io/gltf/surfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <string>
+
+namespace microtrace::io::gltf {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+bool is_drawn(int mode) {
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+/// glTF 2.0, section 3.7.2.1: the triangles that a list of vertices makes, first corner and winding
+/// as written there. An incomplete last triangle is left out.
+std::vector<Corners> triangles_of(int mode, const std::vector<std::uint32_t>& v) {
+  std::vector<Corners> result;
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) result.push_back({v[i], v[i + 1], v[i + 2]});
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+      result.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
+    }
+  } else {
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) result.push_back({v[i + 1], v[i + 2], v[0]});
+  }
+  return result;
+}
+
+Mesh compact(const std::vector<Vec3>& positions, std::vector<Corners> triangles) {
+  std::vector<std::uint32_t> used;
+  used.reserve(triangles.size() * 3);
+  for (const Corners& corners : triangles) used.insert(used.end(), corners.begin(), corners.end());
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  const auto renumbered = [&used](std::uint32_t old) {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(used, old) - used.begin());
+  };
+  Mesh mesh;
+  for (const std::uint32_t old : used) mesh.positions.push_back(positions[old]);
+  for (Corners& corners : triangles) std::ranges::transform(corners, corners.begin(), renumbered);
+  mesh.triangles = std::move(triangles);
+  return mesh;
+}
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(Asset& asset, const tinygltf::Model& model, const std::vector<Buffer>& buffers)
+      : asset_(asset), model_(model), reader_(asset, model, buffers) {}
+
+  std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
+    check_attributes(at, primitive);
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) {
+      asset_.warn(at, "has no POSITION attribute; nothing is drawn for it");
+      return std::nullopt;
+    }
+    check_position(at.member("attributes").member("POSITION"), position->second);
+    if (primitive.indices >= 0) {
+      check_indices(at.member("indices"), accessor(primitive.indices));
+    }
+    if (!reader_.has_data(position->second) ||
+        (primitive.indices >= 0 && !reader_.has_data(primitive.indices))) {
+      asset_.warn(at,
+                  "needs a buffer without data: one that has no uri and is not the BIN chunk; "
+                  "nothing is drawn for it");
+      return std::nullopt;
+    }
+    const std::vector<std::uint32_t> vertices = vertices_of(at, primitive, position->second);
+    if (!is_drawn(primitive.mode)) {
+      asset_.warn(at.member("mode"), "points and lines are not drawn yet");
+      return std::nullopt;
+    }
+    const std::size_t left_over =
+        primitive.mode == TINYGLTF_MODE_TRIANGLES ? vertices.size() % 3 : 0;
+    if (vertices.size() < 3 || left_over != 0) {
+      asset_.warn(at, "has vertices that make no whole triangle; they are left out");
+    }
+    std::vector<Corners> triangles = triangles_of(primitive.mode, vertices);
+    if (triangles.empty()) return std::nullopt;
+    return Surface{.mesh = compact(reader_.positions(position->second), std::move(triangles)),
+                   .material = primitive.material};
+  }
+
+ private:
+  const tinygltf::Accessor& accessor(int index) const {
+    return model_.accessors[static_cast<std::size_t>(index)];
+  }
+
+  void check_attributes(const Element& at, const tinygltf::Primitive& primitive) const {
+    if (primitive.attributes.empty()) return;
+    const auto& [first_name, first] = *primitive.attributes.begin();
+    for (const auto& [name, index] : primitive.attributes) {
+      if (accessor(index).count != accessor(first).count) {
+        asset_.fail(at.member("attributes").member(name),
+                    "has " + std::to_string(accessor(index).count) + " elements, but " +
+                        first_name + " has " + std::to_string(accessor(first).count));
+      }
+    }
+  }
+
+  void check_position(const Element& at, int index) {
+    const tinygltf::Accessor& position = accessor(index);
+    if (position.type == TINYGLTF_TYPE_VEC3 &&
+        position.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      const Element source = asset_.element("accessors", static_cast<std::size_t>(index));
+      if (position.minValues.empty() || position.maxValues.empty()) {
+        asset_.warn(source, "holds positions without min and max, which glTF 2.0 asks for");
+      }
+      if (position.bufferView < 0) check_count(source.member("count"), position.count);
+      return;
+    }
+    const auto& used = model_.extensionsUsed;
+    if (std::ranges::find(used, "KHR_mesh_quantization") != used.end()) {
+      asset_.fail(at, "is quantised; KHR_mesh_quantization is not supported, export floats",
+                  ErrorKind::unsupported);
+    }
+    asset_.fail(at, "refers to an accessor that is not of type VEC3 and componentType 5126, float");
+  }
+
+  void check_count(const Element& at, std::size_t count) {
+    if (count > max_elements - elements_) {
+      asset_.fail(at, "brings the asset to more than 2^27 elements, the most that is read",
+                  ErrorKind::limit);
+    }
+    elements_ += count;
+  }
+
+  std::vector<std::uint32_t> vertices_of(const Element& at, const tinygltf::Primitive& primitive,
+                                         int position) {
+    const std::size_t vertex_count = accessor(position).count;
+    if (primitive.indices < 0) {
+      check_count(at, vertex_count);
+      std::vector<std::uint32_t> result(vertex_count);
+      std::iota(result.begin(), result.end(), 0U);
+      return result;
+    }
+    const tinygltf::Accessor& indices = accessor(primitive.indices);
+    check_count(at.member("indices"), indices.count);
+    std::vector<std::uint32_t> result = reader_.indices(primitive.indices);
+    const std::uint64_t restart =
+        (std::uint64_t{1} << 8 * component_size(indices.componentType)) - 1;
+    const auto bad = std::ranges::find_if(
+        result, [&](std::uint32_t v) { return v >= vertex_count || v == restart; });
+    if (bad == result.end()) return result;
+    asset_.fail(asset_.element("accessors", static_cast<std::size_t>(primitive.indices)),
+                "element " + std::to_string(bad - result.begin()) + " is vertex " +
+                    std::to_string(*bad) +
+                    (*bad == restart ? ", the value that glTF 2.0 forbids as primitive restart"
+                                     : " of only " + std::to_string(vertex_count)));
+  }
+
+  void check_indices(const Element& at, const tinygltf::Accessor& indices) const {
+    const bool is_unsigned = indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                             indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                             indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (indices.type != TINYGLTF_TYPE_SCALAR || !is_unsigned) {
+      asset_.fail(at,
+                  "refers to an accessor that is not of type SCALAR and an unsigned integer "
+                  "componentType: 5121, 5123 or 5125");
+    }
+    const auto view = static_cast<std::size_t>(indices.bufferView);
+    if (indices.bufferView >= 0 && model_.bufferViews[view].byteStride != 0) {
+      asset_.fail(at, "refers to an accessor whose view has byteStride; indices lie without gaps");
+    }
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader reader_;
+  std::size_t elements_ = 0;  // counted against max_elements
+};
+
+}  // namespace
+
+std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
+                                                const std::vector<Buffer>& buffers) {
+  SurfaceMaker maker(asset, model, buffers);
+  std::vector<std::vector<Surface>> result(model.meshes.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Element primitives = asset.element("meshes", i).member("primitives");
+    for (std::size_t k = 0; k < model.meshes[i].primitives.size(); ++k) {
+      std::optional<Surface> surface =
+          maker.make(primitives.item(k), model.meshes[i].primitives[k]);
+      if (!surface) continue;
+      surface->number = k;
+      result[i].push_back(std::move(*surface));
+    }
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

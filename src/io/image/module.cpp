@@ -1,0 +1,116 @@
+#include "io/image/module.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace microtrace::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folders where the module may lie, the most wanted first.
+std::vector<fs::path> module_folders() {
+  std::vector<fs::path> folders;
+  if (const char* named = std::getenv("MICROTRACE_MODULE_PATH"); named != nullptr && *named != 0) {
+    folders.emplace_back(named);
+    return folders;
+  }
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    folders.push_back((program.parent_path() / MICROTRACE_MODULES_FROM_PROGRAM).lexically_normal());
+  }
+  folders.emplace_back(MICROTRACE_INSTALLED_MODULES);
+  folders.emplace_back(MICROTRACE_BUILT_MODULES);
+  return folders;
+}
+
+void* load_module(const std::string& file) {
+  std::string sought;
+  for (const fs::path& folder : module_folders()) {
+    const fs::path path = folder / module_file_name;
+    sought += sought.empty() ? "" : ", ";
+    sought += folder.string();
+    std::error_code error;
+    if (!fs::exists(path, error)) continue;
+    if (void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
+    const char* reason = ::dlerror();
+    std::string message = "can't load the OpenImageIO module: ";
+    message += reason == nullptr ? path.c_str() : reason;
+    message += "; install libopenimageio2.4, or write .ppm";
+    throw Error(ErrorKind::unsupported, file, message);
+  }
+  std::string message =
+      "only .ppm can be written without the OpenImageIO module; install libopenimageio-dev and "
+      "build the target microtrace_openimageio, or set MICROTRACE_MODULE_PATH to the folder of ";
+  message += module_file_name;
+  message += " (sought in ";
+  message += sought;
+  message += ")";
+  throw Error(ErrorKind::unsupported, file, message);
+}
+
+template <typename Function>
+Function find_function(void* module, const char* name, const std::string& file) {
+  if (void* address = ::dlsym(module, name)) return reinterpret_cast<Function>(address);
+  throw Error(ErrorKind::unsupported, file,
+              "the OpenImageIO module belongs to another version of microtrace; install both from "
+              "one build");
+}
+
+/// What a sink writes to. An exception may not pass the module's frames, so it waits here.
+struct Sinks {
+  const std::function<void(std::string_view)>& out;
+  std::string reason;
+  std::exception_ptr thrown;
+};
+
+void take_bytes(void* context, const char* bytes, std::size_t size) {
+  auto& sinks = *static_cast<Sinks*>(context);
+  if (sinks.thrown) return;
+  try {
+    sinks.out(std::string_view(bytes, size));
+  } catch (...) {
+    sinks.thrown = std::current_exception();
+  }
+}
+
+void take_reason(void* context, const char* bytes, std::size_t size) {
+  static_cast<Sinks*>(context)->reason.append(bytes, size);
+}
+
+}  // namespace
+
+ImageModule::ImageModule(std::string file) : file_(std::move(file)) {
+  void* module = load_module(file_);
+  can_encode_ = find_function<MicrotraceCanEncode>(module, can_encode_name, file_);
+  encode_ = find_function<MicrotraceEncode>(module, encode_name, file_);
+}
+
+void ImageModule::check(const std::string& ending) const {
+  if (can_encode_(ending.c_str()) != 0) return;
+  std::string message = "no picture can be written with the ending .";
+  message += ending;
+  message += "; use .ppm, .png or .exr, or another that OpenImageIO can write";
+  throw Error(ErrorKind::usage, file_, message);
+}
+
+void ImageModule::encode(const Film& film, const std::string& ending,
+                         const std::function<void(std::string_view)>& out) const {
+  const MicrotracePicture picture{film.size().width, film.size().height, &film.row(0)[0].x};
+  Sinks sinks{out, {}, {}};
+  const int failed = encode_(&picture, ending.c_str(), take_bytes, take_reason, &sinks);
+  if (sinks.thrown) std::rethrow_exception(sinks.thrown);
+  if (failed == 0) return;
+  std::string message = "can't be encoded: ";
+  message += sinks.reason;
+  message += "; use .ppm, .png or .exr";
+  throw Error(ErrorKind::io, file_, message);
+}
+
+}  // namespace microtrace::io

@@ -1,0 +1,34 @@
+#pragma once
+/// The module of picture formats other than PPM. It is loaded when it is first needed, for
+/// OpenImageIO and the 260 libraries it brings cost a quarter of a second and 130 MB.
+
+#include "io/image/module_abi.hpp"
+
+#include <microtrace/film.hpp>
+
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace microtrace::io {
+
+class ImageModule {
+ public:
+  /// Loads the module, once in a process. `file` stands in messages.
+  /// Throws Error(unsupported) that names the places where the module was sought.
+  explicit ImageModule(std::string file);
+
+  /// Throws Error(usage) unless files of this ending (small letters, no dot) can be written.
+  void check(const std::string& ending) const;
+
+  /// Hands the bytes of the whole picture file to `out`. Throws Error(io).
+  void encode(const Film& film, const std::string& ending,
+              const std::function<void(std::string_view)>& out) const;
+
+ private:
+  std::string file_;
+  MicrotraceCanEncode can_encode_ = nullptr;
+  MicrotraceEncode encode_ = nullptr;
+};
+
+}  // namespace microtrace::io

@@ -1,0 +1,65 @@
+#include "io/image/atomic_file.hpp"
+#include "io/image/module.hpp"
+#include "io/image/ppm.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/io.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace microtrace {
+namespace {
+
+/// The name's ending in small letters without its dot. Standard output and streams without an
+/// ending take PPM. Throws Error(usage) if there is none.
+std::string format_ending(const std::filesystem::path& path) {
+  if (path == "-") return "ppm";
+  std::string ending = path.extension().string();
+  if (ending.empty() && io::is_stream(path)) return "ppm";
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (ending.size() < 2) {
+    throw Error(ErrorKind::usage, path.string(),
+                "has no ending that names a picture format; use .ppm, .png or .exr");
+  }
+  return ending.substr(1);
+}
+
+void save_ppm(const Film& film, const std::filesystem::path& path, PpmEncoding encoding) {
+  constexpr std::size_t block = std::size_t{1} << 16;
+  io::AtomicFile file(path);
+  std::string bytes = io::ppm_header(film.size(), encoding);
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    io::append_ppm_row(film, y, encoding, bytes);
+    if (bytes.size() < block) continue;
+    file.write(bytes);
+    bytes.clear();
+  }
+  file.write(bytes);
+  file.commit();
+}
+
+}  // namespace
+
+void check_image_path(const std::filesystem::path& path) {
+  const std::string ending = format_ending(path);
+  if (ending != "ppm") io::ImageModule(path.string()).check(ending);
+  io::check_target(path);
+}
+
+void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm) {
+  const std::string ending = format_ending(path);
+  if (ending == "ppm") {
+    save_ppm(film, path, ppm);
+    return;
+  }
+  const io::ImageModule module(path.string());
+  module.check(ending);
+  io::AtomicFile file(path);
+  module.encode(film, ending, [&file](std::string_view bytes) { file.write(bytes); });
+  file.commit();
+}
+
+}  // namespace microtrace

@@ -1,0 +1,13 @@
+#pragma once
+/// The cameras of a JSON scene.
+
+#include "io/json/reader.hpp"
+
+#include <microtrace/camera.hpp>
+
+namespace microtrace::io {
+
+/// Reads a member of "cameras"; docs/scene-format.md tells its members. Throws Error.
+[[nodiscard]] Camera read_camera(const JsonReader& json);
+
+}  // namespace microtrace::io

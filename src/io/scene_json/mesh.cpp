@@ -1,0 +1,109 @@
+#include "io/scene_json/mesh.hpp"
+
+#include "io/file.hpp"
+#include "io/gltf/scene.hpp"
+#include "io/json/excerpt.hpp"
+#include "scene/trigonometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace::io {
+namespace {
+
+/// By Rodrigues: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), the axis of unit length.
+DMat4 rotation(const DVec3& axis, double degrees) {
+  const double sine = sin_degrees(degrees), cosine = cos_degrees(degrees);
+  DMat4 out(1);
+  for (glm::length_t column = 0; column < 3; ++column) {
+    DVec3 v(0);
+    v[column] = 1;
+    const DVec3 turned =
+        cosine * v + sine * glm::cross(axis, v) + (1 - cosine) * axis[column] * axis;
+    out[column] = glm::dvec4(turned, 0);
+  }
+  return out;
+}
+
+DMat4 read_rotation(const JsonReader& json) {
+  json.require_object({"axis", "angle"});
+  const JsonReader axis = json.member("axis");
+  const DVec3 direction = axis.vector();
+  if (Vec3(direction) == Vec3(0)) axis.fail("must not be zero");
+  const double length = std::sqrt(glm::dot(direction, direction));
+  return rotation(direction / length, json.member("angle").number());
+}
+
+DVec3 read_scale(const JsonReader& json) {
+  if (json.value().kind == JsonValue::Kind::array) return json.vector();
+  if (json.value().kind == JsonValue::Kind::number) return DVec3(json.number());
+  json.fail("must be a number or an array of three");
+}
+
+DMat4 read_matrix(const JsonReader& json) {
+  const std::vector<JsonReader> items = json.items(16);
+  DMat4 out(0);
+  for (std::size_t i = 0; i < 16; ++i) {
+    const double x = items[i].number();
+    const double affine = i == 15 ? 1 : 0;
+    if (i % 4 == 3 && x != affine) {
+      std::string message = "must be ";
+      message.append(decimal(affine)).append(" in an affine matrix, column by column, is ");
+      items[i].fail(message.append(decimal(x)));
+    }
+    out[static_cast<glm::length_t>(i / 4)][static_cast<glm::length_t>(i % 4)] = x;
+  }
+  return out;
+}
+
+std::filesystem::path read_relative_path(const JsonReader& json) {
+  const std::string name = json.name();
+  if (name.find('\0') != std::string::npos) json.fail("must not contain a zero byte");
+  std::filesystem::path path(name);
+  const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
+  if (path.is_absolute() || climbs) {
+    json.fail("must be a path within the scene's folder: relative and without \"..\"");
+  }
+  return path;
+}
+
+std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& path) {
+  try {
+    return read_file(path, max_file_size);
+  } catch (const Error& error) {
+    std::string message = printable(path.string());
+    json.fail(message.append(" ").append(error.diagnostic().message), error.kind());
+  }
+}
+
+}  // namespace
+
+DMat4 read_transform(const JsonReader& json) {
+  json.require_object({"translation", "rotation", "scale", "matrix"});
+  if (const auto matrix = json.find("matrix")) {
+    if (json.value().members.size() == 1) return read_matrix(*matrix);
+    matrix->fail("must not stand beside translation, rotation or scale");
+  }
+  DMat4 out(1);
+  if (const auto turn = json.find("rotation")) out = read_rotation(*turn);
+  if (const auto scale = json.find("scale")) {
+    const DVec3 factors = read_scale(*scale);
+    for (glm::length_t i = 0; i < 3; ++i) out[i] *= factors[i];
+  }
+  if (const auto move = json.find("translation")) out[3] = glm::dvec4(move->vector(), 1);
+  return out;
+}
+
+LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folder) {
+  json.require_object({"name", "type", "color", "file", "transform"});
+  const JsonReader file = json.member("file");
+  const std::filesystem::path path = folder / read_relative_path(file);
+  const auto transform = json.find("transform");
+  const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
+  const std::string bytes = read_mesh_file(file, path);
+  return load_gltf(bytes, printable(path.string()), path.parent_path(), world_from_asset);
+}
+
+}  // namespace microtrace::io
