@@ -48,7 +48,7 @@ BenchScene generated_scene(const std::string& name, bool small) {
     return make_scene(name, generated::hall(million), pose, 60);
   }
   if (name == "terrain") {
-    const Pose pose{.position = {0, 0.9, 1.2}, .direction = {0, -0.9, -1.2}};
+    const Pose pose{.position = {0.07, 0.9, 1.2}, .direction = {-0.1, -0.9, -1.2}};
     return make_scene(name, generated::terrain(10 * million), pose, 45);
   }
   throw std::invalid_argument("no scene is named " + name + "; there are sphere, hall, terrain");

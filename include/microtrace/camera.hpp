@@ -2,7 +2,8 @@
 /// Cameras: where the rays of a picture start and go.
 ///
 /// To add one: a struct here and in `Camera`, its rays in src/scene/camera.cpp, its reader in
-/// src/io/scene_json/scene.cpp and the JSON schema, a scene, golden rays in tests/unit/camera_test.cpp.
+/// src/io/scene_json/scene.cpp and the JSON schema, a scene, golden rays in
+/// tests/unit/camera_test.cpp.
 
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>

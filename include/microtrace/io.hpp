@@ -19,7 +19,8 @@ struct LoadedScene {
 };
 
 /// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
-/// other endings. Throws Error.
+/// other endings. "-" is standard input; files that its scene names are sought in the current
+/// folder. Throws Error.
 [[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path);
 
 /// The same from memory; `name` stands in messages, files named in the scene are sought in

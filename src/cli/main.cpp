@@ -7,8 +7,6 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
-#include <iterator>
 #include <unistd.h>
 
 namespace {
@@ -21,12 +19,6 @@ void stop_at_once(int signal) {
   _exit(128 + signal);
 }
 
-LoadedScene load(const std::string& scene) {
-  if (scene != "-") return load_scene(scene);
-  const std::string bytes(std::istreambuf_iterator<char>(std::cin), {});
-  return parse_scene(bytes, "(standard input)", ".");
-}
-
 // Under --strict a scene with warnings is refused.
 void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& arguments) {
   for (const Diagnostic& warning : warnings) {
@@ -37,7 +29,7 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
 
 void run(const cli::Arguments& arguments) {
   cli::Stopwatch watch;
-  const auto [scene, warnings] = load(arguments.scene);
+  const auto [scene, warnings] = load_scene(arguments.scene);
   report(warnings, arguments);
   const Camera& camera = cli::choose_camera(scene, arguments.camera);
   watch.loaded();

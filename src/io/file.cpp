@@ -52,6 +52,8 @@ bool fill(int descriptor, const std::string& name, std::string& bytes, std::size
   return ended;
 }
 
+}  // namespace
+
 std::string read_descriptor(int descriptor, const std::string& name, std::size_t limit,
                             const std::function<void(std::string_view)>& inspect) {
   struct stat status {};
@@ -72,8 +74,6 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
   if (bytes.size() > limit) fail_too_large(name, limit);
   return bytes;
 }
-
-}  // namespace
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit,
                       const std::function<void(std::string_view)>& inspect) {

@@ -22,4 +22,9 @@ inline constexpr std::size_t max_file_size = std::size_t{1} << 30;
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect);
 
+/// The same for what is left in an open descriptor; `name` stands in messages.
+[[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,
+                                          std::size_t limit,
+                                          const std::function<void(std::string_view)>& inspect);
+
 }  // namespace microtrace::io

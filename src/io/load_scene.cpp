@@ -6,6 +6,7 @@
 #include <microtrace/io.hpp>
 
 #include <algorithm>
+#include <unistd.h>
 
 namespace microtrace {
 namespace {
@@ -33,11 +34,15 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path) {
+  const bool standard_input = path == "-";
   const std::string ending = lower_case_ending(path);
-  const std::string name = path.string();
-  const std::string bytes = io::read_file(path, io::max_file_size, [&](std::string_view first) {
+  const std::string name = standard_input ? "(standard input)" : path.string();
+  const auto inspect = [&](std::string_view first) {
     if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
-  });
+  };
+  const std::string bytes =
+      standard_input ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
+                     : io::read_file(path, io::max_file_size, inspect);
   const std::filesystem::path folder = path.parent_path();
   if (ending == ".gltf" || ending == ".glb") return io::load_gltf(bytes, name, folder);
   if (ending == ".json") return io::read_json_scene(io::JsonDocument(bytes, name), folder);

@@ -1,7 +1,7 @@
 #include "render/tiles.hpp"
 
-#include <microtrace/error.hpp>
 #include <microtrace/bvh.hpp>
+#include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 
 #include <algorithm>

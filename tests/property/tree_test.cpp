@@ -93,7 +93,7 @@ TEST(Tree, OfUpToABlockIsOneLeaf) {
 }
 
 TEST(Tree, HoldsMeshesOfAllSizes) {
-  for (const std::size_t n : {10, 17, 64, 65, 1000, 30000, 100000}) {
+  for (const unsigned n : {10U, 17U, 64U, 65U, 1000U, 30000U, 100000U}) {
     check(scene_of({soup(n, 0.01F)}), Place::blocks);
     check(scene_of({generated::displaced_sphere(n)}), Place::blocks);
     check(scene_of({generated::terrain(n)}), Place::blocks);

@@ -21,8 +21,8 @@ BinMapping::BinMapping(const Box& centroids, int bins)
 
 void Bins::clear(int bins) {
   for (int axis = 0; axis < 3; ++axis) {
-    std::fill_n(boxes_[axis].begin(), bins, Box());
-    std::fill_n(loads_[axis].begin(), bins, Load());
+    std::fill_n(boxes_[axis], bins, Box());
+    std::fill_n(loads_[axis], bins, Load());
   }
 }
 
@@ -55,7 +55,7 @@ Load Bins::load_up_to(int axis, int last_bin) const {
 void Bins::try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const {
   const auto& boxes = boxes_[axis];
   const auto& loads = loads_[axis];
-  std::array<float, kMaxBins> right_cost;  // of the bins from i on
+  float right_cost[kMaxBins];  // of the bins from i on
   Box box;
   Load load;
   for (int i = bins - 1; i > 0; --i) {

@@ -6,7 +6,6 @@
 #include "accel/build/area.hpp"
 #include "accel/build/reference.hpp"
 
-#include <array>
 #include <span>
 
 namespace microtrace::build {
@@ -77,8 +76,8 @@ class Bins {
  private:
   void try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const;
 
-  std::array<std::array<Box, kMaxBins>, 3> boxes_;
-  std::array<std::array<Load, kMaxBins>, 3> loads_;
+  Box boxes_[3][kMaxBins];
+  Load loads_[3][kMaxBins];
 };
 
 }  // namespace microtrace::build

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Builds the program again by other compilers and without optimisation, and checks that every build draws the same bytes
+with every instruction set and any number of threads.
+
+usage: same_bits.py PROGRAM SOURCE_FOLDER BUILD_FOLDER
+"""
+
+import hashlib
+import itertools
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+PROGRAM, SOURCE, FOLDER = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+SCENES = ["perspective1.json", "perspective2.json", "perspective3.json", "environment.json",
+          "orthographic.json", "hyperboloid.json", "gltf/knot.glb"]
+ISAS = ["portable", "avx2", "avx512"]  # one that the machine lacks falls back to portable
+VARIANTS = {
+    "gcc-debug": {"CMAKE_CXX_COMPILER": "g++", "CMAKE_BUILD_TYPE": "Debug"},
+    "clang-release": {"CMAKE_CXX_COMPILER": "clang++", "CMAKE_BUILD_TYPE": "Release"},
+}
+
+
+def build(name, settings):
+    folder = FOLDER / name
+    options = [f"-D{key}={value}" for key, value in settings.items()]
+    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", *options,
+                    "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF",
+                    "-DMICROTRACE_WITH_OPENIMAGEIO=OFF"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", folder, "--target", "microtrace"], check=True,
+                   stdout=subprocess.DEVNULL)
+    return folder / "src/cli/microtrace"
+
+
+def digest(program, scene, isa, threads):
+    picture = subprocess.run([program, SOURCE / "scenes" / scene, "-o", "-", "-t", str(threads)],
+                             check=True, capture_output=True,
+                             env=dict(os.environ, MICROTRACE_ISA=isa)).stdout
+    return hashlib.sha256(picture).hexdigest()
+
+
+for compiler in {settings["CMAKE_CXX_COMPILER"] for settings in VARIANTS.values()}:
+    if not shutil.which(compiler):
+        sys.exit(f"{compiler} is not installed; ./test installs it")
+programs = {"this build": PROGRAM} | {name: build(name, s) for name, s in VARIANTS.items()}
+differing = 0
+for scene in SCENES:
+    digests = {(name, isa, threads): digest(program, scene, isa, threads)
+               for (name, program), isa, threads in itertools.product(programs.items(), ISAS, (1, 2))}
+    expected = digests["this build", "portable", 1]
+    print(f"{scene}: {expected[:16]} from {len(digests)} combinations")
+    for combination, value in digests.items():
+        if value != expected:
+            differing += 1
+            print(f"  {combination} gives {value[:16]}")
+sys.exit(1 if differing else 0)
