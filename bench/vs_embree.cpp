@@ -93,7 +93,7 @@ void run(const Arguments& arguments) {
   // What takes long to make is made when its turn comes.
   std::vector<std::function<BenchScene()>> scenes;
   if (arguments.scaling) {
-    for (const std::size_t triangles : {10'000, 100'000, 1'000'000, 10'000'000})
+    for (const unsigned triangles : {10'000U, 100'000U, 1'000'000U, 10'000'000U})
       scenes.emplace_back([=] { return sphere_scene(triangles); });
   }
   for (const std::string& name : arguments.scenes)
