@@ -17,14 +17,14 @@ bool suits_kernels(const Ray& ray) {
 }
 
 KernelRay kernel_ray(const Ray& ray) {
-  return {.o = {ray.o.x, ray.o.y, ray.o.z},
-          .d = {ray.d.x, ray.d.y, ray.d.z},
-          .t_min = ray.t_min,
-          .t_max = ray.t_max,
-          .near_factor = {},
-          .far_factor = {},
-          .d_sum = 0,
-          .negative = {}};
+  KernelRay k{};
+  for (int axis = 0; axis < 3; ++axis) {
+    k.o[axis] = ray.o[axis];
+    k.d[axis] = ray.d[axis];
+  }
+  k.t_min = ray.t_min;
+  k.t_max = ray.t_max;
+  return k;
 }
 
 void fill_tile(std::span<const Ray> rays, KernelTile& tile) {

@@ -64,7 +64,9 @@ float moved(float x, int n) {
   const std::int32_t magnitude = bits & 0x7fffffff;
   constexpr std::int32_t margin = 0x100;
   if (magnitude < margin || magnitude > 0x7f800000 - margin) return x;
-  return std::bit_cast<float>(bits + n);
+  const std::int64_t target = std::int64_t{magnitude} + n;
+  if (target < 0 || target >= 0x7f800000) return x;
+  return std::bit_cast<float>(bits ^ magnitude ^ static_cast<std::int32_t>(target));
 }
 
 }  // namespace microtrace::adversarial

@@ -38,6 +38,7 @@ struct KernelRay {
   float t_min, t_max;
   // ---- by the kernel:
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
+  float t_begin;                        ///< t_min, or 0 where that is tiny
   float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
   bool negative[3];
 };
@@ -56,7 +57,8 @@ struct alignas(64) KernelTile {
   // ---- by the kernel:
   float near[3][kTileRays], far[3][kTileRays];  ///< near_factor and far_factor of each ray
   float d_sum;                                  ///< the largest of all rays
-  float least_t_min;                            ///< of all rays
+  float t_begin[kTileRays];                     ///< t_min, or 0 where that is tiny
+  float least_t_begin;                          ///< of all rays
   bool negative[3];     ///< whether d_i is below zero, for axes where that is the same for all rays
   bool common_sign[3];  ///< whether it is, and no d_i is so small that 1 / d_i overflows
   float least_near[3], greatest_near[3];  ///< of the factors, for axes with a common sign

@@ -60,7 +60,7 @@ struct BlockTest {
     const F within = lesser(lesser(u, v), d_size - (u + v));
     Lanes lanes = less_equal<N>(-error, within);
     lanes &= less_equal<N>(t - d_size * t_limit, t_error + size_error * t_limit);
-    lanes &= less_equal<N>(d_size * ray.t_min - t, t_error + size_error * ray.t_min);
+    lanes &= less_equal<N>(d_size * ray.t_begin - t, t_error + size_error * ray.t_begin);
     if (lanes == 0) return;
     maybe |= lanes << i;
     store<N>(inside + i, within);
@@ -112,7 +112,7 @@ inline int push_children(const WideNode& node, const KernelRay& ray, float limit
     const F far_y = (load<N>(y[!ray.negative[1]] + i) - ray.o[1]) * ray.far_factor[1];
     const F far_z = (load<N>(z[!ray.negative[2]] + i) - ray.o[2]) * ray.far_factor[2];
     // 0 * infinity is NaN, and means no limit: lesser and greater drop a NaN on their left.
-    const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_min))));
+    const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_begin))));
     const F leave = lesser(far_x, lesser(far_y, lesser(far_z, all<N>(limit))));
     entered |= less_equal<N>(enter, leave) << i;
     store<N>(near + i, enter);
@@ -135,7 +135,7 @@ template <int N, class Limit, class Leaf>
 inline bool walk(const TreeView& tree, const KernelRay& ray, const Limit& limit, const Leaf& leaf) {
   StackEntry stack[kStackSize];
   int top = 0;
-  stack[top++] = {tree.root, ray.t_min};
+  stack[top++] = {tree.root, ray.t_begin};
   while (top > 0) {
     const StackEntry entry = stack[--top];
     if (entry.near > limit()) continue;

@@ -29,8 +29,13 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   far = d < zero ? -above : above;
 }
 
+/// Most rays begin at the least number above 0, and processors calculate slowly with subnormal
+/// numbers: culling begins at 0 instead, which only culls less.
+constexpr float kLeastBegin = 0x1p-100F;
+
 /// Fills the lower part of a ray.
 inline void prepare_ray(KernelRay& ray) {
+  ray.t_begin = ray.t_min < kLeastBegin ? 0 : ray.t_min;
   float d[4] = {ray.d[0], ray.d[1], ray.d[2], 0}, near[4], far[4];
   Float<4> near_factor, far_factor;
   slab_factors<4>(load<4>(d), near_factor, far_factor);
@@ -77,9 +82,11 @@ inline void prepare_tile(KernelTile& tile) {
       total = total + magnitude(component);
     }
     store<N>(sum + i, total);
+    const F t_min = load<N>(tile.t_min + i);
+    store<N>(tile.t_begin + i, t_min < all<N>(kLeastBegin) ? F{} : t_min);
   }
   tile.d_sum = reduce<N>(sum, greatest) * (1 + 0x1p-21F);
-  tile.least_t_min = reduce<N>(tile.t_min, least);
+  tile.least_t_begin = reduce<N>(tile.t_begin, least);
   for (int axis = 0; axis < 3; ++axis) {
     tile.least_near[axis] = reduce<N>(tile.near[axis], least);
     tile.greatest_near[axis] = reduce<N>(tile.near[axis], greatest);

@@ -24,7 +24,7 @@ class TileWalk {
   void run() {
     StackEntry stack[kStackSize];
     int top = 0;
-    stack[top++] = {tree_.root, tile_.least_t_min};
+    stack[top++] = {tree_.root, tile_.least_t_begin};
     while (top > 0) {
       const StackEntry entry = stack[--top];
       if (entry.near > limit_) continue;
@@ -63,7 +63,7 @@ class TileWalk {
     alignas(64) float near[kWidth];
     Lanes entered = 0;
     for (int i = 0; i < kWidth; i += kNodeLanes) {
-      B enter = all<kNodeLanes>(tile_.least_t_min), leave = all<kNodeLanes>(limit_);
+      B enter = all<kNodeLanes>(tile_.least_t_begin), leave = all<kNodeLanes>(limit_);
       for (int axis = 0; axis < 3; ++axis) {
         if (!tile_.common_sign[axis]) continue;
         const Slab planes = slab(node, axis);
@@ -94,7 +94,7 @@ class TileWalk {
     const float hi[3] = {node.hi_x[lane] - tile_.o[0], node.hi_y[lane] - tile_.o[1],
                          node.hi_z[lane] - tile_.o[2]};
     for (int i = 0; i < kTileRays; i += N) {
-      F enter = load<N>(tile_.t_min + i), leave = load<N>(tile_.best_hi + i);
+      F enter = load<N>(tile_.t_begin + i), leave = load<N>(tile_.best_hi + i);
       for (int axis = 0; axis < 3; ++axis) {
         const F near_factor = load<N>(tile_.near[axis] + i),
                 far_factor = load<N>(tile_.far[axis] + i);
@@ -189,11 +189,11 @@ class TileWalk {
     if (maybe == 0) return;
 
     const F best_lo = load<N>(tile_.best_lo + i), best_hi = load<N>(tile_.best_hi + i);
-    const F t_min = load<N>(tile_.t_min + i);
+    const F t_begin = load<N>(tile_.t_begin + i);
     const F limit = lesser(best_hi, all<N>(kFarthestHit));
     const F height = sign * view.height[k];
     maybe &= less_equal<N>(height - size * limit, limit * size_error + view.height_error[k]);
-    maybe &= less_equal<N>(size * t_min - height, t_min * size_error + view.height_error[k]);
+    maybe &= less_equal<N>(size * t_begin - height, t_begin * size_error + view.height_error[k]);
     if (maybe == 0) return;
 
     const F t = height / size, distance = magnitude(t);
@@ -202,7 +202,8 @@ class TileWalk {
     const F lo = t - radius, hi = t + radius;
     const Lanes certain =
         maybe & less<N>(all<N>(view.error[k]), within) & less<N>(all<N>(16 * size_error), size);
-    const Lanes nearer = certain & less<N>(hi, best_lo) & less_equal<N>(t_min, lo);
+    const Lanes nearer =
+        certain & less<N>(hi, best_lo) & less_equal<N>(load<N>(tile_.t_min + i), lo);
     const Lanes farther = certain & less<N>(best_hi, lo);
     if (nearer != 0) {
       store<N>(tile_.best_lo + i, select<N>(nearer, lo, best_lo));
