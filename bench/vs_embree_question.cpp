@@ -11,7 +11,7 @@ namespace microtrace::bench {
 Question::Question(Kind kind, std::vector<Ray> rays)
     : kind_(kind), rays_(std::move(rays)), packed_(rays_) {
   if (kind_ == Kind::occlusion) {
-    occluded_.resize(size());
+    occluded_ = std::make_unique<bool[]>(size());
     peer_occluded_.resize(size());
   } else {
     hits_.resize(size());
@@ -22,7 +22,8 @@ Question::Question(Kind kind, std::vector<Ray> rays)
 void Question::ask_microtrace(const Bvh& bvh, unsigned threads) {
   split(threads, size(), [&](std::size_t begin, std::size_t end) {
     if (kind_ == Kind::occlusion) {
-      for (std::size_t i = begin; i < end; ++i) occluded_[i] = bvh.occluded(rays_[i]);
+      bvh.occluded(std::span(rays_).subspan(begin, end - begin),
+                   std::span(occluded_.get(), size()).subspan(begin, end - begin));
       return;
     }
     const std::size_t step = kind_ == Kind::primary ? kTileRays : end - begin;

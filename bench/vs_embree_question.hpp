@@ -5,6 +5,7 @@
 
 #include <microtrace/bvh.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,7 +40,8 @@ class Question {
   PeerRays packed_;
   std::vector<std::optional<Hit>> hits_;
   std::vector<PeerHit> peer_hits_;
-  std::vector<std::uint8_t> occluded_, peer_occluded_;
+  std::unique_ptr<bool[]> occluded_;
+  std::vector<std::uint8_t> peer_occluded_;
 };
 
 }  // namespace microtrace::bench

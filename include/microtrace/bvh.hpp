@@ -37,9 +37,13 @@ class Bvh {
   /// Whether intersect(ray) would find something; sooner.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// hits[i] answers rays[i]; both have one length. Fastest where runs of rays start at one point
-  /// and go nearly the same way, as those of neighbouring pixels do.
+  /// hits[i] answers rays[i]; both have one length. Sooner than asking ray by ray; fastest where
+  /// runs of rays start at one point and go nearly the same way, as those of neighbouring pixels do.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+
+  /// results[i] says whether rays[i] hits something; both have one length. Sooner than asking ray
+  /// by ray, in any order of the rays.
+  void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
   [[nodiscard]] const Primitives& primitives() const;
 

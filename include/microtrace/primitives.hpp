@@ -28,6 +28,8 @@ class Primitives {
 
   /// The place in Scene::objects of the object that a primitive belongs to.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
+  /// The least number of that object's primitives.
+  [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
   }

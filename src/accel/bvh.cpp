@@ -1,7 +1,9 @@
 #include "accel/build/tree.hpp"
 #include "accel/bundle.hpp"
+#include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
+#include "accel/ray_stream.hpp"
 #include "accel/slow_path.hpp"
 #include "accel/tile_judge.hpp"
 
@@ -23,11 +25,16 @@ struct Bvh::Impl {
             .root = tree.root};
   }
 
+  [[nodiscard]] RayStream::Target stream_target() const {
+    return {.primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()};
+  }
+
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// Rays that make a tile (see tile_length).
-  void intersect_tile(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+  /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
+  /// kernels.
+  bool intersect_tile(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;
   std::vector<PrimitiveId> outside;  // of the tree: asked one by one
@@ -58,12 +65,13 @@ std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
   return bundle.hit(0);
 }
 
-// How many rays from the front make a tile: suited to kernels, with the first one's origin.
-std::size_t tile_length(std::span<const Ray> rays) {
-  const auto belongs = [&](const Ray& ray) { return ray.o == rays[0].o && suits_kernels(ray); };
-  const auto front = rays.first(std::min(rays.size(), Bundle::kCapacity));
-  return static_cast<std::size_t>(std::find_if_not(front.begin(), front.end(), belongs) -
-                                  front.begin());
+// How many rays from the front have one origin, up to a tile's number.
+std::size_t common_origin_length(std::span<const Ray> rays) {
+  const Vec3 o = rays[0].o;
+  const std::size_t limit = std::min<std::size_t>(rays.size(), kTileRays);
+  std::size_t length = 1;
+  while (length < limit && rays[length].o == o) ++length;
+  return length;
 }
 
 }  // namespace
@@ -89,21 +97,26 @@ bool Bvh::Impl::occluded(const Ray& ray) const {
   return has_tree && kernels->any(view(), kernel_ray(ray), judge.slow_path());
 }
 
-void Bvh::Impl::intersect_tile(std::span<const Ray> rays,
+bool Bvh::Impl::intersect_tile(std::span<const Ray> rays,
                                std::span<std::optional<Hit>> hits) const {
+  KernelTile tile;
+  if (!fill_tile(rays, *kernels, tile)) return false;
   if (has_tree) {
     TileJudge judge(primitives, rays);
-    KernelTile tile;
-    fill_tile(rays, tile);
     judge.begin(tile, outside);
     kernels->closest_of_tile(view(), tile, judge.slow_path());
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = judge.hit(tile, i);
+    const FoundHits found{.rays = rays,
+                          .ids = tile.best_id,
+                          .o = {tile.o_x, tile.o_y, tile.o_z},
+                          .d = {tile.d_x, tile.d_y, tile.d_z}};
+    round_hits(primitives, *kernels, found, hits);
   } else {
     Bundle bundle(primitives, rays);
     for (const PrimitiveId id : outside)
       primitives.visit(id, [&](const auto& shape) { bundle.meet(id, shape); });
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = bundle.hit(i);
   }
+  return true;
 }
 
 Bvh::Bvh(const Scene& scene, const BvhOptions& options)
@@ -126,17 +139,39 @@ bool Bvh::occluded(const Ray& ray) const {
 
 void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
   assert(rays.size() == hits.size());
-  while (!rays.empty()) {
-    const std::size_t length = tile_length(rays);
+  std::optional<RayStream> stream;  // takes long to make: only if there are rays for it
+  for (std::size_t i = 0; i < rays.size();) {
+    const std::size_t length = common_origin_length(rays.subspan(i));
     // A few rays don't repay what a tile costs.
-    if (length >= 8)
-      impl_->intersect_tile(rays.first(length), hits);
-    else
-      hits[0] = intersect(rays[0]);
-    const std::size_t done = length >= 8 ? length : 1;
-    rays = rays.subspan(done);
-    hits = hits.subspan(done);
+    if (length >= 8 && impl_->intersect_tile(rays.subspan(i, length), hits.subspan(i))) {
+      i += length;
+      continue;
+    }
+    if (impl_->has_tree && suits_kernels(rays[i])) {
+      if (!stream) stream.emplace(impl_->stream_target());
+      stream->add(rays[i], i);
+      if (stream->is_full()) stream->flush_closest(hits);
+    } else {
+      hits[i] = intersect(rays[i]);
+    }
+    ++i;
   }
+  if (stream) stream->flush_closest(hits);
+}
+
+void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results) const {
+  assert(rays.size() == results.size());
+  std::optional<RayStream> stream;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (impl_->has_tree && suits_kernels(rays[i])) {
+      if (!stream) stream.emplace(impl_->stream_target());
+      stream->add(rays[i], i);
+      if (stream->is_full()) stream->flush_any(results);
+    } else {
+      results[i] = occluded(rays[i]);
+    }
+  }
+  if (stream) stream->flush_any(results);
 }
 
 }  // namespace microtrace

@@ -5,15 +5,20 @@
 #include <limits>
 
 namespace microtrace {
+namespace {
+
+// False for NaN: what is within is finite.
+bool within(const Vec3& v, float limit) {
+  return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+}  // namespace
 
 bool suits_kernels(const Ray& ray) {
-  constexpr float kFar = 0x1p38F, kLong = 0x1p20F, kShort = 0x1p-20F;
-  const auto within = [](const Vec3& v, float limit) {
-    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-  };
-  // Comparisons are false for NaN, so that what passes is finite.
-  return within(ray.o, kFar) && within(ray.d, kLong) && !(within(ray.d, kShort)) &&
-         ray.t_min >= 0 && ray.t_min <= kFar && ray.t_min <= ray.t_max;
+  return within(ray.o, kFarthestCoordinate) && within(ray.d, kLongestDirection) &&
+         (std::abs(ray.d.x) >= kShortestDirection || std::abs(ray.d.y) >= kShortestDirection ||
+          std::abs(ray.d.z) >= kShortestDirection) &&
+         ray.t_min >= 0 && ray.t_min <= kFarthestCoordinate && ray.t_min <= ray.t_max;
 }
 
 KernelRay kernel_ray(const Ray& ray) {
@@ -27,20 +32,23 @@ KernelRay kernel_ray(const Ray& ray) {
   return k;
 }
 
-void fill_tile(std::span<const Ray> rays, KernelTile& tile) {
-  for (int axis = 0; axis < 3; ++axis) tile.o[axis] = rays[0].o[axis];
+bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile) {
   const auto fill = [&](std::size_t i, const Ray& ray) {
     tile.d_x[i] = ray.d.x;
     tile.d_y[i] = ray.d.y;
     tile.d_z[i] = ray.d.z;
     tile.t_min[i] = ray.t_min;
+    tile.best_lo[i] = tile.best_hi[i] = ray.t_max;
+    tile.best_id[i] = kNoPrimitive;
   };
   for (std::size_t i = 0; i < rays.size(); ++i) fill(i, rays[i]);
-  for (std::size_t i = rays.size(); i < kTileRays; ++i) {
-    fill(i, rays.back());
-    tile.best_lo[i] = tile.best_hi[i] = -std::numeric_limits<float>::infinity();
-    tile.best_id[i] = kNoPrimitive;
-  }
+  for (std::size_t i = rays.size(); i < kTileRays; ++i) fill(i, rays.back());
+  for (int axis = 0; axis < 3; ++axis) tile.o[axis] = rays[0].o[axis];
+  std::fill_n(tile.o_x, kTileRays, tile.o[0]);
+  std::fill_n(tile.o_y, kTileRays, tile.o[1]);
+  std::fill_n(tile.o_z, kTileRays, tile.o[2]);
+  tile.count = static_cast<int>(rays.size());
+  return within(rays[0].o, kFarthestCoordinate) && kernels.prepare_tile(tile);
 }
 
 }  // namespace microtrace

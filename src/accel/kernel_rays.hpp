@@ -15,8 +15,8 @@ namespace microtrace {
 /// The caller's part of a KernelRay, for a ray that does.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray);
 
-/// The caller's part of a KernelTile for 1 to kTileRays such rays with one origin, but for their
-/// best hits.
-void fill_tile(std::span<const Ray> rays, KernelTile& tile);
+/// Makes a tile without hits of 1 to kTileRays rays with one origin. False if not all of them suit
+/// kernels.
+[[nodiscard]] bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile);
 
 }  // namespace microtrace

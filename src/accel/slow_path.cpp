@@ -36,6 +36,7 @@ Judge::Judge(const Primitives& primitives, const Ray& ray)
       filterable_(is_filterable(ray.o) && is_filterable(ray.d)) {}
 
 void Judge::consider(std::uint32_t id, Best& best) const {
+  if (id == best.id) return;  // a triangle that was split among leaves comes more than once
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);

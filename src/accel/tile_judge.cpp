@@ -17,20 +17,17 @@ Bundle& TileJudge::bundle() {
 }
 
 void TileJudge::begin(KernelTile& tile, std::span<const PrimitiveId> ids) {
+  if (ids.empty()) return;
   for (const PrimitiveId id : ids)
     primitives_->visit(id, [&](const auto& shape) { bundle().meet(id, shape); });
-  for (std::size_t i = 0; i < rays_.size(); ++i)
-    put(tile, i, ids.empty() ? no_hit(rays_[i]) : bundle().best(i));
-}
-
-std::optional<Hit> TileJudge::hit(const KernelTile& tile, std::size_t i) const {
-  if (tile.best_id[i] == kNoPrimitive) return std::nullopt;
-  return Judge(*primitives_, rays_[i]).hit(tile.best_id[i]);
+  for (std::size_t i = 0; i < rays_.size(); ++i) put(tile, i, bundle().best(i));
 }
 
 void TileJudge::consider_all(std::uint32_t id, KernelTile& tile) {
   const auto consider = [&](std::size_t i, const Verdict& verdict) {
-    if (verdict.certainty == Certainty::miss || verdict.lo > tile.best_hi[i]) return;
+    if (verdict.certainty == Certainty::miss || verdict.lo > tile.best_hi[i] ||
+        tile.best_id[i] == id)
+      return;
     Best best{.lo = tile.best_lo[i], .hi = tile.best_hi[i], .id = tile.best_id[i]};
     if (verdict.certainty == Certainty::hit && verdict.hi < best.lo)
       best = outwards(verdict.lo, verdict.hi, id);

@@ -19,9 +19,6 @@ class TileJudge {
   /// Starts the tile with the hits of these primitives.
   void begin(KernelTile& tile, std::span<const PrimitiveId> ids);
 
-  /// What the tile holds for ray i, t rounded once.
-  [[nodiscard]] std::optional<Hit> hit(const KernelTile& tile, std::size_t i) const;
-
   /// For kernels; the judge must outlive it.
   [[nodiscard]] TileSlowPath slow_path();
 

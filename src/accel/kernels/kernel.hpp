@@ -30,9 +30,13 @@ struct SlowPath {
   void (*consider)(void* context, std::uint32_t id, Best& best);
 };
 
-/// A ray as kernels take it: every |o_i| and t_min at most 2^38, the largest |d_i| within [2^-20,
-/// 2^20]. These limits keep every float32 result below free of overflow, and what underflow adds
-/// below 2^-100.
+/// The limits within which rays and triangles go to kernels. They keep every float32 result free of
+/// overflow, and what underflow adds below 2^-100.
+inline constexpr float kFarthestCoordinate = 0x1p38F;  ///< every |o_i|, t_min, corner
+inline constexpr float kLongestDirection = 0x1p20F;    ///< every |d_i|
+inline constexpr float kShortestDirection = 0x1p-20F;  ///< the largest |d_i|
+
+/// A ray as kernels take it, within the limits.
 struct KernelRay {
   float o[3], d[3];
   float t_min, t_max;
@@ -47,18 +51,21 @@ inline constexpr int kTileRays = 64;
 
 /// Rays with a common origin, best nearly parallel; an array for each of their parts. The limits
 /// are KernelRay's. The caller fills what stands above the line; places beyond the last ray repeat
-/// one with best_hi = -infinity, so that it hits nothing.
+/// it.
 struct alignas(64) KernelTile {
   float d_x[kTileRays], d_y[kTileRays], d_z[kTileRays];
   float t_min[kTileRays];
   float best_lo[kTileRays], best_hi[kTileRays];  ///< as in Best
   std::uint32_t best_id[kTileRays];
   float o[3];
+  int count;                                             ///< of rays
+  float o_x[kTileRays], o_y[kTileRays], o_z[kTileRays];  ///< o again, for HitBatch
   // ---- by the kernel:
   float near[3][kTileRays], far[3][kTileRays];  ///< near_factor and far_factor of each ray
-  float d_sum;                                  ///< the largest of all rays
-  float t_begin[kTileRays];                     ///< t_min, or 0 where that is tiny
-  float least_t_begin;                          ///< of all rays
+  float least_d[3], greatest_d[3];              ///< of each component of d
+  float d_sum;               ///< at least |d_x| + |d_y| + |d_z| of any vector between them
+  float t_begin[kTileRays];  ///< t_min, or 0 where that is tiny
+  float least_t_begin;       ///< of all rays
   bool negative[3];     ///< whether d_i is below zero, for axes where that is the same for all rays
   bool common_sign[3];  ///< whether it is, and no d_i is so small that 1 / d_i overflows
   float least_near[3], greatest_near[3];  ///< of the factors, for axes with a common sign
@@ -74,6 +81,37 @@ struct TileSlowPath {
   void (*consider_all)(void* context, std::uint32_t id, KernelTile& tile);
 };
 
+inline constexpr int kStreamRays = 1024;
+
+/// Unrelated rays, an array for each of their parts. The limits are KernelRay's. The caller fills
+/// what stands above the line, for `count` rays.
+struct alignas(64) KernelStream {
+  float o[3][kStreamRays], d[3][kStreamRays];
+  float t_min[kStreamRays];
+  float best_lo[kStreamRays], best_hi[kStreamRays];  ///< as in Best
+  std::uint32_t best_id[kStreamRays];
+  int count;
+  // ---- by the kernel:
+  float near[3][kStreamRays], far[3][kStreamRays];  ///< near_factor and far_factor of each ray
+  float t_begin[kStreamRays];                       ///< t_min, or 0 where that is tiny
+  float d_sum[kStreamRays];                         ///< as in KernelRay
+};
+
+/// SlowPath for a stream.
+struct StreamSlowPath {
+  void* context;
+  void (*consider)(void* context, int ray, std::uint32_t id, Best& best);
+};
+
+inline constexpr int kHitBatch = 64;
+
+/// Hits of triangles, an array for each coordinate. Places without a hit may hold anything finite.
+struct alignas(64) HitBatch {
+  float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< corners
+  const float *o[3], *d[3];                                 ///< of kHitBatch rays that suit kernels
+  float t[kHitBatch];                                       ///< the answers
+};
+
 /// One instruction set's code.
 struct Kernels {
   const char* name;
@@ -81,8 +119,18 @@ struct Kernels {
   void (*closest)(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best);
   /// Whether there is any hit within the ray's range.
   bool (*any)(const TreeView& tree, KernelRay ray, const SlowPath& slow);
-  /// The same as closest for all rays of a tile.
+  /// Fills the lower part of a tile without hits. False if a ray is not valid or beyond the limits;
+  /// then the tile is of no use.
+  bool (*prepare_tile)(KernelTile& tile);
+  /// The same as closest for all rays of a prepared tile.
   void (*closest_of_tile)(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow);
+  /// The same for all rays of a stream.
+  void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);
+  /// Gives every ray without a best hit some hit within its range, if there is one.
+  void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);
+  /// Fills t with the exact parameters rounded to nearest; returns the set of hits for which that
+  /// is certain.
+  std::uint64_t (*round_t)(HitBatch& hits);
 };
 
 extern const Kernels kPortableKernels;

@@ -24,10 +24,18 @@ struct FloatVector {
 template <int N>
 using Float = typename FloatVector<N>::type;
 
+template <int N>
+struct DoubleVector {
+  typedef double type __attribute__((vector_size(8 * N)));
+  typedef std::int64_t bits_type __attribute__((vector_size(8 * N)));
+};
+template <int N>
+using Double = typename DoubleVector<N>::type;
+
 using Lanes = std::uint32_t;
 
 template <int N>
-constexpr Lanes kAllLanes = (Lanes{1} << N) - 1;
+constexpr Lanes all_lanes = (Lanes{1} << N) - 1;
 
 template <int N>
 inline Float<N> load(const float* p) {
@@ -55,11 +63,35 @@ template <class V>
 inline V greater(const V& a, const V& b) {
   return a > b ? a : b;
 }
-/// |a|, 0 for -0.
+/// |a|, 0 for -0: the same bits under another type, but for the sign.
 template <class V>
 inline V magnitude(const V& a) {
-  using Bits = typename FloatVector<sizeof(V) / 4>::bits_type;
-  return (V)((Bits)a & 0x7fffffff);  // the same bits under another type
+  if constexpr (sizeof(a[0]) == 4)
+    return (V)((typename FloatVector<sizeof(V) / 4>::bits_type) a & 0x7fffffff);
+  else
+    return (V)((typename DoubleVector<sizeof(V) / 8>::bits_type) a & 0x7fffffffffffffff);
+}
+
+/// Lanes of a, times -1 where b is negative or -0.
+template <int N>
+inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
+  using Bits = typename FloatVector<N>::bits_type;
+  return (Float<N>)((Bits)a ^ ((Bits)b & INT32_MIN));
+}
+
+/// N float32 from memory as float64.
+template <int N>
+inline Double<N> widened(const float* p) {
+  Float<N> v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return __builtin_convertvector(v, Double<N>);
+}
+
+/// Rounded to float32, into memory.
+template <int N>
+inline void narrowed(const Double<N>& v, float* p) {
+  const Float<N> rounded = __builtin_convertvector(v, Float<N>);
+  __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
 /// Positive finite lanes moved by n units in the last place.
@@ -121,6 +153,80 @@ inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
 
 inline int first_lane(std::uint64_t lanes) {
   return __builtin_ctzll(lanes);
+}
+
+#if defined(__AVX2__)
+/// Eight numbers, each with its lane in the three lowest bits, the greatest first: the sorting
+/// network of 19 exchanges in six steps (D. E. Knuth, The Art of Computer Programming 3, 5.3.4).
+inline __m256i sorted_descending(__m256i v) {
+// Lanes exchange with what `other` puts beside them; those of the mask keep the greater.
+#define MICROTRACE_EXCHANGE(other, mask)                                          \
+  {                                                                               \
+    const __m256i w = other;                                                      \
+    v = _mm256_blend_epi32(_mm256_min_epi32(v, w), _mm256_max_epi32(v, w), mask); \
+  }
+  const auto at = [](int a, int b, int c, int d, int e, int f, int g, int h) {
+    return _mm256_setr_epi32(a, b, c, d, e, f, g, h);
+  };
+  MICROTRACE_EXCHANGE(_mm256_shuffle_epi32(v, 0x4E), 0x33)
+  MICROTRACE_EXCHANGE(_mm256_permute2x128_si256(v, v, 1), 0x0F)
+  MICROTRACE_EXCHANGE(_mm256_shuffle_epi32(v, 0xB1), 0x55)
+  MICROTRACE_EXCHANGE(_mm256_permute4x64_epi64(v, 0xD8), 0x0C)
+  MICROTRACE_EXCHANGE(_mm256_permutevar8x32_epi32(v, at(0, 4, 2, 6, 1, 5, 3, 7)), 0x0A)
+  MICROTRACE_EXCHANGE(_mm256_permutevar8x32_epi32(v, at(0, 2, 1, 4, 3, 6, 5, 7)), 0x2A)
+#undef MICROTRACE_EXCHANGE
+  return v;
+}
+#endif
+
+/// Writes the given lanes of eight keys, none of them negative, and of their values, by descending
+/// key. Keys are rounded down by up to 7 ulp. Overwrites eight places.
+inline void store_descending(Lanes lanes, const float* keys, const std::uint32_t* values,
+                             float* to_keys, std::uint32_t* to_values) {
+#if defined(__AVX2__)
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), low = _mm256_set1_epi32(7);
+  const __m256i key =
+      _mm256_or_si256(_mm256_andnot_si256(low, _mm256_castps_si256(_mm256_loadu_ps(keys))), lane);
+#if defined(__AVX512VL__)
+  const __m256i wanted =
+      _mm256_mask_mov_epi32(_mm256_set1_epi32(-1), static_cast<__mmask8>(lanes), key);
+#else
+  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit);
+  const __m256i wanted = _mm256_or_si256(key, _mm256_cmpeq_epi32(set, _mm256_setzero_si256()));
+#endif
+  const __m256i order = sorted_descending(wanted);
+  const __m256i all_values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to_values),
+                      _mm256_permutevar8x32_epi32(all_values, order));
+  _mm256_storeu_ps(to_keys, _mm256_castsi256_ps(_mm256_andnot_si256(low, order)));
+#else
+  int size = 0;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = first_lane(lanes);
+    int place = size++;
+    for (; place > 0 && to_keys[place - 1] < keys[lane]; --place) {
+      to_keys[place] = to_keys[place - 1];
+      to_values[place] = to_values[place - 1];
+    }
+    to_keys[place] = keys[lane];
+    to_values[place] = values[lane];
+  }
+#endif
+}
+
+/// Writes the given lanes of eight values one after another. May overwrite eight places.
+inline void store_lanes(Lanes lanes, const std::uint32_t* values, std::uint32_t* to) {
+#if defined(__AVX512VL__)
+  const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), v));
+#else
+  for (int lane = 0; lane < 8; ++lane) {
+    *to = values[lane];
+    to += lanes >> lane & 1U;
+  }
+#endif
 }
 
 }  // namespace

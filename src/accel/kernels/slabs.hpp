@@ -63,29 +63,42 @@ inline float reduce(const float* p, const Combine& combine) {
   return result;
 }
 
-/// Fills the lower part of a tile.
 template <int N>
-inline void prepare_tile(KernelTile& tile) {
+bool prepare_tile(KernelTile& tile) {
   using F = Float<N>;
   const auto least = [](const auto& a, const auto& b) { return lesser(a, b); };
   const auto greatest = [](const auto& a, const auto& b) { return greater(a, b); };
   const float* const d[3] = {tile.d_x, tile.d_y, tile.d_z};
-  alignas(64) float sum[kTileRays];
+  const F longest = all<N>(kLongestDirection), shortest = all<N>(kShortestDirection);
+  Lanes suited = all_lanes<N>;
   for (int i = 0; i < kTileRays; i += N) {
-    F total{};
+    F size{};
     for (int axis = 0; axis < 3; ++axis) {
-      const F component = load<N>(d[axis] + i);
+      const F component = load<N>(d[axis] + i), length = magnitude(component);
       F near, far;
       slab_factors<N>(component, near, far);
       store<N>(tile.near[axis] + i, near);
       store<N>(tile.far[axis] + i, far);
-      total = total + magnitude(component);
+      size = greater(length, size);
+      suited &= less_equal<N>(length, longest);
     }
-    store<N>(sum + i, total);
     const F t_min = load<N>(tile.t_min + i);
     store<N>(tile.t_begin + i, t_min < all<N>(kLeastBegin) ? F{} : t_min);
+    suited &= less_equal<N>(shortest, size) & less_equal<N>(F{}, t_min) &
+              less_equal<N>(t_min, all<N>(kFarthestCoordinate)) &
+              less_equal<N>(t_min, load<N>(tile.best_hi + i));
   }
-  tile.d_sum = reduce<N>(sum, greatest) * (1 + 0x1p-21F);
+  if (suited != all_lanes<N>) return false;
+  // Places beyond the last ray hit nothing.
+  for (int i = tile.count; i < kTileRays; ++i)
+    tile.best_lo[i] = tile.best_hi[i] = -__builtin_inff();
+  tile.d_sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    tile.least_d[axis] = reduce<N>(d[axis], least);
+    tile.greatest_d[axis] = reduce<N>(d[axis], greatest);
+    tile.d_sum += greater(-tile.least_d[axis], tile.greatest_d[axis]);
+  }
+  tile.d_sum *= 1 + 0x1p-21F;
   tile.least_t_begin = reduce<N>(tile.t_begin, least);
   for (int axis = 0; axis < 3; ++axis) {
     tile.least_near[axis] = reduce<N>(tile.near[axis], least);
@@ -97,6 +110,7 @@ inline void prepare_tile(KernelTile& tile) {
                              tile.least_far[axis] >= -__FLT_MAX__ &&
                              tile.greatest_far[axis] <= __FLT_MAX__;
   }
+  return true;
 }
 
 }  // namespace

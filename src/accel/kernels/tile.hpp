@@ -17,7 +17,6 @@ class TileWalk {
  public:
   TileWalk(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow)
       : tree_(tree), tile_(tile), slow_(slow) {
-    prepare_tile<N>(tile);
     update_limit();
   }
 
@@ -135,48 +134,87 @@ class TileWalk {
     float v_x[kWidth], v_y[kWidth], v_z[kWidth];              // A x e1
     float n_x[kWidth], n_y[kWidth], n_z[kWidth];              // e1 x e2
     float height[kWidth];                                     // n . A
-    float error[kWidth], height_error[kWidth];
+    float error[kWidth], size_error[kWidth], height_error[kWidth];
+    Lanes seen;  // triangles that are not certainly missed by every ray of the beam
   };
 
+  struct Bounds {
+    B least, greatest;
+  };
+  // Of the product of a vector with any direction of the beam.
+  [[nodiscard]] Bounds over_beam(const B& x, const B& y, const B& z) const {
+    const B* const v[3] = {&x, &y, &z};
+    Bounds bounds{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const B p = *v[axis] * tile_.least_d[axis], q = *v[axis] * tile_.greatest_d[axis];
+      bounds.least += lesser(p, q);
+      bounds.greatest += greater(p, q);
+    }
+    return bounds;
+  }
+
   void view_from_origin(const TriangleBlock& block, View& view) const {
-    const float em = block.largest_edge;
-    for (int i = 0; i < kWidth; i += kNodeLanes) {
-      constexpr int M = kNodeLanes;
+    constexpr int M = kNodeLanes;
+    view.seen = 0;
+    for (int i = 0; i < kWidth; i += M) {
       const B ax = load<M>(block.v0_x + i) - tile_.o[0], ay = load<M>(block.v0_y + i) - tile_.o[1],
               az = load<M>(block.v0_z + i) - tile_.o[2];
       const B e1x = load<M>(block.e1_x + i), e1y = load<M>(block.e1_y + i),
               e1z = load<M>(block.e1_z + i);
       const B e2x = load<M>(block.e2_x + i), e2y = load<M>(block.e2_y + i),
               e2z = load<M>(block.e2_z + i);
+      const B ux = e2y * az - e2z * ay, uy = e2z * ax - e2x * az, uz = e2x * ay - e2y * ax;
+      const B vx = ay * e1z - az * e1y, vy = az * e1x - ax * e1z, vz = ax * e1y - ay * e1x;
       const B nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
-      store<M>(view.u_x + i, e2y * az - e2z * ay);
-      store<M>(view.u_y + i, e2z * ax - e2x * az);
-      store<M>(view.u_z + i, e2x * ay - e2y * ax);
-      store<M>(view.v_x + i, ay * e1z - az * e1y);
-      store<M>(view.v_y + i, az * e1x - ax * e1z);
-      store<M>(view.v_z + i, ax * e1y - ay * e1x);
+      const B a_sum = magnitude(ax) + magnitude(ay) + magnitude(az);
+      // Each triangle's own: a huge one beside it would make a tiny one uncertain for every ray.
+      const B em = greater(
+          greater(greater(magnitude(e1x), magnitude(e1y)), greater(magnitude(e1z), magnitude(e2x))),
+          greater(magnitude(e2y), magnitude(e2z)));
+      const B error = (a_sum + em) * em * (18 * kUnit * tile_.d_sum) + kTiny;
+
+      // The beam is certainly outside an edge if u, v or size - u - v has one sign for all its
+      // directions, and size the other. The bounds' own roundings are those of the rays' products;
+      // the third form has three more, of its three parts.
+      const Bounds u = over_beam(ux, uy, uz), v = over_beam(vx, vy, vz);
+      const Bounds w = over_beam(nx - ux - vx, ny - uy - vy, nz - uz - vz);
+      const Bounds size = over_beam(nx, ny, nz);
+      const B lowest = lesser(lesser(u.greatest, v.greatest),
+                              w.greatest);  // negative: outside, seen from one side
+      const B highest =
+          greater(greater(u.least, v.least), w.least);  // positive: outside, seen from the other
+      const Lanes front = less_equal<M>(-error, size.greatest),
+                  back = less_equal<M>(size.least, error);
+      view.seen |=
+          ((front & less_equal<M>(-2 * error, lowest)) | (back & less_equal<M>(highest, 2 * error)))
+          << i;
+
+      store<M>(view.u_x + i, ux);
+      store<M>(view.u_y + i, uy);
+      store<M>(view.u_z + i, uz);
+      store<M>(view.v_x + i, vx);
+      store<M>(view.v_y + i, vy);
+      store<M>(view.v_z + i, vz);
       store<M>(view.n_x + i, nx);
       store<M>(view.n_y + i, ny);
       store<M>(view.n_z + i, nz);
       store<M>(view.height + i, nx * ax + ny * ay + nz * az);
-      const B a_sum = magnitude(ax) + magnitude(ay) + magnitude(az);
-      store<M>(view.error + i, (a_sum + em) * (18 * kUnit * tile_.d_sum * em) + kTiny);
-      store<M>(view.height_error + i, a_sum * (18 * kUnit * em * em) + kTiny);
+      store<M>(view.error + i, error);
+      store<M>(view.size_error + i, em * em * (15 * kUnit * tile_.d_sum) + kTiny);
+      store<M>(view.height_error + i, a_sum * em * em * (18 * kUnit) + kTiny);
     }
   }
 
   void meet_block(const TriangleBlock& block) {
     View view;
     view_from_origin(block, view);
-    const float em = block.largest_edge;
-    const float size_error = 15 * kUnit * tile_.d_sum * em * em + kTiny;
-    for (int k = 0; k < kWidth; ++k) {
-      if (!(view.height[k] == view.height[k])) break;  // NaN: the block's unused places
-      for (int i = 0; i < kTileRays; i += N) meet_triangle(view, k, block.id[k], size_error, i);
+    for (Lanes lanes = view.seen; lanes != 0; lanes &= lanes - 1) {
+      const int k = first_lane(lanes);
+      for (int i = 0; i < kTileRays; i += N) meet_triangle(view, k, block.id[k], i);
     }
   }
 
-  void meet_triangle(const View& view, int k, std::uint32_t id, float size_error, int i) {
+  void meet_triangle(const View& view, int k, std::uint32_t id, int i) {
     const F dx = load<N>(tile_.d_x + i), dy = load<N>(tile_.d_y + i), dz = load<N>(tile_.d_z + i);
     const F zero{}, one = all<N>(1.0F);
     const F signed_size = dx * view.n_x[k] + dy * view.n_y[k] + dz * view.n_z[k];
@@ -188,6 +226,7 @@ class TileWalk {
     Lanes maybe = less_equal<N>(all<N>(-view.error[k]), within);
     if (maybe == 0) return;
 
+    const float size_error = view.size_error[k];
     const F best_lo = load<N>(tile_.best_lo + i), best_hi = load<N>(tile_.best_hi + i);
     const F t_begin = load<N>(tile_.t_begin + i);
     const F limit = lesser(best_hi, all<N>(kFarthestHit));
@@ -211,8 +250,11 @@ class TileWalk {
       for (Lanes lanes = nearer; lanes != 0; lanes &= lanes - 1)
         tile_.best_id[i + first_lane(lanes)] = id;
     }
-    for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1)
-      decide_slowly(i + first_lane(lanes), id);
+    for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
+      const int ray = i + first_lane(lanes);
+      // A triangle that was split among leaves comes more than once.
+      if (tile_.best_id[ray] != id) decide_slowly(ray, id);
+    }
   }
 
   void decide_slowly(int ray, std::uint32_t id) {

@@ -1,0 +1,71 @@
+#include "accel/hit_rounding.hpp"
+
+#include "accel/slow_path.hpp"
+
+#include <algorithm>
+
+namespace microtrace {
+namespace {
+
+// Corners by number. Neighbouring hits are mostly of one mesh, which is looked up once.
+class Corners {
+ public:
+  explicit Corners(const Primitives& primitives) : primitives_(&primitives) {}
+
+  /// False if the primitive is not of a mesh.
+  bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
+    if (id < first_ || id >= last_) look_up(id);
+    if (mesh_ == nullptr) return false;
+    const auto& [a, b, c] = mesh_->triangles[id - first_];
+    put(batch.a, i, mesh_->positions[a]);
+    put(batch.b, i, mesh_->positions[b]);
+    put(batch.c, i, mesh_->positions[c]);
+    return true;
+  }
+
+ private:
+  static void put(float (&column)[3][kHitBatch], std::size_t i, const Vec3& v) {
+    column[0][i] = v.x;
+    column[1][i] = v.y;
+    column[2][i] = v.z;
+  }
+
+  void look_up(PrimitiveId id) {
+    const Object& object = primitives_->object(id);
+    mesh_ = std::get_if<Mesh>(&object.shape);
+    first_ = primitives_->first_id(id);
+    last_ = first_ + static_cast<PrimitiveId>(primitive_count(object.shape));
+  }
+
+  const Primitives* primitives_;
+  const Mesh* mesh_ = nullptr;
+  PrimitiveId first_ = 0, last_ = 0;  // of the object that mesh_ is
+};
+
+}  // namespace
+
+void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
+                std::span<std::optional<Hit>> hits) {
+  const std::size_t count = found.rays.size();
+  HitBatch batch;
+  std::copy_n(found.o, 3, batch.o);
+  std::copy_n(found.d, 3, batch.d);
+  Corners corners(primitives);
+  std::uint64_t triangles = 0;  // a bit for each ray that hits one of a mesh
+  for (std::size_t i = 0; i < count; ++i) {
+    if (found.ids[i] != kNoPrimitive && corners.put(found.ids[i], batch, i))
+      triangles |= std::uint64_t{1} << i;
+  }
+  const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t id = found.ids[i];
+    if ((certain >> i & 1U) != 0)
+      hits[i] = Hit{.id = id, .t = batch.t[i]};
+    else if (id != kNoPrimitive)
+      hits[i] = Judge(primitives, found.rays[i]).hit(id);
+    else
+      hits[i].reset();
+  }
+}
+
+}  // namespace microtrace
