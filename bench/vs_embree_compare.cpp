@@ -75,14 +75,6 @@ Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& questi
   return best;
 }
 
-// 0 where a hierarchy can't tell.
-std::size_t bytes_of(const auto& bvh) {
-  if constexpr (requires { bvh.memory(); })
-    return bvh.memory();
-  else
-    return 0;
-}
-
 BuildRow compare_builds(const BenchScene& scene, const CompareOptions& options,
                         std::optional<Bvh>& bvh) {
   const Mesh& mesh = scene.mesh();
@@ -106,7 +98,7 @@ BuildRow compare_builds(const BenchScene& scene, const CompareOptions& options,
   row.ms_microtrace = 1e3 * median(ours);
   row.ms_embree = 1e3 * median(high);
   row.ms_embree_medium = 1e3 * median(medium);
-  row.bytes_per_triangle_microtrace = static_cast<double>(bytes_of(*bvh)) / triangles;
+  row.bytes_per_triangle_microtrace = static_cast<double>(bvh->memory()) / triangles;
   return row;
 }
 

@@ -6,6 +6,7 @@
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,7 +39,8 @@ class Bvh {
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
   /// hits[i] answers rays[i]; both have one length. Sooner than asking ray by ray; fastest where
-  /// runs of rays start at one point and go nearly the same way, as those of neighbouring pixels do.
+  /// runs of rays start at one point and go nearly the same way, as those of neighbouring pixels
+  /// do.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
   /// results[i] says whether rays[i] hits something; both have one length. Sooner than asking ray
@@ -46,6 +48,9 @@ class Bvh {
   void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
   [[nodiscard]] const Primitives& primitives() const;
+
+  /// Bytes that the tree takes, beside the scene.
+  [[nodiscard]] std::size_t memory() const;
 
  private:
   struct Impl;

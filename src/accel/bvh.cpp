@@ -129,6 +129,12 @@ const Primitives& Bvh::primitives() const {
   return impl_->primitives;
 }
 
+std::size_t Bvh::memory() const {
+  const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
+  return bytes(impl_->tree.nodes) + bytes(impl_->tree.blocks) + bytes(impl_->tree.others) +
+         bytes(impl_->outside);
+}
+
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
   return impl_->intersect(ray);
 }

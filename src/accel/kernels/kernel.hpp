@@ -44,7 +44,9 @@ struct KernelRay {
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
   float t_begin;                        ///< t_min, or 0 where that is tiny
   float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
-  bool negative[3];
+  /// Where in a WideNode, counted in floats, the planes begin through which the ray enters and
+  /// leaves boxes.
+  std::uint32_t near_plane[3], far_plane[3];
 };
 
 inline constexpr int kTileRays = 64;

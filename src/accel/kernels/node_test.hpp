@@ -25,16 +25,17 @@ struct NodeTest {
 
   NodeTest(const WideNode& node, const KernelRay& ray, float limit) {
     using F = Float<N>;
-    const float* x[2] = {node.lo_x, node.hi_x};
-    const float* y[2] = {node.lo_y, node.hi_y};
-    const float* z[2] = {node.lo_z, node.hi_z};
+    const float* planes = node.lo_x;  // all six arrays lie one after another
     for (int i = 0; i < kWidth; i += N) {
-      const F near_x = (load<N>(x[ray.negative[0]] + i) - ray.o[0]) * ray.near_factor[0];
-      const F near_y = (load<N>(y[ray.negative[1]] + i) - ray.o[1]) * ray.near_factor[1];
-      const F near_z = (load<N>(z[ray.negative[2]] + i) - ray.o[2]) * ray.near_factor[2];
-      const F far_x = (load<N>(x[!ray.negative[0]] + i) - ray.o[0]) * ray.far_factor[0];
-      const F far_y = (load<N>(y[!ray.negative[1]] + i) - ray.o[1]) * ray.far_factor[1];
-      const F far_z = (load<N>(z[!ray.negative[2]] + i) - ray.o[2]) * ray.far_factor[2];
+      const auto distance = [&](const std::uint32_t(&plane)[3], const float(&factor)[3], int axis) {
+        return (load<N>(planes + plane[axis] + i) - ray.o[axis]) * factor[axis];
+      };
+      const F near_x = distance(ray.near_plane, ray.near_factor, 0);
+      const F near_y = distance(ray.near_plane, ray.near_factor, 1);
+      const F near_z = distance(ray.near_plane, ray.near_factor, 2);
+      const F far_x = distance(ray.far_plane, ray.far_factor, 0);
+      const F far_y = distance(ray.far_plane, ray.far_factor, 1);
+      const F far_z = distance(ray.far_plane, ray.far_factor, 2);
       // 0 * infinity is NaN, and means no limit: lesser and greater drop a NaN on their left.
       const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_begin))));
       const F leave = lesser(far_x, lesser(far_y, lesser(far_z, all<N>(limit))));

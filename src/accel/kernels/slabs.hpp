@@ -33,6 +33,15 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
 /// numbers: culling begins at 0 instead, which only culls less.
 constexpr float kLeastBegin = 0x1p-100F;
 
+inline void find_planes(KernelRay& ray) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto lo = static_cast<std::uint32_t>(axis * kWidth), hi = lo + 3 * kWidth;
+    const bool negative = ray.d[axis] < 0;
+    ray.near_plane[axis] = negative ? hi : lo;
+    ray.far_plane[axis] = negative ? lo : hi;
+  }
+}
+
 /// Fills the lower part of a ray.
 inline void prepare_ray(KernelRay& ray) {
   ray.t_begin = ray.t_min < kLeastBegin ? 0 : ray.t_min;
@@ -45,10 +54,10 @@ inline void prepare_ray(KernelRay& ray) {
   for (int axis = 0; axis < 3; ++axis) {
     ray.near_factor[axis] = near[axis];
     ray.far_factor[axis] = far[axis];
-    ray.negative[axis] = d[axis] < 0;
     sum += __builtin_fabsf(d[axis]);
   }
   ray.d_sum = sum * (1 + 0x1p-21F);
+  find_planes(ray);
 }
 
 template <int N, class Combine>

@@ -18,12 +18,12 @@ class StreamWalk {
 
   void run() {
     prepare();
-    for (int i = 0; i < kInFlight; ++i) start(i);
-    while (at_node_.size + at_leaf_.size > 0) {
-      step(at_node_, [&](Flight& flight, ChildRef child) {
+    for (Flight& flight : flights_) start(flight);
+    while (lists_[kNodes].size + lists_[kLeaves].size > 0) {
+      step(lists_[kNodes], [&](Flight& flight, ChildRef child) {
         push_children<N, kAny>(tree_.nodes[child], flight.ray, flight.best.hi, flight.stack);
       });
-      step(at_leaf_, [&](Flight& flight, ChildRef child) {
+      step(lists_[kLeaves], [&](Flight& flight, ChildRef child) {
         meet_leaf<N, kAny>(tree_, flight.ray, child, flight.best,
                            [&](std::uint32_t id, Best& best) {
                              slow_.consider(slow_.context, flight.number, id, best);
@@ -44,16 +44,11 @@ class StreamWalk {
     RayStack stack;
   };
 
-  // Flights by place; room for one more, as `add` writes before it counts.
   struct List {
     int size = 0;
-    std::uint8_t place[kInFlight + 1];
-
-    void add(int flight, bool wanted) {
-      place[size] = static_cast<std::uint8_t>(flight);
-      size += wanted ? 1 : 0;
-    }
+    Flight* flights[kInFlight];
   };
+  enum { kNodes, kLeaves };
 
   void prepare() {
     using F = Float<N>;
@@ -74,17 +69,16 @@ class StreamWalk {
   }
 
   // Puts the next ray into a place, if there is one.
-  void start(int place) {
+  void start(Flight& flight) {
     if (next_ == stream_.count) return;
     const int i = next_++;
-    Flight& flight = flights_[place];
     for (int axis = 0; axis < 3; ++axis) {
       flight.ray.o[axis] = stream_.o[axis][i];
       flight.ray.d[axis] = stream_.d[axis][i];
       flight.ray.near_factor[axis] = stream_.near[axis][i];
       flight.ray.far_factor[axis] = stream_.far[axis][i];
-      flight.ray.negative[axis] = flight.ray.d[axis] < 0;
     }
+    find_planes(flight.ray);
     flight.ray.t_min = stream_.t_min[i];
     flight.ray.t_begin = stream_.t_begin[i];
     flight.ray.d_sum = stream_.d_sum[i];
@@ -95,32 +89,30 @@ class StreamWalk {
     flight.stack.child[1] = tree_.root;
     flight.stack.near[1] = 0;
     flight.stack.size = kAny && flight.best.id != kNoPrimitive ? 1 : 2;
-    settle(place);
+    settle(flight);
   }
 
-  void finish(int place) {
-    const Flight& flight = flights_[place];
+  void finish(Flight& flight) {
     stream_.best_lo[flight.number] = flight.best.lo;
     stream_.best_hi[flight.number] = flight.best.hi;
     stream_.best_id[flight.number] = flight.best.id;
-    start(place);
+    start(flight);
   }
 
   template <class Visit>
   void step(List& list, const Visit& visit) {
-    List now = list;
+    const List now = list;
     list.size = 0;
     for (int k = 0; k < now.size; ++k) {
-      Flight& flight = flights_[now.place[k]];
+      Flight& flight = *now.flights[k];
       const ChildRef child = flight.stack.child[--flight.stack.size];
       visit(flight, child);
-      settle(now.place[k]);
+      settle(flight);
     }
   }
 
   // Finds what the ray in a place visits next.
-  void settle(int place) {
-    Flight& flight = flights_[place];
+  void settle(Flight& flight) {
     int top = flight.stack.size - 1;
     if constexpr (!kAny) {
       while (flight.stack.near[top] > flight.best.hi) --top;
@@ -129,22 +121,26 @@ class StreamWalk {
     const ChildRef child = flight.stack.child[top];
     const ChildRef kind = child & child_ref::kKind;
     if (kind == kFinished) {
-      finish(place);
+      finish(flight);
       return;
     }
     fetch(child);
-    at_node_.add(place, kind == 0);
-    at_leaf_.add(place, kind != 0);
+    // By index, not by a branch, which would be mispredicted often.
+    List& list = lists_[kind != 0 ? kLeaves : kNodes];
+    list.flights[list.size++] = &flight;
   }
 
-  void fetch(ChildRef child) const {
-    const bool is_node = (child & child_ref::kKind) == 0;
-    const char* node = reinterpret_cast<const char*>(tree_.nodes + child);
-    const char* block =
+  // Inlined by force: GCC takes a function of prefetches alone for one without effect.
+  __attribute__((always_inline)) void fetch(ChildRef child) const {
+    const auto* node = reinterpret_cast<const char*>(tree_.nodes + child);
+    const auto* block =
         reinterpret_cast<const char*>(tree_.blocks + ((child & ~child_ref::kKind) >> 3U));
-    const char* p = is_node ? node : block;
-    for (int line = 0; line < 4; ++line) __builtin_prefetch(p + 64 * line);
-    const char* q = is_node ? p : p + 64 * 4;
+    const char* p = (child & child_ref::kKind) == 0 ? node : block;
+    __builtin_prefetch(p);
+    __builtin_prefetch(p + 64);
+    __builtin_prefetch(p + 128);
+    __builtin_prefetch(p + 192);
+    const char* q = (child & child_ref::kKind) == 0 ? node : block + 256;
     __builtin_prefetch(q);
     __builtin_prefetch(q + 64);
   }
@@ -153,7 +149,7 @@ class StreamWalk {
   KernelStream& stream_;
   const StreamSlowPath& slow_;
   int next_ = 0;  // ray to start
-  List at_node_, at_leaf_;
+  List lists_[2];
   Flight flights_[kInFlight];
 };
 
