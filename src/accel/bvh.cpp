@@ -6,6 +6,7 @@
 #include "accel/ray_stream.hpp"
 #include "accel/slow_path.hpp"
 #include "accel/tile_judge.hpp"
+#include "float_environment.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -25,8 +26,9 @@ struct Bvh::Impl {
             .root = tree.root};
   }
 
-  [[nodiscard]] RayStream::Target stream_target() const {
-    return {.primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()};
+  [[nodiscard]] std::unique_ptr<RayStream> make_stream() const {
+    return std::make_unique<RayStream>(RayStream::Target{
+        .primitives = primitives, .outside = outside, .kernels = *kernels, .tree = view()});
   }
 
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
@@ -34,7 +36,8 @@ struct Bvh::Impl {
 
   /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
   /// kernels.
-  bool intersect_tile(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+  [[nodiscard]] bool intersect_tile(std::span<const Ray> rays,
+                                    std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;
   std::vector<PrimitiveId> outside;  // of the tree: asked one by one
@@ -44,6 +47,7 @@ struct Bvh::Impl {
 };
 
 Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scene) {
+  const FloatEnvironment environment;
   // So few are asked sooner than a tree is walked.
   constexpr PrimitiveId kFew = 16;
   if (primitives.count() <= kFew) {
@@ -72,6 +76,21 @@ std::size_t common_origin_length(std::span<const Ray> rays) {
   std::size_t length = 1;
   while (length < limit && rays[length].o == o) ++length;
   return length;
+}
+
+// So few rays are sooner asked one by one than as a tile or as a stream.
+constexpr std::size_t kLeastTile = 8, kLeastStream = 8;
+
+// How many rays from the front, at least one, until kLeastTile with one origin follow, up to a
+// stream's number.
+std::size_t unrelated_length(std::span<const Ray> rays) {
+  const std::size_t limit = std::min<std::size_t>(rays.size(), kStreamRays);
+  for (std::size_t i = 1; i + kLeastTile <= limit; ++i) {
+    if (rays[i].o == rays[i + kLeastTile - 1].o &&
+        common_origin_length(rays.subspan(i)) >= kLeastTile)
+      return i;
+  }
+  return limit;
 }
 
 }  // namespace
@@ -136,48 +155,52 @@ std::size_t Bvh::memory() const {
 }
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
+  const FloatEnvironment environment;
   return impl_->intersect(ray);
 }
 
 bool Bvh::occluded(const Ray& ray) const {
+  const FloatEnvironment environment;
   return impl_->occluded(ray);
 }
 
 void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+  const FloatEnvironment environment;
   assert(rays.size() == hits.size());
-  std::optional<RayStream> stream;  // takes long to make: only if there are rays for it
-  for (std::size_t i = 0; i < rays.size();) {
-    const std::size_t length = common_origin_length(rays.subspan(i));
+  std::unique_ptr<RayStream> stream;
+  while (!rays.empty()) {
+    std::size_t done = common_origin_length(rays);
     // A few rays don't repay what a tile costs.
-    if (length >= 8 && impl_->intersect_tile(rays.subspan(i, length), hits.subspan(i))) {
-      i += length;
-      continue;
+    const bool is_tile = done >= kLeastTile && impl_->intersect_tile(rays.first(done), hits);
+    if (!is_tile) {
+      done = impl_->has_tree ? unrelated_length(rays) : 1;
+      const auto ask_one = [&](std::size_t i) { hits[i] = intersect(rays[i]); };
+      if (done >= kLeastStream) {
+        if (!stream) stream = impl_->make_stream();
+        stream->closest(rays.first(done), hits.first(done), ask_one);
+      } else {
+        for (std::size_t i = 0; i < done; ++i) ask_one(i);
+      }
     }
-    if (impl_->has_tree && suits_kernels(rays[i])) {
-      if (!stream) stream.emplace(impl_->stream_target());
-      stream->add(rays[i], i);
-      if (stream->is_full()) stream->flush_closest(hits);
-    } else {
-      hits[i] = intersect(rays[i]);
-    }
-    ++i;
+    rays = rays.subspan(done);
+    hits = hits.subspan(done);
   }
-  if (stream) stream->flush_closest(hits);
 }
 
 void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results) const {
+  const FloatEnvironment environment;
   assert(rays.size() == results.size());
-  std::optional<RayStream> stream;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (impl_->has_tree && suits_kernels(rays[i])) {
-      if (!stream) stream.emplace(impl_->stream_target());
-      stream->add(rays[i], i);
-      if (stream->is_full()) stream->flush_any(results);
-    } else {
-      results[i] = occluded(rays[i]);
-    }
+  const auto ask_one = [&](std::size_t i) { results[i] = occluded(rays[i]); };
+  if (!impl_->has_tree || rays.size() < kLeastStream) {
+    for (std::size_t i = 0; i < rays.size(); ++i) ask_one(i);
+    return;
   }
-  if (stream) stream->flush_any(results);
+  const auto stream = impl_->make_stream();
+  for (std::size_t first = 0; first < rays.size(); first += kStreamRays) {
+    const std::size_t count = std::min<std::size_t>(kStreamRays, rays.size() - first);
+    stream->any(rays.subspan(first, count), results.subspan(first, count),
+                [&](std::size_t i) { ask_one(first + i); });
+  }
 }
 
 }  // namespace microtrace

@@ -21,16 +21,18 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);  // 224 and padding: four cache lines
 
-/// Up to eight triangles of moderate size (every |coordinate| at most 2^38). Unused places have NaN
-/// for v0 and are never hit.
-struct alignas(32) TriangleBlock {
-  float v0_x[kWidth], v0_y[kWidth], v0_z[kWidth];  ///< corner a
-  float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];  ///< b - a, rounded
-  float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];  ///< c - a, rounded
-  std::uint32_t id[kWidth];                        ///< PrimitiveId
+/// Up to eight triangles of moderate size (every |coordinate| at most 2^38). Each begins at the
+/// corner between its two shorter edges, which makes the error bounds of thin ones small. Unused
+/// places have NaN for v0 and are never hit.
+struct alignas(64) TriangleBlock {
+  float v0_x[kWidth], v0_y[kWidth], v0_z[kWidth];  ///< a corner
+  float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];  ///< edge to the next corner, rounded
+  float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];  ///< edge to the one after, rounded
   float largest_edge;                              ///< at least every |component| of e1 and e2
+  float edge_product;  ///< at least |component of e1| times |component of e2| of each triangle
+  std::uint32_t id[kWidth];  ///< PrimitiveId; the most of it in a cache line that only hits need
 };
-static_assert(sizeof(TriangleBlock) == 352);
+static_assert(sizeof(TriangleBlock) == 384);
 
 /// Leaves refer to `count` consecutive blocks, or to `count` consecutive entries of the list of
 /// other bounded primitives. Bits 31-30: 0 node, 1 triangle blocks, 2 others. A node's index in

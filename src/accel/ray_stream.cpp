@@ -4,74 +4,71 @@
 #include "accel/slow_path.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace microtrace {
 
-RayStream::RayStream(const Target& target)
-    : target_(target), rays_(std::make_unique_for_overwrite<Rays>()) {
-  rays_->stream.count = 0;
-}
-
-void RayStream::add(const Ray& ray, std::size_t place) {
-  KernelStream& s = rays_->stream;
-  const auto i = static_cast<std::size_t>(s.count++);
-  for (int axis = 0; axis < 3; ++axis) {
-    s.o[axis][i] = ray.o[axis];
-    s.d[axis][i] = ray.d[axis];
+void RayStream::fill(std::span<const Ray> rays) {
+  assert(rays.size() <= kStreamRays);
+  rays_ = rays;
+  KernelStream& s = stream_;
+  s.count = static_cast<int>(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Ray& ray = rays[i];
+    s.o[0][i] = ray.o.x;
+    s.o[1][i] = ray.o.y;
+    s.o[2][i] = ray.o.z;
+    s.d[0][i] = ray.d.x;
+    s.d[1][i] = ray.d.y;
+    s.d[2][i] = ray.d.z;
+    s.t_min[i] = ray.t_min;
+    s.best_hi[i] = ray.t_max;
   }
-  s.t_min[i] = ray.t_min;
-  s.best_lo[i] = s.best_hi[i] = ray.t_max;
-  s.best_id[i] = kNoPrimitive;
-  rays_->rays[i] = ray;
-  rays_->places[i] = place;
+  target_.kernels.prepare_stream(s);
+  ask_outside();
 }
 
 void RayStream::ask_outside() {
   if (target_.outside.empty()) return;
-  KernelStream& s = rays_->stream;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(s.count); ++i) {
-    const Judge judge(target_.primitives, rays_->rays[i]);
-    Best best = no_hit(rays_->rays[i]);
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    if (!is_suited(i)) continue;
+    const Judge judge(target_.primitives, rays_[i]);
+    Best best = no_hit(rays_[i]);
     for (const PrimitiveId id : target_.outside) judge.consider(id, best);
-    s.best_lo[i] = best.lo;
-    s.best_hi[i] = best.hi;
-    s.best_id[i] = best.id;
+    stream_.best_lo[i] = best.lo;
+    stream_.best_hi[i] = best.hi;
+    stream_.best_id[i] = best.id;
   }
 }
 
 StreamSlowPath RayStream::slow_path() {
-  return {.context = this, .consider = [](void* self, int ray, std::uint32_t id, Best& best) {
+  return {.context = this, .consider = [](void* self, int i, std::uint32_t id, Best& best) {
             const RayStream& stream = *static_cast<const RayStream*>(self);
-            const Ray& r = stream.rays_->rays[static_cast<std::size_t>(ray)];
-            Judge(stream.target_.primitives, r).consider(id, best);
+            const auto ray = static_cast<std::size_t>(i);
+            if (stream.is_suited(ray))
+              Judge(stream.target_.primitives, stream.rays_[ray]).consider(id, best);
           }};
 }
 
-void RayStream::flush_closest(std::span<std::optional<Hit>> hits) {
-  KernelStream& s = rays_->stream;
-  const auto count = static_cast<std::size_t>(s.count);
-  ask_outside();
+void RayStream::find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
+  fill(rays);
+  KernelStream& s = stream_;
   target_.kernels.closest_of_stream(target_.tree, s, slow_path());
-  std::array<std::optional<Hit>, kHitBatch> rounded;
-  for (std::size_t i = 0; i < count; i += kHitBatch) {
-    const std::size_t length = std::min<std::size_t>(kHitBatch, count - i);
-    const FoundHits found{.rays = std::span(rays_->rays).subspan(i, length),
+  for_each_unsuited([&](std::size_t i) { s.best_id[i] = kNoPrimitive; });
+  for (std::size_t i = 0; i < rays.size(); i += kHitBatch) {
+    const std::size_t length = std::min<std::size_t>(kHitBatch, rays.size() - i);
+    const FoundHits found{.rays = rays.subspan(i, length),
                           .ids = s.best_id + i,
                           .o = {s.o[0] + i, s.o[1] + i, s.o[2] + i},
                           .d = {s.d[0] + i, s.d[1] + i, s.d[2] + i}};
-    round_hits(target_.primitives, target_.kernels, found, rounded);
-    for (std::size_t k = 0; k < length; ++k) hits[rays_->places[i + k]] = rounded[k];
+    round_hits(target_.primitives, target_.kernels, found, hits.subspan(i, length));
   }
-  s.count = 0;
 }
 
-void RayStream::flush_any(std::span<bool> results) {
-  KernelStream& s = rays_->stream;
-  const auto count = static_cast<std::size_t>(s.count);
-  ask_outside();
-  target_.kernels.any_of_stream(target_.tree, s, slow_path());
-  for (std::size_t i = 0; i < count; ++i) results[rays_->places[i]] = s.best_id[i] != kNoPrimitive;
-  s.count = 0;
+void RayStream::find_any(std::span<const Ray> rays, std::span<bool> results) {
+  fill(rays);
+  target_.kernels.any_of_stream(target_.tree, stream_, slow_path());
+  for (std::size_t i = 0; i < rays.size(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
 }
 
 }  // namespace microtrace

@@ -7,13 +7,13 @@
 #include <microtrace/ray.hpp>
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <span>
 
 namespace microtrace {
 
-/// Collects rays and traces them in batches. The answers are there once `flush` has returned.
+/// Traces up to kStreamRays rays at a time. Answers to rays that don't suit kernels are left to the
+/// caller.
 class RayStream {
  public:
   /// What stands for the scene; all of it must outlive the stream.
@@ -23,28 +23,39 @@ class RayStream {
     const Kernels& kernels;
     TreeView tree;
   };
-  explicit RayStream(const Target& target);
+  explicit RayStream(const Target& target) : target_(target) {}
 
-  /// The ray must suit kernels; the ray itself is copied.
-  void add(const Ray& ray, std::size_t place);
-  [[nodiscard]] bool is_full() const { return rays_->stream.count == kStreamRays; }
-
-  /// Answers all rays added since: hits[place] for each.
-  void flush_closest(std::span<std::optional<Hit>> hits);
-  void flush_any(std::span<bool> results);
+  /// hits[i] and results[i] answer rays[i], if it suits kernels; otherwise other(i) is called.
+  void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits, const auto& other) {
+    find_closest(rays, hits);
+    for_each_unsuited(other);
+  }
+  void any(std::span<const Ray> rays, std::span<bool> results, const auto& other) {
+    find_any(rays, results);
+    for_each_unsuited(other);
+  }
 
  private:
-  struct Rays {
-    KernelStream stream;
-    std::array<Ray, kStreamRays> rays;
-    std::array<std::size_t, kStreamRays> places;
-  };
-
+  void fill(std::span<const Ray> rays);
   void ask_outside();
+  void find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
+  void find_any(std::span<const Ray> rays, std::span<bool> results);
   [[nodiscard]] StreamSlowPath slow_path();
+  [[nodiscard]] bool is_suited(std::size_t i) const {
+    return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
+  }
+  void for_each_unsuited(const auto& f) const {
+    for (std::size_t i = 0; i < rays_.size(); ++i) {
+      if (i % 64 == 0 && stream_.suited[i / 64] == ~std::uint64_t{0})
+        i += 63;
+      else if (!is_suited(i))
+        f(i);
+    }
+  }
 
   Target target_;
-  std::unique_ptr<Rays> rays_;
+  std::span<const Ray> rays_;
+  KernelStream stream_;
 };
 
 }  // namespace microtrace

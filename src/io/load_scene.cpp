@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
 #include "io/json/document.hpp"
@@ -34,6 +35,7 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 }  // namespace
 
 LoadedScene load_scene(const std::filesystem::path& path) {
+  const FloatEnvironment environment;
   const bool standard_input = path == "-";
   const std::string ending = lower_case_ending(path);
   const std::string name = standard_input ? "(standard input)" : path.string();
@@ -51,6 +53,7 @@ LoadedScene load_scene(const std::filesystem::path& path) {
 
 LoadedScene parse_scene(std::string_view bytes, const std::string& name,
                         const std::filesystem::path& folder) {
+  const FloatEnvironment environment;
   if (bytes.starts_with(glb_magic)) return io::load_gltf(bytes, name, folder);
   const io::JsonDocument document(bytes, name);
   // Every glTF asset has the member "asset", and no scene of our own has.

@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -31,6 +32,7 @@ Film make_film(ImageSize size) {
 
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
+  const FloatEnvironment environment;  // new threads inherit it
   const Bvh bvh(scene);
   const RayGenerator ray_through(camera, size);
   // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next float32.

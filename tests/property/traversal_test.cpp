@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -224,6 +225,81 @@ TEST_P(Traversal, TilesEqualAskingEveryPrimitive) {
       ASSERT_TRUE(same(hits[i], by_asking_all(bvh.primitives(), rays[i])))
           << "scene " << round << ", ray " << i;
   }
+}
+
+// Arrays of rays without a common origin; among them some that are not valid, too large for the
+// kernels, or share an origin with their neighbours.
+std::vector<Ray> unrelated_rays(Random& random, const Scene& scene, int count) {
+  std::vector<Ray> rays;
+  const bool near_each_other = random.one_in(3);
+  const Vec3 centre = origin(random, scene);
+  const float t_max = random.one_in(2) ? kInfinity : float(random.unit() * 2);
+  while (static_cast<int>(rays.size()) < count) {
+    const Vec3 o = near_each_other ? centre + random.in_cube(0.1F) : origin(random, scene);
+    Ray ray = random_ray(random, scene, o);
+    if (near_each_other) ray.t_max = std::max(ray.t_min, t_max);
+    if (random.one_in(60)) ray.d *= 0x1p60F;
+    if (random.one_in(60)) ray.d = Vec3(0);
+    if (random.one_in(60)) ray.o[random.between(0, 2)] = random.one_in(2) ? NAN : kInfinity;
+    if (random.one_in(60)) ray.t_min = -1;
+    rays.insert(rays.end(), static_cast<std::size_t>(random.one_in(40) ? 12 : 1), ray);
+  }
+  return rays;
+}
+
+TEST_P(Traversal, StreamsEqualAskingEveryPrimitive) {
+  Random random(13);
+  int hits_of_all = 0;
+  for (int round = 0; round < scale(); ++round) {
+    const Scene scene = random_scene(random);
+    const Bvh bvh(scene);
+    // Sometimes more than one batch of the stream.
+    const int count = random.one_in(20) ? 2500 : random.between(1, 200);
+    const std::vector<Ray> rays = unrelated_rays(random, scene, count);
+    std::vector<std::optional<Hit>> hits(rays.size(), Hit{});
+    bvh.intersect(rays, hits);
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    bvh.occluded(rays, std::span(occluded.get(), rays.size()));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const auto expected = by_asking_all(bvh.primitives(), rays[i]);
+      ASSERT_TRUE(same(hits[i], expected)) << "scene " << round << ", ray " << i;
+      ASSERT_EQ(occluded[i], expected.has_value()) << "scene " << round << ", ray " << i;
+      hits_of_all += expected.has_value() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(hits_of_all, scale() * 25);
+}
+
+// Thirty thousand small triangles: walks go deep, packets break up, all places of the stream fill.
+TEST_P(Traversal, StreamsEqualSingleRaysInADeepTree) {
+  Random random(14);
+  Scene scene;
+  scene.objects.push_back(
+      {.name = "", .shape = mesh_of(30000, [&] {
+                     const Vec3 c = random.in_cube(1);
+                     const float size = random.power_of_two(-9, -4);
+                     return Corners{c, c + random.in_cube(size), c + random.in_cube(size)};
+                   })});
+  const Bvh bvh(scene);
+  std::vector<Ray> rays;
+  for (int group = 0; group < 100; ++group) {
+    const Vec3 centre = random.in_cube(1);
+    const float t_max = random.one_in(3) ? kInfinity : float(random.unit());
+    for (int i = 0; i < 50; ++i)
+      rays.push_back({.o = centre + random.in_cube(0.05F), .d = random.in_cube(1), .t_max = t_max});
+  }
+  std::vector<std::optional<Hit>> hits(rays.size());
+  bvh.intersect(rays, hits);
+  const auto occluded = std::make_unique<bool[]>(rays.size());
+  bvh.occluded(rays, std::span(occluded.get(), rays.size()));
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_TRUE(same(hits[i], bvh.intersect(rays[i]))) << "ray " << i;
+    ASSERT_EQ(occluded[i], hits[i].has_value()) << "ray " << i;
+    found += hits[i].has_value() ? 1 : 0;
+  }
+  EXPECT_GT(found, rays.size() / 8);
+  EXPECT_LT(found, rays.size());
 }
 
 }  // namespace

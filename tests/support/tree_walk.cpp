@@ -165,7 +165,11 @@ void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
     put(block.id[i], Place::blocks);
     primitives_.visit(block.id[i], [&](const auto& shape) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>) {
-        expect(a == shape.a && e1 == shape.b - shape.a && e2 == shape.c - shape.a,
+        const auto is_turned = [&](const Vec3& first, const Vec3& second, const Vec3& third) {
+          return a == first && e1 == second - first && e2 == third - first;
+        };
+        expect(is_turned(shape.a, shape.b, shape.c) || is_turned(shape.b, shape.c, shape.a) ||
+                   is_turned(shape.c, shape.a, shape.b),
                "block and triangle " + std::to_string(block.id[i]) + " differ");
         ++triangle_references_;
         if (!holds(box, shape))
@@ -176,6 +180,11 @@ void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
         expect(false, "primitive " + std::to_string(block.id[i]) + " is no triangle");
       }
     });
+    const auto size = [](const Vec3& v) {
+      return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    };
+    expect(double{size(e1)} * double{size(e2)} <= double{block.edge_product},
+           "edge_product is too small");
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(e1[k]), std::abs(e2[k])});
   }
   expect(block.largest_edge == largest, "largest_edge is wrong");

@@ -73,7 +73,21 @@ TriangleBlock empty_block() {
   return block;
 }
 
-void put(TriangleBlock& block, std::size_t i, PrimitiveId id, const Triangle& t) {
+float squared_length(const Vec3& v) {
+  return v.x * v.x + v.y * v.y + v.z * v.z;
+}
+
+// The same triangle, beginning opposite its longest edge.
+Triangle turned(const Triangle& t) {
+  const float ab = squared_length(t.b - t.a), bc = squared_length(t.c - t.b),
+              ca = squared_length(t.a - t.c);
+  if (ca > bc && ca >= ab) return {t.b, t.c, t.a};
+  if (ab > bc) return {t.c, t.a, t.b};
+  return t;
+}
+
+void put(TriangleBlock& block, std::size_t i, PrimitiveId id, const Triangle& unturned) {
+  const Triangle t = turned(unturned);
   const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
   block.v0_x[i] = t.a.x;
   block.v0_y[i] = t.a.y;
@@ -85,7 +99,10 @@ void put(TriangleBlock& block, std::size_t i, PrimitiveId id, const Triangle& t)
   block.e2_y[i] = e2.y;
   block.e2_z[i] = e2.z;
   block.id[i] = id;
-  block.largest_edge = std::max({block.largest_edge, largest_component(e1), largest_component(e2)});
+  const float largest1 = largest_component(e1), largest2 = largest_component(e2);
+  block.largest_edge = std::max({block.largest_edge, largest1, largest2});
+  block.edge_product =
+      std::max(block.edge_product, largest1 * largest2 * (1 + 0x1p-22F) + 0x1p-126F);
 }
 
 class Writer {

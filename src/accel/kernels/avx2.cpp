@@ -3,7 +3,13 @@
 #include "accel/kernels/tile.hpp"
 
 namespace microtrace {
-const Kernels kAvx2Kernels{"avx2",           closest<8>,         any<8>,
-                           prepare_tile<8>,  closest_of_tile<8>, closest_of_stream<8>,
-                           any_of_stream<8>, round_t<4>};
+const Kernels kAvx2Kernels{"avx2",
+                           closest<8>,
+                           any<8>,
+                           prepare_tile<8>,
+                           closest_of_tile<8>,
+                           prepare_stream<8>,
+                           closest_of_stream<8>,
+                           any_of_stream<8, 8>,
+                           round_t<4>};
 }

@@ -14,62 +14,113 @@ constexpr float kTiny = 0x1p-100F;  // above all that underflow can add
 constexpr float kFarthestHit =
     0x1p64F;  // coordinates up to 2^38 and d from 2^-20 on put every hit below 2^60
 
+template <class F>
+struct Interval {
+  F lo, hi;
+};
+
+/// Around height / size, where size is above 16 times its error.
+template <class F, class G>
+inline Interval<F> interval(const F& height, const F& size, const F& height_error,
+                            const G& size_error) {
+  const F t = height / size, distance = t < F{} ? -t : t;
+  const F radius = (height_error + distance * size_error) * 1.08F / size + distance * (8 * kUnit);
+  return {t - radius, t + radius};
+}
+
+template <int N>
+inline Float<N> lanes_of(float x) {
+  return all<N>(x);
+}
+template <int N>
+inline Float<N> lanes_of(const Float<N>& x) {
+  return x;
+}
+
+/// Triangles against rays: N of one against one of the other, whose parts are scalars.
+template <int N, class RayPart>
+struct VolumeTest {
+  using F = Float<N>;
+  Lanes maybe;    ///< lanes that are not certainly missed
+  Lanes certain;  ///< those of them that are certainly hit
+  F height, size, height_error;
+  RayPart size_error;
+
+  /// A: from the origin to the corner; m: TriangleBlock's edge_product.
+  template <class TrianglePart>
+  VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
+             const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
+             const RayPart& t_limit) {
+    const F rx = a[1] * d[2] - a[2] * d[1], ry = a[2] * d[0] - a[0] * d[2],
+            rz = a[0] * d[1] - a[1] * d[0];
+    const TrianglePart nx = e1[1] * e2[2] - e1[2] * e2[1], ny = e1[2] * e2[0] - e1[0] * e2[2],
+                       nz = e1[0] * e2[1] - e1[1] * e2[0];
+    const F signed_size = nx * d[0] + ny * d[1] + nz * d[2];
+    size = magnitude(signed_size);
+    // Each times the sign of signed_size.
+    const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
+    const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
+    height = with_sign_of<N>(nx * a[0] + ny * a[1] + nz * a[2], signed_size);
+
+    const F a_sum = magnitude(a[0]) + magnitude(a[1]) + magnitude(a[2]);
+    const F edge_error = (a_sum * em + m) * (18 * kUnit * d_sum) + kTiny;
+    height_error = a_sum * (18 * kUnit * m) + kTiny;
+    size_error = 15 * kUnit * d_sum * m + kTiny;
+    // How far inside all three edges; negative outside.
+    const F within = lesser(lesser(u, v), size - (u + v));
+    maybe = less_equal<N>(-edge_error, within);
+    maybe &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
+    maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin);
+    certain = maybe & less<N>(edge_error, within) & less<N>(lanes_of<N>(16 * size_error), size);
+  }
+};
+
+/// Eight triangles against a ray.
 template <int N>
 struct BlockTest {
-  Lanes maybe = 0;    ///< lanes that are not certainly missed
-  Lanes certain = 0;  ///< those of them that are certainly hit, t within [lo, hi]
-  alignas(64) float lo[kWidth], hi[kWidth];
+  Lanes maybe, certain;  ///< as VolumeTest's
 
   /// Leaves out hits that are certainly beyond t_limit.
-  BlockTest(const TriangleBlock& block, const KernelRay& ray, float t_limit) {
+  /// Inlined by force: GCC would not, which costs a tenth.
+  __attribute__((always_inline)) void run(const TriangleBlock& block, const KernelRay& ray,
+                                          float t_limit) {
+    using F = Float<N>;
     const float limit = t_limit < kFarthestHit ? t_limit : kFarthestHit;
-    for (int i = 0; i < kWidth; i += N) test(block, ray, limit, i);
+    maybe = certain = 0;
+    for (int i = 0; i < kWidth; i += N) {
+      const F a[3] = {load<N>(block.v0_x + i) - ray.o[0], load<N>(block.v0_y + i) - ray.o[1],
+                      load<N>(block.v0_z + i) - ray.o[2]};
+      const F e1[3] = {load<N>(block.e1_x + i), load<N>(block.e1_y + i), load<N>(block.e1_z + i)};
+      const F e2[3] = {load<N>(block.e2_x + i), load<N>(block.e2_y + i), load<N>(block.e2_z + i)};
+      const VolumeTest<N, float> test(a, e1, e2, ray.d, block.largest_edge, block.edge_product,
+                                      ray.d_sum, ray.t_begin, limit);
+      maybe |= test.maybe << i;
+      certain |= test.certain << i;
+      size_error_ = test.size_error;
+      store<N>(height_ + i, test.height);
+      store<N>(size_ + i, test.size);
+      store<N>(height_error_ + i, test.height_error);
+    }
+  }
+
+  /// Where a certain lane is hit.
+  [[nodiscard]] Interval<float> t(int lane) const {
+    return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
   }
 
  private:
-  void test(const TriangleBlock& block, const KernelRay& ray, float t_limit, int i) {
-    using F = Float<N>;
-    const F ax = load<N>(block.v0_x + i) - ray.o[0], ay = load<N>(block.v0_y + i) - ray.o[1],
-            az = load<N>(block.v0_z + i) - ray.o[2];
-    const F e1x = load<N>(block.e1_x + i), e1y = load<N>(block.e1_y + i),
-            e1z = load<N>(block.e1_z + i);
-    const F e2x = load<N>(block.e2_x + i), e2y = load<N>(block.e2_y + i),
-            e2z = load<N>(block.e2_z + i);
-    const float dx = ray.d[0], dy = ray.d[1], dz = ray.d[2];
-
-    const F rx = ay * dz - az * dy, ry = az * dx - ax * dz, rz = ax * dy - ay * dx;
-    const F nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
-    const F signed_size = nx * dx + ny * dy + nz * dz;
-    const F size = magnitude(signed_size);
-    // Each times the sign of signed_size.
-    const F u = with_sign_of<N>(rx * e2x + ry * e2y + rz * e2z, signed_size);
-    const F v = -with_sign_of<N>(rx * e1x + ry * e1y + rz * e1z, signed_size);
-    const F height = with_sign_of<N>(nx * ax + ny * ay + nz * az, signed_size);
-
-    const float em = block.largest_edge;
-    const float size_error = 15 * kUnit * ray.d_sum * em * em + kTiny;
-    const F a_sum = magnitude(ax) + magnitude(ay) + magnitude(az);
-    const F edge_error = (a_sum + em) * (18 * kUnit * ray.d_sum * em) + kTiny;
-    const F height_error = a_sum * (18 * kUnit * em * em) + kTiny;
-    // How far inside all three edges; negative outside.
-    const F within = lesser(lesser(u, v), size - (u + v));
-    Lanes lanes = less_equal<N>(-edge_error, within);
-    lanes &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
-    lanes &= less_equal<N>(size * ray.t_begin - height, height_error + size_error * ray.t_begin);
-    if (lanes == 0) return;
-    maybe |= lanes << i;
-    certain |= (lanes & less<N>(edge_error, within) & less<N>(all<N>(16 * size_error), size)) << i;
-    const F t = height / size, distance = magnitude(t);
-    const F radius = (height_error + distance * size_error) * 1.08F / size + distance * (8 * kUnit);
-    store<N>(lo + i, t - radius);
-    store<N>(hi + i, t + radius);
-  }
+  float size_error_;
+  alignas(32) float height_[kWidth], size_[kWidth], height_error_[kWidth];
 };
+
+inline std::uint32_t first_entry(ChildRef leaf) {
+  return (leaf & ~child_ref::kKind) >> 3U;
+}
 
 /// f(entry) for the entries of a leaf until it returns true; whether it did.
 template <class F>
 inline bool for_each_entry(ChildRef leaf, const F& f) {
-  const std::uint32_t first = (leaf & ~child_ref::kKind) >> 3U;
+  const std::uint32_t first = first_entry(leaf);
   const std::uint32_t count = (leaf & 7U) + 1;
   for (std::uint32_t i = first; i < first + count; ++i) {
     if (f(i)) return true;
@@ -77,39 +128,40 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
   return false;
 }
 
-/// One ray against a leaf: updates best to the leaf's nearest hit where that is nearer. With
+/// Takes the lanes that a block's test has left into account: updates best to the nearest hit. With
 /// kAny it stops at the first. slowly(id, best) is the slow path.
+template <int N, bool kAny, class Slowly>
+inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, float t_min,
+                       Best& best, const Slowly& slowly) {
+  for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
+    const int lane = first_lane(lanes);
+    const std::uint32_t id = block.id[lane];
+    if (id == best.id) continue;  // large triangles are in several leaves
+    const Interval<float> t = test.t(lane);
+    const bool is_certain = (test.certain >> lane & 1U) != 0;
+    if (is_certain && t.lo > best.hi) continue;
+    if (is_certain && t.hi < best.lo && t.lo >= t_min)
+      best = {t.lo, t.hi, id};
+    else
+      slowly(id, best);
+    if (kAny && best.id != kNoPrimitive) return;
+  }
+}
+
+/// The same for a leaf and a ray.
 template <int N, bool kAny, class Slowly>
 inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf, Best& best,
                       const Slowly& slowly) {
-  const auto is_done = [&] { return kAny && best.id != kNoPrimitive; };
-  if ((leaf & child_ref::kKind) != child_ref::kTriangles) {
-    for_each_entry(leaf, [&](std::uint32_t i) {
+  const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
+  for_each_entry(leaf, [&](std::uint32_t i) {
+    if (has_triangles) {
+      BlockTest<N> test;
+      test.run(tree.blocks[i], ray, best.hi);
+      meet_lanes<N, kAny>(tree.blocks[i], test, ray.t_min, best, slowly);
+    } else {
       slowly(tree.others[i], best);
-      return is_done();
-    });
-    return;
-  }
-  for_each_entry(leaf, [&](std::uint32_t index) {
-    const TriangleBlock& block = tree.blocks[index];
-    const BlockTest<N> test(block, ray, best.hi);
-    for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
-      const int lane = first_lane(lanes);
-      const std::uint32_t id = block.id[lane];
-      if (id == best.id) continue;  // large triangles are in several leaves
-      const float lo = test.lo[lane], hi = test.hi[lane];
-      if ((test.certain >> lane & 1U) != 0) {
-        if (lo > best.hi) continue;
-        if (hi < best.lo && lo >= ray.t_min) {
-          best = {lo, hi, id};
-          if (kAny) return true;
-          continue;
-        }
-      }
-      slowly(id, best);
-      if (is_done()) return true;
     }
-    return false;
+    return kAny && best.id != kNoPrimitive;
   });
 }
 

@@ -83,17 +83,22 @@ struct TileSlowPath {
   void (*consider_all)(void* context, std::uint32_t id, KernelTile& tile);
 };
 
-inline constexpr int kStreamRays = 1024;
+/// Whole tiles; no power of two, so that the parts of a ray do not share a cache set.
+inline constexpr int kStreamRays = 31 * kTileRays;
 
-/// Unrelated rays, an array for each of their parts. The limits are KernelRay's. The caller fills
-/// what stands above the line, for `count` rays.
+/// Unrelated rays, an array for each of their parts. The caller fills what stands above the line,
+/// for `count` rays, and t_max into best_hi.
 struct alignas(64) KernelStream {
   float o[3][kStreamRays], d[3][kStreamRays];
   float t_min[kStreamRays];
-  float best_lo[kStreamRays], best_hi[kStreamRays];  ///< as in Best
-  std::uint32_t best_id[kStreamRays];
+  float best_hi[kStreamRays];  ///< as in Best
   int count;
-  // ---- by the kernel:
+  // ---- by prepare_stream:
+  /// A bit for each ray that is valid and within KernelRay's limits. Some other ray takes the place
+  /// of one that is not; the answer to it is of no use.
+  std::uint64_t suited[kStreamRays / 64];
+  float best_lo[kStreamRays];  ///< as in Best
+  std::uint32_t best_id[kStreamRays];
   float near[3][kStreamRays], far[3][kStreamRays];  ///< near_factor and far_factor of each ray
   float t_begin[kStreamRays];                       ///< t_min, or 0 where that is tiny
   float d_sum[kStreamRays];                         ///< as in KernelRay
@@ -126,7 +131,9 @@ struct Kernels {
   bool (*prepare_tile)(KernelTile& tile);
   /// The same as closest for all rays of a prepared tile.
   void (*closest_of_tile)(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow);
-  /// The same for all rays of a stream.
+  /// Fills the lower part of a stream, without hits.
+  void (*prepare_stream)(KernelStream& stream);
+  /// The same as closest for all rays of a prepared stream.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);
   /// Gives every ray without a best hit some hit within its range, if there is one.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);

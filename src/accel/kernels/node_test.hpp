@@ -10,12 +10,32 @@ namespace {
 
 constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder keeps trees below 64 levels
 
-/// Subtrees yet to visit, with the distance at which the ray enters them.
+/// Stands for no more subtrees.
+constexpr ChildRef kFinished = child_ref::kKind;
+
+/// Subtrees yet to visit, with the distance at which the ray enters them; at the bottom kFinished.
 struct RayStack {
-  int size = 0;
+  int size;
   ChildRef child[kStackSize + kWidth];  // writing a node's children overwrites kWidth places
   float near[kStackSize + kWidth];
+
+  void clear() {
+    size = 1;
+    child[0] = kFinished;
+    near[0] = -__builtin_inff();
+  }
 };
+
+/// Takes what was pushed last, without kAny and what begins beyond the limit.
+template <bool kAny>
+inline ChildRef pop(RayStack& stack, float limit) {
+  int top = stack.size - 1;
+  if constexpr (!kAny) {
+    while (stack.near[top] > limit) --top;
+  }
+  stack.size = top;
+  return stack.child[top];
+}
 
 /// Of eight children those that the ray enters before `limit`, and where.
 template <int N>
@@ -45,18 +65,26 @@ struct NodeTest {
   }
 };
 
-/// Pushes the children that the ray enters before `limit`: the nearest last, or with kAny in any
-/// order and without their distance.
+/// Steps into the children of a node that the ray enters before `limit`: returns the nearest, with
+/// kAny some one, and pushes the others, with kAny without their distance. If there are none it
+/// pops one: of what lies on the stack, without kAny, the first that begins before the limit.
 template <int N, bool kAny>
-inline void push_children(const WideNode& node, const KernelRay& ray, float limit,
+inline ChildRef step_into(const WideNode& node, const KernelRay& ray, float limit,
                           RayStack& stack) {
   const NodeTest<N> test(node, ray, limit);
-  if constexpr (kAny)
-    store_lanes(test.entered, node.child, stack.child + stack.size);
-  else
-    store_descending(test.entered, test.near, node.child, stack.near + stack.size,
-                     stack.child + stack.size);
-  stack.size += __builtin_popcount(test.entered);
+  // A ninth bit, where no child is entered.
+  const int lane =
+      kAny ? first_lane(test.entered | 0x100U) & 7 : least_lane(test.entered, test.near);
+  const Lanes others = test.entered & ~(Lanes{1} << lane);
+  const int size = stack.size;
+  const ChildRef popped = stack.child[size - 1];
+  const float popped_near = kAny ? 0 : stack.near[size - 1];
+  store_lanes(others, node.child, stack.child + size);
+  if constexpr (!kAny) store_lanes(others, test.near, stack.near + size);
+  stack.size = size - 1 + __builtin_popcount(test.entered);
+  const bool pops = test.entered == 0;
+  if (!kAny && pops & (popped_near > limit)) return pop<kAny>(stack, limit);
+  return pops ? popped : node.child[lane];
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "accel/kernels/tile.hpp"
 
 namespace microtrace {
-const Kernels kPortableKernels{"portable",       closest<4>,         any<4>,
-                               prepare_tile<4>,  closest_of_tile<4>, closest_of_stream<4>,
-                               any_of_stream<4>, round_t<4>};
+const Kernels kPortableKernels{"portable",           closest<4>,          any<4>,
+                               prepare_tile<4>,      closest_of_tile<4>,  prepare_stream<4>,
+                               closest_of_stream<4>, any_of_stream<4, 4>, round_t<4>};
 }

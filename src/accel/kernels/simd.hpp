@@ -155,77 +155,93 @@ inline int first_lane(std::uint64_t lanes) {
   return __builtin_ctzll(lanes);
 }
 
-#if defined(__AVX2__)
-/// Eight numbers, each with its lane in the three lowest bits, the greatest first: the sorting
-/// network of 19 exchanges in six steps (D. E. Knuth, The Art of Computer Programming 3, 5.3.4).
-inline __m256i sorted_descending(__m256i v) {
-// Lanes exchange with what `other` puts beside them; those of the mask keep the greater.
-#define MICROTRACE_EXCHANGE(other, mask)                                          \
-  {                                                                               \
-    const __m256i w = other;                                                      \
-    v = _mm256_blend_epi32(_mm256_min_epi32(v, w), _mm256_max_epi32(v, w), mask); \
-  }
-  const auto at = [](int a, int b, int c, int d, int e, int f, int g, int h) {
-    return _mm256_setr_epi32(a, b, c, d, e, f, g, h);
-  };
-  MICROTRACE_EXCHANGE(_mm256_shuffle_epi32(v, 0x4E), 0x33)
-  MICROTRACE_EXCHANGE(_mm256_permute2x128_si256(v, v, 1), 0x0F)
-  MICROTRACE_EXCHANGE(_mm256_shuffle_epi32(v, 0xB1), 0x55)
-  MICROTRACE_EXCHANGE(_mm256_permute4x64_epi64(v, 0xD8), 0x0C)
-  MICROTRACE_EXCHANGE(_mm256_permutevar8x32_epi32(v, at(0, 4, 2, 6, 1, 5, 3, 7)), 0x0A)
-  MICROTRACE_EXCHANGE(_mm256_permutevar8x32_epi32(v, at(0, 2, 1, 4, 3, 6, 5, 7)), 0x2A)
-#undef MICROTRACE_EXCHANGE
-  return v;
-}
-#endif
-
-/// Writes the given lanes of eight keys, none of them negative, and of their values, by descending
-/// key. Keys are rounded down by up to 7 ulp. Overwrites eight places.
-inline void store_descending(Lanes lanes, const float* keys, const std::uint32_t* values,
-                             float* to_keys, std::uint32_t* to_values) {
-#if defined(__AVX2__)
-  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), low = _mm256_set1_epi32(7);
-  const __m256i key =
-      _mm256_or_si256(_mm256_andnot_si256(low, _mm256_castps_si256(_mm256_loadu_ps(keys))), lane);
-#if defined(__AVX512VL__)
-  const __m256i wanted =
-      _mm256_mask_mov_epi32(_mm256_set1_epi32(-1), static_cast<__mmask8>(lanes), key);
-#else
-  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
-  const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit);
-  const __m256i wanted = _mm256_or_si256(key, _mm256_cmpeq_epi32(set, _mm256_setzero_si256()));
-#endif
-  const __m256i order = sorted_descending(wanted);
-  const __m256i all_values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to_values),
-                      _mm256_permutevar8x32_epi32(all_values, order));
-  _mm256_storeu_ps(to_keys, _mm256_castsi256_ps(_mm256_andnot_si256(low, order)));
-#else
-  int size = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = first_lane(lanes);
-    int place = size++;
-    for (; place > 0 && to_keys[place - 1] < keys[lane]; --place) {
-      to_keys[place] = to_keys[place - 1];
-      to_values[place] = to_values[place - 1];
+#if defined(__AVX2__) && !defined(__AVX512VL__)
+/// For each set of eight lanes their numbers, a byte each, the lowest first.
+struct PackingTable {
+  std::uint64_t order[256];
+};
+constexpr PackingTable kPacking = [] {
+  PackingTable table{};
+  for (unsigned lanes = 0; lanes < 256; ++lanes) {
+    unsigned count = 0;
+    for (unsigned lane = 0; lane < 8; ++lane) {
+      if ((lanes >> lane & 1U) != 0) table.order[lanes] |= std::uint64_t{lane} << (8 * count++);
     }
-    to_keys[place] = keys[lane];
-    to_values[place] = values[lane];
   }
+  return table;
+}();
 #endif
-}
 
 /// Writes the given lanes of eight values one after another. May overwrite eight places.
-inline void store_lanes(Lanes lanes, const std::uint32_t* values, std::uint32_t* to) {
+template <class T>
+inline void store_lanes(Lanes lanes, const T* values, T* to) {
+  static_assert(sizeof(T) == 4);
 #if defined(__AVX512VL__)
   const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), v));
+#elif defined(__AVX2__)
+  const __m256i order =
+      _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(static_cast<long long>(kPacking.order[lanes])));
+  const __m256i v = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(v, order));
 #else
   for (int lane = 0; lane < 8; ++lane) {
     *to = values[lane];
     to += lanes >> lane & 1U;
   }
+#endif
+}
+
+/// Of the given lanes that with the least of eight keys, none of which is negative; without lanes
+/// some number up to 7.
+/// Keys that differ in their last three bits alone count as equal.
+inline int least_lane(Lanes lanes, const float* keys) {
+#if defined(__AVX2__)
+  // The lane's number in the key's last bits.
+  const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  const __m256i bits = _mm256_castps_si256(_mm256_loadu_ps(keys));
+  const __m256i key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), bits), lane);
+#if defined(__AVX512VL__)
+  __m256i v =
+      _mm256_mask_mov_epi32(_mm256_set1_epi32(INT32_MAX), static_cast<__mmask8>(lanes), key);
+#else
+  const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i set = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(lanes)), bit);
+  __m256i v = _mm256_blendv_epi8(_mm256_set1_epi32(INT32_MAX), key, _mm256_cmpeq_epi32(set, bit));
+#endif
+  __m128i least = _mm_min_epi32(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
+  least = _mm_min_epi32(least, _mm_shuffle_epi32(least, 0x4E));
+  least = _mm_min_epi32(least, _mm_shuffle_epi32(least, 0xB1));
+  return _mm_cvtsi128_si32(least) & 7;
+#else
+  if (lanes == 0) return 0;
+  int least = first_lane(lanes);
+  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+    if (keys[first_lane(lanes)] < keys[least]) least = first_lane(lanes);
+  }
+  return least;
+#endif
+}
+
+/// Which of eight numbers are within [first, last].
+inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std::uint32_t last) {
+#if defined(__AVX2__)
+  typedef std::uint32_t Numbers __attribute__((vector_size(32)));
+  Numbers v;
+  __builtin_memcpy(&v, numbers, sizeof v);
+#endif
+#if defined(__AVX512VL__)
+  const Numbers from = v - first, size = Numbers{} + (last - first);
+  return _mm256_cmple_epu32_mask((__m256i)from, (__m256i)size);
+#elif defined(__AVX2__)
+  const auto inside = (v - first) <= (last - first);
+  return static_cast<Lanes>(_mm256_movemask_ps((__m256)inside));
+#else
+  Lanes lanes = 0;
+  for (int lane = 0; lane < 8; ++lane)
+    lanes |= static_cast<Lanes>(numbers[lane] - first <= last - first) << lane;
+  return lanes;
 #endif
 }
 

@@ -19,18 +19,14 @@ inline void walk(const TreeView& tree, KernelRay& ray, const SlowPath& slow, Bes
   prepare_ray(ray);
   const auto slowly = [&](std::uint32_t id, Best& b) { slow.consider(slow.context, id, b); };
   RayStack stack;
-  stack.child[0] = tree.root;
-  stack.near[0] = ray.t_begin;
-  stack.size = 1;
-  while (stack.size > 0) {
-    const int top = --stack.size;
-    const ChildRef child = stack.child[top];
-    if (!kAny && stack.near[top] > best.hi) continue;
-    if ((child & child_ref::kKind) == 0) {
-      push_children<N, kAny>(tree.nodes[child], ray, best.hi, stack);
+  stack.clear();
+  for (ChildRef next = tree.root; next != kFinished;) {
+    if ((next & child_ref::kKind) == 0) {
+      next = step_into<N, kAny>(tree.nodes[next], ray, best.hi, stack);
     } else {
-      meet_leaf<N, kAny>(tree, ray, child, best, slowly);
+      meet_leaf<N, kAny>(tree, ray, next, best, slowly);
       if (kAny && best.id != kNoPrimitive) return;
+      next = pop<kAny>(stack, best.hi);
     }
   }
 }

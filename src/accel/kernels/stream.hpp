@@ -5,73 +5,122 @@
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
+#include "accel/kernels/packet.hpp"
 #include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
 namespace {
 
+template <int N>
+void prepare_stream(KernelStream& stream) {
+  using F = Float<N>;
+  const F zero{}, one = all<N>(1.0F), farthest = all<N>(kFarthestCoordinate);
+  for (int i = 0; i < stream.count; i += N) {
+    F t_min = load<N>(stream.t_min + i), t_max = load<N>(stream.best_hi + i), size{};
+    Lanes suited =
+        less_equal<N>(zero, t_min) & less_equal<N>(t_min, farthest) & less_equal<N>(t_min, t_max);
+    for (int axis = 0; axis < 3; ++axis) {
+      const F length = magnitude(load<N>(stream.d[axis] + i));
+      size = greater(length, size);
+      suited &= less_equal<N>(length, all<N>(kLongestDirection)) &
+                less_equal<N>(magnitude(load<N>(stream.o[axis] + i)), farthest);
+    }
+    suited &= less_equal<N>(all<N>(kShortestDirection), size);
+    F sum{};
+    for (int axis = 0; axis < 3; ++axis) {
+      F d = load<N>(stream.d[axis] + i), near, far;
+      if (suited != all_lanes<N>) {
+        d = select<N>(suited, d, one);
+        store<N>(stream.d[axis] + i, d);
+        store<N>(stream.o[axis] + i, select<N>(suited, load<N>(stream.o[axis] + i), zero));
+      }
+      slab_factors<N>(d, near, far);
+      store<N>(stream.near[axis] + i, near);
+      store<N>(stream.far[axis] + i, far);
+      sum = sum + magnitude(d);
+    }
+    t_min = select<N>(suited, t_min, zero);
+    t_max = select<N>(suited, t_max, zero);
+    store<N>(stream.d_sum + i, sum * (1 + 0x1p-21F));
+    store<N>(stream.t_min + i, t_min);
+    store<N>(stream.t_begin + i, t_min < all<N>(kLeastBegin) ? zero : t_min);
+    store<N>(stream.best_lo + i, t_max);
+    store<N>(stream.best_hi + i, t_max);
+    const int shift = i % 64;
+    std::uint64_t& set = stream.suited[i / 64];
+    set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
+  }
+  // Packets bound whole groups: the last ray fills the last.
+  for (int i = stream.count; i % kTileRays != 0; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      stream.o[axis][i] = stream.o[axis][i - 1];
+      stream.d[axis][i] = stream.d[axis][i - 1];
+    }
+    stream.best_hi[i] = stream.best_hi[i - 1];
+  }
+  __builtin_memset(stream.best_id, 0xff, sizeof stream.best_id);
+  static_assert(kNoPrimitive == 0xffffffff);
+}
+
 template <int N, bool kAny>
 class StreamWalk {
  public:
-  StreamWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow)
-      : tree_(tree), stream_(stream), slow_(slow) {}
+  /// Without items all rays walk the whole tree.
+  StreamWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow,
+             const StreamItems* items)
+      : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
 
   void run() {
-    prepare();
-    for (Flight& flight : flights_) start(flight);
-    while (lists_[kNodes].size + lists_[kLeaves].size > 0) {
-      step(lists_[kNodes], [&](Flight& flight, ChildRef child) {
-        push_children<N, kAny>(tree_.nodes[child], flight.ray, flight.best.hi, flight.stack);
+    for (std::uint32_t place = 0; place < kInFlight; ++place) start(place);
+    while (sort_places() > 0) {
+      for_each(nodes_, [&](Flight& flight, ChildRef& next) {
+        next = step_into<N, kAny>(tree_.nodes[next], flight.ray, flight.best.hi, flight.stack);
       });
-      step(lists_[kLeaves], [&](Flight& flight, ChildRef child) {
-        meet_leaf<N, kAny>(tree_, flight.ray, child, flight.best,
-                           [&](std::uint32_t id, Best& best) {
-                             slow_.consider(slow_.context, flight.number, id, best);
-                           });
-        if (kAny && flight.best.id != kNoPrimitive) flight.stack.size = 1;
+      meet_blocks();
+      for_each(others_, [&](Flight& flight, ChildRef& next) {
+        meet_leaf<N, kAny>(tree_, flight.ray, next, flight.best, slow_path(flight));
+        next = next_after_leaf(flight);
       });
+      for (int k = 0; k < finished_.size; ++k) finish(finished_.place[k]);
     }
   }
 
  private:
-  static constexpr int kInFlight = 32;
-  static constexpr ChildRef kFinished = child_ref::kKind;  // below all else on a stack
+  static constexpr std::uint32_t kInFlight = 32;
+  static constexpr ChildRef kEmpty = ~ChildRef{0};
 
   struct alignas(64) Flight {
     KernelRay ray;
     Best best;
     int number;
     RayStack stack;
+    BlockTest<N> test;
   };
 
   struct List {
     int size = 0;
-    Flight* flights[kInFlight];
+    std::uint32_t place[kInFlight + 8];  // more, as eight are written at a time
   };
-  enum { kNodes, kLeaves };
 
-  void prepare() {
-    using F = Float<N>;
-    for (int i = 0; i < stream_.count; i += N) {
-      F sum{};
-      for (int axis = 0; axis < 3; ++axis) {
-        const F d = load<N>(stream_.d[axis] + i);
-        F near, far;
-        slab_factors<N>(d, near, far);
-        store<N>(stream_.near[axis] + i, near);
-        store<N>(stream_.far[axis] + i, far);
-        sum = sum + magnitude(d);
-      }
-      store<N>(stream_.d_sum + i, sum * (1 + 0x1p-21F));
-      const F t_min = load<N>(stream_.t_min + i);
-      store<N>(stream_.t_begin + i, t_min < all<N>(kLeastBegin) ? F{} : t_min);
-    }
-  }
+  struct MaybeHit {
+    Flight* flight;
+    const TriangleBlock* block;
+  };
 
   // Puts the next ray into a place, if there is one.
-  void start(Flight& flight) {
-    if (next_ == stream_.count) return;
-    const int i = next_++;
+  void start(std::uint32_t place) {
+    const int last = items_ != nullptr ? items_->size : stream_.count;
+    const auto item = [&](int i) {
+      return items_ != nullptr ? items_->item[i] : StreamItem{i, tree_.root};
+    };
+    while (kAny && started_ < last && stream_.best_id[item(started_).ray] != kNoPrimitive)
+      ++started_;
+    if (started_ == last) {
+      next_[place] = kEmpty;
+      return;
+    }
+    const auto [i, child] = item(started_++);
+    Flight& flight = flights_[place];
     for (int axis = 0; axis < 3; ++axis) {
       flight.ray.o[axis] = stream_.o[axis][i];
       flight.ray.d[axis] = stream_.d[axis][i];
@@ -84,83 +133,135 @@ class StreamWalk {
     flight.ray.d_sum = stream_.d_sum[i];
     flight.best = {stream_.best_lo[i], stream_.best_hi[i], stream_.best_id[i]};
     flight.number = i;
-    flight.stack.child[0] = kFinished;
-    flight.stack.near[0] = 0;
-    flight.stack.child[1] = tree_.root;
-    flight.stack.near[1] = 0;
-    flight.stack.size = kAny && flight.best.id != kNoPrimitive ? 1 : 2;
-    settle(flight);
+    flight.stack.clear();
+    next_[place] = child;
   }
 
-  void finish(Flight& flight) {
+  void finish(std::uint32_t place) {
+    const Flight& flight = flights_[place];
+    if (kAny && flight.best.id == kNoPrimitive) {
+      start(place);
+      return;
+    }
     stream_.best_lo[flight.number] = flight.best.lo;
     stream_.best_hi[flight.number] = flight.best.hi;
     stream_.best_id[flight.number] = flight.best.id;
-    start(flight);
+    start(place);
   }
 
   template <class Visit>
-  void step(List& list, const Visit& visit) {
-    const List now = list;
-    list.size = 0;
-    for (int k = 0; k < now.size; ++k) {
-      Flight& flight = *now.flights[k];
-      const ChildRef child = flight.stack.child[--flight.stack.size];
-      visit(flight, child);
-      settle(flight);
+  void for_each(const List& list, const Visit& visit) {
+    for (int k = 0; k < list.size; ++k) {
+      const std::uint32_t place = list.place[k];
+      visit(flights_[place], next_[place]);
+      fetch(next_[place]);
     }
   }
 
-  // Finds what the ray in a place visits next.
-  void settle(Flight& flight) {
-    int top = flight.stack.size - 1;
-    if constexpr (!kAny) {
-      while (flight.stack.near[top] > flight.best.hi) --top;
-      flight.stack.size = top + 1;
+  // Rays at triangles, in two loops: all tests, which don't branch, and what the few that may be
+  // hits mean.
+  void meet_blocks() {
+    int hits = 0;
+    for_each(leaves_, [&](Flight& flight, ChildRef& next) {
+      const TriangleBlock& block = tree_.blocks[first_entry(next)];
+      flight.test.run(block, flight.ray, flight.best.hi);
+      hits_[hits] = {&flight, &block};
+      hits += flight.test.maybe != 0;
+      // The leaf's other blocks are a leaf of their own.
+      const int top = flight.stack.size;
+      flight.stack.child[top] = next + (1U << 3U) - 1;
+      flight.stack.near[top] = 0;
+      flight.stack.size += (next & 7U) != 0;
+      next = pop<kAny>(flight.stack, flight.best.hi);
+    });
+    for (int k = 0; k < hits; ++k) {
+      const auto [flight, block] = hits_[k];
+      meet_lanes<N, kAny>(*block, flight->test, flight->ray.t_min, flight->best,
+                          slow_path(*flight));
+      ++flight->stack.size;  // what it has popped may lie beyond the hit now
+      next_[flight - flights_] = next_after_leaf(*flight);
     }
-    const ChildRef child = flight.stack.child[top];
-    const ChildRef kind = child & child_ref::kKind;
-    if (kind == kFinished) {
-      finish(flight);
-      return;
-    }
-    fetch(child);
-    // By index, not by a branch, which would be mispredicted often.
-    List& list = lists_[kind != 0 ? kLeaves : kNodes];
-    list.flights[list.size++] = &flight;
   }
+
+  static ChildRef next_after_leaf(Flight& flight) {
+    return kAny && flight.best.id != kNoPrimitive ? kFinished
+                                                  : pop<kAny>(flight.stack, flight.best.hi);
+  }
+
+  auto slow_path(const Flight& flight) const {
+    return [this, &flight](std::uint32_t id, Best& best) {
+      slow_.consider(slow_.context, flight.number, id, best);
+    };
+  }
+
+  // Lists the places by what their rays stand at, without branches on that, which would be
+  // mispredicted often. Returns how many there are.
+  int sort_places() {
+    nodes_.size = leaves_.size = others_.size = finished_.size = 0;
+    for (std::uint32_t first = 0; first < kInFlight; first += 8) {
+      const auto list = [&](List& to, ChildRef least, ChildRef greatest) {
+        const Lanes lanes = lanes_within(next_ + first, least, greatest);
+        std::uint32_t places[8];
+        for (std::uint32_t i = 0; i < 8; ++i) places[i] = first + i;
+        store_lanes(lanes, places, to.place + to.size);
+        to.size += __builtin_popcount(lanes);
+      };
+      list(nodes_, 0, child_ref::kTriangles - 1);
+      list(leaves_, child_ref::kTriangles, child_ref::kOthers - 1);
+      list(others_, child_ref::kOthers, kFinished - 1);
+      list(finished_, kFinished, kFinished);
+    }
+    return nodes_.size + leaves_.size + others_.size + finished_.size;
+  }
+
+  // Where what a kind of ChildRef refers to lies: at begin + (child & mask) * scale.
+  struct Place {
+    const char* begin;
+    std::size_t mask, scale;
+    std::size_t last;  // of the cache lines needed
+  };
 
   // Inlined by force: GCC takes a function of prefetches alone for one without effect.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
-    const auto* node = reinterpret_cast<const char*>(tree_.nodes + child);
-    const auto* block =
-        reinterpret_cast<const char*>(tree_.blocks + ((child & ~child_ref::kKind) >> 3U));
-    const char* p = (child & child_ref::kKind) == 0 ? node : block;
+    const Place& place = places_[child >> 30U];
+    const char* p = place.begin + (child & place.mask) * place.scale;
     __builtin_prefetch(p);
     __builtin_prefetch(p + 64);
     __builtin_prefetch(p + 128);
     __builtin_prefetch(p + 192);
-    const char* q = (child & child_ref::kKind) == 0 ? node : block + 256;
-    __builtin_prefetch(q);
-    __builtin_prefetch(q + 64);
+    __builtin_prefetch(p + place.last);
   }
 
   const TreeView& tree_;
   KernelStream& stream_;
   const StreamSlowPath& slow_;
-  int next_ = 0;  // ray to start
-  List lists_[2];
+  const StreamItems* items_;
+  int started_ = 0;  // rays, or items
+  List nodes_, leaves_, others_, finished_;
+  ChildRef next_[kInFlight];  // what the ray in each place visits next
+  static_assert(sizeof(TriangleBlock) % 8 == 0);
+  const Place places_[4] = {
+      {reinterpret_cast<const char*>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
+      {reinterpret_cast<const char*>(tree_.blocks), ~child_ref::kKind & ~7U,
+       sizeof(TriangleBlock) / 8, 256},
+      {reinterpret_cast<const char*>(tree_.others), 0, 0, 0},
+      {reinterpret_cast<const char*>(tree_.nodes), 0, 0, 0}};
+  MaybeHit hits_[kInFlight + 1];
   Flight flights_[kInFlight];
 };
 
 template <int N>
 void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow) {
-  StreamWalk<N, false>(tree, stream, slow).run();
+  StreamWalk<N, false>(tree, stream, slow, nullptr).run();
 }
 
-template <int N>
+/// M: rays that packets test at a time.
+template <int N, int M>
 void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow) {
-  StreamWalk<N, true>(tree, stream, slow).run();
+  StreamItems items;
+  PacketWalk<M> packets(tree, stream, slow, items);
+  for (int first = 0; first < stream.count; first += PacketWalk<M>::kRays) packets.run(first);
+  StreamWalk<N, true>(tree, stream, slow, &items).run();
 }
 
 }  // namespace

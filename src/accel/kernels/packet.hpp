@@ -1,0 +1,218 @@
+#pragma once
+/// Any-hit queries of rays that begin near each other, as far as they go together: 64 rays walk
+/// down the tree with a set of those that enter each subtree; N rays at a time are held against a
+/// box or a triangle. Where few are left, the rest is work for stream.hpp.
+
+#include "accel/kernels/block_test.hpp"
+#include "accel/kernels/node_test.hpp"
+#include "accel/kernels/slabs.hpp"
+
+namespace microtrace {
+namespace {
+
+/// Work left over: a ray that is to visit a subtree.
+struct StreamItem {
+  int ray;
+  ChildRef child;
+};
+
+/// What packets leave over. Where it is full, they do the work themselves.
+struct StreamItems {
+  static constexpr int kCapacity = 4 * kStreamRays;
+  int size = 0;
+  StreamItem item[kCapacity];
+};
+
+template <int N>
+class PacketWalk {
+ public:
+  static constexpr int kRays = kTileRays;
+
+  PacketWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow,
+             StreamItems& items)
+      : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
+
+  /// The rays from `first` on, a multiple of kRays.
+  void run(int first) {
+    first_ = first;
+    open_ = 0;
+    for (int i = 0; i < kRays && first + i < stream_.count; ++i)
+      open_ |= std::uint64_t{stream_.best_id[first + i] == kNoPrimitive} << i;
+    bound_segments();
+    int top = 0;
+    stack_[top++] = {tree_.root, open_};
+    while (top > 0) {
+      const Entry entry = stack_[--top];
+      const std::uint64_t rays = entry.rays & open_;
+      const int count = __builtin_popcountll(rays);
+      if (count < kFew && items_.size + count <= StreamItems::kCapacity)
+        leave_over(entry.child, rays);
+      else if ((entry.child & child_ref::kKind) == 0)
+        top = push_children(tree_.nodes[entry.child], rays, top);
+      else
+        meet_leaf(entry.child, rays);
+    }
+  }
+
+ private:
+  using F = Float<N>;
+  static constexpr int kFew = 10;  // rays that go on faster one by one
+  static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
+  using B = Float<kNodeLanes>;
+
+  struct Entry {
+    ChildRef child;
+    std::uint64_t rays;
+  };
+
+  // A box around all rays from o to o + t_max d. The computed end is off by at most u |t_max d| +
+  // u |o + t_max d|. Infinity times 0 is NaN and leaves a comparison's other side.
+  void bound_segments() {
+    alignas(64) float lo[kRays], hi[kRays];
+    const F unit = all<N>(4 * kUnit);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int i = 0; i < kRays; i += N) {
+        const F o = load<N>(stream_.o[axis] + first_ + i);
+        const F way = load<N>(stream_.best_hi + first_ + i) * load<N>(stream_.d[axis] + first_ + i);
+        const F margin = unit * (magnitude(o) + magnitude(way)) + kTiny, end = o + way;
+        store<N>(lo + i, lesser(end - margin, o));
+        store<N>(hi + i, greater(end + margin, o));
+      }
+      lo_[axis] = reduce<N>(lo, [](const auto& a, const auto& b) { return lesser(a, b); });
+      hi_[axis] = reduce<N>(hi, [](const auto& a, const auto& b) { return greater(a, b); });
+    }
+  }
+
+  // Children that the box around all rays touches.
+  [[nodiscard]] Lanes touched(const WideNode& node) const {
+    Lanes lanes = 0;
+    for (int i = 0; i < kWidth; i += kNodeLanes) {
+      constexpr int M = kNodeLanes;
+      const auto touches = [&](const float* lo, const float* hi, int axis) {
+        return less_equal<M>(load<M>(lo + i), all<M>(hi_[axis])) &
+               less_equal<M>(all<M>(lo_[axis]), load<M>(hi + i));
+      };
+      lanes |= (touches(node.lo_x, node.hi_x, 0) & touches(node.lo_y, node.hi_y, 1) &
+                touches(node.lo_z, node.hi_z, 2))
+               << i;
+    }
+    return lanes;
+  }
+
+  // f(i, lanes) for every N rays from i on of which some, `lanes`, are in the set.
+  template <class Visit>
+  void for_each_lanes(std::uint64_t rays, const Visit& f) const {
+    for (int i = 0; i < kRays; i += N) {
+      const Lanes lanes = static_cast<Lanes>(rays >> i) & all_lanes<N>;
+      if (lanes != 0) f(i, lanes);
+    }
+  }
+
+  int push_children(const WideNode& node, std::uint64_t rays, int top) {
+    const Lanes candidates = touched(node);
+    std::uint64_t entering[kWidth] = {};
+    for_each_lanes(rays, [&](int i, Lanes lanes) {
+      const int at = first_ + i;
+      F o[3], near[3], far[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        o[axis] = load<N>(stream_.o[axis] + at);
+        near[axis] = load<N>(stream_.near[axis] + at);
+        far[axis] = load<N>(stream_.far[axis] + at);
+      }
+      const F begin = load<N>(stream_.t_begin + at), end = load<N>(stream_.best_hi + at);
+      for (Lanes rest = candidates; rest != 0; rest &= rest - 1) {
+        const int k = first_lane(rest);
+        const float lo[3] = {node.lo_x[k], node.lo_y[k], node.lo_z[k]};
+        const float hi[3] = {node.hi_x[k], node.hi_y[k], node.hi_z[k]};
+        F enter = begin, leave = end;
+        for (int axis = 0; axis < 3; ++axis) {
+          const F zero{}, l = all<N>(lo[axis]), h = all<N>(hi[axis]);
+          const F near_plane = near[axis] < zero ? h : l, far_plane = near[axis] < zero ? l : h;
+          // NaN on the left is dropped, as in NodeTest.
+          enter = greater((near_plane - o[axis]) * near[axis], enter);
+          leave = lesser((far_plane - o[axis]) * far[axis], leave);
+        }
+        entering[k] |= std::uint64_t{less_equal<N>(enter, leave) & lanes} << i;
+      }
+    });
+    for (Lanes rest = candidates; rest != 0; rest &= rest - 1) {
+      const int k = first_lane(rest);
+      stack_[top] = {node.child[k], entering[k]};
+      top += entering[k] != 0;
+    }
+    return top;
+  }
+
+  void leave_over(ChildRef child, std::uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1)
+      items_.item[items_.size++] = {first_ + first_lane(rays), child};
+  }
+
+  void meet_leaf(ChildRef leaf, std::uint64_t rays) {
+    const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
+    for_each_entry(leaf, [&](std::uint32_t entry) {
+      if (has_triangles)
+        meet_block(tree_.blocks[entry], rays & open_);
+      else
+        decide_slowly(tree_.others[entry], rays & open_);
+      return false;
+    });
+  }
+
+  void meet_block(const TriangleBlock& block, std::uint64_t rays) {
+    for_each_lanes(rays, [&](int i, Lanes lanes) {
+      const int at = first_ + i;
+      F o[3], d[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        o[axis] = load<N>(stream_.o[axis] + at);
+        d[axis] = load<N>(stream_.d[axis] + at);
+      }
+      const F begin = load<N>(stream_.t_begin + at), t_max = load<N>(stream_.best_hi + at);
+      const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
+      for (int k = 0; k < kWidth; ++k) {
+        if (!(block.v0_x[k] == block.v0_x[k])) break;  // NaN: the block's unused places
+        const F a[3] = {block.v0_x[k] - o[0], block.v0_y[k] - o[1], block.v0_z[k] - o[2]};
+        const float e1[3] = {block.e1_x[k], block.e1_y[k], block.e1_z[k]};
+        const float e2[3] = {block.e2_x[k], block.e2_y[k], block.e2_z[k]};
+        const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
+                                    begin, limit);
+        const Lanes maybe = test.maybe & lanes;
+        if (maybe == 0) continue;
+        const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
+        const Lanes before = less<N>(t.hi, t_max), after = less<N>(t_max, t.lo);
+        const Lanes begun = less_equal<N>(load<N>(stream_.t_min + at), t.lo);
+        const Lanes hit = maybe & test.certain & before & begun;
+        close(block.id[k], std::uint64_t{hit} << i);
+        decide_slowly(block.id[k], std::uint64_t{maybe & ~hit & ~(test.certain & after)} << i);
+        lanes &= static_cast<Lanes>(open_ >> i);
+        if (lanes == 0) break;
+      }
+    });
+  }
+
+  void close(std::uint32_t id, std::uint64_t rays) {
+    open_ &= ~rays;
+    for (; rays != 0; rays &= rays - 1) stream_.best_id[first_ + first_lane(rays)] = id;
+  }
+
+  void decide_slowly(std::uint32_t id, std::uint64_t rays) {
+    for (; rays != 0; rays &= rays - 1) {
+      const int ray = first_lane(rays), at = first_ + ray;
+      Best best{stream_.best_lo[at], stream_.best_hi[at], kNoPrimitive};
+      slow_.consider(slow_.context, at, id, best);
+      if (best.id != kNoPrimitive) close(id, std::uint64_t{1} << ray);
+    }
+  }
+
+  const TreeView& tree_;
+  KernelStream& stream_;
+  const StreamSlowPath& slow_;
+  StreamItems& items_;
+  int first_ = 0;
+  std::uint64_t open_ = 0;  // rays without a hit
+  float lo_[3], hi_[3];
+  Entry stack_[kStackSize + kWidth];
+};
+
+}  // namespace
+}  // namespace microtrace
