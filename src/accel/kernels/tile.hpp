@@ -167,11 +167,12 @@ class TileWalk {
       const B vx = ay * e1z - az * e1y, vy = az * e1x - ax * e1z, vz = ax * e1y - ay * e1x;
       const B nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
       const B a_sum = magnitude(ax) + magnitude(ay) + magnitude(az);
-      // Each triangle's own: a huge one beside it would make a tiny one uncertain for every ray.
-      const B em = greater(
-          greater(greater(magnitude(e1x), magnitude(e1y)), greater(magnitude(e1z), magnitude(e2x))),
-          greater(magnitude(e2y), magnitude(e2z)));
-      const B error = (a_sum + em) * em * (18 * kUnit * tile_.d_sum) + kTiny;
+      // Each triangle's own bounds: a huge one beside it would make a tiny one uncertain for every
+      // ray. em and m as TriangleBlock's.
+      const B e1 = greater(greater(magnitude(e1x), magnitude(e1y)), magnitude(e1z));
+      const B e2 = greater(greater(magnitude(e2x), magnitude(e2y)), magnitude(e2z));
+      const B m = e1 * e2 * (1 + 0x1p-22F);
+      const B error = (a_sum * greater(e1, e2) + m) * (18 * kUnit * tile_.d_sum) + kTiny;
 
       // The beam is certainly outside an edge if u, v or size - u - v has one sign for all its
       // directions, and size the other. The bounds' own roundings are those of the rays' products;
@@ -200,8 +201,8 @@ class TileWalk {
       store<M>(view.n_z + i, nz);
       store<M>(view.height + i, nx * ax + ny * ay + nz * az);
       store<M>(view.error + i, error);
-      store<M>(view.size_error + i, em * em * (15 * kUnit * tile_.d_sum) + kTiny);
-      store<M>(view.height_error + i, a_sum * em * em * (18 * kUnit) + kTiny);
+      store<M>(view.size_error + i, m * (15 * kUnit * tile_.d_sum) + kTiny);
+      store<M>(view.height_error + i, a_sum * m * (18 * kUnit) + kTiny);
     }
   }
 
