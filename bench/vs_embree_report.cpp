@@ -42,8 +42,8 @@ std::string object(const BuildRow& row) {
                  {"ms_microtrace", number(row.ms_microtrace)},
                  {"ms_embree", number(row.ms_embree)},
                  {"ms_embree_medium", number(row.ms_embree_medium)},
-                 {"ratio", number(row.ms_embree / row.ms_microtrace)},
-                 {"ratio_medium", number(row.ms_embree_medium / row.ms_microtrace)},
+                 {"ratio", number(row.ms_microtrace / row.ms_embree)},
+                 {"ratio_medium", number(row.ms_microtrace / row.ms_embree_medium)},
                  {"bytes_per_triangle_microtrace", number(row.bytes_per_triangle_microtrace)},
                  {"bytes_per_triangle_embree", number(row.bytes_per_triangle_embree)}});
 }

@@ -74,7 +74,7 @@ Enclosure bounds(const Scaled& x) {
 
 }  // namespace
 
-Root rational(Dyadic p, Dyadic r) {
+Root rational(const Dyadic& p, const Dyadic& r) {
   if (r.sign() < 0) return {-p, {}, -r, 0};
   return {p, {}, r, 0};
 }

@@ -15,7 +15,7 @@ struct Root {
 };
 
 /// The rational p / r, r not zero.
-[[nodiscard]] Root rational(Dyadic p, Dyadic r);
+[[nodiscard]] Root rational(const Dyadic& p, const Dyadic& r);
 
 /// The number t itself.
 [[nodiscard]] Root rational(float t);

@@ -12,7 +12,7 @@
 namespace microtrace::io {
 namespace {
 
-constexpr std::size_t chunk = 64 * 1024;
+constexpr std::size_t chunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail(const std::string& name, std::string what, int code) {
   throw Error(ErrorKind::io, name, what.append(": ").append(std::generic_category().message(code)));

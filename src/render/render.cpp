@@ -40,8 +40,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   Film film = make_film(size);
 
   const auto draw = [&](const Tile& tile) {
-    std::array<Ray, kTileEdge * kTileEdge> rays;
-    std::array<std::optional<Hit>, kTileEdge * kTileEdge> hits;
+    std::array<Ray, kTilePixels> rays;
+    std::array<std::optional<Hit>, kTilePixels> hits;
     std::size_t count = 0;
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {

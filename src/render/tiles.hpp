@@ -3,6 +3,7 @@
 
 #include <microtrace/camera.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -10,6 +11,7 @@ namespace microtrace {
 
 /// Small enough that its rays make one bundle and go the same way.
 inline constexpr std::uint32_t kTileEdge = 8;
+inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
 /// Pixels [x0, x1) x [y0, y1).
 struct Tile {

@@ -59,7 +59,7 @@ Rule positive(const char* field, Number x) {
 
 template <typename Vector>
 Rule not_zero(const char* field, const Vector& v) {
-  if (const Rule rule = finite(field, v)) return rule;
+  if (Rule rule = finite(field, v)) return rule;
   if (Vec3(v) != Vec3(0)) return {};
   return broken(field, "must not be zero");
 }
@@ -94,7 +94,7 @@ Rule check(const Quadric& q) {
 
 Rule check(const Mesh& mesh) {
   for (const Vec3& position : mesh.positions) {
-    if (const Rule rule = finite("positions", position)) return rule;
+    if (Rule rule = finite("positions", position)) return rule;
   }
   for (const auto& triangle : mesh.triangles) {
     for (const std::uint32_t index : triangle) {
@@ -121,7 +121,7 @@ Rule check(const Pose& pose) {
 
 Rule check(const std::optional<double>& aspect_ratio, const DepthRange& depth) {
   if (aspect_ratio) {
-    if (const Rule rule = positive("aspect_ratio", *aspect_ratio)) return rule;
+    if (Rule rule = positive("aspect_ratio", *aspect_ratio)) return rule;
   }
   if (!(depth.near >= 0 && is_finite(depth.near))) {
     return broken("near",
@@ -132,7 +132,7 @@ Rule check(const std::optional<double>& aspect_ratio, const DepthRange& depth) {
 }
 
 Rule check(const PerspectiveCamera& camera) {
-  if (const Rule rule = check(camera.pose)) return rule;
+  if (Rule rule = check(camera.pose)) return rule;
   if (!(camera.vertical_fov > 0 && camera.vertical_fov < std::numbers::pi)) {
     const double degrees = camera.vertical_fov * (180 / std::numbers::pi);
     return broken("vertical_fov",

@@ -158,7 +158,7 @@ class Splitter {
     const float a = half_extent(left)[longest_axis(left)],
                 b = half_extent(right)[longest_axis(right)];
     const auto to_left =
-        static_cast<std::size_t>(static_cast<float>(times - 1) * (a / (a + b)) + 0.5F);
+        static_cast<std::size_t>(std::floor(static_cast<float>(times - 1) * (a / (a + b)) + 0.5F));
     split(t, place, to_left);
     split(t, added, times - 1 - to_left);
   }

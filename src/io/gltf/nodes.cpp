@@ -175,8 +175,8 @@ std::string NodeTree::path(std::size_t node) const {
   for (int parent = parents_[node]; parent >= 0;
        parent = parents_[static_cast<std::size_t>(parent)]) {
     const std::string above = name(static_cast<std::size_t>(parent));
-    if (above.size() + 1 + result.size() > longest_path) return ".../" + result;
-    result = above + "/" + result;
+    if (above.size() + 1 + result.size() > longest_path) return result.insert(0, ".../");
+    result.insert(0, "/").insert(0, above);
   }
   return result;
 }

@@ -53,7 +53,7 @@ constexpr std::array<std::uint8_t, srgb_bin_count> make_srgb_bins() {
   std::array<std::uint8_t, srgb_bin_count> bins{};
   std::size_t code = 0;
   for (std::uint32_t bin = 0; bin < bins.size(); ++bin) {
-    const float start = std::bit_cast<float>((srgb_first_bin + bin) << 16);
+    const auto start = std::bit_cast<float>((srgb_first_bin + bin) << 16);
     while (code < 255 && start >= srgb_thresholds[code]) ++code;
     bins[bin] = static_cast<std::uint8_t>(code);
   }

@@ -100,8 +100,8 @@ std::vector<JsonReader> read_filled_array(const JsonReader& json) {
 void read_cameras(const JsonReader& json, Scene& scene) {
   Names names;
   for (const JsonReader& item : read_filled_array(json)) {
-    Camera camera = read_camera(item);
-    scene.cameras.push_back({.name = names.read(item), .camera = std::move(camera)});
+    const Camera camera = read_camera(item);
+    scene.cameras.push_back({.name = names.read(item), .camera = camera});
   }
 }
 
