@@ -36,7 +36,7 @@ struct DepthRange {
 /// Central projection with square pixels onto the plane at distance focus. docs/derivations.md
 /// derives its rays.
 struct PerspectiveCamera {
-  Pose pose;
+  Pose pose{};
   double vertical_fov = 1;  ///< full opening angle, radians, in (0, pi)
   double focus = 1;         ///< distance of the image plane; cancels out of every ray
   /// If set, a window of this width / height is fitted whole into the picture, as glTF cameras ask.
@@ -47,7 +47,7 @@ struct PerspectiveCamera {
 
 /// Parallel projection with square pixels.
 struct OrthographicCamera {
-  Pose pose;
+  Pose pose{};
   double height = 2;                     ///< of the picture, in world units
   std::optional<double> aspect_ratio{};  ///< as in PerspectiveCamera
   DepthRange depth{};
@@ -56,7 +56,7 @@ struct OrthographicCamera {
 /// The whole sphere of directions: longitude across, latitude down, the viewing direction in the
 /// middle.
 struct EnvironmentCamera {
-  Pose pose;
+  Pose pose{};
 };
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera, EnvironmentCamera>;

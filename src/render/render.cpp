@@ -33,7 +33,8 @@ Film make_film(ImageSize size) {
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
   const FloatEnvironment environment;  // new threads inherit it
-  const Bvh bvh(scene);
+  const unsigned threads = options.threads != 0 ? options.threads : default_threads();
+  const Bvh bvh(scene, {.threads = threads});
   const RayGenerator ray_through(camera, size);
   // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next float32.
   const float t_min = std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity());
@@ -57,7 +58,6 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
       }
     }
   };
-  const unsigned threads = options.threads != 0 ? options.threads : default_threads();
   for_each_tile(size, threads, draw, options.progress);
   return film;
 }
