@@ -15,7 +15,7 @@ namespace microtrace {
 
 struct BvhOptions {
   bool fast_build = false;  ///< a tree that is made sooner and traced slower, for previews
-  unsigned threads = 0;     ///< for the build; 0: one for each processor that this process may use
+  unsigned threads = 0;     ///< for the build; 0: default_threads()
 };
 
 /// Immutable; any number of threads may use one at a time.

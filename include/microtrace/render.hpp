@@ -10,7 +10,7 @@
 namespace microtrace {
 
 struct RenderOptions {
-  unsigned threads = 0;  ///< 0: one for each processor that this process may use
+  unsigned threads = 0;  ///< 0: default_threads()
   /// Told the share of the picture that is done, in (0, 1]; by one thread at a time, not always the
   /// caller's.
   std::function<void(double)> progress{};
@@ -21,8 +21,5 @@ struct RenderOptions {
 /// where memory or primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});
-
-/// How many threads RenderOptions::threads = 0 means here.
-[[nodiscard]] unsigned default_threads();
 
 }  // namespace microtrace

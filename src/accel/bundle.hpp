@@ -18,14 +18,11 @@ namespace microtrace {
 class Bundle {
  private:
   [[nodiscard]] auto root_on(const Ray& ray) const {
-    return [this, &ray](PrimitiveId id) {
-      return primitives_->visit(id,
-                                [&](const auto& shape) { return exact::first_hit(shape, ray); });
-    };
+    return [this, &ray](PrimitiveId id) { return exact_root(*primitives_, id, ray); };
   }
 
  public:
-  static constexpr std::size_t kCapacity = 64;
+  static constexpr std::size_t kCapacity = kTileRays;
 
   /// rays: 1 to kCapacity valid rays with equal origins; they and the primitives must outlive the
   /// bundle.

@@ -174,7 +174,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
     const bool is_tile = done >= kLeastTile && impl_->intersect_tile(rays.first(done), hits);
     if (!is_tile) {
       done = impl_->has_tree ? unrelated_length(rays) : 1;
-      const auto ask_one = [&](std::size_t i) { hits[i] = intersect(rays[i]); };
+      const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };
       if (done >= kLeastStream) {
         if (!stream) stream = impl_->make_stream();
         stream->closest(rays.first(done), hits.first(done), ask_one);
@@ -190,7 +190,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
 void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results) const {
   const FloatEnvironment environment;
   assert(rays.size() == results.size());
-  const auto ask_one = [&](std::size_t i) { results[i] = occluded(rays[i]); };
+  const auto ask_one = [&](std::size_t i) { results[i] = impl_->occluded(rays[i]); };
   if (!impl_->has_tree || rays.size() < kLeastStream) {
     for (std::size_t i = 0; i < rays.size(); ++i) ask_one(i);
     return;

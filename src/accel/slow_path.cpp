@@ -30,6 +30,11 @@ Best best_of(const ClosestHit& closest, const Ray& ray) {
   return found ? outwards(found->lo, found->hi, found->id) : no_hit(ray);
 }
 
+std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
+                                      const Ray& ray) {
+  return primitives.visit(id, [&](const auto& shape) { return exact::first_hit(shape, ray); });
+}
+
 Judge::Judge(const Primitives& primitives, const Ray& ray)
     : primitives_(&primitives),
       ray_(&ray),
@@ -68,7 +73,7 @@ SlowPath Judge::slow_path() {
 }
 
 void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
-  const auto root_of = [this](PrimitiveId which) { return root(which); };
+  const auto root_of = [this](PrimitiveId which) { return exact_root(*primitives_, which, *ray_); };
   primitives_->visit(id, [&](const auto& shape) {
     Verdict verdict{.certainty = Certainty::unsure};
     if (filterable_ && is_filterable(shape)) {
@@ -76,11 +81,6 @@ void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
     }
     closest.consider(id, verdict, root_of);
   });
-}
-
-std::optional<exact::Root> Judge::root(std::uint32_t id) const {
-  return primitives_->visit(id,
-                            [this](const auto& shape) { return exact::first_hit(shape, *ray_); });
 }
 
 }  // namespace microtrace

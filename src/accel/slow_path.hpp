@@ -20,6 +20,10 @@ namespace microtrace {
 [[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
 [[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray);
 
+/// Where primitive id is hit, decided exactly.
+[[nodiscard]] std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
+                                                    const Ray& ray);
+
 /// One ray's questions to primitives, by number.
 class Judge {
  public:
@@ -38,7 +42,6 @@ class Judge {
  private:
   void consider(std::uint32_t id, ClosestHit& closest) const;
   [[nodiscard]] Range range() const { return {.t_min = ray_->t_min, .t_max = ray_->t_max}; }
-  [[nodiscard]] std::optional<exact::Root> root(std::uint32_t id) const;
 
   const Primitives* primitives_;
   const Ray* ray_;

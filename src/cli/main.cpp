@@ -3,6 +3,7 @@
 #include "cli/statistics.hpp"
 
 #include <microtrace/render.hpp>
+#include <microtrace/threads.hpp>
 
 #include <csignal>
 #include <cstdio>

@@ -4,6 +4,7 @@
 #include <microtrace/bvh.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <array>
@@ -11,9 +12,7 @@
 #include <limits>
 #include <new>
 #include <optional>
-#include <sched.h>
 #include <span>
-#include <thread>
 
 namespace microtrace {
 namespace {
@@ -60,14 +59,6 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   };
   for_each_tile(size, threads, draw, options.progress);
   return film;
-}
-
-unsigned default_threads() {
-  // hardware_concurrency() would count processors that a container or taskset keeps from us.
-  cpu_set_t allowed;
-  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
-    return static_cast<unsigned>(std::max(1, CPU_COUNT(&allowed)));
-  return std::max(1U, std::thread::hardware_concurrency());
 }
 
 }  // namespace microtrace

@@ -14,7 +14,7 @@ namespace microtrace {
 
 struct BuildOptions {
   bool fast = false;     ///< a quick build for previews: fewer candidates are looked at
-  unsigned threads = 0;  ///< 0: as many as the machine runs at once. The tree is the same for any.
+  unsigned threads = 0;  ///< 0: default_threads(). The tree is the same for any number.
 };
 
 /// World space, closed; empty if lo > hi.

@@ -1,11 +1,13 @@
 #include "accel/build/worker_pool.hpp"
 
+#include <microtrace/threads.hpp>
+
 #include <algorithm>
 
 namespace microtrace::build {
 
 WorkerPool::WorkerPool(unsigned threads) {
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  if (threads == 0) threads = default_threads();
   for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
 }
 

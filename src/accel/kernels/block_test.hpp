@@ -20,9 +20,9 @@ struct Interval {
 };
 
 /// Around height / size, where size is above 16 times its error.
-template <class F, class G>
-inline Interval<F> interval(const F& height, const F& size, const F& height_error,
-                            const G& size_error) {
+template <class F, class G, class H>
+inline Interval<F> interval(const F& height, const F& size, const G& height_error,
+                            const H& size_error) {
   const F t = height / size, distance = t < F{} ? -t : t;
   const F radius = (height_error + distance * size_error) * 1.08F / size + distance * (8 * kUnit);
   return {t - radius, t + radius};

@@ -110,9 +110,9 @@ struct StreamSlowPath {
   void (*consider)(void* context, int ray, std::uint32_t id, Best& best);
 };
 
-inline constexpr int kHitBatch = 64;
+inline constexpr int kHitBatch = kTileRays;
 
-/// Hits of triangles, an array for each coordinate. Places without a hit may hold anything finite.
+/// Hits of triangles, an array for each coordinate. Places without a hit may hold anything.
 struct alignas(64) HitBatch {
   float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< corners
   const float *o[3], *d[3];                                 ///< of kHitBatch rays that suit kernels

@@ -236,10 +236,7 @@ class TileWalk {
     maybe &= less_equal<N>(size * t_begin - height, t_begin * size_error + view.height_error[k]);
     if (maybe == 0) return;
 
-    const F t = height / size, distance = magnitude(t);
-    const F radius =
-        (distance * size_error + view.height_error[k]) * 1.08F / size + distance * (8 * kUnit);
-    const F lo = t - radius, hi = t + radius;
+    const auto [lo, hi] = interval(height, size, view.height_error[k], size_error);
     const Lanes certain =
         maybe & less<N>(all<N>(view.error[k]), within) & less<N>(all<N>(16 * size_error), size);
     const Lanes nearer =
