@@ -6,7 +6,8 @@
 #include <microtrace/scene.hpp>
 
 #include <filesystem>
-#include <istream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,15 +19,45 @@ struct LoadedScene {
   std::vector<Diagnostic> warnings;  ///< oddities survived and features not honoured, in file order
 };
 
+/// How a scene file is read.
+struct LoadOptions {
+  /// Seconds since the start of an animation of a glTF asset, clamped to where it is defined;
+  /// nothing: the pose that the file gives without any animation.
+  std::optional<double> time{};
+  /// The animation that `time` is of: its name, else its index from 0; "all": all together, where
+  /// none has that name; empty: the first.
+  std::string animation{};
+};
+
 /// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
 /// other endings. "-" is standard input; files that its scene names are sought in the current
 /// folder. Throws Error.
-[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path);
+[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path,
+                                     const LoadOptions& options = {});
 
 /// The same from memory; `name` stands in messages, files named in the scene are sought in
 /// `folder`. Throws Error.
 [[nodiscard]] LoadedScene parse_scene(std::string_view bytes, const std::string& name,
-                                      const std::filesystem::path& folder);
+                                      const std::filesystem::path& folder,
+                                      const LoadOptions& options = {});
+
+/// A scene file that is read and checked once, to be posed at many times. What a JSON scene's
+/// meshes are made of is read anew for each.
+class SceneFile {
+ public:
+  /// Reads as load_scene does; the options' time plays no part. Throws Error.
+  explicit SceneFile(const std::filesystem::path& path, LoadOptions options = {});
+  ~SceneFile();
+  SceneFile(SceneFile&& other) noexcept;
+  SceneFile& operator=(SceneFile&& other) noexcept;
+
+  /// The scene at that time, as load_scene would read it. Throws Error.
+  [[nodiscard]] LoadedScene at(std::optional<double> time) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <unistd.h>
+#include <utility>
+#include <variant>
 
 namespace microtrace {
 namespace {
@@ -32,9 +34,45 @@ void require_start_of_json(std::string_view first, const std::string& name) {
   if (!may_go_on) const io::JsonDocument document(first, name);
 }
 
+using Reader = std::variant<io::JsonDocument, io::GltfFile>;
+
+/// `ending` is the file's in lower case: what it does not tell, the content does.
+Reader open(std::string_view bytes, const std::string& ending, const std::string& name,
+            const std::filesystem::path& folder, const LoadOptions& options) {
+  if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(glb_magic)) {
+    return io::GltfFile(bytes, name, folder, options);
+  }
+  io::JsonDocument document(bytes, name);
+  // Every glTF asset has the member "asset", and no scene of our own has.
+  if (ending != ".json" && document.root().find("asset") != nullptr) {
+    return io::GltfFile(bytes, name, folder, options);
+  }
+  return document;
+}
+
+LoadedScene read(const Reader& reader, const std::filesystem::path& folder,
+                 const LoadOptions& options) {
+  if (const auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
+  return io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
+}
+
 }  // namespace
 
-LoadedScene load_scene(const std::filesystem::path& path) {
+struct SceneFile::Content {
+  Content(std::string read_bytes, const std::filesystem::path& path, const std::string& name,
+          LoadOptions wanted)
+      : bytes(std::move(read_bytes)),
+        folder(path.parent_path()),
+        options(std::move(wanted)),
+        reader(open(bytes, lower_case_ending(path), name, folder, options)) {}
+
+  std::string bytes;
+  std::filesystem::path folder;
+  LoadOptions options;
+  Reader reader;
+};
+
+SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const FloatEnvironment environment;
   const bool standard_input = path == "-";
   const std::string ending = lower_case_ending(path);
@@ -42,23 +80,30 @@ LoadedScene load_scene(const std::filesystem::path& path) {
   const auto inspect = [&](std::string_view first) {
     if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
   };
-  const std::string bytes =
-      standard_input ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
-                     : io::read_file(path, io::max_file_size, inspect);
-  const std::filesystem::path folder = path.parent_path();
-  if (ending == ".gltf" || ending == ".glb") return io::load_gltf(bytes, name, folder);
-  if (ending == ".json") return io::read_json_scene(io::JsonDocument(bytes, name), folder);
-  return parse_scene(bytes, name, folder);
+  std::string bytes = standard_input
+                          ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
+                          : io::read_file(path, io::max_file_size, inspect);
+  content_ = std::make_unique<Content>(std::move(bytes), path, name, std::move(options));
+}
+SceneFile::~SceneFile() = default;
+SceneFile::SceneFile(SceneFile&& other) noexcept = default;
+SceneFile& SceneFile::operator=(SceneFile&& other) noexcept = default;
+
+LoadedScene SceneFile::at(std::optional<double> time) const {
+  const FloatEnvironment environment;
+  LoadOptions options = content_->options;
+  options.time = time;
+  return read(content_->reader, content_->folder, options);
+}
+
+LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
+  return SceneFile(path, options).at(options.time);
 }
 
 LoadedScene parse_scene(std::string_view bytes, const std::string& name,
-                        const std::filesystem::path& folder) {
+                        const std::filesystem::path& folder, const LoadOptions& options) {
   const FloatEnvironment environment;
-  if (bytes.starts_with(glb_magic)) return io::load_gltf(bytes, name, folder);
-  const io::JsonDocument document(bytes, name);
-  // Every glTF asset has the member "asset", and no scene of our own has.
-  if (document.root().find("asset") != nullptr) return io::load_gltf(bytes, name, folder);
-  return io::read_json_scene(document, folder);
+  return read(open(bytes, "", name, folder, options), folder, options);
 }
 
 }  // namespace microtrace

@@ -135,11 +135,11 @@ DMat4 NodeTree::local(std::size_t index) {
   return translation_of(node.translation) * rotation * scale_of(node.scale);
 }
 
-std::vector<PlacedNode> NodeTree::place(const DMat4& world_from_asset) const {
+std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset) const {
   std::vector<std::size_t> first;
   if (model_.scenes.empty()) {
     if (!model_.nodes.empty()) {
-      asset_.warn(asset_.root(), "the asset has no scene; all its nodes are drawn");
+      asset.warn(asset.root(), "the asset has no scene; all its nodes are drawn");
     }
     first = roots();
   } else {

@@ -30,7 +30,7 @@ class NodeTree {
 
   /// The nodes of the default scene, else of the first one, else all: parents before children,
   /// children in their order.
-  [[nodiscard]] std::vector<PlacedNode> place(const DMat4& world_from_asset) const;
+  [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset) const;
 
   /// The names of the node and those above it, with slashes between; at most 256 bytes, of which
   /// the last are kept. A node without name is called node0 by its index.

@@ -120,46 +120,11 @@ class SceneMaker {
   gltf::UniqueNames names_;
 };
 
-LoadedScene load(Asset& asset, const gltf::Container& container,
-                 const std::filesystem::path& folder, const DMat4& world_from_asset) {
-  gltf::check_requirements(asset);
-  gltf::check_schema(asset);
-  gltf::check_consistency(asset);
-  const tinygltf::Model model = gltf::parse_model(asset);
-  gltf::check_accessors(asset, model);
-  const NodeTree tree(asset, model);
-  const std::vector<gltf::Buffer> buffers = gltf::load_buffers(asset, container.bin, folder);
-  const auto surfaces = gltf::make_surfaces(asset, model, buffers);
-  gltf::warn_of_ignored_features(asset);
-
-  const std::vector<PlacedNode> nodes = tree.place(world_from_asset);
-  SceneMaker maker(asset, model, tree, surfaces);
-  maker.check_size(nodes);
-  for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
-  LoadedScene result;
-  if (container.extra_bytes != 0) {
-    asset.warn(asset.root(), std::to_string(container.extra_bytes) +
-                                 " bytes after the end of the GLB file are ignored");
-  }
-  result.scene.objects = maker.take();
-  result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
-  if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
-  if (result.scene.cameras.empty()) {
-    result.scene.cameras.push_back({.name = "framed", .camera = gltf::frame(result.scene.objects)});
-  }
-  result.warnings = asset.warnings();
-  return result;
-}
-
-}  // namespace
-
-LoadedScene load_gltf(std::string_view bytes, const std::string& name,
-                      const std::filesystem::path& folder, const DMat4& world_from_asset) {
+/// Runs a part of the reading; whatever it throws becomes an Error.
+template <typename Part>
+auto guarded(const std::string& name, Part&& part) {
   try {
-    const gltf::Container container = gltf::open_container(bytes, name);
-    const JsonDocument json(container.json, container.is_glb ? name + " (JSON chunk)" : name);
-    Asset asset(json);
-    return load(asset, container, folder, world_from_asset);
+    return part();
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -167,6 +132,80 @@ LoadedScene load_gltf(std::string_view bytes, const std::string& name,
   } catch (const std::exception& error) {
     throw Error(ErrorKind::internal, name, std::string("reading glTF failed: ") + error.what());
   }
+}
+
+}  // namespace
+
+/// Everything but poses, in the order in which it is read and checked.
+struct GltfFile::Content {
+  Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder)
+      : name(file_name),
+        container(gltf::open_container(bytes, name)),
+        json(container.json, container.is_glb ? name + " (JSON chunk)" : name),
+        asset(json),
+        model(checked_model()),
+        tree(asset, model),
+        buffers(gltf::load_buffers(asset, container.bin, folder)),
+        surfaces(gltf::make_surfaces(asset, model, buffers)) {
+    gltf::warn_of_ignored_features(asset);
+    if (container.extra_bytes != 0) {
+      asset.warn(asset.root(), std::to_string(container.extra_bytes) +
+                                   " bytes after the end of the GLB file are ignored");
+    }
+  }
+
+  tinygltf::Model checked_model() {
+    gltf::check_requirements(asset);
+    gltf::check_schema(asset);
+    gltf::check_consistency(asset);
+    tinygltf::Model result = gltf::parse_model(asset);
+    gltf::check_accessors(asset, result);
+    return result;
+  }
+
+  std::string name;
+  gltf::Container container;
+  JsonDocument json;
+  Asset asset;
+  tinygltf::Model model;
+  NodeTree tree;
+  std::vector<gltf::Buffer> buffers;
+  std::vector<std::vector<Surface>> surfaces;
+};
+
+GltfFile::GltfFile(std::string_view bytes, const std::string& name,
+                   const std::filesystem::path& folder, const LoadOptions&)
+    : content_(guarded(name, [&] { return std::make_unique<Content>(bytes, name, folder); })) {}
+GltfFile::~GltfFile() = default;
+GltfFile::GltfFile(GltfFile&& other) noexcept = default;
+GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
+
+LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) const {
+  return guarded(content_->name, [&] {
+    Asset asset = content_->asset;  // each pose adds warnings of its own
+    const tinygltf::Model& model = content_->model;
+    const NodeTree& tree = content_->tree;
+    const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset);
+    SceneMaker maker(asset, model, tree, content_->surfaces);
+    maker.check_size(nodes);
+    for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
+    LoadedScene result;
+    result.scene.objects = maker.take();
+    result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
+    if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
+    if (result.scene.cameras.empty()) {
+      result.scene.cameras.push_back(
+          {.name = "framed", .camera = gltf::frame(result.scene.objects)});
+    }
+    result.warnings = asset.warnings();
+    return result;
+  });
+}
+
+LoadedScene load_gltf(std::string_view bytes, const std::string& name,
+                      const std::filesystem::path& folder, const DMat4& world_from_asset,
+                      const LoadOptions& options) {
+  return GltfFile(bytes, name, folder, options).at(options.time, world_from_asset);
 }
 
 }  // namespace microtrace::io

@@ -6,18 +6,40 @@
 #include <microtrace/math.hpp>
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace microtrace::io {
 
-/// Reads one asset: the bytes of a .gltf or .glb file, told apart by their first four. `name`
-/// stands in messages; external buffers are sought in `folder` and nowhere above it. Node
-/// transforms are composed in float64, `world_from_asset` (affine) first, and each vertex is
-/// rounded once to float32. Throws Error: invalid_scene, unsupported (a required extension, another
-/// version), io (a buffer's file), limit.
+/// One asset, read and checked, to be posed at any number of times.
+class GltfFile {
+ public:
+  /// Reads the bytes of a .gltf or .glb file, told apart by their first four; they must outlive it.
+  /// `name` stands in messages; external buffers are sought in `folder` and nowhere above it.
+  /// Throws Error: invalid_scene, unsupported (a required extension, another version), io (a
+  /// buffer's file), limit, usage (an animation that is not there).
+  GltfFile(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
+           const LoadOptions& options = {});
+  ~GltfFile();
+  GltfFile(GltfFile&& other) noexcept;
+  GltfFile& operator=(GltfFile&& other) noexcept;
+
+  /// The scene at a time, as LoadOptions says. Node transforms are composed in float64,
+  /// `world_from_asset` (affine) first, and each vertex is rounded once to float32. Throws Error.
+  [[nodiscard]] LoadedScene at(std::optional<double> time,
+                               const DMat4& world_from_asset = DMat4(1)) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
+};
+
+/// Reads one asset and poses it at options.time, as GltfFile does.
 [[nodiscard]] LoadedScene load_gltf(std::string_view bytes, const std::string& name,
                                     const std::filesystem::path& folder,
-                                    const DMat4& world_from_asset = DMat4(1));
+                                    const DMat4& world_from_asset = DMat4(1),
+                                    const LoadOptions& options = {});
 
 }  // namespace microtrace::io

@@ -96,14 +96,15 @@ DMat4 read_transform(const JsonReader& json) {
   return out;
 }
 
-LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folder) {
+LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folder,
+                      const LoadOptions& options) {
   json.require_object({"name", "type", "color", "file", "transform"});
   const JsonReader file = json.member("file");
   const std::filesystem::path path = folder / read_relative_path(file);
   const auto transform = json.find("transform");
   const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
   const std::string bytes = read_mesh_file(file, path);
-  return load_gltf(bytes, printable(path.string()), path.parent_path(), world_from_asset);
+  return load_gltf(bytes, printable(path.string()), path.parent_path(), world_from_asset, options);
 }
 
 }  // namespace microtrace::io

@@ -112,8 +112,8 @@ bool is_mesh(const JsonReader& json) {
 }
 
 void add_mesh(const JsonReader& json, const std::string& name, std::optional<Vec3> color,
-              const std::filesystem::path& folder, LoadedScene& out) {
-  LoadedScene mesh = read_mesh(json, folder);
+              const std::filesystem::path& folder, const LoadOptions& options, LoadedScene& out) {
+  LoadedScene mesh = read_mesh(json, folder, options);
   for (Object& object : mesh.scene.objects) {
     object.name = std::string(name).append("/").append(object.name);
     if (color) object.color = *color;
@@ -123,14 +123,14 @@ void add_mesh(const JsonReader& json, const std::string& name, std::optional<Vec
 }
 
 void read_objects(const JsonReader& json, const Colors& colors, const std::filesystem::path& folder,
-                  LoadedScene& out) {
+                  const LoadOptions& options, LoadedScene& out) {
   Names names;
   for (const JsonReader& item : read_filled_array(json)) {
     if (is_mesh(item)) {
       const std::string name = names.read(item);
       const auto color = item.find("color");
       add_mesh(item, name, color ? std::optional(read_color(*color, colors)) : std::nullopt, folder,
-               out);
+               options, out);
       continue;
     }
     Object object;
@@ -143,7 +143,8 @@ void read_objects(const JsonReader& json, const Colors& colors, const std::files
 
 }  // namespace
 
-LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem::path& folder) {
+LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem::path& folder,
+                            const LoadOptions& options) {
   const JsonReader root(document);
   root.require_object();
   require_version(root.member("version"));
@@ -157,7 +158,7 @@ LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem:
   if (const auto color = root.find("background")) out.scene.background = read_color(*color, colors);
   if (const auto epsilon = root.find("epsilon")) out.scene.epsilon = read_epsilon(*epsilon);
   read_cameras(root.member("cameras"), out.scene);
-  read_objects(root.member("objects"), colors, folder, out);
+  read_objects(root.member("objects"), colors, folder, options, out);
   return out;
 }
 

@@ -9,9 +9,11 @@
 
 namespace microtrace::io {
 
-/// Reads a scene; mesh files are sought in `folder` and nowhere above it. Throws Error with the
+/// Reads a scene; mesh files are sought in `folder` and nowhere above it, and posed as
+/// the options say. Throws Error with the
 /// place of the first thing that is wrong.
 [[nodiscard]] LoadedScene read_json_scene(const JsonDocument& document,
-                                          const std::filesystem::path& folder);
+                                          const std::filesystem::path& folder,
+                                          const LoadOptions& options = {});
 
 }  // namespace microtrace::io
