@@ -35,6 +35,13 @@ class Bvh {
   /// Nothing if the ray hits nothing or is not valid (see Ray).
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
 
+  /// The hit that follows `after` in the order (t, PrimitiveId) of the ray's hits: by repeating it
+  /// all are found, nearest first, none lost where several lie at one t. Each primitive counts with
+  /// its one first hit in [t_min, t_max]; so a sphere comes once.
+  /// Of `after` only the number is used: t is found anew, exactly. Nothing follows a primitive that
+  /// the ray does not hit.
+  [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
+
   /// Whether intersect(ray) would find something; sooner.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 

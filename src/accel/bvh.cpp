@@ -32,6 +32,7 @@ struct Bvh::Impl {
   }
 
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
+  [[nodiscard]] std::optional<Hit> next(const Ray& ray, PrimitiveId after) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
   /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
@@ -105,6 +106,23 @@ std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
   return judge.hit(best.id);
 }
 
+std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
+  if (!exact::is_valid(ray) || after >= primitives.count()) return std::nullopt;
+  const KnownHit known(primitives, ray, after);
+  if (!known.exists()) return std::nullopt;
+  Judge judge(primitives, ray, &known);
+  Best best = no_hit(ray);
+  if (suits_kernels(ray)) {
+    for (const PrimitiveId id : outside) judge.consider(id, best);
+    if (has_tree)
+      kernels->closest(view(), kernel_ray_from(ray, known.bounds()), judge.slow_path(), best);
+  } else {
+    for (PrimitiveId id = 0; id < primitives.count(); ++id) judge.consider(id, best);
+  }
+  if (best.id == kNoPrimitive) return std::nullopt;
+  return judge.hit(best.id);
+}
+
 bool Bvh::Impl::occluded(const Ray& ray) const {
   if (!suits_kernels(ray)) return ask_all(primitives, ray).has_value();
   Judge judge(primitives, ray);
@@ -157,6 +175,11 @@ std::size_t Bvh::memory() const {
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
   const FloatEnvironment environment;
   return impl_->intersect(ray);
+}
+
+std::optional<Hit> Bvh::next(const Ray& ray, const Hit& after) const {
+  const FloatEnvironment environment;
+  return impl_->next(ray, after.id);
 }
 
 bool Bvh::occluded(const Ray& ray) const {

@@ -1,5 +1,7 @@
 #include "accel/kernel_rays.hpp"
 
+#include "accel/slow_path.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,6 +31,16 @@ KernelRay kernel_ray(const Ray& ray) {
   }
   k.t_min = ray.t_min;
   k.t_max = ray.t_max;
+  k.t_begin = ray.t_min < kLeastBegin ? 0 : ray.t_min;
+  return k;
+}
+
+KernelRay kernel_ray_from(const Ray& ray, const exact::Enclosure& begin) {
+  KernelRay k = kernel_ray(ray);
+  const Best bounds = outwards(begin.lo, begin.hi, 0);
+  k.t_min = std::nextafter(bounds.hi, std::numeric_limits<float>::infinity());
+  const float least = std::min(bounds.lo, kFarthestCoordinate);
+  k.t_begin = std::max(k.t_begin, least < kLeastBegin ? 0 : least);
   return k;
 }
 

@@ -2,6 +2,7 @@
 /// Rays in the form that kernels take.
 
 #include "accel/kernels/kernel.hpp"
+#include "exact/root.hpp"
 
 #include <microtrace/ray.hpp>
 
@@ -14,6 +15,10 @@ namespace microtrace {
 
 /// The caller's part of a KernelRay, for a ray that does.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray);
+
+/// The same for a ray that looks for hits after a number of which only an enclosure is known: what
+/// could be on either side of it goes to the slow path.
+[[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, const exact::Enclosure& begin);
 
 /// Makes a tile without hits of 1 to kTileRays rays with one origin. False if not all of them suit
 /// kernels.

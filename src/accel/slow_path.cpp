@@ -35,9 +35,10 @@ std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId 
   return primitives.visit(id, [&](const auto& shape) { return exact::first_hit(shape, ray); });
 }
 
-Judge::Judge(const Primitives& primitives, const Ray& ray)
+Judge::Judge(const Primitives& primitives, const Ray& ray, const KnownHit* after)
     : primitives_(&primitives),
       ray_(&ray),
+      after_(after),
       filterable_(is_filterable(ray.o) && is_filterable(ray.d)) {}
 
 void Judge::consider(std::uint32_t id, Best& best) const {
@@ -74,13 +75,36 @@ SlowPath Judge::slow_path() {
 
 void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
   const auto root_of = [this](PrimitiveId which) { return exact_root(*primitives_, which, *ray_); };
-  primitives_->visit(id, [&](const auto& shape) {
-    Verdict verdict{.certainty = Certainty::unsure};
-    if (filterable_ && is_filterable(shape)) {
-      verdict = seen_from(ray_->o, shape)(DVec3(ray_->d), range());
-    }
-    closest.consider(id, verdict, root_of);
+  const Verdict verdict = this->verdict(id);
+  if (after_ == nullptr || after_->precedes(id, verdict)) closest.consider(id, verdict, root_of);
+}
+
+Verdict Judge::verdict(PrimitiveId id) const {
+  return primitives_->visit(id, [&](const auto& shape) {
+    if (!filterable_ || !is_filterable(shape)) return Verdict{.certainty = Certainty::unsure};
+    return seen_from(ray_->o, shape)(DVec3(ray_->d), range());
   });
+}
+
+KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id)
+    : primitives_(&primitives), ray_(&ray), id_(id) {
+  const Verdict verdict = Judge(primitives, ray).verdict(id);
+  exists_ = verdict.certainty == Certainty::hit;
+  bounds_ = {.lo = verdict.lo, .hi = verdict.hi};
+  if (verdict.certainty != Certainty::unsure) return;
+  const std::optional<exact::Root> root = exact_root(primitives, id, ray);
+  exists_ = root.has_value();
+  if (root) bounds_ = exact::enclose(*root);
+}
+
+bool KnownHit::precedes(PrimitiveId id, const Verdict& verdict) const {
+  if (id == id_) return false;
+  if (verdict.certainty == Certainty::miss || verdict.lo > bounds_.hi) return true;
+  if (verdict.certainty == Certainty::hit && verdict.hi < bounds_.lo) return false;
+  const std::optional<exact::Root> root = exact_root(*primitives_, id, *ray_);
+  if (!root) return true;
+  const auto order = *root <=> *exact_root(*primitives_, id_, *ray_);
+  return order > 0 || (order == 0 && id > id_);
 }
 
 }  // namespace microtrace

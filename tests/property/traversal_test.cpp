@@ -4,7 +4,7 @@
 
 #include "accel/bundle.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/adversarial_scenes.hpp"
 
 #include <microtrace/bvh.hpp>
 
@@ -20,7 +20,7 @@
 namespace microtrace {
 namespace {
 
-using adversarial::Random;
+using namespace adversarial;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -29,133 +29,6 @@ std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   Bundle bundle(primitives, std::span(&ray, 1));
   primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.meet(id, shape); });
   return bundle.hit(0);
-}
-
-Mesh mesh_of(int triangles, auto&& make_corner) {
-  Mesh mesh;
-  for (int i = 0; i < triangles; ++i) {
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const Vec3& corner : make_corner()) mesh.positions.push_back(corner);
-    mesh.triangles.push_back({first, first + 1, first + 2});
-  }
-  return mesh;
-}
-
-using Corners = std::array<Vec3, 3>;
-
-Mesh random_mesh(Random& random) {
-  const auto near = [&](const Vec3& c, float size) { return c + random.in_cube(size); };
-  switch (random.between(0, 6)) {
-    case 0: {  // a soup of small triangles
-      return mesh_of(random.between(1, 400), [&] {
-        const Vec3 c = random.in_cube(1);
-        return Corners{near(c, 0.1F), near(c, 0.1F), near(c, 0.1F)};
-      });
-    }
-    case 1:  // an integer lattice: shared corners, coplanar walls, duplicates, no area
-      return mesh_of(random.between(1, 400), [&] {
-        return Corners{random.on_grid(4), random.on_grid(4), random.on_grid(4)};
-      });
-    case 2:  // huge and tiny
-      return mesh_of(random.between(1, 300), [&] {
-        const Vec3 c = random.in_cube(1);
-        const float size = random.power_of_two(-20, 6);
-        return Corners{near(c, size), near(c, size), near(c, size)};
-      });
-    case 3: {  // far from the origin
-      const Vec3 c = random.in_cube(0x1p22F);
-      return mesh_of(random.between(1, 300), [&] {
-        return Corners{near(c, 4), near(c, 4), near(c, 4)};
-      });
-    }
-    case 4:  // slivers
-      return mesh_of(random.between(1, 300), [&] {
-        const Vec3 a = random.in_cube(1), b = random.in_cube(1);
-        return Corners{a, b, near((a + b) * 0.5F, random.power_of_two(-26, -6))};
-      });
-    case 5:  // walls through integer planes, split at whole numbers: rays along edges and within
-             // planes
-      return mesh_of(random.between(1, 300), [&] {
-        const int axis = random.between(0, 2);
-        Corners corners{random.on_grid(3), random.on_grid(3), random.on_grid(3)};
-        corners[1][axis] = corners[2][axis] = corners[0][axis];
-        return corners;
-      });
-    default:  // beyond what the kernels take, not finite
-      return mesh_of(random.between(1, 100), [&] {
-        const float size = random.power_of_two(-140, 60);
-        Corners corners{random.in_cube(size), random.in_cube(size), random.in_cube(size)};
-        if (random.one_in(10)) corners[0].x = random.one_in(2) ? NAN : kInfinity;
-        return corners;
-      });
-  }
-}
-
-Scene random_scene(Random& random) {
-  Scene scene;
-  const auto add = [&](Shape shape) {
-    scene.objects.push_back({.name = "", .shape = std::move(shape)});
-  };
-  add(random_mesh(random));
-  if (random.one_in(2)) add(random_mesh(random));
-  if (random.one_in(4)) add(scene.objects[0].shape);  // every hit of it is a tie
-  for (int i = random.between(-20, 20); i > 0; --i) {
-    add(Sphere{random.on_grid(4), float(random.between(0, 2))});
-    add(Disc{random.on_grid(4), random.on_grid(2), float(random.between(0, 2))});
-  }
-  if (random.one_in(4)) add(Plane{random.on_grid(4), random.on_grid(2)});
-  return scene;
-}
-
-// A corner, or a point of an edge or of the inside, of some triangle.
-Vec3 target(Random& random, const Scene& scene) {
-  const Object& object = scene.objects[static_cast<std::size_t>(
-      random.between(0, static_cast<int>(scene.objects.size()) - 1))];
-  const auto* mesh = std::get_if<Mesh>(&object.shape);
-  if (mesh == nullptr) return random.on_grid(4);
-  const int last = static_cast<int>(mesh->triangles.size()) - 1;
-  const Triangle t = triangle_of(*mesh, static_cast<std::size_t>(random.between(0, last)));
-  switch (random.between(0, 3)) {
-    case 0:
-      return t.a;
-    case 1:
-      return (t.a + t.b) * 0.5F;
-    case 2: {
-      const float s = float(random.unit());
-      return t.b + (t.c - t.b) * s;
-    }
-    default: {
-      const float u = float(random.unit()), v = float(random.unit()) * (1 - u);
-      return t.a + (t.b - t.a) * u + (t.c - t.a) * v;
-    }
-  }
-}
-
-Vec3 origin(Random& random, const Scene& scene) {
-  switch (random.between(0, 4)) {
-    case 0:
-      return target(random, scene);
-    case 1:
-      return random.on_grid(8);
-    case 2:
-      return target(random, scene) + random.in_cube(3);
-    case 3:
-      return random.in_cube(100);
-    default:
-      return random.in_cube(2);
-  }
-}
-
-Ray random_ray(Random& random, const Scene& scene, const Vec3& o) {
-  Ray ray{.o = o, .d = target(random, scene) - o};
-  if (random.one_in(6)) ray.d = random.on_grid(2);
-  if (random.one_in(6)) ray.d[random.between(0, 2)] = 0;
-  if (random.one_in(8)) ray.d *= random.power_of_two(-30, 30);
-  if (random.one_in(20)) ray.d[random.between(0, 2)] = random.any_float(-149, -100);
-  if (random.one_in(3)) ray.t_min = 0;
-  if (random.one_in(5)) ray.t_max = random.one_in(2) ? 1 : float(random.unit() * 4);
-  if (random.one_in(20)) ray.t_min = std::min(1.0F, ray.t_max);
-  return ray;
 }
 
 ::testing::AssertionResult same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
@@ -225,26 +98,6 @@ TEST_P(Traversal, TilesEqualAskingEveryPrimitive) {
       ASSERT_TRUE(same(hits[i], by_asking_all(bvh.primitives(), rays[i])))
           << "scene " << round << ", ray " << i;
   }
-}
-
-// Arrays of rays without a common origin; among them some that are not valid, too large for the
-// kernels, or share an origin with their neighbours.
-std::vector<Ray> unrelated_rays(Random& random, const Scene& scene, int count) {
-  std::vector<Ray> rays;
-  const bool near_each_other = random.one_in(3);
-  const Vec3 centre = origin(random, scene);
-  const float t_max = random.one_in(2) ? kInfinity : float(random.unit() * 2);
-  while (static_cast<int>(rays.size()) < count) {
-    const Vec3 o = near_each_other ? centre + random.in_cube(0.1F) : origin(random, scene);
-    Ray ray = random_ray(random, scene, o);
-    if (near_each_other) ray.t_max = std::max(ray.t_min, t_max);
-    if (random.one_in(60)) ray.d *= 0x1p60F;
-    if (random.one_in(60)) ray.d = Vec3(0);
-    if (random.one_in(60)) ray.o[random.between(0, 2)] = random.one_in(2) ? NAN : kInfinity;
-    if (random.one_in(60)) ray.t_min = -1;
-    rays.insert(rays.end(), static_cast<std::size_t>(random.one_in(40) ? 12 : 1), ray);
-  }
-  return rays;
 }
 
 TEST_P(Traversal, StreamsEqualAskingEveryPrimitive) {

@@ -36,13 +36,17 @@ inline constexpr float kFarthestCoordinate = 0x1p38F;  ///< every |o_i|, t_min, 
 inline constexpr float kLongestDirection = 0x1p20F;    ///< every |d_i|
 inline constexpr float kShortestDirection = 0x1p-20F;  ///< the largest |d_i|
 
+/// Most rays begin at the least number above 0, and processors calculate slowly with subnormal
+/// numbers: culling begins at 0 instead, which only culls less.
+inline constexpr float kLeastBegin = 0x1p-100F;
+
 /// A ray as kernels take it, within the limits.
 struct KernelRay {
   float o[3], d[3];
-  float t_min, t_max;
+  float t_min, t_max;  ///< hits that are not certainly from t_min on go to the slow path
+  float t_begin;       ///< hits certainly before it are left out; t_min, or 0 where that is tiny
   // ---- by the kernel:
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
-  float t_begin;                        ///< t_min, or 0 where that is tiny
   float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
   /// Where in a WideNode, counted in floats, the planes begin through which the ray enters and
   /// leaves boxes.

@@ -29,10 +29,6 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   far = d < zero ? -above : above;
 }
 
-/// Most rays begin at the least number above 0, and processors calculate slowly with subnormal
-/// numbers: culling begins at 0 instead, which only culls less.
-constexpr float kLeastBegin = 0x1p-100F;
-
 inline void find_planes(KernelRay& ray) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto lo = static_cast<std::uint32_t>(axis * kWidth), hi = lo + 3 * kWidth;
@@ -44,7 +40,6 @@ inline void find_planes(KernelRay& ray) {
 
 /// Fills the lower part of a ray.
 inline void prepare_ray(KernelRay& ray) {
-  ray.t_begin = ray.t_min < kLeastBegin ? 0 : ray.t_min;
   float d[4] = {ray.d[0], ray.d[1], ray.d[2], 0}, near[4], far[4];
   Float<4> near_factor, far_factor;
   slab_factors<4>(load<4>(d), near_factor, far_factor);
