@@ -4,13 +4,13 @@
 #include "io/gltf/asset.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
-#include "io/gltf/consistency.hpp"
+#include "io/gltf/check/consistency.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/framing.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
-#include "io/gltf/schema.hpp"
+#include "io/gltf/check/schema.hpp"
 #include "io/gltf/surfaces.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "io/gltf/consistency.hpp"
+#include "io/gltf/check/consistency.hpp"
 
 #include "io/gltf/uri.hpp"
 

@@ -1,4 +1,4 @@
-#include "io/gltf/schema.hpp"
+#include "io/gltf/check/schema.hpp"
 
 #include "io/json/excerpt.hpp"
 
