@@ -3,18 +3,23 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/material.hpp>
 #include <microtrace/shape.hpp>
+#include <microtrace/texture.hpp>
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace microtrace {
 
-/// Something to draw, in one constant colour.
+/// Something to draw, of one material.
 struct Object {
   std::string name;
   Shape shape;
-  Vec3 color{1};  ///< linear Rec. 709, each in [0, 1]
+  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
 };
 
 struct NamedCamera {
@@ -24,11 +29,17 @@ struct NamedCamera {
 
 struct Scene {
   std::vector<Object> objects;
-  std::vector<NamedCamera> cameras;  ///< at least one once loaded
-  ImageSize size;                    ///< of the picture, unless the caller wants another
-  Vec3 background{0};                ///< linear Rec. 709
-  float epsilon = 0;  ///< primary rays hit only in the open interval (epsilon, infinity)
+  std::vector<Material> materials;
+  std::vector<Texture> textures;
+  std::vector<std::shared_ptr<const Image>> images;  ///< null where one was not decoded
+  std::vector<NamedCamera> cameras;                  ///< at least one once loaded
+  ImageSize size;      ///< of the picture, unless the caller wants another
+  Vec3 background{0};  ///< linear Rec. 709
+  float epsilon = 0;   ///< primary rays hit only in the open interval (epsilon, infinity)
 };
+
+/// The object's material, which lives as long as the scene.
+[[nodiscard]] const Material& material_of(const Scene& scene, const Object& object);
 
 /// How many PrimitiveIds a shape takes.
 [[nodiscard]] std::size_t primitive_count(const Shape& shape);

@@ -46,11 +46,18 @@ struct Quadric {
   float a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0, j = 0;
 };
 
-/// Triangles that share corners.
+/// Triangles that share corners. What a vertex carries beside its position is there for all
+/// vertices, by their numbers, or for none: then the vector is empty.
 struct Mesh {
   std::vector<Vec3> positions;  ///< world space
-  std::vector<std::array<std::uint32_t, 3>>
-      triangles;  ///< indices into positions, each below its size
+  /// Indices into positions, each below its size. Seen from the front, corners go anticlockwise.
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec3> normals{};   ///< world space, on the front side; of unit length or zero
+  std::vector<Vec4> tangents{};  ///< world space, unit length; w = 1 or -1: bitangent = w (n x t)
+  /// Texture coordinates by the number of their set; a set may be empty. (0, 0) is the corner of an
+  /// image where its first pixel lies, v goes down.
+  std::vector<std::vector<Vec2>> uv_sets{};
+  std::vector<Vec4> colors{};  ///< linear Rec. 709 and alpha; a factor of the material's
 };
 
 using Shape = std::variant<Sphere, Plane, Disc, Triangle, Quadric, Mesh>;

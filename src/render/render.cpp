@@ -39,6 +39,10 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const float t_min = std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity());
   Film film = make_film(size);
 
+  const auto color_of = [&scene](const Object& object) {
+    return Vec3(material_of(scene, object).base_color);
+  };
+
   const auto draw = [&](const Tile& tile) {
     std::array<Ray, kTilePixels> rays;
     std::array<std::optional<Hit>, kTilePixels> hits;
@@ -53,7 +57,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
     const std::optional<Hit>* hit = hits.data();
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++hit) {
-        film.at(x, y) = *hit ? bvh.primitives().object((*hit)->id).color : scene.background;
+        film.at(x, y) = *hit ? color_of(bvh.primitives().object((*hit)->id)) : scene.background;
       }
     }
   };

@@ -92,7 +92,23 @@ Rule check(const Quadric& q) {
   return broken("coefficients", "at least one of a to i must not be zero");
 }
 
+/// What vertices carry beside their positions.
+Rule check_attributes(const Mesh& mesh) {
+  const auto fits = [&](const auto& values) {
+    return values.empty() || values.size() == mesh.positions.size();
+  };
+  const char* message = "must have as many elements as there are positions, or none";
+  if (!fits(mesh.normals)) return broken("normals", message);
+  if (!fits(mesh.tangents)) return broken("tangents", message);
+  if (!fits(mesh.colors)) return broken("colors", message);
+  for (const auto& set : mesh.uv_sets) {
+    if (!fits(set)) return broken("uv_sets", message);
+  }
+  return {};
+}
+
 Rule check(const Mesh& mesh) {
+  if (Rule rule = check_attributes(mesh)) return rule;
   for (const Vec3& position : mesh.positions) {
     if (Rule rule = finite("positions", position)) return rule;
   }

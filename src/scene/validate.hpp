@@ -25,7 +25,7 @@ struct BrokenRule {
 };
 
 /// All numbers finite; radius positive; normal not zero; at least one of a quadric's a to i not
-/// zero; a mesh's indices below the number of its positions.
+/// zero; a mesh's indices below the number of its positions, its attributes as many as these.
 [[nodiscard]] std::optional<BrokenRule> validate(const Shape& shape);
 
 /// Position, direction and up finite, direction and up not zero in float32; up off the line of

@@ -142,6 +142,10 @@ LoadedScene load(const AssetBuilder& asset) {
   return load(asset.embedded());
 }
 
+Vec4 color_of(const LoadedScene& loaded, std::size_t object) {
+  return material_of(loaded.scene, loaded.scene.objects.at(object)).base_color;
+}
+
 std::vector<std::array<Vec3, 3>> triangles_of(const Object& object) {
   const Mesh& mesh = std::get<Mesh>(object.shape);
   std::vector<std::array<Vec3, 3>> result;

@@ -60,6 +60,9 @@ inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 
+/// The base colour factor of an object's material.
+[[nodiscard]] Vec4 color_of(const LoadedScene& loaded, std::size_t object);
+
 /// The corners of an object's triangles, one after another.
 [[nodiscard]] std::vector<std::array<Vec3, 3>> triangles_of(const Object& object);
 

@@ -12,7 +12,7 @@ void expect_same_cube(const LoadedScene& loaded) {
   ASSERT_EQ(loaded.scene.objects.size(), 1U);
   const Object& object = loaded.scene.objects[0];
   EXPECT_EQ(object.name, "Cube/mesh0");
-  EXPECT_EQ(object.color, Vec3(1, 0.25F, 0.125F));
+  EXPECT_EQ(color_of(loaded, 0), Vec4(1, 0.25F, 0.125F, 1));
   EXPECT_EQ(triangles_of(object), triangles_of(load(cube()).scene.objects[0]));
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }

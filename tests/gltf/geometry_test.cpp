@@ -178,7 +178,7 @@ TEST(GltfGeometry, IntegersMayBeWrittenWithAPoint) {
 TEST(GltfGeometry, DefaultMaterialIsWhite) {
   AssetBuilder asset;
   asset.add_object({{"attributes", {{"POSITION", asset.add_positions(points(3))}}}});
-  EXPECT_EQ(load(asset).scene.objects[0].color, Vec3(1));
+  EXPECT_EQ(color_of(load(asset), 0), Vec4(1));
 }
 
 }  // namespace

@@ -134,8 +134,8 @@ TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
   ASSERT_EQ(loaded.scene.objects.size(), 2U);
   EXPECT_EQ(loaded.scene.objects[0].name, "node0/mesh0:0");
   EXPECT_EQ(loaded.scene.objects[1].name, "node0/mesh0:1");
-  EXPECT_EQ(loaded.scene.objects[0].color, Vec3(1));
-  EXPECT_EQ(loaded.scene.objects[1].color, Vec3(0, 1, 0));
+  EXPECT_EQ(color_of(loaded, 0), Vec4(1));
+  EXPECT_EQ(color_of(loaded, 1), Vec4(0, 1, 0, 0.5F));
 }
 
 TEST(GltfNode, TreesMayBeDeep) {

@@ -50,7 +50,7 @@ TEST(GltfSceneFile, CubeHasAColourOnEachSideOfEachAxis) {
   const LoadedScene loaded = load_file(scene("cube.glb"));
   EXPECT_EQ(triangle_count(loaded), 12U);
   ASSERT_EQ(loaded.scene.objects.size(), 3U);
-  EXPECT_NE(loaded.scene.objects[0].color, loaded.scene.objects[1].color);
+  EXPECT_NE(color_of(loaded, 0), color_of(loaded, 1));
   EXPECT_EQ(loaded.scene.cameras.at(0).name, "framed");
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }

@@ -74,7 +74,7 @@ TEST_F(MeshObject, IsPlacedNamedAndColored) {
     const Object& moved = scene.objects[half + i];
     EXPECT_THAT(plain.name, StartsWith("a/"));
     EXPECT_EQ(moved.name, "objects/1/" + plain.name.substr(2));
-    EXPECT_EQ(moved.color, Vec3(0, 0.5F, 1));
+    EXPECT_EQ(material_of(scene, moved).base_color, Vec4(0, 0.5F, 1, 1));
     const Mesh& a = std::get<Mesh>(plain.shape);
     const Mesh& b = std::get<Mesh>(moved.shape);
     ASSERT_EQ(a.positions.size(), b.positions.size());

@@ -38,7 +38,7 @@ TEST(JsonScene, FillsInEveryDefault) {
   EXPECT_TRUE(std::isinf(camera.depth.far));
   ASSERT_EQ(scene.objects.size(), 1U);
   EXPECT_EQ(scene.objects[0].name, "objects/0");
-  EXPECT_EQ(scene.objects[0].color, Vec3(1));
+  EXPECT_EQ(scene.objects[0].material, std::nullopt);
 }
 
 TEST(JsonScene, ReadsCameras) {
@@ -84,13 +84,13 @@ TEST(JsonScene, ReadsShapesInFileOrder) {
   EXPECT_EQ(disc.center, Vec3(1, 2, 3));
   EXPECT_EQ(disc.normal, Vec3(4, 5, 6));
   EXPECT_EQ(disc.radius, 7);
-  EXPECT_EQ(scene.objects[0].color, Vec3(1, 0, 0));
+  EXPECT_EQ(material_of(scene, scene.objects[0]).base_color, Vec4(1, 0, 0, 1));
   const auto& triangle = std::get<Triangle>(scene.objects[1].shape);
   EXPECT_EQ(scene.objects[1].name, "t");
   EXPECT_EQ(triangle.a, Vec3(1, 2, 3));
   EXPECT_EQ(triangle.b, Vec3(4, 5, 6));
   EXPECT_EQ(triangle.c, Vec3(7, 8, 9));
-  EXPECT_EQ(scene.objects[1].color, Vec3(0.5F, 0.25F, 1));
+  EXPECT_EQ(material_of(scene, scene.objects[1]).base_color, Vec4(0.5F, 0.25F, 1, 1));
   const auto& sphere = std::get<Sphere>(scene.objects[2].shape);
   EXPECT_EQ(sphere.center, Vec3(0.1F, 16777216.0F, 0));
   EXPECT_EQ(sphere.radius, 0.1F);

@@ -77,6 +77,17 @@ TEST(ValidateShape, QuadricVaries) {
   EXPECT_EQ(field(Quadric{.a = 1, .j = infinity}), "coefficients");
 }
 
+TEST(ValidateShape, MeshAttributesAreForAllVerticesOrNone) {
+  Mesh mesh{.positions = {Vec3(0), Vec3(1), Vec3(2)}, .triangles = {{0, 1, 2}}};
+  mesh.uv_sets = {{}, {Vec2(0), Vec2(0), Vec2(0)}};
+  EXPECT_EQ(field(mesh), "");
+  mesh.colors.resize(2);
+  EXPECT_EQ(field(mesh), "colors");
+  mesh.colors.resize(3);
+  mesh.uv_sets[0].resize(4);
+  EXPECT_EQ(field(mesh), "uv_sets");
+}
+
 TEST(ValidateShape, MeshIndicesExist) {
   Mesh mesh{.positions = {Vec3(0), Vec3(1), Vec3(2)}, .triangles = {{0, 1, 2}}};
   EXPECT_EQ(field(mesh), "");

@@ -16,9 +16,9 @@ Vec3 pixel(float epsilon, const PerspectiveCamera& camera = {}) {
   Scene scene;
   scene.background = kBackground;
   scene.epsilon = epsilon;
-  scene.objects.push_back(
-      {.name = "near", .shape = Disc{{0, 0, -4}, {0, 0, 1}, 1}, .color = kNear});
-  scene.objects.push_back({.name = "far", .shape = Disc{{0, 0, -6}, {0, 0, 1}, 1}, .color = kFar});
+  scene.materials = {{.base_color = Vec4(kNear, 1)}, {.base_color = Vec4(kFar, 1)}};
+  scene.objects.push_back({.name = "near", .shape = Disc{{0, 0, -4}, {0, 0, 1}, 1}, .material = 0});
+  scene.objects.push_back({.name = "far", .shape = Disc{{0, 0, -6}, {0, 0, 1}, 1}, .material = 1});
   return render(scene, camera, {.width = 1, .height = 1}, {.threads = 1}).row(0)[0];
 }
 

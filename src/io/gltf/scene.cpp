@@ -5,12 +5,13 @@
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
 #include "io/gltf/check/consistency.hpp"
+#include "io/gltf/check/schema.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/framing.hpp"
+#include "io/gltf/materials.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
-#include "io/gltf/check/schema.hpp"
 #include "io/gltf/surfaces.hpp"
 
 #include <algorithm>
@@ -25,14 +26,6 @@ namespace microtrace::io {
 namespace {
 
 using gltf::Asset, gltf::Element, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
-
-/// Base colour factors are linear and so is Object::color. No material means the default one.
-Vec3 color_of(const tinygltf::Model& model, int material) {
-  if (material < 0) return Vec3(1);
-  const auto& pbr = model.materials[static_cast<std::size_t>(material)].pbrMetallicRoughness;
-  const std::vector<double>& factor = pbr.baseColorFactor;
-  return Vec3(factor[0], factor[1], factor[2]);
-}
 
 /// The one rounding of geometry. A mirroring transform turns every triangle over, so that fronts
 /// stay fronts (glTF 2.0, section 3.7.4).
@@ -92,13 +85,19 @@ class SceneMaker {
       }
       objects_.push_back({.name = names_.make(name(placed, index, surface)),
                           .shape = std::move(world),
-                          .color = color_of(model_, surface.material)});
+                          .material = material(surface)});
     }
   }
 
   [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
 
  private:
+  /// make_materials puts the one of surfaces without material last.
+  [[nodiscard]] std::uint32_t material(const Surface& surface) const {
+    const std::size_t none = model_.materials.size();
+    return static_cast<std::uint32_t>(surface.material < 0 ? none : surface.material);
+  }
+
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const {
     return asset_.element("meshes", mesh).member("primitives").item(surface.number);
   }
@@ -191,6 +190,8 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
     result.scene.objects = maker.take();
+    result.scene.materials = gltf::make_materials(asset);
+    result.scene.textures = gltf::make_textures(asset);
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
     if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
     if (result.scene.cameras.empty()) {

@@ -5,8 +5,10 @@
 #include "io/scene_json/camera.hpp"
 #include "io/scene_json/mesh.hpp"
 #include "io/scene_json/shape.hpp"
+#include "scene/merge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <iterator>
 #include <map>
@@ -111,13 +113,39 @@ bool is_mesh(const JsonReader& json) {
   return type && type->value().kind == JsonValue::Kind::string && type->value().string == "mesh";
 }
 
-void add_mesh(const JsonReader& json, const std::string& name, std::optional<Vec3> color,
-              const std::filesystem::path& folder, const LoadOptions& options, LoadedScene& out) {
+/// One material for each colour.
+class Palette {
+ public:
+  Palette(const Colors& colors, Scene& scene) : colors_(colors), scene_(scene) {}
+
+  /// The material of the object's member "color", if it has one.
+  std::optional<std::uint32_t> read(const JsonReader& object) {
+    const auto json = object.find("color");
+    if (!json) return std::nullopt;
+    const Vec3 color = read_color(*json, colors_);
+    const auto next = static_cast<std::uint32_t>(scene_.materials.size());
+    const auto [known, is_new] = materials_.try_emplace({color.x, color.y, color.z}, next);
+    if (is_new) scene_.materials.push_back({.base_color = Vec4(color, 1)});
+    return known->second;
+  }
+
+ private:
+  const Colors& colors_;
+  Scene& scene_;
+  std::map<std::array<float, 3>, std::uint32_t> materials_;
+};
+
+/// A colour replaces the materials of the mesh's own file.
+void add_mesh(const JsonReader& json, const std::string& name,
+              std::optional<std::uint32_t> material, const std::filesystem::path& folder,
+              const LoadOptions& options, LoadedScene& out) {
   LoadedScene mesh = read_mesh(json, folder, options);
-  for (Object& object : mesh.scene.objects) {
+  const std::size_t first = out.scene.objects.size();
+  merge(out.scene, std::move(mesh.scene));
+  for (std::size_t i = first; i < out.scene.objects.size(); ++i) {
+    Object& object = out.scene.objects[i];
     object.name = std::string(name).append("/").append(object.name);
-    if (color) object.color = *color;
-    out.scene.objects.push_back(std::move(object));
+    if (material) object.material = material;
   }
   std::move(mesh.warnings.begin(), mesh.warnings.end(), std::back_inserter(out.warnings));
 }
@@ -125,18 +153,17 @@ void add_mesh(const JsonReader& json, const std::string& name, std::optional<Vec
 void read_objects(const JsonReader& json, const Colors& colors, const std::filesystem::path& folder,
                   const LoadOptions& options, LoadedScene& out) {
   Names names;
+  Palette palette(colors, out.scene);
   for (const JsonReader& item : read_filled_array(json)) {
     if (is_mesh(item)) {
       const std::string name = names.read(item);
-      const auto color = item.find("color");
-      add_mesh(item, name, color ? std::optional(read_color(*color, colors)) : std::nullopt, folder,
-               options, out);
+      add_mesh(item, name, palette.read(item), folder, options, out);
       continue;
     }
     Object object;
     object.shape = read_shape(item);
     object.name = names.read(item);
-    if (const auto color = item.find("color")) object.color = read_color(*color, colors);
+    object.material = palette.read(item);
     out.scene.objects.push_back(std::move(object));
   }
 }

@@ -1,0 +1,50 @@
+#pragma once
+/// Images on surfaces.
+
+#include <microtrace/math.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace microtrace {
+
+/// Pixels as their file holds them, row by row from the upper left. What the numbers mean, sRGB or
+/// linear, is said by the use that a material makes of them.
+struct Image {
+  std::string name{};
+  std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
+  std::uint32_t channels = 4;           ///< 1: grey, 2: grey and alpha, 3: rgb, 4: rgb and alpha
+  /// width * height * channels numbers of 8 or 16 bits; the greatest one stands for 1. Alpha is not
+  /// multiplied into the colour.
+  std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
+};
+
+enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
+enum class Filter { nearest, linear };
+enum class MipFilter { none, nearest, linear };  ///< none: the image itself, however small it looks
+
+/// How an image is continued and what lies between its pixels (glTF 2.0, section 3.8.4).
+struct Sampler {
+  Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
+  Filter magnification = Filter::linear;
+  Filter minification = Filter::linear;
+  MipFilter mip = MipFilter::linear;
+};
+
+struct Texture {
+  std::string name{};
+  std::optional<std::uint32_t> image{};  ///< index into Scene::images; nothing: white
+  Sampler sampler{};
+};
+
+/// A texture where a material uses it.
+struct TextureUse {
+  std::uint32_t texture = 0;  ///< index into Scene::textures
+  std::uint32_t uv_set = 0;   ///< of Mesh::uv_sets; (0, 0) everywhere where the mesh lacks it
+  Mat3x2 texture_from_uv{1};  ///< applied to the mesh's coordinates (KHR_texture_transform)
+};
+
+}  // namespace microtrace

@@ -1,0 +1,21 @@
+#pragma once
+/// The materials of an asset, and the textures they use.
+
+#include "io/gltf/asset.hpp"
+
+#include <microtrace/material.hpp>
+#include <microtrace/texture.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+/// All materials in file order, and after them the one of primitives that name none (glTF 2.0,
+/// section 3.9.7).
+[[nodiscard]] std::vector<Material> make_materials(const Asset& asset);
+
+/// All textures in file order.
+[[nodiscard]] std::vector<Texture> make_textures(const Asset& asset);
+
+}  // namespace microtrace::io::gltf
