@@ -130,6 +130,30 @@ TEST(GltfGeometry, AccessorsWithoutViewAreZero) {
   EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0)}));
 }
 
+TEST(GltfGeometry, QuantisedPositionsTakeTheirNodesScale) {
+  AssetBuilder asset;
+  asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+  const std::size_t view =
+      asset.add_view(bytes_of<std::int16_t>({0, 0, 0, 0, 32767, -32768, 0, 0, 0, 0, -32767, 0}), 8);
+  const std::size_t positions = asset.add("accessors", {{"bufferView", view},
+                                                        {"componentType", 5122},
+                                                        {"normalized", true},
+                                                        {"count", 3},
+                                                        {"type", "VEC3"},
+                                                        {"min", {0, -32768, -32767}},
+                                                        {"max", {32767, 0, 0}}});
+  const std::size_t node = asset.add_object({{"attributes", {{"POSITION", positions}}}});
+  asset.json["nodes"][node]["scale"] = {10, 20, 40};
+  asset.json["nodes"][node]["translation"] = {1, 0, 0};
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(texts(scene.warnings), IsEmpty());
+  EXPECT_THAT(triangles_of(scene.scene.objects.at(0)),
+              ElementsAre(Corners{Vec3(1, 0, 0), Vec3(11, -20, 0), Vec3(1, 0, -40)}));
+  asset.json["accessors"][positions]["normalized"] = false;
+  EXPECT_THAT(triangles_of(load(asset).scene.objects.at(0)),
+              ElementsAre(Corners{Vec3(1, 0, 0), Vec3(327671, -655360, 0), Vec3(1, 0, -1310680)}));
+}
+
 TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   struct Case {
     nlohmann::json primitive;

@@ -266,15 +266,14 @@ TEST(GltfMalformed, IndexOfNoVertexAndRestartAreRefused) {
   }
 }
 
-TEST(GltfMalformed, QuantisedPositionsAreUnsupported) {
+TEST(GltfMalformed, QuantisedPositionsNeedTheirExtension) {
   AssetBuilder asset = cube();
-  asset.json["extensionsUsed"] = {"KHR_mesh_quantization"};
   asset.json["accessors"][0]["componentType"] = 5120;
   try {
     (void)load(asset);
     FAIL() << "accepted";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), unsupported);
+    EXPECT_EQ(error.kind(), invalid);
     EXPECT_EQ(error.diagnostic().pointer, "/meshes/0/primitives/0/attributes/POSITION");
   }
 }

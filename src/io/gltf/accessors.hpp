@@ -2,17 +2,23 @@
 /// Accessors: where they lie, whether they fit, and what they hold.
 
 #include "io/gltf/asset.hpp"
-#include "io/gltf/buffers.hpp"
+#include "io/gltf/buffer_views.hpp"
 #include "io/gltf/model.hpp"
 
 #include <microtrace/math.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace microtrace::io::gltf {
+
+/// No asset has more elements in an accessor without a buffer view, more indices in all its
+/// primitives, and no scene more triangles or vertices in all instances of its meshes.
+inline constexpr std::size_t max_elements = std::size_t{1} << 27;
 
 /// Bytes of one component; of one element, with the padding of matrix columns to 4 bytes.
 [[nodiscard]] std::size_t component_size(int component_type);
@@ -22,34 +28,44 @@ namespace microtrace::io::gltf {
 /// shape of sparse parts (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws Error (invalid_scene).
 void check_accessors(const Asset& asset, const tinygltf::Model& model);
 
-/// Decodes accessors that check_accessors has accepted and whose data is there.
+/// Decodes accessors that check_accessors has accepted and whose data is there: of any component
+/// type, interleaved, sparse, or without buffer view (zeros).
 class AccessorReader {
  public:
   /// All three must outlive the reader.
-  AccessorReader(const Asset& asset, const tinygltf::Model& model,
-                 const std::vector<Buffer>& buffers)
-      : asset_(asset), model_(model), buffers_(buffers), positions_(model.accessors.size()) {}
+  AccessorReader(const Asset& asset, const tinygltf::Model& model, const BufferViews& views);
 
   /// Whether every buffer that the accessor needs has bytes.
   [[nodiscard]] bool has_data(int accessor) const;
 
-  /// The vectors of a VEC3 float accessor; kept, so that meshes may share it.
-  [[nodiscard]] const std::vector<Vec3>& positions(int accessor);
+  /// The accessor's elements. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,
+  /// std::uint32_t or glm::uvec4, with as many components as the accessor's type. As floats,
+  /// normalized integers lie in [0, 1] or [-1, 1] (glTF 2.0, section 3.11), other integers keep
+  /// their value; each is rounded once. As integers the component type is an unsigned one. Throws
+  /// Error (invalid_scene) where sparse indices are out of order or range,
+  /// and (limit) where there are more than max_elements without a buffer view.
+  template <typename Element>
+  [[nodiscard]] std::vector<Element> read(int accessor);
 
-  /// The integers of a SCALAR accessor of unsigned integers.
-  [[nodiscard]] std::vector<std::uint32_t> indices(int accessor) const;
+  /// The same for some elements only, by ascending numbers below the accessor's count: as many as
+  /// a primitive uses, in time and memory, however long the accessor is.
+  template <typename Element>
+  [[nodiscard]] std::vector<Element> read(int accessor, std::span<const std::uint32_t> numbers);
+
+  /// From now on the accessor's elements are these, without gaps, as a compressed primitive holds
+  /// them.
+  void replace(int accessor, std::string elements);
 
  private:
-  /// The elements without gaps, sparse ones put in their places. Throws Error where a sparse index
-  /// is out of order or range.
-  [[nodiscard]] std::string elements(int accessor) const;
-  void apply_sparse(int accessor, std::string& elements) const;
-  [[nodiscard]] std::string_view bytes_of_view(int view) const;
+  struct Source;
+  [[nodiscard]] Source source(int accessor);
+  void check_sparse(std::size_t accessor, const Source& source);
 
   const Asset& asset_;
   const tinygltf::Model& model_;
-  const std::vector<Buffer>& buffers_;
-  std::vector<std::vector<Vec3>> positions_;  // by accessor; empty until asked for
+  const BufferViews& views_;
+  std::vector<bool> sparse_is_checked_;            // by accessor
+  std::unordered_map<int, std::string> replaced_;  // by accessor
 };
 
 }  // namespace microtrace::io::gltf

@@ -11,8 +11,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Pictures are flat: each material already looks unlit.
-constexpr std::array<std::string_view, 1> honoured = {"KHR_materials_unlit"};
+constexpr std::array<std::string_view, 2> honoured = {
+    "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
+    "KHR_mesh_quantization",
+};
 
 using Version = std::pair<unsigned, unsigned>;
 

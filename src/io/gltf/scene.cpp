@@ -145,7 +145,9 @@ struct GltfFile::Content {
         model(checked_model()),
         tree(asset, model),
         buffers(gltf::load_buffers(asset, container.bin, folder)),
-        surfaces(gltf::make_surfaces(asset, model, buffers)) {
+        views(model, buffers),
+        reader(asset, model, views),
+        surfaces(gltf::make_surfaces(asset, model, reader)) {
     gltf::warn_of_ignored_features(asset);
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
@@ -169,6 +171,8 @@ struct GltfFile::Content {
   tinygltf::Model model;
   NodeTree tree;
   std::vector<gltf::Buffer> buffers;
+  gltf::BufferViews views;
+  gltf::AccessorReader reader;
   std::vector<std::vector<Surface>> surfaces;
 };
 

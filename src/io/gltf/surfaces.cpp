@@ -34,26 +34,56 @@ std::vector<Corners> triangles_of(int mode, const std::vector<std::uint32_t>& v)
   return result;
 }
 
-Mesh compact(const std::vector<Vec3>& positions, std::vector<Corners> triangles) {
-  std::vector<std::uint32_t> used;
-  used.reserve(triangles.size() * 3);
-  for (const Corners& corners : triangles) used.insert(used.end(), corners.begin(), corners.end());
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  const auto renumbered = [&used](std::uint32_t old) {
-    return static_cast<std::uint32_t>(std::ranges::lower_bound(used, old) - used.begin());
-  };
-  Mesh mesh;
-  for (const std::uint32_t old : used) mesh.positions.push_back(positions[old]);
-  for (Corners& corners : triangles) std::ranges::transform(corners, corners.begin(), renumbered);
-  mesh.triangles = std::move(triangles);
-  return mesh;
+/// The vertices that triangles use, ascending.
+std::vector<std::uint32_t> used_vertices(const std::vector<Corners>& triangles,
+                                         std::size_t vertex_count) {
+  std::vector<std::uint32_t> result;
+  if (vertex_count / 8 <= triangles.size() * 3) {
+    std::vector<bool> used(vertex_count);
+    for (const Corners& corners : triangles) {
+      for (const std::uint32_t vertex : corners) used[vertex] = true;
+    }
+    result.reserve(std::min(vertex_count, triangles.size() * 3));
+    for (std::size_t i = 0; i < vertex_count; ++i) {
+      if (used[i]) result.push_back(static_cast<std::uint32_t>(i));
+    }
+    return result;
+  }
+  // A few of many vertices, as where primitives share one long accessor.
+  for (const Corners& corners : triangles) {
+    result.insert(result.end(), corners.begin(), corners.end());
+  }
+  std::ranges::sort(result);
+  const auto rest = std::ranges::unique(result);
+  result.erase(rest.begin(), rest.end());
+  return result;
+}
+
+/// Makes the indices those into `used`.
+void renumber(std::vector<Corners>& triangles, const std::vector<std::uint32_t>& used) {
+  const std::uint32_t end = used.back() + 1;
+  if (end == used.size()) return;
+  if (end / 8 <= triangles.size() * 3) {
+    std::vector<std::uint32_t> number_of(end);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      number_of[used[i]] = static_cast<std::uint32_t>(i);
+    }
+    for (Corners& corners : triangles) {
+      for (std::uint32_t& vertex : corners) vertex = number_of[vertex];
+    }
+    return;
+  }
+  for (Corners& corners : triangles) {
+    for (std::uint32_t& vertex : corners) {
+      vertex = static_cast<std::uint32_t>(std::ranges::lower_bound(used, vertex) - used.begin());
+    }
+  }
 }
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(Asset& asset, const tinygltf::Model& model, const std::vector<Buffer>& buffers)
-      : asset_(asset), model_(model), reader_(asset, model, buffers) {}
+  SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
+      : asset_(asset), model_(model), reader_(reader) {}
 
   std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
     check_attributes(at, primitive);
@@ -85,8 +115,12 @@ class SurfaceMaker {
     }
     std::vector<Corners> triangles = triangles_of(primitive.mode, vertices);
     if (triangles.empty()) return std::nullopt;
-    return Surface{.mesh = compact(reader_.positions(position->second), std::move(triangles)),
-                   .material = primitive.material};
+    Surface result{.material = primitive.material};
+    result.vertices = used_vertices(triangles, accessor(position->second).count);
+    renumber(triangles, result.vertices);
+    result.mesh.triangles = std::move(triangles);
+    result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
+    return result;
   }
 
  private:
@@ -108,21 +142,19 @@ class SurfaceMaker {
 
   void check_position(const Element& at, int index) {
     const tinygltf::Accessor& position = accessor(index);
-    if (position.type == TINYGLTF_TYPE_VEC3 &&
-        position.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) {
-      const Element source = asset_.element("accessors", static_cast<std::size_t>(index));
-      if (position.minValues.empty() || position.maxValues.empty()) {
-        asset_.warn(source, "holds positions without min and max, which glTF 2.0 asks for");
-      }
-      if (position.bufferView < 0) check_count(source.member("count"), position.count);
-      return;
-    }
     const auto& used = model_.extensionsUsed;
-    if (std::ranges::find(used, "KHR_mesh_quantization") != used.end()) {
-      asset_.fail(at, "is quantised; KHR_mesh_quantization is not supported, export floats",
-                  ErrorKind::unsupported);
+    const bool quantised = std::ranges::find(used, "KHR_mesh_quantization") != used.end();
+    const bool is_float = position.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_short = component_size(position.componentType) < 4;
+    if (position.type != TINYGLTF_TYPE_VEC3 || !(is_float || (quantised && is_short))) {
+      asset_.fail(at,
+                  "refers to an accessor that is not of type VEC3 and componentType 5126, float, "
+                  "or with KHR_mesh_quantization 5120 to 5123");
     }
-    asset_.fail(at, "refers to an accessor that is not of type VEC3 and componentType 5126, float");
+    if (position.minValues.empty() || position.maxValues.empty()) {
+      asset_.warn(asset_.element("accessors", static_cast<std::size_t>(index)),
+                  "holds positions without min and max, which glTF 2.0 asks for");
+    }
   }
 
   void check_count(const Element& at, std::size_t count) {
@@ -144,7 +176,7 @@ class SurfaceMaker {
     }
     const tinygltf::Accessor& indices = accessor(primitive.indices);
     check_count(at.member("indices"), indices.count);
-    std::vector<std::uint32_t> result = reader_.indices(primitive.indices);
+    std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(primitive.indices);
     const std::uint64_t restart =
         (std::uint64_t{1} << 8 * component_size(indices.componentType)) - 1;
     const auto bad = std::ranges::find_if(
@@ -174,15 +206,15 @@ class SurfaceMaker {
 
   Asset& asset_;
   const tinygltf::Model& model_;
-  AccessorReader reader_;
+  AccessorReader& reader_;
   std::size_t elements_ = 0;  // counted against max_elements
 };
 
 }  // namespace
 
 std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
-                                                const std::vector<Buffer>& buffers) {
-  SurfaceMaker maker(asset, model, buffers);
+                                                AccessorReader& reader) {
+  SurfaceMaker maker(asset, model, reader);
   std::vector<std::vector<Surface>> result(model.meshes.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");

@@ -9,27 +9,26 @@
 #include <microtrace/shape.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace microtrace::io::gltf {
 
-/// No asset has more elements in accessors without a buffer view, more indices in all its
-/// primitives, and no scene more triangles or vertices in all instances of its meshes.
-inline constexpr std::size_t max_elements = std::size_t{1} << 27;
-
 /// One primitive of a mesh: only the vertices that its triangles use, in the order of the file.
 struct Surface {
-  Mesh mesh;
+  Mesh mesh{};
+  /// Which of the primitive's vertices each of the mesh is, ascending: AccessorReader::read takes
+  /// them to read other attributes.
+  std::vector<std::uint32_t> vertices{};
   int material = -1;
   std::size_t number = 0;  ///< among the mesh's primitives
 };
 
 /// The surfaces of each mesh, by its index. Primitives without POSITION or without data,
 /// points and lines make none, with a warning. Throws Error: invalid_scene where accessors are not
-/// what the primitive needs or indices are out of range, unsupported for quantised positions,
-/// limit.
+/// what the primitive needs or indices are out of range, limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset,
                                                               const tinygltf::Model& model,
-                                                              const std::vector<Buffer>& buffers);
+                                                              AccessorReader& reader);
 
 }  // namespace microtrace::io::gltf

@@ -1,0 +1,27 @@
+#pragma once
+/// The bytes of buffer views.
+
+#include "io/gltf/buffers.hpp"
+#include "io/gltf/model.hpp"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+class BufferViews {
+ public:
+  /// Of views that check_accessors has accepted. The buffers must outlive this.
+  BufferViews(const tinygltf::Model& model, const std::vector<Buffer>& buffers);
+
+  /// Nothing where the view's buffer has no data.
+  [[nodiscard]] std::optional<std::string_view> bytes(int view) const {
+    return bytes_[static_cast<std::size_t>(view)];
+  }
+
+ private:
+  std::vector<std::optional<std::string_view>> bytes_;  // by view
+};
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,140 @@
+#include "gltf/asset_builder.hpp"
+#include "io/gltf/accessors.hpp"
+#include "io/json/document.hpp"
+
+#include <memory>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A reader over an asset with one buffer, and all that must outlive it.
+class Reading {
+ public:
+  explicit Reading(const AssetBuilder& asset)
+      : document_(asset.with_buffer(nullptr).dump(), "test.gltf"),
+        asset_(document_),
+        model_(io::gltf::parse_model(asset_)),
+        buffers_{{.storage = {}, .bytes = asset.buffer}},
+        views_(model_, buffers_),
+        reader(asset_, model_, views_) {
+    io::gltf::check_accessors(asset_, model_);
+  }
+
+ private:
+  io::JsonDocument document_;
+  io::gltf::Asset asset_;
+  tinygltf::Model model_;
+  std::vector<io::gltf::Buffer> buffers_;
+  io::gltf::BufferViews views_;
+
+ public:
+  io::gltf::AccessorReader reader;
+};
+
+template <typename Number>
+int add(AssetBuilder& asset, int type, const char* shape, bool normalized,
+        const std::vector<Number>& numbers, std::size_t count, std::size_t stride = 0) {
+  return static_cast<int>(
+      asset.add("accessors", {{"bufferView", asset.add_view(bytes_of<Number>(numbers), stride)},
+                              {"componentType", type},
+                              {"normalized", normalized},
+                              {"count", count},
+                              {"type", shape}}));
+}
+
+TEST(GltfAccessorReader, NormalizedIntegersFillTheUnitRange) {
+  AssetBuilder asset;
+  const int i8 = add<std::int8_t>(asset, 5120, "SCALAR", true, {-128, -127, 0, 1, 127}, 5);
+  const int u8_ = add<std::uint8_t>(asset, u8, "SCALAR", true, {0, 1, 255}, 3);
+  const int i16 = add<std::int16_t>(asset, 5122, "SCALAR", true, {-32768, -32767, 32767}, 3);
+  const int u16_ = add<std::uint16_t>(asset, u16, "SCALAR", true, {0, 13107, 65535}, 3);
+  Reading reading(asset);
+  EXPECT_THAT(reading.reader.read<float>(i8), ElementsAre(-1, -1, 0, 1 / 127.0F, 1));
+  EXPECT_THAT(reading.reader.read<float>(u8_), ElementsAre(0, 1 / 255.0F, 1));
+  EXPECT_THAT(reading.reader.read<float>(i16), ElementsAre(-1, -1, 1));
+  EXPECT_THAT(reading.reader.read<float>(u16_), ElementsAre(0, 0.2F, 1));
+}
+
+TEST(GltfAccessorReader, OtherIntegersKeepTheirValues) {
+  AssetBuilder asset;
+  const int bytes = add<std::int8_t>(asset, 5120, "VEC2", false, {-128, 127, 3, -4}, 2);
+  const int shorts = add<std::uint16_t>(asset, u16, "VEC4", false, {65535, 0, 1, 2}, 1);
+  const int joints = add<std::uint8_t>(asset, u8, "VEC4", false, {255, 0, 1, 2}, 1);
+  Reading reading(asset);
+  EXPECT_THAT(reading.reader.read<glm::vec2>(bytes),
+              ElementsAre(glm::vec2(-128, 127), glm::vec2(3, -4)));
+  EXPECT_THAT(reading.reader.read<glm::vec4>(shorts), ElementsAre(glm::vec4(65535, 0, 1, 2)));
+  EXPECT_THAT(reading.reader.read<glm::uvec4>(joints), ElementsAre(glm::uvec4(255, 0, 1, 2)));
+}
+
+TEST(GltfAccessorReader, MatricesAreReadByColumns) {
+  AssetBuilder asset;
+  std::vector<float> numbers;
+  for (int i = 0; i < 32; ++i) numbers.push_back(static_cast<float>(i));
+  const int matrices = add<float>(asset, f32, "MAT4", false, numbers, 2);
+  Reading reading(asset);
+  const std::vector<glm::mat4> read = reading.reader.read<glm::mat4>(matrices);
+  ASSERT_EQ(read.size(), 2U);
+  EXPECT_EQ(read[1][2], glm::vec4(24, 25, 26, 27));
+}
+
+TEST(GltfAccessorReader, SomeElementsAreThoseOfAll) {
+  AssetBuilder asset;
+  std::vector<std::int16_t> numbers;  // interleaved: three of four are the accessor's
+  for (int i = 0; i < 400; ++i) numbers.push_back(static_cast<std::int16_t>(i * 80));
+  const int accessor = add<std::int16_t>(asset, 5122, "VEC3", true, numbers, 100, 8);
+  const std::size_t changed = asset.add_view(bytes_of<std::uint8_t>({0, 7, 50, 99}));
+  const std::size_t values =
+      asset.add_view(bytes_of<std::int16_t>({-1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -11, -12}));
+  asset.json["accessors"][static_cast<std::size_t>(accessor)]["sparse"] = {
+      {"count", 4},
+      {"indices", {{"bufferView", changed}, {"componentType", u8}}},
+      {"values", {{"bufferView", values}}}};
+  Reading reading(asset);
+  const std::vector<Vec3> all = reading.reader.read<Vec3>(accessor);
+  ASSERT_EQ(all.size(), 100U);
+  EXPECT_EQ(all[1], Vec3(4 * 80, 5 * 80, 6 * 80) / 32767.0F);
+  EXPECT_EQ(all[50], Vec3(-7, -8, -9) / 32767.0F);
+  const std::vector<std::uint32_t> some = {0, 1, 6, 7, 8, 50, 98, 99};
+  std::vector<Vec3> expected;
+  for (const std::uint32_t i : some) expected.push_back(all[i]);
+  EXPECT_EQ(reading.reader.read<Vec3>(accessor, some), expected);
+  std::vector<std::uint32_t> each;
+  for (std::uint32_t i = 0; i < 100; ++i) each.push_back(i);
+  EXPECT_EQ(reading.reader.read<Vec3>(accessor, each), all);
+}
+
+TEST(GltfAccessorReader, ReplacedElementsStandForTheAccessors) {
+  AssetBuilder asset;
+  const int accessor =
+      add<std::uint8_t>(asset, u8, "VEC4", false, std::vector<std::uint8_t>(16), 2, 8);
+  Reading reading(asset);
+  reading.reader.replace(accessor, bytes_of<std::uint8_t>({1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_THAT(reading.reader.read<glm::uvec4>(accessor),
+              ElementsAre(glm::uvec4(1, 2, 3, 4), glm::uvec4(5, 6, 7, 8)));
+}
+
+TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndNotTooMany) {
+  AssetBuilder asset;
+  asset.add("accessors", {{"componentType", f32}, {"count", 3}, {"type", "VEC2"}});
+  asset.add("accessors", {{"componentType", f32}, {"count", (1U << 27) + 1}, {"type", "VEC2"}});
+  Reading reading(asset);
+  EXPECT_THAT(reading.reader.read<glm::vec2>(0),
+              ElementsAre(glm::vec2(0), glm::vec2(0), glm::vec2(0)));
+  try {
+    (void)reading.reader.read<glm::vec2>(1);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_EQ(error.diagnostic().pointer, "/accessors/1/count");
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::tests
