@@ -4,27 +4,52 @@
 #include <microtrace/camera.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace microtrace {
 
-/// width x height linear Rec. 709 colours, row by row from the upper left.
+/// Pixels [x0, x1) x [y0, y1), counted from the picture's upper left corner.
+struct PixelRect {
+  std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  [[nodiscard]] ImageSize size() const { return {.width = x1 - x0, .height = y1 - y0}; }
+};
+
+/// width x height linear Rec. 709 colours, row by row from the upper left, with alpha or without.
 class Film {
  public:
-  explicit Film(ImageSize size) : size_(size), pixels_(std::size_t{size.width} * size.height) {}
+  enum class Alpha { none, premultiplied };
+
+  /// All pixels black, and transparent where there is alpha.
+  explicit Film(ImageSize size, Alpha alpha = Alpha::none)
+      : size_(size),
+        pixels_(std::size_t{size.width} * size.height),
+        alpha_(alpha == Alpha::none ? 0 : pixels_.size()) {}
 
   [[nodiscard]] ImageSize size() const { return size_; }
-  [[nodiscard]] Vec3& at(std::uint32_t x, std::uint32_t y) {
-    return pixels_[std::size_t{y} * size_.width + x];
-  }
+  [[nodiscard]] Vec3& at(std::uint32_t x, std::uint32_t y) { return pixels_[index(x, y)]; }
   [[nodiscard]] std::span<const Vec3> row(std::uint32_t y) const {
-    return std::span(pixels_).subspan(std::size_t{y} * size_.width, size_.width);
+    return std::span(pixels_).subspan(index(0, y), size_.width);
+  }
+
+  /// The colours are then multiplied with it.
+  [[nodiscard]] bool has_alpha() const { return !alpha_.empty(); }
+  /// Where the film has alpha: 0 transparent, 1 opaque.
+  [[nodiscard]] float& alpha_at(std::uint32_t x, std::uint32_t y) { return alpha_[index(x, y)]; }
+  [[nodiscard]] std::span<const float> alpha_row(std::uint32_t y) const {
+    return std::span(alpha_).subspan(index(0, y), size_.width);
   }
 
  private:
+  [[nodiscard]] std::size_t index(std::uint32_t x, std::uint32_t y) const {
+    return std::size_t{y} * size_.width + x;
+  }
+
   ImageSize size_;
   std::vector<Vec3> pixels_;
+  std::vector<float> alpha_;
 };
 
 }  // namespace microtrace

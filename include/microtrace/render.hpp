@@ -3,22 +3,37 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/integrator.hpp>
 #include <microtrace/scene.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 
 namespace microtrace {
+
+inline constexpr std::uint32_t kMaxSamples = 65536;
 
 struct RenderOptions {
   unsigned threads = 0;  ///< 0: default_threads()
   /// Told the share of the picture that is done, in (0, 1]; by one thread at a time, not always the
   /// caller's.
   std::function<void(double)> progress{};
+  const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
+  /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
+  /// square, in the same places in each pixel, and weigh the same (a box filter): sample k of n
+  /// lies at x = (k + 1/2) / n, y = (r(k) + 1/2) / n, where r puts the numbers 0 to n - 1 in the
+  /// order of van der Corput's sequence.
+  std::uint32_t samples = 1;
+  /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
+  /// size.
+  std::optional<PixelRect> crop{};
+  bool transparent = false;  ///< leaves the background out and gives the film alpha
 };
 
-/// One ray through each pixel's centre takes the colour of what it hits first in (scene.epsilon,
-/// infinity), or the background. The picture does not depend on the options. Throws Error (limit)
-/// where memory or primitive numbers run out.
+/// Colours by the integrator, over scene.background where it leaves some; rays hit only in
+/// (scene.epsilon, infinity). Threads and progress have no influence on the picture. Throws Error:
+/// usage where samples or crop are out of range, limit where memory or primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});
 

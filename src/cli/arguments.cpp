@@ -2,6 +2,10 @@
 
 #include "scene/validate.hpp"
 
+#include <microtrace/render.hpp>
+
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <string_view>
@@ -19,7 +23,7 @@ Exit codes: 0 done, 1 failure inside, 2 usage, 3 invalid scene, 4 required featu
 
 Examples:
   microtrace scenes/perspective1.json -o perspective1.ppm
-  microtrace model.glb --size 1920x1080 -o model.png
+  microtrace model.glb --size 1920x1080 --spp 16 -o model.png
   microtrace scene.json -o - | other-program)";
 
 std::optional<std::uint32_t> whole_number(std::string_view text) {
@@ -42,6 +46,20 @@ ImageSize parse_size(const std::string& text) {
   return size;
 }
 
+PixelRect parse_crop(const std::string& text) {
+  std::array<std::uint32_t, 4> sides{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const std::size_t comma = i + 1 < sides.size() ? rest.find(',') : rest.size();
+    const auto side = whole_number(rest.substr(0, comma));
+    if (!side || comma == std::string_view::npos)
+      throw CLI::ValidationError("--crop", "wants x0,y0,x1,y1 in pixels, not " + text);
+    sides[i] = *side;
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+  }
+  return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
+}
+
 std::filesystem::path default_output(const std::string& scene) {
   if (scene == "-") throw CLI::RequiredError("--output, where the scene is standard input,");
   return std::filesystem::path(scene).stem() += ".ppm";
@@ -54,13 +72,20 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, statistics;
+  std::string output, size, crop, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
                  "picture; its ending tells the kind (.ppm, .png, .exr, ...); - writes PPM to "
                  "standard output [SCENE's name with .ppm, in this folder]");
   app.add_option("--size", size, "WIDTHxHEIGHT in pixels [as the scene says, or 640x480]");
+  app.add_option(
+      "--crop", crop,
+      "x0,y0,x1,y1: draw only the pixels from x0 to x1 - 1, y0 to y1 - 1, as they are in "
+      "the whole picture; 0,0 is its upper left corner");
+  app.add_option("--spp,--samples", a.samples,
+                 "rays for each pixel, spread over it [1, through its centre]")
+      ->check(CLI::Range(1U, kMaxSamples));
   app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
@@ -78,6 +103,7 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (!size.empty()) a.size = parse_size(size);
+    if (!crop.empty()) a.crop = parse_crop(crop);
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;

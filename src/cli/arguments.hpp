@@ -3,6 +3,7 @@
 
 #include <microtrace/io.hpp>
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,7 +16,9 @@ struct Arguments {
   std::string scene;             ///< a file, or "-" for standard input
   std::filesystem::path output;  ///< a file, or "-" for standard output
   std::optional<ImageSize> size{};
-  std::string camera;  ///< a name or an index; empty: the first
+  std::optional<PixelRect> crop{};
+  std::uint32_t samples = 1;  ///< per pixel
+  std::string camera;         ///< a name or an index; empty: the first
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;

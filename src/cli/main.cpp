@@ -40,12 +40,16 @@ void run(const cli::Arguments& arguments) {
   const ImageSize size = arguments.size.value_or(scene.size);
   const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
   const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
-  const Film film = render(scene, camera, size, {.threads = threads, .progress = progress});
+  const Film film = render(scene, camera, size,
+                           {.threads = threads,
+                            .progress = progress,
+                            .samples = arguments.samples,
+                            .crop = arguments.crop});
   watch.rendered();
 
   save_image(film, arguments.output, arguments.ppm);
   watch.written();
-  watch.report(arguments.statistics, scene, size, threads);
+  watch.report(arguments.statistics, scene, film.size(), arguments.samples, threads);
 }
 
 }  // namespace

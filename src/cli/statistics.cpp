@@ -21,12 +21,12 @@ double Stopwatch::lap() {
   return seconds;
 }
 
-void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
+void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size, std::uint32_t samples,
                        unsigned threads) const {
   if (kind == Statistics::none) return;
   std::size_t primitives = 0;
   for (const Object& object : scene.objects) primitives += primitive_count(object.shape);
-  const double rays = double{1} * size.width * size.height;
+  const double rays = double{1} * size.width * size.height * samples;
   const char* format =
       kind == Statistics::json
           ? R"({"objects": %zu, "primitives": %zu, "width": %u, "height": %u, "threads": %u, )"

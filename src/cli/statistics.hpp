@@ -2,6 +2,7 @@
 #include "cli/arguments.hpp"
 
 #include <chrono>
+#include <cstdint>
 
 namespace microtrace::cli {
 
@@ -15,7 +16,8 @@ class Stopwatch {
   void written() { write_ = lap(); }
 
   /// Times in seconds, rays, and memory, to standard error.
-  void report(Statistics kind, const Scene& scene, ImageSize size, unsigned threads) const;
+  void report(Statistics kind, const Scene& scene, ImageSize size, std::uint32_t samples,
+              unsigned threads) const;
 
  private:
   double lap();

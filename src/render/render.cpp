@@ -1,4 +1,5 @@
 #include "float_environment.hpp"
+#include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -6,20 +7,15 @@
 #include <microtrace/render.hpp>
 #include <microtrace/threads.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <new>
-#include <optional>
-#include <span>
+#include <string>
 
 namespace microtrace {
 namespace {
 
-Film make_film(ImageSize size) {
+Film make_film(ImageSize size, Film::Alpha alpha) {
   try {
-    return Film(size);
+    return Film(size, alpha);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::limit, "",
                 "no memory for a picture of " + std::to_string(size.width) + " x " +
@@ -27,41 +23,41 @@ Film make_film(ImageSize size) {
   }
 }
 
+void check(const RenderOptions& options) {
+  if (options.samples >= 1 && options.samples <= kMaxSamples) return;
+  throw Error(ErrorKind::usage, "",
+              "samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
+                  std::to_string(options.samples));
+}
+
+PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
+  if (!crop) return {.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height};
+  if (crop->x0 < crop->x1 && crop->y0 < crop->y1 && crop->x1 <= size.width &&
+      crop->y1 <= size.height)
+    return *crop;
+  throw Error(ErrorKind::usage, "",
+              "the crop must hold pixels of the picture: 0 <= x0 < x1 <= " +
+                  std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
+}
+
 }  // namespace
 
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
   const FloatEnvironment environment;  // new threads inherit it
+  check(options);
+  const PixelRect window = window_of(size, options.crop);
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();
   const Bvh bvh(scene, {.threads = threads});
+  const World world{.scene = scene, .bvh = bvh};
+  const FlatIntegrator flat;
   const RayGenerator ray_through(camera, size);
-  // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next float32.
-  const float t_min = std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity());
-  Film film = make_film(size);
-
-  const auto color_of = [&scene](const Object& object) {
-    return Vec3(material_of(scene, object).base_color);
-  };
-
-  const auto draw = [&](const Tile& tile) {
-    std::array<Ray, kTilePixels> rays;
-    std::array<std::optional<Hit>, kTilePixels> hits;
-    std::size_t count = 0;
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
-        Ray& ray = rays[count++] = ray_through(x + 0.5, y + 0.5);
-        ray.t_min = std::max(ray.t_min, t_min);
-      }
-    }
-    bvh.intersect(std::span(rays).first(count), std::span(hits).first(count));
-    const std::optional<Hit>* hit = hits.data();
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++hit) {
-        film.at(x, y) = *hit ? color_of(bvh.primitives().object((*hit)->id)) : scene.background;
-      }
-    }
-  };
-  for_each_tile(size, threads, draw, options.progress);
+  Film film = make_film(window.size(),
+                        options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
+  const TilePainter painter(world, options.integrator != nullptr ? *options.integrator : flat,
+                            ray_through, options, window, film);
+  for_each_tile(
+      window, threads, [&](const PixelRect& tile) { painter.paint(tile); }, options.progress);
   return film;
 }
 

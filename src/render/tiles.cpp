@@ -14,20 +14,22 @@ std::uint64_t tiles_across(std::uint32_t pixels) {
   return (std::uint64_t{pixels} + kTileEdge - 1) / kTileEdge;
 }
 
-Tile tile_at(std::uint64_t index, ImageSize size) {
-  const std::uint64_t columns = tiles_across(size.width);
-  const auto x0 = static_cast<std::uint32_t>(index % columns * kTileEdge);
-  const auto y0 = static_cast<std::uint32_t>(index / columns * kTileEdge);
+PixelRect tile_at(std::uint64_t index, const PixelRect& window) {
+  const std::uint64_t columns = tiles_across(window.size().width);
+  const auto x0 = window.x0 + static_cast<std::uint32_t>(index % columns * kTileEdge);
+  const auto y0 = window.y0 + static_cast<std::uint32_t>(index / columns * kTileEdge);
   return {.x0 = x0,
           .y0 = y0,
-          .x1 = std::min(x0 + kTileEdge, size.width),
-          .y1 = std::min(y0 + kTileEdge, size.height)};
+          .x1 = std::min(x0 + kTileEdge, window.x1),
+          .y1 = std::min(y0 + kTileEdge, window.y1)};
 }
 
 }  // namespace
 
-void for_each_tile(ImageSize size, unsigned threads, const std::function<void(const Tile&)>& draw,
+void for_each_tile(const PixelRect& window, unsigned threads,
+                   const std::function<void(const PixelRect&)>& draw,
                    const std::function<void(double)>& progress) {
+  const ImageSize size = window.size();
   const std::uint64_t count = tiles_across(size.width) * tiles_across(size.height);
   // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
   // enough to share evenly.
@@ -40,7 +42,7 @@ void for_each_tile(ImageSize size, unsigned threads, const std::function<void(co
     try {
       for (std::uint64_t first; (first = next.fetch_add(run)) < count;) {
         const std::uint64_t last = std::min(first + run, count);
-        for (std::uint64_t index = first; index < last; ++index) draw(tile_at(index, size));
+        for (std::uint64_t index = first; index < last; ++index) draw(tile_at(index, window));
         done += last - first;
         if (progress) {
           const std::scoped_lock lock(report);

@@ -123,6 +123,39 @@ class CommandLine(unittest.TestCase):
                     for threads in (1, 2, 3, 16)}
         self.assertEqual(len(pictures), 1)
 
+    def picture(self, *arguments):
+        """Width, height and rows of pixels of the binary PPM that the program writes."""
+        result = self.run_program(*arguments, "-o", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        magic, size, maximum, pixels = result.stdout.split(b"\n", 3)
+        self.assertEqual((magic, maximum), (b"P6", b"255"))
+        width, height = map(int, size.split())
+        self.assertEqual(len(pixels), 3 * width * height)
+        return width, height, [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
+
+    def test_crop_holds_the_bytes_of_its_part(self):
+        for samples in (1, 5):
+            options = [SCENE, "--size", "100x60", "--spp", samples]
+            _, _, whole = self.picture(*options)
+            for x0, y0, x1, y1 in ((0, 0, 100, 60), (7, 9, 64, 41), (99, 59, 100, 60)):
+                width, height, part = self.picture(*options, "--crop", f"{x0},{y0},{x1},{y1}")
+                self.assertEqual((width, height), (x1 - x0, y1 - y0))
+                self.assertEqual(part, [row[3 * x0:3 * x1] for row in whole[y0:y1]])
+        for crop in ("0,0,641,480", "0,0,640,481", "5,5,5,6", "9,0,2,5"):
+            wrong = self.run_program(SCENE, "-o", "a.ppm", "--crop", crop)
+            self.assertEqual(wrong.returncode, 2, wrong.stderr)
+            self.assertIn(b"crop", wrong.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_samples(self):
+        one = self.picture(SCENE, "--size", "64x48")
+        self.assertEqual(self.picture(SCENE, "--size", "64x48", "--samples", "1"), one)
+        many = [self.picture(SCENE, "--size", "64x48", "--spp", "16", "-t", t) for t in (1, 3)]
+        self.assertEqual(many[0], many[1])
+        colors = lambda rows: {row[i:i + 3] for row in rows for i in range(0, len(row), 3)}
+        self.assertLess(len(colors(one[2])), 10)  # flat colours alone
+        self.assertGreater(len(colors(many[0][2])), 30)  # and mixtures on the edges
+
     def test_statistics(self):
         result = self.run_program(SCENE, "-o", "a.ppm", "--stats=json", "-t", "2")
         numbers = json.loads(result.stderr)
@@ -150,6 +183,8 @@ class CommandLine(unittest.TestCase):
                           [SCENE, "--size", "0x4"], [SCENE, "--size", "1000000000x1000000000"],
                           [SCENE, "--size", "-3x4"], [SCENE, "--threads", "0"],
                           [SCENE, "--threads", "many"], [SCENE, "--ppm", "p7"],
+                          [SCENE, "--spp", "0"], [SCENE, "--spp", "65537"], [SCENE, "--crop", "1,2,3"],
+                          [SCENE, "--crop", "1,2,3,4,5"], [SCENE, "--crop", "0,0,-1,4"],
                           [SCENE, "--stats=xml"], [SCENE, "-o", "picture.xyz"], [SCENE, SCENE], ["-"]):
             result = self.run_program(*arguments, stdin=subprocess.DEVNULL)
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))

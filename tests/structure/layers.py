@@ -23,11 +23,11 @@ MAY_INCLUDE = {
 }
 # Public headers that a part must not see.
 HIDDEN = {
-    "exact": {"scene", "camera", "film", "io", "render", "bvh", "primitives"},
-    "scene": {"film", "io", "render", "bvh"},
-    "accel": {"camera", "film", "io", "render"},
+    "exact": {"scene", "camera", "film", "io", "render", "integrator", "bvh", "primitives"},
+    "scene": {"film", "io", "render", "integrator", "bvh"},
+    "accel": {"camera", "film", "io", "render", "integrator"},
     "render": {"io"},
-    "io": {"render", "bvh"},
+    "io": {"render", "bvh", "integrator"},
 }
 # Libraries that only these folders may include.
 LIBRARIES = {

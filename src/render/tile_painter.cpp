@@ -1,0 +1,144 @@
+#include "render/tile_painter.hpp"
+
+#include "render/tiles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace microtrace {
+namespace {
+
+constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
+static_assert(kTilePixels <= kMaxBatch);
+
+/// Float64, so that equal samples give their own colour: a sum of 65536 equal float32 is exact.
+struct Sum {
+  DVec3 color{0};
+  double alpha = 0;
+
+  void add(const Sample& sample) {
+    color += DVec3(sample.color);
+    alpha += sample.alpha;
+  }
+  [[nodiscard]] Sample over(double count) const {
+    return {.color = Vec3(color / count), .alpha = static_cast<float>(alpha / count)};
+  }
+};
+
+/// Rays on their way to the integrator, and the pixel of the block that each belongs to.
+class Batch {
+ public:
+  [[nodiscard]] bool is_full() const { return count_ == kMaxBatch; }
+
+  void add(const Ray& ray, std::size_t pixel) {
+    rays_[count_] = ray;
+    pixels_[count_++] = pixel;
+  }
+
+  /// f(pixel, sample) in the order of the rays; leaves the batch empty.
+  template <class F>
+  void trace(const Integrator& integrator, const World& world, F&& f) {
+    integrator.trace(world, std::span(rays_).first(count_), std::span(samples_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) f(pixels_[i], samples_[i]);
+    count_ = 0;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<Ray, kMaxBatch> rays_;
+  std::array<std::size_t, kMaxBatch> pixels_;
+  std::array<Sample, kMaxBatch> samples_;
+};
+
+}  // namespace
+
+TilePainter::TilePainter(const World& world, const Integrator& integrator,
+                         const RayGenerator& ray_through, const RenderOptions& options,
+                         const PixelRect& window, Film& film)
+    : world_(world),
+      integrator_(integrator),
+      ray_through_(ray_through),
+      window_(window),
+      film_(film),
+      pattern_(sample_pattern(options.samples)),
+      background_(world.scene.background),
+      // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next
+      // float32.
+      t_min_(std::nextafter(world.scene.epsilon, std::numeric_limits<float>::infinity())),
+      block_width_(kTileEdge),
+      block_height_(kTileEdge) {
+  // The rays of a batch should go nearly the same way, so few pixels make one where each has many
+  // samples.
+  while (block_width_ * block_height_ > 1 &&
+         std::size_t{block_width_} * block_height_ * pattern_.size() > kMaxBatch) {
+    (block_height_ == block_width_ ? block_height_ : block_width_) /= 2;
+  }
+}
+
+Ray TilePainter::ray(double x, double y) const {
+  Ray ray = ray_through_(x, y);
+  ray.t_min = std::max(ray.t_min, t_min_);
+  return ray;
+}
+
+void TilePainter::set(std::uint32_t x, std::uint32_t y, const Sample& sample) const {
+  x -= window_.x0;
+  y -= window_.y0;
+  if (film_.has_alpha()) {
+    film_.at(x, y) = sample.color;
+    film_.alpha_at(x, y) = sample.alpha;
+  } else {
+    film_.at(x, y) = sample.color + (1 - sample.alpha) * background_;
+  }
+}
+
+void TilePainter::paint_block(const PixelRect& block) const {
+  const std::uint32_t width = block.size().width;
+  const auto set_pixel = [&](std::size_t pixel, const Sample& sample) {
+    const auto index = static_cast<std::uint32_t>(pixel);
+    set(block.x0 + index % width, block.y0 + index / width, sample);
+  };
+  Batch batch;
+  const auto gather = [&](auto&& before_each) {
+    std::size_t pixel = 0;
+    for (std::uint32_t y = block.y0; y < block.y1; ++y) {
+      for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
+        for (const PixelOffset& offset : pattern_) {
+          before_each();
+          batch.add(ray(x + offset.x, y + offset.y), pixel);
+        }
+      }
+    }
+    return pixel;
+  };
+  if (pattern_.size() == 1) {
+    gather([] {});
+    batch.trace(integrator_, world_, set_pixel);
+    return;
+  }
+  std::array<Sum, kTilePixels> sums{};
+  const auto add = [&](std::size_t pixel, const Sample& sample) { sums[pixel].add(sample); };
+  const std::size_t pixels = gather([&] {
+    if (batch.is_full()) batch.trace(integrator_, world_, add);
+  });
+  batch.trace(integrator_, world_, add);
+  for (std::size_t p = 0; p < pixels; ++p) {
+    set_pixel(p, sums[p].over(static_cast<double>(pattern_.size())));
+  }
+}
+
+void TilePainter::paint(const PixelRect& tile) const {
+  for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {
+    for (std::uint32_t x = tile.x0; x < tile.x1; x += block_width_) {
+      paint_block({.x0 = x,
+                   .y0 = y,
+                   .x1 = std::min(x + block_width_, tile.x1),
+                   .y1 = std::min(y + block_height_, tile.y1)});
+    }
+  }
+}
+
+}  // namespace microtrace
