@@ -19,8 +19,15 @@ struct LoadedScene {
   std::vector<Diagnostic> warnings;  ///< oddities survived and features not honoured, in file order
 };
 
+/// How much of surfaces is read.
+enum class SurfaceDetail {
+  color,  ///< what a flat picture shows: base colours, their images and texture coordinates
+  all,    ///< normals, tangents, all images and texture coordinates too
+};
+
 /// How a scene file is read.
 struct LoadOptions {
+  SurfaceDetail detail = SurfaceDetail::all;
   /// Seconds since the start of an animation of a glTF asset, clamped to where it is defined;
   /// nothing: the pose that the file gives without any animation.
   std::optional<double> time{};

@@ -2,6 +2,7 @@
 
 #include "io/gltf/accessors.hpp"
 #include "io/gltf/asset.hpp"
+#include "io/gltf/baking.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
 #include "io/gltf/check/consistency.hpp"
@@ -26,21 +27,6 @@ namespace microtrace::io {
 namespace {
 
 using gltf::Asset, gltf::Element, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
-
-/// The one rounding of geometry. A mirroring transform turns every triangle over, so that fronts
-/// stay fronts (glTF 2.0, section 3.7.4).
-Mesh baked(const Mesh& mesh, const DMat4& world_from_mesh) {
-  Mesh result;
-  result.positions.reserve(mesh.positions.size());
-  for (const Vec3& p : mesh.positions) {
-    result.positions.emplace_back(world_from_mesh * glm::dvec4(p, 1));
-  }
-  result.triangles = mesh.triangles;
-  if (glm::determinant(glm::dmat3(world_from_mesh)) < 0) {
-    for (auto& corners : result.triangles) std::swap(corners[1], corners[2]);
-  }
-  return result;
-}
 
 bool is_finite(const Mesh& mesh) {
   for (const Vec3& p : mesh.positions) {
@@ -77,7 +63,7 @@ class SceneMaker {
     if (mesh < 0) return;
     const auto index = static_cast<std::size_t>(mesh);
     for (const Surface& surface : surfaces_[index]) {
-      Mesh world = baked(surface.mesh, placed.world_from_node);
+      Mesh world = gltf::baked(surface.mesh, placed.world_from_node);
       if (!is_finite(world)) {
         asset_.warn(primitive(index, surface),
                     "has vertices that are not finite in the world; triangles with them are not "
@@ -137,7 +123,8 @@ auto guarded(const std::string& name, Part&& part) {
 
 /// Everything but poses, in the order in which it is read and checked.
 struct GltfFile::Content {
-  Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder)
+  Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
+          const LoadOptions& options)
       : name(file_name),
         container(gltf::open_container(bytes, name)),
         json(container.json, container.is_glb ? name + " (JSON chunk)" : name),
@@ -147,7 +134,8 @@ struct GltfFile::Content {
         buffers(gltf::load_buffers(asset, container.bin, folder)),
         views(model, buffers),
         reader(asset, model, views),
-        surfaces(gltf::make_surfaces(asset, model, reader)) {
+        materials(gltf::make_materials(asset)),
+        surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)) {
     gltf::warn_of_ignored_features(asset);
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
@@ -173,12 +161,14 @@ struct GltfFile::Content {
   std::vector<gltf::Buffer> buffers;
   gltf::BufferViews views;
   gltf::AccessorReader reader;
+  std::vector<Material> materials;
   std::vector<std::vector<Surface>> surfaces;
 };
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,
-                   const std::filesystem::path& folder, const LoadOptions&)
-    : content_(guarded(name, [&] { return std::make_unique<Content>(bytes, name, folder); })) {}
+                   const std::filesystem::path& folder, const LoadOptions& options)
+    : content_(
+          guarded(name, [&] { return std::make_unique<Content>(bytes, name, folder, options); })) {}
 GltfFile::~GltfFile() = default;
 GltfFile::GltfFile(GltfFile&& other) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
@@ -194,7 +184,7 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
     result.scene.objects = maker.take();
-    result.scene.materials = gltf::make_materials(asset);
+    result.scene.materials = content_->materials;
     result.scene.textures = gltf::make_textures(asset);
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
     if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");

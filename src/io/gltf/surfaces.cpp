@@ -1,5 +1,7 @@
 #include "io/gltf/surfaces.hpp"
 
+#include "io/gltf/vertex_attributes.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -82,8 +84,9 @@ void renumber(std::vector<Corners>& triangles, const std::vector<std::uint32_t>&
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
-      : asset_(asset), model_(model), reader_(reader) {}
+  SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+               std::span<const Material> materials, SurfaceDetail detail)
+      : asset_(asset), model_(model), reader_(reader), materials_(materials), detail_(detail) {}
 
   std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
     check_attributes(at, primitive);
@@ -120,12 +123,20 @@ class SurfaceMaker {
     renumber(triangles, result.vertices);
     result.mesh.triangles = std::move(triangles);
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
+    read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
+                    {.material = material(primitive), .detail = detail_}, result.mesh);
     return result;
   }
 
  private:
   const tinygltf::Accessor& accessor(int index) const {
     return model_.accessors[static_cast<std::size_t>(index)];
+  }
+
+  /// make_materials puts the one of primitives without material last.
+  const Material& material(const tinygltf::Primitive& primitive) const {
+    if (primitive.material < 0) return materials_.back();
+    return materials_[static_cast<std::size_t>(primitive.material)];
   }
 
   void check_attributes(const Element& at, const tinygltf::Primitive& primitive) const {
@@ -207,14 +218,18 @@ class SurfaceMaker {
   Asset& asset_;
   const tinygltf::Model& model_;
   AccessorReader& reader_;
+  std::span<const Material> materials_;
+  SurfaceDetail detail_;
   std::size_t elements_ = 0;  // counted against max_elements
 };
 
 }  // namespace
 
 std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
-                                                AccessorReader& reader) {
-  SurfaceMaker maker(asset, model, reader);
+                                                AccessorReader& reader,
+                                                std::span<const Material> materials,
+                                                SurfaceDetail detail) {
+  SurfaceMaker maker(asset, model, reader, materials, detail);
   std::vector<std::vector<Surface>> result(model.meshes.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");

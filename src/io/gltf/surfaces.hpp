@@ -5,11 +5,14 @@
 #include "io/gltf/asset.hpp"
 #include "io/gltf/model.hpp"
 
+#include <microtrace/io.hpp>
+#include <microtrace/material.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace microtrace::io::gltf {
@@ -29,6 +32,8 @@ struct Surface {
 /// what the primitive needs or indices are out of range, limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset,
                                                               const tinygltf::Model& model,
-                                                              AccessorReader& reader);
+                                                              AccessorReader& reader,
+                                                              std::span<const Material> materials,
+                                                              SurfaceDetail detail);
 
 }  // namespace microtrace::io::gltf

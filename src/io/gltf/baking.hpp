@@ -1,0 +1,14 @@
+#pragma once
+/// From a mesh's own space to the world.
+
+#include <microtrace/math.hpp>
+#include <microtrace/shape.hpp>
+
+namespace microtrace::io::gltf {
+
+/// The one rounding of geometry: everything is computed in float64. A mirroring transform turns
+/// every triangle over, so that fronts stay fronts (glTF 2.0, section 3.7.4). Normals go by the
+/// inverse transpose, to unit length; they are zero where they have no direction.
+[[nodiscard]] Mesh baked(const Mesh& mesh, const DMat4& world_from_mesh);
+
+}  // namespace microtrace::io::gltf

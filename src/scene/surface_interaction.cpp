@@ -1,0 +1,172 @@
+#include "scene/surface_interaction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+/// Of unit length; `otherwise` where v has no direction. No float32 makes these squares overflow.
+DVec3 direction_of(const DVec3& v, const DVec3& otherwise) {
+  const double square = glm::dot(v, v);
+  return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
+}
+
+/// The weights of the point of the segment a b that is nearest to p.
+DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
+  const double square = glm::dot(b - a, b - a);
+  const double s = square > 0 ? std::clamp(glm::dot(p - a, b - a) / square, 0.0, 1.0) : 0;
+  return {1 - s, s};
+}
+
+/// For triangles without area, and those seen exactly edge on: on the longest edge.
+DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) {
+  std::size_t longest = 0;
+  double greatest = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const DVec3 edge = corners[(i + 1) % 3] - corners[i];
+    const double square = glm::dot(edge, edge);
+    if (square > greatest) longest = i, greatest = square;
+  }
+  const std::size_t other = (longest + 1) % 3;
+  const DVec2 weights = nearest_on_segment(corners[longest], corners[other], p);
+  DVec3 result(0);
+  result[static_cast<glm::length_t>(longest)] = weights.x;
+  result[static_cast<glm::length_t>(other)] = weights.y;
+  return result;
+}
+
+/// A corner's weight is the volume that the ray spans with the edge across from it.
+DVec3 barycentrics_of(const std::array<DVec3, 3>& corners, const Ray& ray, const Hit& hit) {
+  const DVec3 o(ray.o), d(ray.d);
+  const DVec3 a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
+  const DVec3 volumes(glm::dot(d, glm::cross(c, b)), glm::dot(d, glm::cross(a, c)),
+                      glm::dot(d, glm::cross(b, a)));
+  const double sum = volumes.x + volumes.y + volumes.z;
+  // The hit lies within; rounding may say otherwise by a little.
+  const DVec3 weights = glm::max(volumes / sum, DVec3(0));
+  const double total = weights.x + weights.y + weights.z;
+  if (total > 0 && std::isfinite(total)) return weights / total;
+  return barycentrics_on_edge(corners, o + static_cast<double>(hit.t) * d);
+}
+
+/// a t^2 + 2 b t + c near its root t, which is known to float32 only: by Newton's method, as long
+/// as it stays near.
+double polished_root(double a, double b, double c, float t) {
+  double x = t;
+  for (int i = 0; i < 3; ++i) {
+    const double step = ((a * x + 2 * b) * x + c) / (2 * (a * x + b));
+    const double next = x - step;
+    if (!(std::abs(next - t) <= 0x1p-22 * t)) return x;
+    x = next;
+  }
+  return x;
+}
+
+class Interaction {
+ public:
+  Interaction(const Primitives& primitives, const Ray& ray, const Hit& hit)
+      : primitives_(primitives), ray_(ray), hit_(hit), o_(ray.o), d_(ray.d) {}
+
+  SurfaceInteraction operator()(const Sphere& s) const {
+    const DVec3 center(s.center), from_center = o_ - center;
+    const double r = s.radius;
+    const double t = polished_root(glm::dot(d_, d_), glm::dot(from_center, d_),
+                                   glm::dot(from_center, from_center) - r * r, hit_.t);
+    const DVec3 n = direction_of(from_center + t * d_, facing());
+    return at(center + r * n, n);
+  }
+
+  SurfaceInteraction operator()(const Plane& s) const { return planar(s.point, s.normal); }
+  SurfaceInteraction operator()(const Disc& s) const { return planar(s.center, s.normal); }
+
+  SurfaceInteraction operator()(const Quadric& q) const {
+    // The polynomial at o + t d: d.Q d t^2 + d.gradient(o) t + value(o).
+    const double a = glm::dot(d_, half_gradient(q, d_, 0));
+    const DVec3 half = half_gradient(q, o_, 1);
+    const double c = glm::dot(o_, half_gradient(q, o_, 2)) + double{q.j};
+    const DVec3 p = o_ + polished_root(a, glm::dot(d_, half), c, hit_.t) * d_;
+    return at(p, direction_of(half_gradient(q, p, 1), facing()));
+  }
+
+  SurfaceInteraction operator()(const Triangle& s) const {
+    const std::array<DVec3, 3> corners{DVec3(s.a), DVec3(s.b), DVec3(s.c)};
+    const DVec3 w = barycentrics_of(corners, ray_, hit_);
+    const DVec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    SurfaceInteraction result =
+        at(w.x * corners[0] + w.y * corners[1] + w.z * corners[2], direction_of(cross, facing()));
+    result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
+    const auto* mesh = std::get_if<Mesh>(&primitives_.object(hit_.id).shape);
+    if (mesh == nullptr) return result;
+    const auto& vertices = mesh->triangles[hit_.id - primitives_.first_id(hit_.id)];
+    result.triangle->mesh = mesh;
+    result.triangle->corners = vertices;
+    if (!mesh->normals.empty()) {
+      const DVec3 sum = w.x * DVec3(mesh->normals[vertices[0]]) +
+                        w.y * DVec3(mesh->normals[vertices[1]]) +
+                        w.z * DVec3(mesh->normals[vertices[2]]);
+      result.ns = direction_of(sum, result.n);
+    }
+    return result;
+  }
+
+  SurfaceInteraction operator()(const Mesh&) const { return {}; }  // primitives are its triangles
+
+ private:
+  [[nodiscard]] DVec3 facing() const { return direction_of(-d_, DVec3(0, 0, 1)); }
+
+  [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n) const {
+    return {.p = p, .n = n, .ns = n, .front = !(glm::dot(d_, n) > 0)};
+  }
+
+  [[nodiscard]] SurfaceInteraction planar(const DVec3& point, const DVec3& normal) const {
+    const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
+    const double t_hit = hit_.t;
+    const bool sure = std::abs(t - t_hit) <= 0x1p-22 * t_hit;
+    return at(o_ + (sure ? t : t_hit) * d_, direction_of(normal, facing()));
+  }
+
+  /// Half the gradient at v, its linear part times `weight`: 2 makes v . this the value but for j.
+  static DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
+    const double d = q.d, e = q.e, f = q.f;
+    return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,
+            q.b * v.y + (d * v.x + f * v.z + weight * q.h) / 2,
+            q.c * v.z + (e * v.x + f * v.y + weight * q.i) / 2};
+  }
+
+  const Primitives& primitives_;
+  const Ray& ray_;
+  const Hit& hit_;
+  DVec3 o_, d_;
+};
+
+/// The vertices' values weighed, if the mesh has them.
+template <typename Result, typename Value>
+std::optional<Result> interpolate(const TrianglePoint& at, const std::vector<Value>& values) {
+  if (values.empty()) return std::nullopt;
+  return at.barycentrics.x * Result(values[at.corners[0]]) +
+         at.barycentrics.y * Result(values[at.corners[1]]) +
+         at.barycentrics.z * Result(values[at.corners[2]]);
+}
+
+}  // namespace
+
+std::optional<DVec2> SurfaceInteraction::uv(std::size_t set) const {
+  if (!triangle || triangle->mesh == nullptr) return std::nullopt;
+  const auto& sets = triangle->mesh->uv_sets;
+  return set < sets.size() ? interpolate<DVec2>(*triangle, sets[set]) : std::nullopt;
+}
+
+DVec4 SurfaceInteraction::color() const {
+  if (!triangle || triangle->mesh == nullptr) return DVec4(1);
+  return interpolate<DVec4>(*triangle, triangle->mesh->colors).value_or(DVec4(1));
+}
+
+SurfaceInteraction interact(const Primitives& primitives, const Ray& ray, const Hit& hit) {
+  return primitives.visit(hit.id, Interaction(primitives, ray, hit));
+}
+
+}  // namespace microtrace

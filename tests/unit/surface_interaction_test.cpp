@@ -1,0 +1,149 @@
+#include "scene/surface_interaction.hpp"
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/scene.hpp>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+void expect_near(const DVec3& a, const DVec3& b, double tolerance = 1e-14) {
+  for (glm::length_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], tolerance) << "axis " << i;
+}
+
+SurfaceInteraction meet(const Scene& scene, const Ray& ray) {
+  const Bvh bvh(scene, {.threads = 1});
+  const std::optional<Hit> hit = bvh.intersect(ray);
+  EXPECT_TRUE(hit.has_value());
+  return hit ? interact(bvh.primitives(), ray, *hit) : SurfaceInteraction{};
+}
+
+SurfaceInteraction meet(Shape shape, const Ray& ray) {
+  Scene scene;
+  scene.objects.push_back({.name = "one", .shape = std::move(shape)});
+  SurfaceInteraction result = meet(scene, ray);
+  if (result.triangle) result.triangle->mesh = nullptr;  // the scene ends here
+  return result;
+}
+
+/// The triangle (0,0,0) (1,0,0) (0,1,0), which faces +z.
+Mesh corner() {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+constexpr Ray kDown{.o = {0.25F, 0.5F, 3}, .d = {0, 0, -1}};
+constexpr Ray kUp{.o = {0.25F, 0.5F, -3}, .d = {0, 0, 1}};
+
+TEST(SurfaceInteraction, TriangleHasFrontAndBack) {
+  const SurfaceInteraction front = meet(corner(), kDown);
+  EXPECT_TRUE(front.front);
+  expect_near(front.n, {0, 0, 1});
+  expect_near(front.p, {0.25, 0.5, 0});
+  ASSERT_TRUE(front.triangle);
+  expect_near(front.triangle->barycentrics, {0.25, 0.25, 0.5});
+  const SurfaceInteraction back = meet(corner(), kUp);
+  EXPECT_FALSE(back.front);
+  expect_near(back.n, {0, 0, 1});
+}
+
+TEST(SurfaceInteraction, VerticesAreInterpolated) {
+  Scene scene;
+  Mesh mesh = corner();
+  mesh.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.uv_sets = {{}, {{0, 0}, {2, 0}, {0, 4}}};
+  mesh.colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 0}};
+  scene.objects.push_back({.name = "before", .shape = Sphere{{9, 9, 9}, 1}});
+  scene.objects.push_back({.name = "mesh", .shape = mesh});
+  const SurfaceInteraction met = meet(scene, kDown);
+  expect_near(met.ns, glm::normalize(DVec3(0.25, 0.25, 0.5)));
+  EXPECT_FALSE(met.uv(0));
+  EXPECT_FALSE(met.uv(2));
+  ASSERT_TRUE(met.uv(1));
+  EXPECT_NEAR(met.uv(1)->x, 0.5, 1e-15);
+  EXPECT_NEAR(met.uv(1)->y, 2, 1e-15);
+  expect_near(DVec3(met.color()), {0.25, 0.25, 0.5});
+  EXPECT_NEAR(met.color().w, 0.5, 1e-15);
+}
+
+TEST(SurfaceInteraction, MissingAttributesHaveDefaults) {
+  Scene scene;
+  scene.objects.push_back({.name = "mesh", .shape = corner()});
+  const SurfaceInteraction met = meet(scene, kDown);
+  EXPECT_EQ(met.ns, met.n);
+  EXPECT_EQ(met.color(), DVec4(1));
+  EXPECT_FALSE(met.uv(0));
+}
+
+TEST(SurfaceInteraction, NormalsThatCancelFallBackToTheFlatOne) {
+  Mesh mesh = corner();
+  mesh.normals = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 0}};
+  expect_near(meet(mesh, kDown).ns, {0, 0, 1});
+}
+
+TEST(SurfaceInteraction, TriangleSeenEdgeOnLiesOnItsEdge) {
+  const SurfaceInteraction met =
+      meet(Triangle{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}}, {.o = {0.5F, 0, 4}, .d = {0, 0, -1}});
+  expect_near(met.p, {0.5, 0, 0});
+  expect_near(met.n, {0, 0, 1});
+  EXPECT_TRUE(met.front);
+}
+
+TEST(SurfaceInteraction, SphereFacesOutward) {
+  const Sphere sphere{{1, 2, 3}, 2};
+  const SurfaceInteraction outside = meet(sphere, {.o = {1.5F, 2.25F, 9}, .d = {0, 0, -1}});
+  const DVec3 offset(0.5, 0.25, std::sqrt(4 - 0.25 - 0.0625));
+  expect_near(outside.p, DVec3(1, 2, 3) + offset);
+  expect_near(outside.n, offset / 2.0);
+  EXPECT_TRUE(outside.front);
+  const SurfaceInteraction inside = meet(sphere, {.o = {1, 2, 3}, .d = {0, 3, 0}});
+  expect_near(inside.n, {0, 1, 0});
+  EXPECT_FALSE(inside.front);
+}
+
+TEST(SurfaceInteraction, PlaneAndDiscFaceAlongTheirNormals) {
+  const Ray ray{.o = {0.1F, 7, 0.3F}, .d = {0.1F, -1, 0.2F}};
+  const DVec3 o(ray.o), d(ray.d);
+  const double t = 7 / -d.y;
+  const SurfaceInteraction plane = meet(Plane{{0, 0, 0}, {0, 3, 0}}, ray);
+  expect_near(plane.p, o + t * d);
+  expect_near(plane.n, {0, 1, 0});
+  EXPECT_TRUE(plane.front);
+  const SurfaceInteraction disc = meet(Disc{{0, 0, 0}, {0, -1, 0}, 9}, ray);
+  expect_near(disc.p, o + t * d);
+  EXPECT_FALSE(disc.front);
+}
+
+TEST(SurfaceInteraction, QuadricFacesWhereItsPolynomialGrows) {
+  // x^2 + 2 y^2 + xy + z - 5 = 0, seen from above.
+  const Quadric quadric{.a = 1, .b = 2, .d = 1, .i = 1, .j = -5};
+  const SurfaceInteraction met = meet(quadric, {.o = {0.3F, 0.7F, 20}, .d = {0, 0, -2}});
+  const double x = 0.3F, y = 0.7F;
+  expect_near(met.p, {x, y, 5 - x * x - 2 * y * y - x * y}, 1e-13);
+  expect_near(met.n, glm::normalize(DVec3(2 * x + y, 4 * y + x, 1)));
+  EXPECT_TRUE(met.front);
+}
+
+TEST(SurfaceInteraction, QuadricOfASphereAgreesWithTheSphere) {
+  // |p - (1, 2, 3)|^2 = 4
+  const Quadric quadric{.a = 1, .b = 1, .c = 1, .g = -2, .h = -4, .i = -6, .j = 10};
+  const Ray ray{.o = {4.3F, 6.1F, 9.7F}, .d = {-0.31F, -0.42F, -0.63F}};
+  const SurfaceInteraction a = meet(quadric, ray), b = meet(Sphere{{1, 2, 3}, 2}, ray);
+  expect_near(a.p, b.p, 1e-13);
+  expect_near(a.n, b.n, 1e-13);
+}
+
+TEST(SurfaceInteraction, ApexFacesTheRay) {
+  const Quadric cone{.a = 1, .b = -1, .c = 1};
+  const SurfaceInteraction met = meet(cone, {.o = {0, 0, 5}, .d = {0, 0, -1}});
+  expect_near(met.n, {0, 0, 1});
+}
+
+}  // namespace
+}  // namespace microtrace
