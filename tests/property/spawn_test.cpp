@@ -1,0 +1,227 @@
+// What spawn.hpp promises, asked of exact arithmetic: side, no hit of its own, nearness.
+
+#include "exact/implicit.hpp"
+#include "exact/intersect.hpp"
+#include "exact/range.hpp"
+#include "support/adversarial_rays.hpp"
+#include "support/reproduction.hpp"
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/spawn.hpp>
+
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+using namespace adversarial;
+
+constexpr int kCasesPerKind = 20000;
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+template <class S>
+constexpr bool is_flat =
+    std::is_same_v<S, Triangle> || std::is_same_v<S, Plane> || std::is_same_v<S, Disc>;
+
+// Any direction; grazing ones, tangents, and into the surface too.
+Vec3 any_direction(Random& random, const Ray& ray, const Vec3& towards) {
+  switch (random.between(0, 6)) {
+    case 0:
+      return -ray.d;
+    case 1:
+      return ray.d;
+    case 2:
+      return random.jitter(towards, 3);  // nearly within a triangle
+    case 3:
+      return random.on_grid(2);
+    case 4:
+      return random.in_cube(1) * random.power_of_two(-60, 60);
+    case 5: {
+      Vec3 d{0};
+      d[random.between(0, 2)] = random.one_in(2) ? 1.0F : -1.0F;
+      return d;
+    }
+    default:
+      return random.in_cube(1);
+  }
+}
+
+Vec3 within(const Triangle& t) {
+  return t.b - t.a;
+}
+Vec3 within(const Plane& p) {
+  return {p.normal.y, -p.normal.x, 0};
+}
+Vec3 within(const Disc& d) {
+  return {-d.normal.z, 0, d.normal.x};
+}
+Vec3 within(const Sphere& s) {
+  return {s.radius, s.center.x, 1};
+}
+Vec3 within(const Quadric& q) {
+  return {q.a, q.h, q.c};
+}
+
+// How many representable numbers lie between.
+std::int64_t steps(float a, float b) {
+  const auto place = [](float x) {
+    const std::int64_t bits = std::bit_cast<std::int32_t>(std::abs(x));
+    return x < 0 ? -bits : bits;
+  };
+  return std::abs(place(a) - place(b));
+}
+
+template <class S>
+void check_nearness(const S& shape, const Ray& ray, const Vec3& q, const Vec3& direction) {
+  const Vec3 p = exact::round_point(ray, *exact::first_hit(shape, ray));
+  int moved_axes = 0;
+  std::int64_t most = 0;
+  for (int k = 0; k < 3; ++k) {
+    moved_axes += p[k] != q[k] ? 1 : 0;
+    most = std::max(most, steps(p[k], q[k]));
+  }
+  ASSERT_LE(moved_axes, 1) << reproduction(ray, shape);
+  ASSERT_LE(most, is_flat<S> ? 4 : 64) << reproduction(ray, shape) << direction.x;
+}
+
+struct Count {
+  int hits = 0, spawned = 0;
+};
+
+template <class S>
+void check(Random& random, const Ray& ray, const S& shape, Count& count) {
+  const auto t = exact::first_hit(shape, ray);
+  const Vec3 direction = any_direction(random, ray, within(shape));
+  const auto q = spawn_origin(shape, ray, direction);
+  if (!t) {
+    ASSERT_FALSE(q.has_value()) << reproduction(ray, shape);
+    return;
+  }
+  if (direction == Vec3(0) || !exact::is_finite(direction)) {
+    ASSERT_FALSE(q.has_value());
+    return;
+  }
+  ++count.hits;
+  if (!q) return;
+  ++count.spawned;
+  const exact::Implicit f(shape);
+  // The side on which the rays from the exact point run, or came from.
+  int side = f.sign_behind(ray, *t, direction);
+  if (side == 0) side = f.sign_behind(ray, *t, -ray.d);
+  if (side == 0) side = 1;
+  ASSERT_EQ(f.value(exact::vector(*q)).sign(), side) << reproduction(ray, shape);
+  const Ray spawned{.o = *q, .t_min = 0, .d = direction};
+  const bool returns = !is_flat<S> && f.quadratic(exact::vector(direction)).sign() * side < 0;
+  ASSERT_EQ(exact::first_hit(shape, spawned).has_value(), returns) << reproduction(spawned, shape);
+  ASSERT_EQ(f.zeros_ahead(*q, direction), returns ? 1 : 0) << reproduction(spawned, shape);
+  check_nearness(shape, ray, *q, direction);
+}
+
+template <class MakeCase>
+Count check_kind(std::uint64_t seed, MakeCase make_case) {
+  Random random(seed);
+  Count count;
+  for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
+    const auto [ray, shape] = make_case(random);
+    check(random, ray, shape, count);
+  }
+  return count;
+}
+
+bool has_area(const Triangle& t) {
+  const auto n = exact::cross(exact::vector(t.b) - exact::vector(t.a),
+                              exact::vector(t.c) - exact::vector(t.a));
+  return exact::nonzero_component(n) >= 0;
+}
+
+TEST(Spawn, Triangle) {
+  for (const TriangleKind kind : triangle_kinds) {
+    SCOPED_TRACE(name(kind));
+    const Count count = check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
+    EXPECT_GT(count.hits, 100);
+  }
+}
+
+// All flat surfaces with an area are left, however far, thin or large, but at the end of the
+// numbers.
+TEST(Spawn, EveryTriangleWithAreaIsLeft) {
+  Random random(32);
+  for (int i = 0; i < 100000; ++i) {
+    const auto [ray, triangle] =
+        triangle_case(random, triangle_kinds[static_cast<std::size_t>(i) % triangle_kinds.size()]);
+    if (!exact::first_hit(triangle, ray) || !has_area(triangle)) continue;
+    const auto q = spawn_origin(triangle, ray, random.in_cube(1));
+    ASSERT_TRUE(q.has_value()) << reproduction(ray, triangle);
+  }
+}
+
+// Flat ones always, but where the hit point is beyond the largest float32; curved ones unless they
+// are about as small as the spacing of numbers.
+template <class MakeCase>
+void check_all_kinds(double least_share, MakeCase make_case) {
+  for (const ShapeKind kind : shape_kinds) {
+    SCOPED_TRACE(name(kind));
+    const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
+    EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
+    EXPECT_GT(count.hits, 900);
+  }
+}
+
+TEST(Spawn, Plane) {
+  check_all_kinds(1, plane_case);
+}
+TEST(Spawn, Disc) {
+  check_all_kinds(1, disc_case);
+}
+TEST(Spawn, Sphere) {
+  check_all_kinds(1, sphere_case);
+}
+TEST(Spawn, Quadric) {
+  check_all_kinds(0.8, quadric_case);
+}
+
+// What leaves a convex body's outside meets nothing of it: neither face, edge nor corner.
+TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
+  Random random(34);
+  int leaves = 0;
+  for (int round = 0; round < 20000; ++round) {
+    // Tetrahedra are convex as they stand.
+    const float size = random.power_of_two(-30, 30);
+    const Vec3 centre = random.in_cube(1) * (size * random.power_of_two(0, 22));
+    std::array<Vec3, 4> p;
+    for (Vec3& corner : p) corner = centre + random.in_cube(size);
+    Scene scene;
+    for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
+      scene.objects.push_back(
+          {.name = "",
+           .shape = Triangle{p[static_cast<std::size_t>(a)], p[static_cast<std::size_t>(b)],
+                             p[static_cast<std::size_t>(c)]}});
+    const Bvh bvh(scene);
+    for (int i = 0; i < 4; ++i) {
+      const Vec3 o = centre + random.in_cube(3 * size);
+      const Vec3 target = random.one_in(2) ? p[0] : p[1] + (p[2] - p[1]) * 0.5F;
+      const Ray ray{.o = o,
+                    .d = random.one_in(2) ? target - o : random.jitter(target - o, 1 << 18)};
+      const auto hit = bvh.intersect(ray);
+      if (!hit) continue;
+      const Vec3 direction = random.in_cube(1);
+      const Triangle& face = std::get<Triangle>(scene.objects[hit->id].shape);
+      const exact::Implicit f(face);
+      const exact::Root t = *exact::first_hit(face, ray);
+      const exact::Vector fourth = exact::vector(p[std::array{3U, 2U, 0U, 1U}[hit->id]]);
+      const int outside = -f.value(fourth).sign();
+      if (outside == 0 || f.sign_behind(ray, t, direction) != outside) continue;
+      const auto q = spawn_origin(bvh.primitives(), hit->id, ray, direction);
+      ASSERT_TRUE(q.has_value());
+      ASSERT_FALSE(bvh.occluded({.o = *q, .t_min = 0, .d = direction})) << round;
+      ++leaves;
+    }
+  }
+  EXPECT_GT(leaves, 10000);
+}
+
+}  // namespace
+}  // namespace microtrace
