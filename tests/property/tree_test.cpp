@@ -23,7 +23,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 Scene scene_of(std::vector<Shape> shapes) {
   Scene scene;
-  for (Shape& shape : shapes) scene.objects.push_back({"", std::move(shape), Vec3(1)});
+  for (Shape& shape : shapes) scene.objects.push_back({.name = "", .shape = std::move(shape)});
   return scene;
 }
 
@@ -276,7 +276,8 @@ bool same(const Tree& a, const Tree& b) {
 TEST(Tree, IsTheSameForAnyNumberOfThreads) {
   Scene scene = scene_of({generated::displaced_sphere(80000), generated::hall(60000), Plane{}});
   for (int i = 0; i < 1000; ++i)
-    scene.objects.push_back({"", Sphere{Vec3(0.01F * static_cast<float>(i)), 0.1F}, Vec3(1)});
+    scene.objects.push_back(
+        {.name = "", .shape = Sphere{Vec3(0.01F * static_cast<float>(i)), 0.1F}});
   const Primitives primitives(scene);
   for (const bool fast : {false, true}) {
     const Tree one = build_tree(primitives, {.fast = fast, .threads = 1});
