@@ -32,7 +32,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const Image>> images;  ///< null where one was not decoded
-  std::vector<NamedCamera> cameras;                  ///< at least one once loaded
+  std::vector<NamedCamera> cameras;                  ///< none: see default_camera
   ImageSize size;      ///< of the picture, unless the caller wants another
   Vec3 background{0};  ///< linear Rec. 709
   float epsilon = 0;   ///< primary rays hit only in the open interval (epsilon, infinity)

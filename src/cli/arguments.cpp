@@ -1,14 +1,10 @@
 #include "cli/arguments.hpp"
 
-#include "scene/validate.hpp"
+#include "cli/option_values.hpp"
 
 #include <microtrace/render.hpp>
 
-#include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
-#include <string_view>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -26,40 +22,6 @@ Examples:
   microtrace model.glb --size 1920x1080 --spp 16 -o model.png
   microtrace scene.json -o - | other-program)";
 
-std::optional<std::uint32_t> whole_number(std::string_view text) {
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-ImageSize parse_size(const std::string& text) {
-  const std::size_t x = text.find('x');
-  const auto width = whole_number(std::string_view(text).substr(0, x));
-  const auto height =
-      x == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(x + 1));
-  if (!width || !height)
-    throw CLI::ValidationError("--size", "wants WIDTHxHEIGHT in pixels, as 640x480, not " + text);
-  const ImageSize size{.width = *width, .height = *height};
-  if (const auto problem = validate(size))
-    throw CLI::ValidationError("--size", problem->field + " " + problem->message);
-  return size;
-}
-
-PixelRect parse_crop(const std::string& text) {
-  std::array<std::uint32_t, 4> sides{};
-  std::string_view rest = text;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const std::size_t comma = i + 1 < sides.size() ? rest.find(',') : rest.size();
-    const auto side = whole_number(rest.substr(0, comma));
-    if (!side || comma == std::string_view::npos)
-      throw CLI::ValidationError("--crop", "wants x0,y0,x1,y1 in pixels, not " + text);
-    sides[i] = *side;
-    rest.remove_prefix(std::min(comma + 1, rest.size()));
-  }
-  return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
-}
-
 std::filesystem::path default_output(const std::string& scene) {
   if (scene == "-") throw CLI::RequiredError("--output, where the scene is standard input,");
   return std::filesystem::path(scene).stem() += ".ppm";
@@ -72,7 +34,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, crop, statistics;
+  std::string output, size, crop, view, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -87,6 +49,11 @@ Parsed parse_arguments(int argc, char** argv) {
                  "rays for each pixel, spread over it [1, through its centre]")
       ->check(CLI::Range(1U, kMaxSamples));
   app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
+  app.add_option("--view", view,
+                 "look at the whole scene from front, back, left, right, top, bottom, iso or "
+                 "AZIMUTH,ELEVATION in degrees: 0,0 is +z, the front, 90,0 is +x [30,25 where the "
+                 "scene has no camera]")
+      ->excludes("--camera");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
@@ -103,6 +70,7 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (!size.empty()) a.size = parse_size(size);
+    if (!view.empty()) a.view = parse_view(view);
     if (!crop.empty()) a.crop = parse_crop(crop);
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
@@ -114,14 +82,17 @@ Parsed parse_arguments(int argc, char** argv) {
   return parsed;
 }
 
-const Camera& choose_camera(const Scene& scene, const std::string& wanted) {
-  if (wanted.empty()) return scene.cameras.at(0).camera;
+Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size) {
+  const std::string& wanted = arguments.camera;
+  if (arguments.view) return frame(scene, *arguments.view, size);
+  if (wanted.empty()) return default_camera(scene, size);
   for (const NamedCamera& camera : scene.cameras) {
     if (camera.name == wanted) return camera.camera;
   }
   const auto index = whole_number(wanted);
   if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
   std::string message = "--camera: there is no camera " + wanted + "; the scene has";
+  if (scene.cameras.empty()) message += " none: leave --camera out, or use --view";
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     message += i == 0 ? " " : ", ";
     message += std::to_string(i) + " (" + scene.cameras[i].name + ")";

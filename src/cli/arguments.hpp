@@ -1,6 +1,7 @@
 #pragma once
 /// The command line.
 
+#include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct Arguments {
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   std::uint32_t samples = 1;  ///< per pixel
-  std::string camera;         ///< a name or an index; empty: the first
+  std::string camera;         ///< a name or an index; empty: the default
+  std::optional<View> view{};
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
@@ -35,7 +37,8 @@ struct Parsed {
 };
 [[nodiscard]] Parsed parse_arguments(int argc, char** argv);
 
-/// The camera that --camera names. Throws Error (usage) with the names there are.
-[[nodiscard]] const Camera& choose_camera(const Scene& scene, const std::string& wanted);
+/// The camera that --camera or --view asks for, else the scene's default. Throws Error (usage) with
+/// the names there are.
+[[nodiscard]] Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size);
 
 }  // namespace microtrace::cli

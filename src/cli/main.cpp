@@ -32,12 +32,12 @@ void run(const cli::Arguments& arguments) {
   cli::Stopwatch watch;
   const auto [scene, warnings] = load_scene(arguments.scene);
   report(warnings, arguments);
-  const Camera& camera = cli::choose_camera(scene, arguments.camera);
+  const ImageSize size = arguments.size.value_or(scene.size);
+  const Camera camera = cli::choose_camera(scene, arguments, size);
   watch.loaded();
   if (arguments.validate) return;
 
   check_image_path(arguments.output);
-  const ImageSize size = arguments.size.value_or(scene.size);
   const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
   const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
   const Film film = render(scene, camera, size,

@@ -147,6 +147,31 @@ class CommandLine(unittest.TestCase):
             self.assertIn(b"crop", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_views(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        for size in ("120x80", "80x120"):
+            width, height = map(int, size.split("x"))
+            pictures = {}
+            for view in (None, "30,25", "front", "back", "left", "right", "top", "bottom", "iso"):
+                _, _, rows = self.picture(cube, "--size", size, *(["--view", view] if view else []))
+                pictures[view] = b"".join(rows)
+                drawn = [[row[3 * x:3 * x + 3] != b"\0\0\0" for x in range(width)] for row in rows]
+                columns = [x for x in range(width) if any(row[x] for row in drawn)]
+                lines = [y for y in range(height) if any(drawn[y])]
+                filled = max((columns[-1] - columns[0] + 1) / width, (lines[-1] - lines[0] + 1) / height)
+                self.assertGreater(filled, 0.93, (size, view))
+                self.assertLess(filled, 0.99, (size, view))
+            self.assertEqual(pictures[None], pictures["30,25"])
+            self.assertNotEqual(pictures["front"], pictures["right"])
+        self.assertNotEqual(self.picture(SCENE, "--view", "top"), self.picture(SCENE))
+        for view in ("sideways", "1", "1,2,3", "0,91", "nan,0", "1;2", ","):
+            self.assertEqual(self.run_program(cube, "--view", view).returncode, 2, view)
+        self.assertEqual(self.run_program(SCENE, "--view", "top", "-c", "0").returncode, 2)
+        none = self.run_program(cube, "-c", "0")
+        self.assertEqual(none.returncode, 2)
+        self.assertIn(b"--view", none.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_samples(self):
         one = self.picture(SCENE, "--size", "64x48")
         self.assertEqual(self.picture(SCENE, "--size", "64x48", "--samples", "1"), one)

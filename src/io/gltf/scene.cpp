@@ -9,7 +9,6 @@
 #include "io/gltf/check/schema.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
-#include "io/gltf/framing.hpp"
 #include "io/gltf/materials.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
@@ -188,10 +187,6 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     result.scene.textures = gltf::make_textures(asset);
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
     if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
-    if (result.scene.cameras.empty()) {
-      result.scene.cameras.push_back(
-          {.name = "framed", .camera = gltf::frame(result.scene.objects)});
-    }
     result.warnings = asset.warnings();
     return result;
   });

@@ -184,7 +184,7 @@ LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem:
   if (const auto table = root.find("colors")) colors = read_colors(*table);
   if (const auto color = root.find("background")) out.scene.background = read_color(*color, colors);
   if (const auto epsilon = root.find("epsilon")) out.scene.epsilon = read_epsilon(*epsilon);
-  read_cameras(root.member("cameras"), out.scene);
+  if (const auto cameras = root.find("cameras")) read_cameras(*cameras, out.scene);
   read_objects(root.member("objects"), colors, folder, options, out);
   return out;
 }

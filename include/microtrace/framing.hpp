@@ -1,0 +1,55 @@
+#pragma once
+/// A camera that sees a whole scene, for scenes that bring none.
+
+#include <microtrace/camera.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/scene.hpp>
+
+#include <array>
+#include <cstddef>
+
+namespace microtrace {
+
+/// Where a picture is taken from, as seen from the scene. The default is the front, which in glTF
+/// faces +z, from the right and above.
+struct View {
+  double azimuth = 30;    ///< degrees about +y: 0 is +z, 90 is +x; finite
+  double elevation = 25;  ///< degrees above the level, in [-90, 90]; at 90 up is -z for azimuth 0
+};
+
+/// Finds a perspective camera for the picture's size, with a vertical angle of 45 degrees. All
+/// bounded shapes lie in the inner 96 % of the picture and touch the edges of that part on two
+/// opposite sides, in the middle of the others; unless that would bring the camera nearer than 1/64
+/// of their bounding box's diagonal to the nearest point, measured along the view. Planes, quadrics
+/// other than ellipsoids, and vertices that are not finite do not count. Where all is one point the
+/// distance is 1; where there is nothing, that point is the origin. The same bits everywhere: only
+/// + - * / and sqrt.
+class Framing {
+ public:
+  Framing(const View& view, ImageSize size);
+
+  /// Takes a scene's shapes, beside those of scenes before it: the poses of an animation, say.
+  void add(const Scene& scene);
+
+  [[nodiscard]] PerspectiveCamera camera() const;
+
+ private:
+  void add(const DVec3& point);
+  template <class Support>
+  void add_support(const Support& support);
+
+  DVec3 right_, up_, back_;  // orthonormal
+  double slope_x_, slope_y_;
+  // Four normals of the frustum's sides, outward, and back; and how far the shapes reach along
+  // each.
+  std::array<DVec3, 5> directions_;
+  std::array<double, 5> reach_;
+  DVec3 low_, high_;  // the bounding box
+};
+
+[[nodiscard]] PerspectiveCamera frame(const Scene& scene, const View& view, ImageSize size);
+
+/// The scene's first camera; where it has none, frame() from the default view.
+[[nodiscard]] Camera default_camera(const Scene& scene, ImageSize size);
+
+}  // namespace microtrace

@@ -1,0 +1,96 @@
+#include "cli/option_values.hpp"
+
+#include "scene/validate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <CLI/Error.hpp>
+
+namespace microtrace::cli {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    parts.push_back(text.substr(0, comma));
+    if (comma == std::string_view::npos) return parts;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+template <typename Number>
+std::optional<Number> read(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+constexpr std::array<std::pair<std::string_view, View>, 7> kViews{{
+    {"front", {.azimuth = 0, .elevation = 0}},
+    {"right", {.azimuth = 90, .elevation = 0}},
+    {"back", {.azimuth = 180, .elevation = 0}},
+    {"left", {.azimuth = 270, .elevation = 0}},
+    {"top", {.azimuth = 0, .elevation = 90}},
+    {"bottom", {.azimuth = 0, .elevation = -90}},
+    // Looks along a cube's diagonal: sin^2 = 1/3.
+    {"iso", {.azimuth = 45, .elevation = 35.264389682754654}},
+}};
+
+}  // namespace
+
+std::optional<std::uint32_t> whole_number(std::string_view text) {
+  return read<std::uint32_t>(text);
+}
+
+ImageSize parse_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const auto width = whole_number(std::string_view(text).substr(0, x));
+  const auto height =
+      x == std::string::npos ? std::nullopt : whole_number(std::string_view(text).substr(x + 1));
+  if (!width || !height)
+    throw CLI::ValidationError("--size", "wants WIDTHxHEIGHT in pixels, as 640x480, not " + text);
+  const ImageSize size{.width = *width, .height = *height};
+  if (const auto problem = validate(size))
+    throw CLI::ValidationError("--size", problem->field + " " + problem->message);
+  return size;
+}
+
+PixelRect parse_crop(const std::string& text) {
+  std::array<std::uint32_t, 4> sides{};
+  const std::vector<std::string_view> parts = split(text);
+  bool good = parts.size() == sides.size();
+  for (std::size_t i = 0; good && i < sides.size(); ++i) {
+    const auto side = whole_number(parts[i]);
+    good = side.has_value();
+    sides[i] = side.value_or(0);
+  }
+  if (!good) throw CLI::ValidationError("--crop", "wants x0,y0,x1,y1 in pixels, not " + text);
+  return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
+}
+
+View parse_view(const std::string& text) {
+  for (const auto& [name, view] : kViews) {
+    if (name == text) return view;
+  }
+  const std::vector<std::string_view> parts = split(text);
+  if (parts.size() == 2) {
+    const auto azimuth = read<double>(parts[0]), elevation = read<double>(parts[1]);
+    if (azimuth && elevation && std::isfinite(*azimuth) && std::abs(*elevation) <= 90)
+      return {.azimuth = *azimuth, .elevation = *elevation};
+  }
+  std::string names;
+  for (const auto& [name, view] : kViews) names.append(name).append(", ");
+  throw CLI::ValidationError("--view", "wants " + names +
+                                           "or AZIMUTH,ELEVATION in degrees, elevation from -90 "
+                                           "to 90, not " +
+                                           text);
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,26 @@
+#pragma once
+/// What stands behind options on the command line.
+
+#include <microtrace/film.hpp>
+#include <microtrace/framing.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace microtrace::cli {
+
+/// Decimal digits alone, without sign.
+[[nodiscard]] std::optional<std::uint32_t> whole_number(std::string_view text);
+
+// Each throws CLI::ValidationError, which names the option and what it wants.
+
+/// WIDTHxHEIGHT
+[[nodiscard]] ImageSize parse_size(const std::string& text);
+/// x0,y0,x1,y1
+[[nodiscard]] PixelRect parse_crop(const std::string& text);
+/// A side's name, or AZIMUTH,ELEVATION in degrees
+[[nodiscard]] View parse_view(const std::string& text);
+
+}  // namespace microtrace::cli

@@ -1,0 +1,122 @@
+#include "float_environment.hpp"
+#include "scene/support.hpp"
+#include "scene/trigonometry.hpp"
+
+#include <microtrace/framing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+constexpr double kFilled = 0.96;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Framing::Framing(const View& view, ImageSize size) : low_(kInfinity), high_(-kInfinity) {
+  const FloatEnvironment environment;
+  const double sin_a = sin_degrees(view.azimuth), cos_a = cos_degrees(view.azimuth);
+  const double sin_e = sin_degrees(view.elevation), cos_e = cos_degrees(view.elevation);
+  right_ = {cos_a, 0, -sin_a};
+  up_ = {-sin_e * sin_a, cos_e, -sin_e * cos_a};
+  back_ = {cos_e * sin_a, sin_e, cos_e * cos_a};
+  slope_y_ = kFilled * (std::sqrt(2.0) - 1);  // tan(45 degrees / 2)
+  slope_x_ = slope_y_ * size.width / size.height;
+  directions_ = {right_ + slope_x_ * back_, slope_x_ * back_ - right_, up_ + slope_y_ * back_,
+                 slope_y_ * back_ - up_, back_};
+  reach_.fill(-kInfinity);
+}
+
+void Framing::add(const DVec3& point) {
+  for (std::size_t k = 0; k < reach_.size(); ++k) {
+    reach_[k] = std::max(reach_[k], glm::dot(directions_[k], point));
+  }
+  low_ = glm::min(low_, point);
+  high_ = glm::max(high_, point);
+}
+
+template <class Support>
+void Framing::add_support(const Support& support) {
+  for (std::size_t k = 0; k < reach_.size(); ++k) {
+    reach_[k] = std::max(reach_[k], support(directions_[k]));
+  }
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    DVec3 unit(0);
+    unit[axis] = 1;
+    high_[axis] = std::max(high_[axis], support(unit));
+    low_[axis] = std::min(low_[axis], -support(-unit));
+  }
+}
+
+void Framing::add(const Scene& scene) {
+  const FloatEnvironment environment;
+  const auto add_shape = [this](const auto& shape) {
+    using S = std::remove_cvref_t<decltype(shape)>;
+    if constexpr (std::is_same_v<S, Mesh>) {
+      for (const Vec3& p : shape.positions) {
+        if (is_finite(p)) add(DVec3(p));
+      }
+    } else if constexpr (std::is_same_v<S, Triangle>) {
+      for (const Vec3& p : {shape.a, shape.b, shape.c}) {
+        if (is_finite(p)) add(DVec3(p));
+      }
+    } else if constexpr (std::is_same_v<S, Sphere>) {
+      if (is_finite(shape.center) && shape.radius >= 0 && std::isfinite(shape.radius))
+        add_support(SphereSupport{.center = shape.center, .radius = shape.radius});
+    } else if constexpr (std::is_same_v<S, Disc>) {
+      const bool is_there = is_finite(shape.center) && is_finite(shape.normal) &&
+                            shape.normal != Vec3(0) && shape.radius >= 0 &&
+                            std::isfinite(shape.radius);
+      if (is_there)
+        add_support(DiscSupport{.center = shape.center,
+                                .normal = glm::normalize(DVec3(shape.normal)),
+                                .radius = shape.radius});
+    } else if constexpr (std::is_same_v<S, Quadric>) {
+      if (const auto support = ellipsoid(shape)) add_support(*support);
+    } else {
+      static_assert(std::is_same_v<S, Plane>, "has no bounds");
+    }
+  };
+  for (const Object& object : scene.objects) std::visit(add_shape, object.shape);
+}
+
+// A camera at x right + y up + z back sees a point p within the slope s of the right side if
+// (right + s back) . p <= x + s z, and within that of the left side if (s back - right) . p <=
+// s z - x. Both hold for all points with the least z where both are equalities.
+PerspectiveCamera Framing::camera() const {
+  const FloatEnvironment environment;
+  const bool empty = !(low_.x <= high_.x);
+  const bool point = empty || low_ == high_;
+  DVec3 position = empty ? back_ : low_ + back_;
+  if (!point) {
+    const double diagonal = std::sqrt(glm::dot(high_ - low_, high_ - low_));
+    const double x = (reach_[0] - reach_[1]) / 2, y = (reach_[2] - reach_[3]) / 2;
+    const double z =
+        std::max({(reach_[0] + reach_[1]) / (2 * slope_x_),
+                  (reach_[2] + reach_[3]) / (2 * slope_y_), reach_[4] + diagonal / 64});
+    position = right_ * x + up_ * y + back_ * z;
+  }
+  return {.pose = {.position = position, .direction = -back_, .up = up_},
+          .vertical_fov = std::numbers::pi / 4};
+}
+
+PerspectiveCamera frame(const Scene& scene, const View& view, ImageSize size) {
+  Framing framing(view, size);
+  framing.add(scene);
+  return framing.camera();
+}
+
+Camera default_camera(const Scene& scene, ImageSize size) {
+  if (!scene.cameras.empty()) return scene.cameras[0].camera;
+  return frame(scene, View{}, size);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,23 @@
+#include "scene/support.hpp"
+
+#include <glm/matrix.hpp>
+
+namespace microtrace {
+
+// p^T A p + 2 b . p + j = 0 is (p - c)^T A (p - c) = c^T A c - j with A c = -b.
+std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
+  const double sign = q.a < 0 ? -1 : 1;
+  const double a = sign * q.a, b = sign * q.b, c = sign * q.c;
+  const double d = sign * q.d / 2, e = sign * q.e / 2, f = sign * q.f / 2;
+  const glm::dmat3 matrix(a, d, e, d, b, f, e, f, c);
+  const bool positive_definite = a > 0 && a * b - d * d > 0 && glm::determinant(matrix) > 0;
+  if (!positive_definite) return std::nullopt;
+  const DVec3 half_linear = DVec3(q.g, q.h, q.i) * (sign / 2);
+  const glm::dmat3 inverse = glm::inverse(matrix);
+  const DVec3 center = -(inverse * half_linear);
+  const double square = -glm::dot(half_linear, center) - sign * q.j;
+  if (!(square >= 0) || !std::isfinite(square)) return std::nullopt;
+  return EllipsoidSupport{.center = center, .inverse = inverse * square};
+}
+
+}  // namespace microtrace
