@@ -135,6 +135,19 @@ AssetBuilder cube() {
   return asset;
 }
 
+std::string mutated(const AssetBuilder& asset, const char* where, const char* value) {
+  nlohmann::json json = nlohmann::json::parse(asset.embedded());
+  const nlohmann::json::json_pointer pointer(where);
+  if (pointer.empty()) {
+    json.merge_patch(nlohmann::json::parse(value));
+  } else if (*value != '\0') {
+    json[pointer] = nlohmann::json::parse(value);
+  } else {
+    json[pointer.parent_pointer()].erase(pointer.back());
+  }
+  return json.dump(1);
+}
+
 LoadedScene load(const std::string& bytes) {
   return io::load_gltf(bytes, "test.gltf", "nowhere");
 }

@@ -56,6 +56,10 @@ inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 /// The cube [-1, 1]^3: 8 vertices, 12 triangles with u16 indices, a red material, a node "Cube".
 [[nodiscard]] AssetBuilder cube();
 
+/// The asset with one change: the value at the JSON pointer `where` set, or removed if `value` is
+/// empty; where the pointer is empty, `value` is a JSON merge patch (RFC 7396) to the whole.
+[[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
+
 /// Loads bytes as "test.gltf" from an empty folder name.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);

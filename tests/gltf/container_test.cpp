@@ -63,6 +63,15 @@ TEST(GltfContainer, BytesAfterTheEndAreIgnoredWithAWarning) {
               testing::ElementsAre(": 3 bytes after the end of the GLB file are ignored"));
 }
 
+TEST(GltfContainer, ChunksOfUnalignedLengthAreReadWithAWarning) {
+  std::string json = cube().with_buffer(nullptr).dump();
+  json.resize(json.size() / 4 * 4 + 5, ' ');
+  const std::string bin = padded(cube().buffer, '\0');
+  const LoadedScene loaded = load(glb_file({{json_chunk, json}, {bin_chunk, bin}}));
+  EXPECT_EQ(loaded.scene.objects.size(), 1U);
+  EXPECT_THAT(texts(loaded.warnings), testing::Contains(HasSubstr("no multiples of 4")));
+}
+
 struct BadFile {
   const char* name;
   std::string bytes;
@@ -95,8 +104,9 @@ std::vector<BadFile> bad_files() {
        "second"},
       {"two JSON", glb_file({{json_chunk, json}, {json_chunk, json}}), invalid, "two JSON"},
       {"empty JSON", glb_file({{json_chunk, ""}, {bin_chunk, bin}}), invalid, "empty"},
-      {"unaligned", glb_file({{json_chunk, json + " "}, {bin_chunk, bin}}), invalid,
-       "multiple of 4"},
+      {"byte order mark", "\xEF\xBB\xBF" + json, invalid, "byte order mark"},
+      {"byte order mark in a chunk", glb_file({{json_chunk, "\xEF\xBB\xBF " + json}}), invalid,
+       "byte order mark"},
       {"chunk header cut", glb_file({{json_chunk, json}}) + "1234", invalid, ""},
       {"not JSON", "{\"asset\":", invalid, ""},
       {"an array", "[1, 2, 3]", invalid, "object"},

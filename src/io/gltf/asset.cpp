@@ -1,6 +1,7 @@
 #include "io/gltf/asset.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -22,6 +23,36 @@ const std::vector<JsonValue>& Asset::array(std::string_view name) const {
 
 Element Asset::element(std::string_view name, std::size_t index) const {
   return root().member(name).item(index);
+}
+
+const JsonValue* Asset::find(std::string_view pointer) const {
+  const JsonValue* value = &json_.root();
+  while (value != nullptr && !pointer.empty()) {
+    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string_view token = pointer.substr(1, end - 1);
+    std::size_t index = 0;
+    if (value->kind == JsonValue::Kind::array) {
+      const auto read = std::from_chars(token.data(), token.data() + token.size(), index);
+      const bool is_there = read.ec == std::errc{} && index < value->items.size();
+      value = is_there ? &value->items[index] : nullptr;
+    } else {
+      value = value->find(token);
+    }
+    pointer.remove_prefix(end);
+  }
+  return value;
+}
+
+bool Asset::uses(std::string_view extension) const {
+  return std::ranges::any_of(array("extensionsUsed"), [extension](const JsonValue& item) {
+    return item.string == extension;
+  });
+}
+
+void Asset::drop(const Element& object, std::string_view key) {
+  // Elements let their holders read; the document itself is the asset's to change.
+  auto& members = const_cast<JsonValue*>(object.value)->members;
+  std::erase_if(members, [key](const JsonMember& member) { return member.key == key; });
 }
 
 void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {

@@ -26,8 +26,8 @@ struct Element {
 
 class Asset {
  public:
-  /// The document must outlive the asset.
-  explicit Asset(const JsonDocument& json) : json_(json) {}
+  /// The document must outlive the asset, which changes it by drop alone.
+  explicit Asset(JsonDocument& json) : json_(json) {}
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
   [[nodiscard]] const std::string& file() const { return json_.file(); }
@@ -36,6 +36,15 @@ class Asset {
   [[nodiscard]] const std::vector<JsonValue>& array(std::string_view name) const;
   /// Item `index` of that array, which has it.
   [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
+
+  /// The value that a JSON pointer without escapes leads to, or null.
+  [[nodiscard]] const JsonValue* find(std::string_view pointer) const;
+  /// Whether extensionsUsed names that extension.
+  [[nodiscard]] bool uses(std::string_view extension) const;
+
+  /// Takes a member that does no good out of an object of the asset's JSON, after a warning. What
+  /// is left is what readers see. Elements in the object are no longer good.
+  static void drop(const Element& object, std::string_view key);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;

@@ -36,8 +36,7 @@ class ChunkReader {
     if (left < chunk_header_size) fail(where() + "ends within the chunk's header");
     const std::uint32_t length = read_u32(bytes_, offset_);
     const std::uint32_t type = read_u32(bytes_, offset_ + 4);
-    if (length % 4 != 0)
-      fail(where() + "has a length of " + std::to_string(length) + ", not a multiple of 4");
+    is_aligned_ = is_aligned_ && length % 4 == 0;
     if (length > left - chunk_header_size) {
       fail(where() + "claims " + std::to_string(length) + " bytes, but only " +
            std::to_string(left - chunk_header_size) + " follow");
@@ -47,6 +46,9 @@ class ChunkReader {
     ++number_;
     return {type, data};
   }
+
+  /// Whether the lengths of all chunks so far are multiples of 4, as they must be.
+  [[nodiscard]] bool is_aligned() const { return is_aligned_; }
 
   [[noreturn]] void fail(const std::string& what) const {
     throw Error(ErrorKind::invalid_scene, name_, "GLB file: " + what + "; export it again");
@@ -61,6 +63,7 @@ class ChunkReader {
   const std::string& name_;
   std::size_t offset_ = header_size;
   std::size_t number_ = 0;
+  bool is_aligned_ = true;
 };
 
 void check_header(std::string_view bytes, const std::string& name) {
@@ -81,10 +84,20 @@ void check_header(std::string_view bytes, const std::string& name) {
   }
 }
 
+/// glTF 2.0, section 2.7, forbids it, and other readers do not expect one.
+void refuse_byte_order_mark(std::string_view json, const std::string& name) {
+  if (!json.starts_with("\xEF\xBB\xBF")) return;
+  throw Error(ErrorKind::invalid_scene, name,
+              "starts with a byte order mark; save it as UTF-8 without one");
+}
+
 }  // namespace
 
 Container open_container(std::string_view bytes, const std::string& name) {
-  if (!bytes.starts_with("glTF")) return {.json = bytes, .bin = {}};
+  if (!bytes.starts_with("glTF")) {
+    refuse_byte_order_mark(bytes, name);
+    return {.json = bytes, .bin = {}};
+  }
   check_header(bytes, name);
   const std::size_t size = bytes.size();
   bytes = bytes.substr(0, read_u32(bytes, 8));
@@ -92,6 +105,7 @@ Container open_container(std::string_view bytes, const std::string& name) {
   const Chunk first = reader.next();
   if (first.type != json_type) reader.fail("the first chunk is not JSON");
   if (first.data.empty()) reader.fail("the JSON chunk is empty");
+  refuse_byte_order_mark(first.data, name);
   Container result{
       .json = first.data, .bin = {}, .is_glb = true, .extra_bytes = size - bytes.size()};
   for (bool second = true; !reader.at_end(); second = false) {
@@ -100,6 +114,7 @@ Container open_container(std::string_view bytes, const std::string& name) {
     if (chunk.type == bin_type && !second) reader.fail("a BIN chunk is not the second");
     if (chunk.type == bin_type) result.bin = chunk.data;
   }
+  result.is_aligned = reader.is_aligned();
   return result;
 }
 

@@ -12,6 +12,7 @@ struct Container {
   std::string_view json;
   std::optional<std::string_view> bin;  ///< of a GLB file that has a BIN chunk
   bool is_glb = false;
+  bool is_aligned = true;       ///< the lengths of all chunks are multiples of 4, as they must be
   std::size_t extra_bytes = 0;  ///< in the file after the end that a GLB header names
 };
 

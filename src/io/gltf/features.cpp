@@ -16,6 +16,28 @@ constexpr std::array<std::string_view, 2> honoured = {
     "KHR_mesh_quantization",
 };
 
+/// Without these the picture has every surface in its place and its material's basic look, so that
+/// an asset that requires one is drawn, with the warning that the extension is ignored.
+constexpr std::array<std::string_view, 19> without_harm = {"KHR_animation_pointer",
+                                                           "KHR_lights_punctual",
+                                                           "KHR_materials_anisotropy",
+                                                           "KHR_materials_clearcoat",
+                                                           "KHR_materials_diffuse_transmission",
+                                                           "KHR_materials_dispersion",
+                                                           "KHR_materials_emissive_strength",
+                                                           "KHR_materials_ior",
+                                                           "KHR_materials_iridescence",
+                                                           "KHR_materials_pbrSpecularGlossiness",
+                                                           "KHR_materials_sheen",
+                                                           "KHR_materials_specular",
+                                                           "KHR_materials_transmission",
+                                                           "KHR_materials_variants",
+                                                           "KHR_materials_volume",
+                                                           "KHR_texture_transform",
+                                                           "EXT_texture_webp",
+                                                           "KHR_xmp",
+                                                           "KHR_xmp_json_ld"};
+
 using Version = std::pair<unsigned, unsigned>;
 
 /// major.minor, in decimal digits.
@@ -37,7 +59,7 @@ std::optional<Version> version(const Asset& asset, const Element& info, const ch
   return parsed;
 }
 
-void check_version(const Asset& asset) {
+void check_version(Asset& asset) {
   const Element info = asset.root().member("asset");
   if (asset.root().value->find("asset") == nullptr) {
     asset.fail(asset.root(), "lacks the required property \"asset\": this is not glTF 2.0");
@@ -49,10 +71,33 @@ void check_version(const Asset& asset) {
     asset.fail(info.member("version"), "only glTF 2 is read; export the asset as glTF 2.0",
                ErrorKind::unsupported);
   }
+  if (*written > Version{2, 0}) {
+    asset.warn(info.member("version"), "is beyond glTF 2.0; the asset is read as glTF 2.0");
+  }
   if (!least) return;
-  if (*least > *written) asset.fail(info.member("minVersion"), "is greater than version");
-  if (*least > Version{2, 0}) {
-    asset.fail(info.member("minVersion"), "asks for more than glTF 2.0, which is what is read",
+  const Element at = info.member("minVersion");
+  if (least->first != 2) {
+    asset.fail(at, "asks for another glTF than 2, which is what is read", ErrorKind::unsupported);
+  }
+  if (*least > *written) {
+    asset.warn(at, "is greater than version");
+  } else if (*least > Version{2, 0}) {
+    asset.warn(at, "asks for more than glTF 2.0; what it adds is not drawn");
+  }
+}
+
+/// An extension that is required but not used changes nothing (glTF 2.0, section 3.12, forbids it).
+void check_extension(Asset& asset, const Element& at) {
+  if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
+  const std::string& name = at.value->string;
+  const bool known = std::ranges::find(honoured, name) != honoured.end() ||
+                     std::ranges::find(without_harm, name) != without_harm.end();
+  if (!asset.uses(name)) {
+    asset.warn(at, "is missing in extensionsUsed; the requirement is ignored");
+  } else if (!known) {
+    asset.fail(at,
+               "the asset requires extension " + in_quotes(name) +
+                   ", which is not supported; export it without",
                ErrorKind::unsupported);
   }
 }
@@ -110,20 +155,13 @@ class FeatureSearch {
 
 }  // namespace
 
-void check_requirements(const Asset& asset) {
+void check_requirements(Asset& asset) {
   if (asset.root().value->kind != JsonValue::Kind::object) {
     asset.fail(asset.root(), "must be an object: this is not glTF 2.0");
   }
   check_version(asset);
-  const std::vector<JsonValue>& required = asset.array("extensionsRequired");
-  for (std::size_t i = 0; i < required.size(); ++i) {
-    if (std::ranges::find(honoured, required[i].string) != honoured.end()) continue;
-    const Element at = asset.element("extensionsRequired", i);
-    if (required[i].kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
-    asset.fail(at,
-               "the asset requires extension " + in_quotes(required[i].string) +
-                   ", which is not supported; export it without",
-               ErrorKind::unsupported);
+  for (std::size_t i = 0; i < asset.array("extensionsRequired").size(); ++i) {
+    check_extension(asset, asset.element("extensionsRequired", i));
   }
 }
 

@@ -7,7 +7,7 @@ namespace microtrace::io::gltf {
 
 /// Checks the glTF version and the required extensions, and so must come before check_schema, as
 /// either may change the schema. Throws Error: invalid_scene, unsupported.
-void check_requirements(const Asset& asset);
+void check_requirements(Asset& asset);
 
 /// One warning for each kind of feature that is present and not honoured.
 void warn_of_ignored_features(Asset& asset);

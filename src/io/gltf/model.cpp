@@ -53,12 +53,26 @@ nlohmann::json copy_of(const JsonValue& value) {
   return nullptr;
 }
 
+/// tinygltf refuses an asset for what check_schema survives: an accessor of unknown type, which no
+/// part of a mesh may then use, and a camera of unknown type, which no node then names.
+void fill_in(nlohmann::json& asset) {
+  for (nlohmann::json& accessor : asset["accessors"]) {
+    if (accessor.contains("type") && accessor.contains("componentType")) continue;
+    accessor = {{"type", "SCALAR"}, {"componentType", 5121}, {"count", 1}};
+  }
+  for (nlohmann::json& camera : asset["cameras"]) {
+    if (camera.contains("type")) continue;
+    camera = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}};
+  }
+}
+
 nlohmann::json parsed_part(const JsonValue& root) {
   nlohmann::json result = nlohmann::json::object();
   for (const JsonMember& member : root.members) {
     if (std::ranges::find(parsed, member.key) == parsed.end()) continue;
     result[member.key] = copy_of(member.value);
   }
+  fill_in(result);
   if (!result.contains("meshes")) return result;
   for (nlohmann::json& mesh : result["meshes"]) {
     for (nlohmann::json& primitive : mesh["primitives"]) {

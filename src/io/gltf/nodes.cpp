@@ -88,7 +88,7 @@ void NodeTree::check_scenes() const {
     const std::vector<int>& nodes = model_.scenes[i].nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (const int parent = parents_[static_cast<std::size_t>(nodes[k])]; parent >= 0) {
-        asset_.fail(asset_.element("scenes", i).member("nodes").item(k),
+        asset_.warn(asset_.element("scenes", i).member("nodes").item(k),
                     "is a child of node " + std::to_string(parent) + "; scenes name roots only");
       }
     }
@@ -117,7 +117,9 @@ DMat4 NodeTree::local(std::size_t index) {
       result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
     }
     if (result[0][3] != 0 || result[1][3] != 0 || result[2][3] != 0 || result[3][3] != 1) {
-      asset_.fail(at.member("matrix"), "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1");
+      asset_.warn(at.member("matrix"),
+                  "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
+      for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;
     }
     return result;
   }
@@ -147,6 +149,9 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     for (const int node : model_.scenes[scene].nodes)
       first.push_back(static_cast<std::size_t>(node));
   }
+  // A child that the scene names beside its ancestor, which it must not, has its place there.
+  std::ranges::stable_partition(first, [this](std::size_t node) { return parents_[node] < 0; });
+  std::vector<bool> placed(parents_.size());
   std::vector<PlacedNode> result;
   std::vector<PlacedNode> open;
   for (std::size_t i = first.size(); i-- > 0;) {
@@ -155,6 +160,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   while (!open.empty()) {
     const PlacedNode next = open.back();
     open.pop_back();
+    if (placed[next.node]) continue;
+    placed[next.node] = true;
     result.push_back(next);
     const std::vector<int>& children = model_.nodes[next.node].children;
     for (std::size_t i = children.size(); i-- > 0;) {

@@ -136,6 +136,9 @@ struct GltfFile::Content {
         materials(gltf::make_materials(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)) {
     gltf::warn_of_ignored_features(asset);
+    if (!container.is_aligned) {
+      asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
+    }
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
                                    " bytes after the end of the GLB file are ignored");

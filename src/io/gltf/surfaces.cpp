@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace microtrace::io::gltf {
@@ -20,10 +21,12 @@ bool is_drawn(int mode) {
          mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
+/// In a list of vertices, the end of one strip, fan or loop and the start of another.
+constexpr std::uint32_t restart = 0xFFFFFFFF;
+
 /// glTF 2.0, section 3.7.2.1: the triangles that a list of vertices makes, first corner and winding
 /// as written there. An incomplete last triangle is left out.
-std::vector<Corners> triangles_of(int mode, const std::vector<std::uint32_t>& v) {
-  std::vector<Corners> result;
+void add_triangles(int mode, std::span<const std::uint32_t> v, std::vector<Corners>& result) {
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     for (std::size_t i = 0; i + 2 < v.size(); i += 3) result.push_back({v[i], v[i + 1], v[i + 2]});
   } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
@@ -32,6 +35,16 @@ std::vector<Corners> triangles_of(int mode, const std::vector<std::uint32_t>& v)
     }
   } else {
     for (std::size_t i = 0; i + 2 < v.size(); ++i) result.push_back({v[i + 1], v[i + 2], v[0]});
+  }
+}
+
+std::vector<Corners> triangles_of(int mode, std::span<const std::uint32_t> vertices) {
+  std::vector<Corners> result;
+  while (!vertices.empty()) {
+    const auto end = std::ranges::find(vertices, restart);
+    const auto size = static_cast<std::size_t>(end - vertices.begin());
+    add_triangles(mode, vertices.first(size), result);
+    vertices = vertices.subspan(std::min(size + 1, vertices.size()));
   }
   return result;
 }
@@ -188,16 +201,26 @@ class SurfaceMaker {
     const tinygltf::Accessor& indices = accessor(primitive.indices);
     check_count(at.member("indices"), indices.count);
     std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(primitive.indices);
-    const std::uint64_t restart =
+    const Element source = asset_.element("accessors", static_cast<std::size_t>(primitive.indices));
+    const std::uint64_t greatest =
         (std::uint64_t{1} << 8 * component_size(indices.componentType)) - 1;
-    const auto bad = std::ranges::find_if(
-        result, [&](std::uint32_t v) { return v >= vertex_count || v == restart; });
-    if (bad == result.end()) return result;
-    asset_.fail(asset_.element("accessors", static_cast<std::size_t>(primitive.indices)),
-                "element " + std::to_string(bad - result.begin()) + " is vertex " +
-                    std::to_string(*bad) +
-                    (*bad == restart ? ", the value that glTF 2.0 forbids as primitive restart"
-                                     : " of only " + std::to_string(vertex_count)));
+    bool restarts = false;
+    for (std::uint32_t& vertex : result) {
+      if (vertex < vertex_count && vertex != greatest) continue;
+      if (vertex != greatest) {
+        asset_.fail(source, "element " + std::to_string(&vertex - result.data()) + " is vertex " +
+                                std::to_string(vertex) + " of only " +
+                                std::to_string(vertex_count));
+      }
+      vertex = restart;
+      restarts = true;
+    }
+    if (restarts) {
+      asset_.warn(source,
+                  "has the value that means primitive restart, which glTF 2.0 forbids; a new "
+                  "primitive starts there");
+    }
+    return result;
   }
 
   void check_indices(const Element& at, const tinygltf::Accessor& indices) const {

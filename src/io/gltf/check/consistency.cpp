@@ -27,6 +27,7 @@ void check_orthographic(Asset& asset, const Element& at) {
 void check_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("cameras").size(); ++i) {
     const Element at = asset.element("cameras", i);
+    if (at.value->find("type") == nullptr) continue;  // check_schema has warned
     const std::string& type = at.member("type").value->string;
     const bool perspective = type == "perspective";
     const Element projection = at.member(type);
@@ -46,6 +47,17 @@ void check_cameras(Asset& asset) {
     if (far != nullptr && far->number <= projection.member("znear").value->number) {
       asset.fail(projection.member("zfar"), "must be greater than znear");
     }
+  }
+}
+
+/// A camera whose type check_schema did not know.
+void drop_cameras_without_type(Asset& asset) {
+  for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
+    const Element at = asset.element("nodes", i);
+    const JsonValue* index = at.value->find("camera");
+    if (index == nullptr) continue;
+    const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
+    if (camera.find("type") == nullptr) Asset::drop(at, "camera");
   }
 }
 
@@ -72,6 +84,7 @@ std::size_t components(const std::string& type) {
 void check_bounds(const Asset& asset) {
   for (std::size_t i = 0; i < asset.array("accessors").size(); ++i) {
     const Element at = asset.element("accessors", i);
+    if (at.value->find("type") == nullptr) continue;  // check_schema has warned
     const std::size_t expected = components(at.member("type").value->string);
     for (const char* key : {"min", "max"}) {
       const JsonValue* bounds = at.value->find(key);
@@ -118,6 +131,7 @@ void check_animations(const Asset& asset) {
 
 void check_consistency(Asset& asset) {
   check_cameras(asset);
+  drop_cameras_without_type(asset);
   check_strides(asset);
   check_bounds(asset);
   check_images(asset);

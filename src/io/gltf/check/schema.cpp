@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -53,30 +55,36 @@ bool is_attribute_name(std::string_view name) {
   });
 }
 
+bool is_instance_attribute_name(std::string_view name) {
+  return name.starts_with('_') || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
+}
+
 class Checker {
  public:
   explicit Checker(Asset& asset) : asset_(asset) {}
 
-  void object(const Element& at, std::span<const Rule> rules) {
+  void object(const Element& at, std::span<const Rule> rules, Place place) {
     require(at, at.value->kind == Kind::object, "must be an object");
     for (const Rule& rule : rules) {
       if (rule.required && at.value->find(rule.key) == nullptr) {
         asset_.fail(at, "lacks the required property " + in_quotes(rule.key));
       }
     }
+    std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
       const Element element{&member.value, child(at.pointer, member.key)};
       const auto rule = std::ranges::find(rules, member.key, &Rule::key);
       if (rule != rules.end()) {
-        property(element, *rule);
+        if (!property(element, *rule)) dropped.push_back(member.key);
       } else if (member.key == "extensions") {
-        extensions(element);
+        extensions(element, place);
       } else if (member.key == "name") {
         require(element, member.value.kind == Kind::string, "must be a string");
       } else if (member.key != "extras") {
         asset_.warn(element, "is no property that glTF 2.0 has here; it is ignored");
       }
     }
+    for (const std::string& key : dropped) asset_.drop(at, key);
   }
 
  private:
@@ -84,37 +92,52 @@ class Checker {
     if (!holds) asset_.fail(at, message);
   }
 
-  void property(const Element& at, const Rule& rule) {
+  /// False where the value is to be dropped.
+  bool property(const Element& at, const Rule& rule) {
     switch (rule.form) {
       case Form::boolean:
-        return require(at, at.value->kind == Kind::boolean, "must be true or false");
+        require(at, at.value->kind == Kind::boolean, "must be true or false");
+        break;
       case Form::integer:
       case Form::number:
         return number(at, rule);
       case Form::string:
         return string(at, rule);
       case Form::index:
-        return index(at, rule);
+        index(at, rule);
+        break;
       case Form::indices:
         array(at, rule, [&](const Element& item) { index(item, rule); });
-        return different(at, &JsonValue::number);
+        different(at, &JsonValue::number);
+        break;
       case Form::numbers:
-        return array(at, rule, [&](const Element& item) { number(item, rule); });
+        array(at, rule, [&](const Element& item) { number(item, rule); });
+        break;
       case Form::strings:
         array(at, rule, [&](const Element& item) { string(item, rule); });
-        return different(at, &JsonValue::string);
+        different(at, &JsonValue::string);
+        break;
       case Form::object:
-        return object(at, rule.members);
+        object(at, rule.members, rule.place);
+        break;
       case Form::objects:
-        return array(at, rule, [&](const Element& item) { object(item, rule.members); });
+        array(at, rule, [&](const Element& item) { object(item, rule.members, rule.place); });
+        break;
       case Form::attributes:
-        return attributes(at, rule);
+      case Form::instance_attributes:
+      case Form::draco_attributes:
+        attributes(at, rule);
+        break;
       case Form::targets:
-        return array(at, rule, [&](const Element& item) { attributes(item, rule); });
+        array(at, rule, [&](const Element& item) { attributes(item, rule); });
+        break;
+      case Form::anything:
+        break;
     }
+    return true;
   }
 
-  void number(const Element& at, const Rule& rule) const {
+  bool number(const Element& at, const Rule& rule) const {
     const double number = at.value->number;
     const bool integral = std::trunc(number) == number && std::abs(number) <= 0x1p53;
     const bool integer = rule.form == Form::integer;
@@ -123,27 +146,45 @@ class Checker {
     if (number < rule.min || number > rule.max || (rule.above_min && number == rule.min)) {
       asset_.fail(at, what + range_of(rule) + ", is " + text_of(number));
     }
-    if (!rule.values.empty() && std::ranges::find(rule.values, number) == rule.values.end()) {
-      asset_.fail(at, "must be one of " + listed(rule.values, text_of) + ", is " + text_of(number));
+    if (rule.values.empty() || std::ranges::find(rule.values, number) != rule.values.end()) {
+      return true;
     }
+    unknown(at, listed(rule.values, text_of), text_of(number), rule.closed);
+    return false;
   }
 
-  void string(const Element& at, const Rule& rule) const {
+  bool string(const Element& at, const Rule& rule) const {
     const std::string& string = at.value->string;
     require(at, at.value->kind == Kind::string, "must be a string");
-    if (!rule.strings.empty() && std::ranges::find(rule.strings, string) == rule.strings.end()) {
-      asset_.fail(
-          at, "must be one of " + listed(rule.strings, in_quotes) + ", is " + in_quotes(string));
+    if (rule.strings.empty() || std::ranges::find(rule.strings, string) != rule.strings.end()) {
+      return true;
     }
+    unknown(at, listed(rule.strings, in_quotes), in_quotes(string), rule.closed);
+    return false;
   }
 
-  void index(const Element& at, const Rule& rule) const {
+  void unknown(const Element& at, const std::string& known, const std::string& found,
+               bool closed) const {
+    const std::string message = "must be one of " + known + ", is " + found;
+    if (closed) asset_.fail(at, message);
+    asset_.warn(at, message + "; it is ignored");
+  }
+
+  void index(const Element& at, const Rule& rule) {
     const double number = at.value->number;
-    const std::string array = "/" + std::string(rule.target);
+    const bool in_extension = rule.target.starts_with('/');
+    const std::string array = (in_extension ? "" : "/") + std::string(rule.target);
     if (at.value->kind != Kind::number || std::trunc(number) != number || number < 0) {
       asset_.fail(at, "must be an integer of at least 0, an index into " + array);
     }
-    const std::size_t size = asset_.array(rule.target).size();
+    const JsonValue* items = asset_.find(array);
+    if (items == nullptr && in_extension) {
+      asset_.warn(at,
+                  "is an index into " + array + ", which is absent; the extension is ignored here");
+      lacks_other_part_ = true;
+      return;
+    }
+    const std::size_t size = items != nullptr ? items->items.size() : 0;
     if (number >= static_cast<double>(size)) {
       asset_.fail(at, "is " + text_of(number) + ", but " + array + " has only " +
                           std::to_string(size) + " items, counted from 0");
@@ -175,31 +216,63 @@ class Checker {
     }
   }
 
-  void attributes(const Element& at, const Rule& rule) const {
+  void attributes(const Element& at, const Rule& rule) {
     require(at, at.value->kind == Kind::object, "must be an object");
+    if (at.value->members.empty() && rule.form != Form::attributes) {
+      asset_.warn(at, "is empty, which glTF 2.0 forbids");
+    }
+    const bool of_instances = rule.form == Form::instance_attributes;
     for (const JsonMember& member : at.value->members) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
-      require(attribute, is_attribute_name(member.key),
+      require(attribute,
+              of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key),
               "is no attribute of glTF 2.0; an application's own start with _");
-      index(attribute, rule);
+      if (rule.form == Form::draco_attributes) {
+        number(attribute, {.key = rule.key, .form = Form::integer, .min = 0});
+      } else {
+        index(attribute, rule);
+      }
     }
   }
 
-  void extensions(const Element& at) const {
+  void extensions(const Element& at, Place place) {
     require(at, at.value->kind == Kind::object, "must be an object");
+    std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
       const Element extension{&member.value, child(at.pointer, member.key)};
       require(extension, member.value.kind == Kind::object, "must be an object");
+      if (!this->extension(extension, member.key, place)) dropped.push_back(member.key);
     }
+    for (const std::string& key : dropped) asset_.drop(at, key);
+  }
+
+  /// False where it is to be dropped.
+  bool extension(const Element& at, const std::string& name, Place place) {
+    if (!asset_.uses(name)) {
+      asset_.warn(at, "is not declared in extensionsUsed; the extension is ignored here");
+      return false;
+    }
+    const auto is_it = [&](const ExtensionRule& rule) { return rule.name == name; };
+    const auto here = [&](const ExtensionRule& rule) { return is_it(rule) && rule.place == place; };
+    if (std::ranges::none_of(extension_rules(), is_it)) return true;
+    const auto rule = std::ranges::find_if(extension_rules(), here);
+    if (rule == extension_rules().end()) {
+      asset_.warn(at, "is an extension that has no place in this object; it is ignored here");
+      return false;
+    }
+    const bool outer_lacks = std::exchange(lacks_other_part_, false);
+    object(at, rule->members, Place::other);
+    return !std::exchange(lacks_other_part_, outer_lacks);
   }
 
   Asset& asset_;
+  bool lacks_other_part_ = false;  // the extension being looked at names items of an absent array
 };
 
 }  // namespace
 
 void check_schema(Asset& asset) {
-  Checker(asset).object(asset.root(), gltf_rules());
+  Checker(asset).object(asset.root(), gltf_rules(), Place::root);
 }
 
 }  // namespace microtrace::io::gltf

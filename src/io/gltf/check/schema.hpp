@@ -18,11 +18,33 @@ enum class Form {
   index,    ///< of an item of the root array `target`
   indices,  ///< an array of such, all different
   numbers,
-  strings,     ///< an array of different strings
-  object,      ///< with `members`
-  objects,     ///< an array of such
-  attributes,  ///< an object from attribute names to indices of accessors
-  targets,     ///< an array of such: morph targets
+  strings,              ///< an array of different strings
+  object,               ///< with `members`
+  objects,              ///< an array of such
+  attributes,           ///< an object from attribute names to indices of accessors
+  targets,              ///< an array of such: morph targets
+  instance_attributes,  ///< the same with the names of EXT_mesh_gpu_instancing
+  draco_attributes,     ///< an object from attribute names to integers
+  anything,
+};
+
+/// The kinds of objects that extensions add to.
+enum class Place {
+  other,
+  root,
+  asset,
+  animation,
+  animation_target,
+  buffer,
+  buffer_view,
+  image,
+  material,
+  mesh,
+  node,
+  primitive,
+  scene,
+  texture,
+  texture_info,
 };
 
 struct Rule {
@@ -34,17 +56,34 @@ struct Rule {
   bool above_min = false;  ///< min itself is not allowed
   std::size_t fewest = 0;  ///< items of an array
   std::size_t most = ~std::size_t{0};
-  std::string_view target = {};
+  std::string_view target = {};  ///< a root array's name, or a pointer into the root's extensions
   std::span<const Rule> members = {};
-  std::span<const double> values = {};             ///< the allowed numbers, if not empty
-  std::span<const std::string_view> strings = {};  ///< the allowed strings, if not empty
+  Place place = Place::other;                      ///< of the object or objects
+  std::span<const double> values = {};             ///< the known numbers, if not empty
+  std::span<const std::string_view> strings = {};  ///< the known strings, if not empty
+  bool closed = false;                             ///< no other number or string is survived
+};
+
+/// What an extension writes in one place: its object's rules.
+struct ExtensionRule {
+  std::string_view name;
+  Place place;
+  std::span<const Rule> members;
 };
 
 /// The root object's rules; those of all other objects hang below.
 [[nodiscard]] std::span<const Rule> gltf_rules();
+/// Those of a texture info, and of one with a scale; extensions have such too.
+extern const Rule texture_info_rules[2];
+extern const Rule normal_texture_rules[3];
+[[nodiscard]] std::span<const ExtensionRule> extension_rules();
 
-/// Checks the whole asset against the rules. Throws Error (invalid_scene) at the first broken one;
-/// warns of properties that glTF 2.0 does not define and of empty arrays, which it forbids.
+/// Checks the whole asset against the rules. Throws Error (invalid_scene) at the first broken one.
+/// Some are survived with a warning, and then the asset's JSON is put right, so that its readers
+/// need not look again: a value that is none of the known ones is dropped, where its object has a
+/// default or its users ask; so are extensions that extensionsUsed does not declare, that stand in
+/// an object that they do not belong to, or that depend on one which is absent. Properties that
+/// glTF 2.0 does not define and empty arrays stay.
 void check_schema(Asset& asset);
 
 }  // namespace microtrace::io::gltf

@@ -3,10 +3,22 @@
 #include <array>
 
 // glTF 2.0, section 5, Properties Reference, and the JSON schemas in its appendix A. `extensions`,
-// `extras` and `name` may stand in every object and have no row. Two deviations: an array that may
-// be empty without harm is not refused, and an animation's path may be one that an extension added.
+// `extras` and `name` may stand in every object and have no row. An empty array is not refused, but
+// warned of; "pointer" is an animation's path by KHR_animation_pointer, and the last two media
+// types of images are by EXT_texture_webp and KHR_texture_basisu.
 
 namespace microtrace::io::gltf {
+
+constexpr Rule texture_info_rules[2] = {
+    {.key = "index", .form = Form::index, .required = true, .target = "textures"},
+    {.key = "texCoord", .form = Form::integer, .min = 0},
+};
+constexpr Rule normal_texture_rules[3] = {
+    texture_info_rules[0],
+    texture_info_rules[1],
+    {.key = "scale", .form = Form::number},
+};
+
 namespace {
 
 using std::string_view;
@@ -21,6 +33,8 @@ constexpr string_view accessor_types[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT
 constexpr string_view alpha_modes[] = {"OPAQUE", "MASK", "BLEND"};
 constexpr string_view camera_types[] = {"perspective", "orthographic"};
 constexpr string_view interpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
+constexpr string_view paths[] = {"translation", "rotation", "scale", "weights", "pointer"};
+constexpr string_view image_types[] = {"image/jpeg", "image/png", "image/webp", "image/ktx2"};
 
 constexpr Rule asset_rules[] = {
     {.key = "copyright", .form = Form::string},
@@ -32,7 +46,11 @@ constexpr Rule asset_rules[] = {
 constexpr Rule sparse_indices_rules[] = {
     {.key = "bufferView", .form = Form::index, .required = true, .target = "bufferViews"},
     {.key = "byteOffset", .form = Form::integer, .min = 0},
-    {.key = "componentType", .form = Form::integer, .required = true, .values = index_types},
+    {.key = "componentType",
+     .form = Form::integer,
+     .required = true,
+     .values = index_types,
+     .closed = true},
 };
 constexpr Rule sparse_values_rules[] = {
     {.key = "bufferView", .form = Form::index, .required = true, .target = "bufferViews"},
@@ -57,11 +75,15 @@ constexpr Rule accessor_rules[] = {
 
 constexpr Rule animation_target_rules[] = {
     {.key = "node", .form = Form::index, .target = "nodes"},
-    {.key = "path", .form = Form::string, .required = true},
+    {.key = "path", .form = Form::string, .required = true, .strings = paths},
 };
 constexpr Rule channel_rules[] = {
     {.key = "sampler", .form = Form::integer, .required = true, .min = 0},
-    {.key = "target", .form = Form::object, .required = true, .members = animation_target_rules},
+    {.key = "target",
+     .form = Form::object,
+     .required = true,
+     .members = animation_target_rules,
+     .place = Place::animation_target},
 };
 constexpr Rule animation_sampler_rules[] = {
     {.key = "input", .form = Form::index, .required = true, .target = "accessors"},
@@ -108,7 +130,7 @@ constexpr Rule camera_rules[] = {
 
 constexpr Rule image_rules[] = {
     {.key = "uri", .form = Form::string},
-    {.key = "mimeType", .form = Form::string},
+    {.key = "mimeType", .form = Form::string, .strings = image_types},
     {.key = "bufferView", .form = Form::index, .target = "bufferViews"},
 };
 constexpr Rule sampler_rules[] = {
@@ -122,15 +144,6 @@ constexpr Rule texture_rules[] = {
     {.key = "source", .form = Form::index, .target = "images"},
 };
 
-constexpr Rule texture_info_rules[] = {
-    {.key = "index", .form = Form::index, .required = true, .target = "textures"},
-    {.key = "texCoord", .form = Form::integer, .min = 0},
-};
-constexpr Rule normal_texture_rules[] = {
-    texture_info_rules[0],
-    texture_info_rules[1],
-    {.key = "scale", .form = Form::number},
-};
 constexpr Rule occlusion_texture_rules[] = {
     texture_info_rules[0],
     texture_info_rules[1],
@@ -138,16 +151,31 @@ constexpr Rule occlusion_texture_rules[] = {
 };
 constexpr Rule metallic_roughness_rules[] = {
     {.key = "baseColorFactor", .form = Form::numbers, .min = 0, .max = 1, .fewest = 4, .most = 4},
-    {.key = "baseColorTexture", .form = Form::object, .members = texture_info_rules},
+    {.key = "baseColorTexture",
+     .form = Form::object,
+     .members = texture_info_rules,
+     .place = Place::texture_info},
     {.key = "metallicFactor", .form = Form::number, .min = 0, .max = 1},
     {.key = "roughnessFactor", .form = Form::number, .min = 0, .max = 1},
-    {.key = "metallicRoughnessTexture", .form = Form::object, .members = texture_info_rules},
+    {.key = "metallicRoughnessTexture",
+     .form = Form::object,
+     .members = texture_info_rules,
+     .place = Place::texture_info},
 };
 constexpr Rule material_rules[] = {
     {.key = "pbrMetallicRoughness", .form = Form::object, .members = metallic_roughness_rules},
-    {.key = "normalTexture", .form = Form::object, .members = normal_texture_rules},
-    {.key = "occlusionTexture", .form = Form::object, .members = occlusion_texture_rules},
-    {.key = "emissiveTexture", .form = Form::object, .members = texture_info_rules},
+    {.key = "normalTexture",
+     .form = Form::object,
+     .members = normal_texture_rules,
+     .place = Place::texture_info},
+    {.key = "occlusionTexture",
+     .form = Form::object,
+     .members = occlusion_texture_rules,
+     .place = Place::texture_info},
+    {.key = "emissiveTexture",
+     .form = Form::object,
+     .members = texture_info_rules,
+     .place = Place::texture_info},
     {.key = "emissiveFactor", .form = Form::numbers, .min = 0, .max = 1, .fewest = 3, .most = 3},
     {.key = "alphaMode", .form = Form::string, .strings = alpha_modes},
     {.key = "alphaCutoff", .form = Form::number, .min = 0},
@@ -165,8 +193,8 @@ constexpr Rule mesh_rules[] = {
     {.key = "primitives",
      .form = Form::objects,
      .required = true,
-     .fewest = 1,
-     .members = primitive_rules},
+     .members = primitive_rules,
+     .place = Place::primitive},
     {.key = "weights", .form = Form::numbers},
 };
 
@@ -187,27 +215,40 @@ constexpr Rule scene_rules[] = {
 constexpr Rule skin_rules[] = {
     {.key = "inverseBindMatrices", .form = Form::index, .target = "accessors"},
     {.key = "skeleton", .form = Form::index, .target = "nodes"},
-    {.key = "joints", .form = Form::indices, .required = true, .fewest = 1, .target = "nodes"},
+    {.key = "joints", .form = Form::indices, .required = true, .target = "nodes"},
 };
 
 constexpr Rule root_rules[] = {
     {.key = "extensionsUsed", .form = Form::strings},
     {.key = "extensionsRequired", .form = Form::strings},
     {.key = "accessors", .form = Form::objects, .members = accessor_rules},
-    {.key = "animations", .form = Form::objects, .members = animation_rules},
-    {.key = "asset", .form = Form::object, .required = true, .members = asset_rules},
-    {.key = "buffers", .form = Form::objects, .members = buffer_rules},
-    {.key = "bufferViews", .form = Form::objects, .members = view_rules},
+    {.key = "animations",
+     .form = Form::objects,
+     .members = animation_rules,
+     .place = Place::animation},
+    {.key = "asset",
+     .form = Form::object,
+     .required = true,
+     .members = asset_rules,
+     .place = Place::asset},
+    {.key = "buffers", .form = Form::objects, .members = buffer_rules, .place = Place::buffer},
+    {.key = "bufferViews",
+     .form = Form::objects,
+     .members = view_rules,
+     .place = Place::buffer_view},
     {.key = "cameras", .form = Form::objects, .members = camera_rules},
-    {.key = "images", .form = Form::objects, .members = image_rules},
-    {.key = "materials", .form = Form::objects, .members = material_rules},
-    {.key = "meshes", .form = Form::objects, .members = mesh_rules},
-    {.key = "nodes", .form = Form::objects, .members = node_rules},
+    {.key = "images", .form = Form::objects, .members = image_rules, .place = Place::image},
+    {.key = "materials",
+     .form = Form::objects,
+     .members = material_rules,
+     .place = Place::material},
+    {.key = "meshes", .form = Form::objects, .members = mesh_rules, .place = Place::mesh},
+    {.key = "nodes", .form = Form::objects, .members = node_rules, .place = Place::node},
     {.key = "samplers", .form = Form::objects, .members = sampler_rules},
     {.key = "scene", .form = Form::index, .target = "scenes"},
-    {.key = "scenes", .form = Form::objects, .members = scene_rules},
+    {.key = "scenes", .form = Form::objects, .members = scene_rules, .place = Place::scene},
     {.key = "skins", .form = Form::objects, .members = skin_rules},
-    {.key = "textures", .form = Form::objects, .members = texture_rules},
+    {.key = "textures", .form = Form::objects, .members = texture_rules, .place = Place::texture},
 };
 
 }  // namespace
