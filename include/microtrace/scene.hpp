@@ -3,6 +3,7 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/light.hpp>
 #include <microtrace/material.hpp>
 #include <microtrace/shape.hpp>
 #include <microtrace/texture.hpp>
@@ -27,12 +28,18 @@ struct NamedCamera {
   Camera camera;
 };
 
+struct NamedLight {
+  std::string name;
+  Light light;
+};
+
 struct Scene {
   std::vector<Object> objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const Image>> images;  ///< null where one was not decoded
   std::vector<NamedCamera> cameras;                  ///< none: see default_camera
+  std::vector<NamedLight> lights{};
   ImageSize size;      ///< of the picture, unless the caller wants another
   Vec3 background{0};  ///< linear Rec. 709
   float epsilon = 0;   ///< primary rays hit only in the open interval (epsilon, infinity)

@@ -18,8 +18,8 @@ struct Ignored {
 
 TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
   const Ignored cases[] = {
-      {R"({"extensionsUsed": ["KHR_materials_unlit", "KHR_lights_punctual"]})", "/extensionsUsed/1",
-       "KHR_lights_punctual"},
+      {R"({"extensionsUsed": ["KHR_materials_unlit", "EXT_made_up"]})", "/extensionsUsed/1",
+       "EXT_made_up"},
       {R"({"materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
            "textures": [{}]})",
        "/materials/0/pbrMetallicRoughness/baseColorTexture", "textures"},

@@ -11,9 +11,11 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 2> honoured = {
+constexpr std::array<std::string_view, 5> honoured = {
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",  // read; light has no influence on flat pictures
     "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
-    "KHR_mesh_quantization",
+    "KHR_mesh_quantization",   "KHR_node_visibility",
 };
 
 /// Without these the picture has every surface in its place and its material's basic look, so that

@@ -1,5 +1,7 @@
 #include "io/gltf/nodes.hpp"
 
+#include "io/gltf/extension.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,6 +33,14 @@ DMat4 rotation_of(double x, double y, double z, double w) {
   result[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
   result[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
   return result;
+}
+
+/// What the node says of itself.
+bool is_shown(const Asset& asset, std::size_t node) {
+  const auto visibility = extension(asset.element("nodes", node), "KHR_node_visibility");
+  if (!visibility) return true;
+  const JsonValue* visible = visibility->value->find("visible");
+  return visible == nullptr || visible->kind != JsonValue::Kind::boolean || visible->boolean;
 }
 
 }  // namespace
@@ -155,7 +165,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   std::vector<PlacedNode> result;
   std::vector<PlacedNode> open;
   for (std::size_t i = first.size(); i-- > 0;) {
-    open.push_back({first[i], world_from_asset * parent_from_node_[first[i]]});
+    open.push_back(
+        {first[i], world_from_asset * parent_from_node_[first[i]], is_shown(asset, first[i])});
   }
   while (!open.empty()) {
     const PlacedNode next = open.back();
@@ -166,7 +177,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     const std::vector<int>& children = model_.nodes[next.node].children;
     for (std::size_t i = children.size(); i-- > 0;) {
       const auto child = static_cast<std::size_t>(children[i]);
-      open.push_back({child, next.world_from_node * parent_from_node_[child]});
+      open.push_back({child, next.world_from_node * parent_from_node_[child],
+                      next.visible && is_shown(asset, child)});
     }
   }
   return result;
@@ -185,6 +197,13 @@ std::string NodeTree::path(std::size_t node) const {
     if (above.size() + 1 + result.size() > longest_path) return result.insert(0, ".../");
     result.insert(0, "/").insert(0, above);
   }
+  return result;
+}
+
+DMat4 composed(const DVec3& translation, const glm::dvec4& rotation, const DVec3& scale) {
+  DMat4 result = rotation_of(rotation.x, rotation.y, rotation.z, rotation.w);
+  for (int i = 0; i < 3; ++i) result[i] *= scale[i];
+  result[3] = glm::dvec4(translation, 1);
   return result;
 }
 

@@ -20,7 +20,12 @@ inline constexpr std::size_t max_nodes = std::size_t{1} << 20;
 struct PlacedNode {
   std::size_t node;
   DMat4 world_from_node;
+  bool visible = true;  ///< itself and all above it (KHR_node_visibility); says nothing of cameras
 };
+
+/// translation * rotation * scale, the rotation a quaternion (x, y, z, w) of unit length.
+[[nodiscard]] DMat4 composed(const DVec3& translation, const glm::dvec4& rotation,
+                             const DVec3& scale);
 
 class NodeTree {
  public:

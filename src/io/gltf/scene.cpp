@@ -9,6 +9,8 @@
 #include "io/gltf/check/schema.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
+#include "io/gltf/instances.hpp"
+#include "io/gltf/lights.hpp"
 #include "io/gltf/materials.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
@@ -37,18 +39,20 @@ bool is_finite(const Mesh& mesh) {
 class SceneMaker {
  public:
   SceneMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
-             const std::vector<std::vector<Surface>>& surfaces)
-      : asset_(asset), model_(model), tree_(tree), surfaces_(surfaces) {}
+             const std::vector<std::vector<Surface>>& surfaces, const gltf::Instances& instances)
+      : asset_(asset), model_(model), tree_(tree), surfaces_(surfaces), instances_(instances) {}
 
   /// Throws Error (limit) before memory is taken for too many instances.
   void check_size(const std::vector<PlacedNode>& nodes) const {
     std::size_t triangles = 0, vertices = 0;
     for (const PlacedNode& placed : nodes) {
       const int mesh = model_.nodes[placed.node].mesh;
-      if (mesh < 0) continue;
+      if (mesh < 0 || !placed.visible) continue;
+      const std::vector<DMat4>* instances = instances_.of(placed.node);
+      const std::size_t times = instances != nullptr ? instances->size() : 1;
       for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
-        triangles += surface.mesh.triangles.size();
-        vertices += surface.mesh.positions.size();
+        triangles += times * surface.mesh.triangles.size();
+        vertices += times * surface.mesh.positions.size();
       }
       if (std::max(triangles, vertices) <= gltf::max_elements) continue;
       asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
@@ -58,25 +62,34 @@ class SceneMaker {
   }
 
   void add_mesh(const PlacedNode& placed) {
-    const int mesh = model_.nodes[placed.node].mesh;
-    if (mesh < 0) return;
-    const auto index = static_cast<std::size_t>(mesh);
-    for (const Surface& surface : surfaces_[index]) {
-      Mesh world = gltf::baked(surface.mesh, placed.world_from_node);
-      if (!is_finite(world)) {
-        asset_.warn(primitive(index, surface),
-                    "has vertices that are not finite in the world; triangles with them are not "
-                    "drawn");
-      }
-      objects_.push_back({.name = names_.make(name(placed, index, surface)),
-                          .shape = std::move(world),
-                          .material = material(surface)});
+    if (model_.nodes[placed.node].mesh < 0 || !placed.visible) return;
+    const std::string path = tree_.path(placed.node);
+    const std::vector<DMat4>* instances = instances_.of(placed.node);
+    if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
+    for (std::size_t i = 0; i < instances->size(); ++i) {
+      add_mesh(placed.node, placed.world_from_node * (*instances)[i],
+               path + "[" + std::to_string(i) + "]");
     }
   }
 
   [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
 
  private:
+  void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path) {
+    const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
+    for (const Surface& surface : surfaces_[index]) {
+      Mesh world = gltf::baked(surface.mesh, world_from_mesh);
+      if (!is_finite(world)) {
+        asset_.warn(primitive(index, surface),
+                    "has vertices that are not finite in the world; triangles with them are not "
+                    "drawn");
+      }
+      objects_.push_back({.name = names_.make(name(path, index, surface)),
+                          .shape = std::move(world),
+                          .material = material(surface)});
+    }
+  }
+
   /// make_materials puts the one of surfaces without material last.
   [[nodiscard]] std::uint32_t material(const Surface& surface) const {
     const std::size_t none = model_.materials.size();
@@ -87,10 +100,10 @@ class SceneMaker {
     return asset_.element("meshes", mesh).member("primitives").item(surface.number);
   }
 
-  [[nodiscard]] std::string name(const PlacedNode& placed, std::size_t mesh,
+  [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
                                  const Surface& surface) const {
     const tinygltf::Mesh& source = model_.meshes[mesh];
-    std::string result = tree_.path(placed.node) + "/";
+    std::string result = path + "/";
     result += source.name.empty() ? "mesh" + std::to_string(mesh) : gltf::head(source.name, 64);
     if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);
     return result;
@@ -100,6 +113,7 @@ class SceneMaker {
   const tinygltf::Model& model_;
   const NodeTree& tree_;
   const std::vector<std::vector<Surface>>& surfaces_;
+  const gltf::Instances& instances_;
   std::vector<Object> objects_;
   gltf::UniqueNames names_;
 };
@@ -134,7 +148,8 @@ struct GltfFile::Content {
         views(model, buffers),
         reader(asset, model, views),
         materials(gltf::make_materials(asset)),
-        surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)) {
+        surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
+        instances(asset, model, reader) {
     gltf::warn_of_ignored_features(asset);
     if (!container.is_aligned) {
       asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
@@ -165,6 +180,7 @@ struct GltfFile::Content {
   gltf::AccessorReader reader;
   std::vector<Material> materials;
   std::vector<std::vector<Surface>> surfaces;
+  gltf::Instances instances;
 };
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,
@@ -181,7 +197,7 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     const tinygltf::Model& model = content_->model;
     const NodeTree& tree = content_->tree;
     const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset);
-    SceneMaker maker(asset, model, tree, content_->surfaces);
+    SceneMaker maker(asset, model, tree, content_->surfaces, content_->instances);
     maker.check_size(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
@@ -189,6 +205,7 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     result.scene.materials = content_->materials;
     result.scene.textures = gltf::make_textures(asset);
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
+    result.scene.lights = gltf::make_lights(asset, model, tree, nodes);
     if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
     result.warnings = asset.warnings();
     return result;

@@ -1,0 +1,131 @@
+#include "gltf/asset_builder.hpp"
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr const char* extension = "EXT_mesh_gpu_instancing";
+
+/// One triangle, (0,0,0) (1,0,0) (0,1,0), on a node that stands at x = 100.
+AssetBuilder triangle() {
+  AssetBuilder asset;
+  asset.json["extensionsUsed"] = {extension};
+  asset.add_object(
+      {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), {1, 0, 0}, {0, 1, 0}})}}}});
+  asset.json["nodes"][0]["translation"] = {100, 0, 0};
+  asset.json["nodes"][0]["name"] = "Tree";
+  return asset;
+}
+
+template <typename Number>
+std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalized,
+                const std::vector<Number>& numbers, std::size_t count) {
+  return asset.add("accessors", {{"bufferView", asset.add_view(bytes_of<Number>(numbers))},
+                                 {"componentType", type},
+                                 {"normalized", normalized},
+                                 {"count", count},
+                                 {"type", shape}});
+}
+
+void instantiate(AssetBuilder& asset, nlohmann::json attributes) {
+  asset.json["nodes"][0]["extensions"][extension]["attributes"] = std::move(attributes);
+}
+
+TEST(GltfInstances, AreMovedTurnedAndScaledWithinTheirNode) {
+  AssetBuilder asset = triangle();
+  const std::size_t moves = add<float>(asset, f32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
+  const std::size_t turns =
+      add<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
+  const std::size_t sizes = add<float>(asset, f32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
+  instantiate(asset, {{"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", sizes}});
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  ASSERT_THAT(scene.scene.objects, SizeIs(2));
+  EXPECT_EQ(scene.scene.objects[0].name, "Tree[0]/mesh0");
+  EXPECT_EQ(scene.scene.objects[1].name, "Tree[1]/mesh0");
+  EXPECT_THAT(triangles_of(scene.scene.objects[0]),
+              ElementsAre(std::array{Vec3(100, 0, 0), Vec3(101, 0, 0), Vec3(100, 1, 0)}));
+  // Half a turn about z after the scale.
+  EXPECT_THAT(triangles_of(scene.scene.objects[1]),
+              ElementsAre(std::array{Vec3(100, 10, 0), Vec3(98, 10, 0), Vec3(100, 7, 0)}));
+}
+
+TEST(GltfInstances, OwnAttributesAloneCountThem) {
+  AssetBuilder asset = triangle();
+  instantiate(asset, {{"_ID", add<float>(asset, f32, "SCALAR", false, {7, 8, 9}, 3)}});
+  EXPECT_THAT(load(asset).scene.objects, SizeIs(3));
+}
+
+TEST(GltfInstances, ZeroQuaternionsTurnNothing) {
+  AssetBuilder asset = triangle();
+  instantiate(asset, {{"ROTATION", add<float>(asset, f32, "VEC4", false, {0, 0, 0, 0}, 1)}});
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("zero quaternions")));
+  EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
+}
+
+TEST(GltfInstances, WhatIsNotTheirsIsRefused) {
+  struct Case {
+    const char* name;
+    int type;
+    const char* shape;
+    std::size_t count;
+    const char* pointer;
+  };
+  const std::vector<Case> cases = {
+      {"TRANSLATION", u16, "VEC3", 2, "/attributes/TRANSLATION"},
+      {"ROTATION", f32, "VEC3", 2, "/attributes/ROTATION"},
+      {"SCALE", f32, "VEC3", 3, "/attributes/_OTHER"},
+  };
+  for (const Case& c : cases) {
+    AssetBuilder asset = triangle();
+    const std::vector<float> zeros(16);
+    instantiate(asset, {{c.name, add<float>(asset, c.type, c.shape, false, zeros, c.count)},
+                        {"_OTHER", add<float>(asset, f32, "SCALAR", false, zeros, 2)}});
+    try {
+      (void)load(asset);
+      ADD_FAILURE() << c.name << " accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      EXPECT_THAT(error.diagnostic().pointer, HasSubstr(c.pointer));
+    }
+  }
+}
+
+TEST(GltfInstances, TooManyAreRefusedBeforeTheyFillMemory) {
+  AssetBuilder asset = triangle();
+  instantiate(asset, {{"SCALE", asset.add("accessors", {{"componentType", f32},
+                                                        {"count", (1U << 22) + 1},
+                                                        {"type", "VEC3"}})}});
+  try {
+    (void)load(asset);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+  }
+}
+
+TEST(GltfVisibility, HidesANodeAndAllBelowItButNoCamera) {
+  AssetBuilder asset = triangle();
+  asset.json["extensionsUsed"] = {"KHR_node_visibility"};
+  asset.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+  const std::size_t child = asset.add(
+      "nodes",
+      {{"mesh", 0}, {"camera", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
+  asset.json["nodes"][0]["children"] = {child};
+  asset.json["nodes"][0]["extensions"]["KHR_node_visibility"] = nlohmann::json::object();
+  EXPECT_THAT(load(asset).scene.objects, SizeIs(2));
+  asset.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(scene.scene.objects, IsEmpty());
+  EXPECT_EQ(scene.scene.cameras.at(0).name, "node1");
+}
+
+}  // namespace
+}  // namespace microtrace::tests

@@ -1,0 +1,104 @@
+#include "gltf/asset_builder.hpp"
+
+#include <limits>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr const char* extension = "KHR_lights_punctual";
+
+/// The cube, with the lights on nodes of their own that are all turned and scaled alike.
+AssetBuilder lit(const nlohmann::json& lights) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {extension};
+  asset.json["extensions"][extension]["lights"] = lights;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    // A quarter turn about x: -z becomes +y.
+    const std::size_t node =
+        asset.add("nodes", {{"translation", {1, 2, 3}},
+                            {"rotation", {0.7071067811865476, 0, 0, 0.7071067811865476}},
+                            {"scale", {2, 3, 4}},
+                            {"extensions", {{extension, {{"light", i}}}}}});
+    asset.json["scenes"][0]["nodes"].push_back(node);
+  }
+  return asset;
+}
+
+TEST(GltfLights, ArePlacedByTheirNodes) {
+  AssetBuilder asset =
+      lit({{{"type", "directional"}, {"name", "Sun"}, {"intensity", 1000}, {"color", {1, 0.5, 0}}},
+           {{"type", "point"}, {"range", 12}},
+           {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}});
+  asset.json["nodes"][2]["name"] = "Lamp";
+  const LoadedScene scene = load(asset);
+  EXPECT_THAT(scene.warnings, IsEmpty());
+  ASSERT_THAT(scene.scene.lights, SizeIs(3));
+  EXPECT_EQ(scene.scene.lights[0].name, "Sun");
+  EXPECT_EQ(scene.scene.lights[1].name, "Lamp");
+  EXPECT_EQ(scene.scene.lights[2].name, "node3");
+  const auto& sun = std::get<DirectionalLight>(scene.scene.lights[0].light);
+  EXPECT_NEAR(sun.direction.x, 0, 1e-15);
+  EXPECT_NEAR(sun.direction.y, 1, 1e-15);
+  EXPECT_NEAR(sun.direction.z, 0, 1e-15);
+  EXPECT_EQ(sun.color, Vec3(1, 0.5, 0));
+  EXPECT_EQ(sun.intensity, 1000);
+  const auto& lamp = std::get<PointLight>(scene.scene.lights[1].light);
+  EXPECT_EQ(lamp.position, DVec3(1, 2, 3));
+  EXPECT_EQ(lamp.range, 12);
+  EXPECT_EQ(lamp.intensity, 1);
+  EXPECT_EQ(lamp.color, Vec3(1));
+  const auto& spot = std::get<SpotLight>(scene.scene.lights[2].light);
+  EXPECT_EQ(spot.position, DVec3(1, 2, 3));
+  EXPECT_NEAR(spot.direction.y, 1, 1e-15);
+  EXPECT_EQ(spot.range, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(spot.inner_angle, 0.25);
+  EXPECT_EQ(spot.outer_angle, 0.5);
+}
+
+TEST(GltfLights, HiddenNodesHaveNone) {
+  AssetBuilder asset = lit({{{"type", "point"}}});
+  asset.json["extensionsUsed"].push_back("KHR_node_visibility");
+  asset.json["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = false;
+  EXPECT_THAT(load(asset).scene.lights, IsEmpty());
+}
+
+TEST(GltfLights, WithoutDirectionAreLeftOut) {
+  AssetBuilder asset = lit({{{"type", "directional"}}, {{"type", "point"}}});
+  asset.json["nodes"][1]["scale"] = asset.json["nodes"][2]["scale"] = {0, 0, 0};
+  const LoadedScene scene = load(asset);
+  ASSERT_THAT(scene.scene.lights, SizeIs(1));
+  EXPECT_TRUE(std::holds_alternative<PointLight>(scene.scene.lights[0].light));
+  EXPECT_THAT(texts(scene.warnings), Contains(HasSubstr("the light is left out")));
+}
+
+TEST(GltfLights, BrokenOnesAreRefused) {
+  const std::vector<nlohmann::json> broken = {
+      {{"type", "glow"}},
+      {{"intensity", 1}},
+      {{"type", "spot"}},
+      {{"type", "point"}, {"intensity", -1}},
+      {{"type", "point"}, {"range", 0}},
+      {{"type", "point"}, {"color", {1, 1}}},
+      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}},
+      {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.6}}}},
+  };
+  for (const nlohmann::json& light : broken) {
+    try {
+      (void)load(lit(nlohmann::json::array({light})));
+      ADD_FAILURE() << light << " accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      EXPECT_THAT(error.diagnostic().pointer,
+                  HasSubstr("/extensions/KHR_lights_punctual/lights/0"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::tests
