@@ -12,10 +12,13 @@
 
 namespace microtrace {
 
+class Surfaces;
+
 /// What integrators ask.
 struct World {
   const Scene& scene;
-  const Bvh& bvh;  ///< of that scene
+  const Bvh& bvh;            ///< of that scene
+  const Surfaces& surfaces;  ///< of that scene: src/render/surfaces.hpp
 };
 
 /// The light of one ray without the scene's background.

@@ -1,4 +1,5 @@
 #include "float_environment.hpp"
+#include "render/surfaces.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
 
@@ -49,7 +50,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const PixelRect window = window_of(size, options.crop);
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();
   const Bvh bvh(scene, {.threads = threads});
-  const World world{.scene = scene, .bvh = bvh};
+  const Surfaces surfaces(scene, bvh.primitives());
+  const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces};
   const FlatIntegrator flat;
   const RayGenerator ray_through(camera, size);
   Film film = make_film(window.size(),

@@ -22,6 +22,11 @@ DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
   return {1 - s, s};
 }
 
+/// Along the front's normal.
+DVec3 area_vector(const Triangle& s) {
+  return glm::cross(DVec3(s.b) - DVec3(s.a), DVec3(s.c) - DVec3(s.a));
+}
+
 /// For triangles without area, and those seen exactly edge on: on the longest edge.
 DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) {
   std::size_t longest = 0;
@@ -95,9 +100,9 @@ class Interaction {
   SurfaceInteraction operator()(const Triangle& s) const {
     const std::array<DVec3, 3> corners{DVec3(s.a), DVec3(s.b), DVec3(s.c)};
     const DVec3 w = barycentrics_of(corners, ray_, hit_);
-    const DVec3 cross = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    SurfaceInteraction result =
-        at(w.x * corners[0] + w.y * corners[1] + w.z * corners[2], direction_of(cross, facing()));
+    SurfaceInteraction result = at(w.x * corners[0] + w.y * corners[1] + w.z * corners[2],
+                                   direction_of(area_vector(s), facing()));
+    result.front = shows_front(s, ray_.d);
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
     const auto* mesh = std::get_if<Mesh>(&primitives_.object(hit_.id).shape);
     if (mesh == nullptr) return result;
@@ -163,6 +168,10 @@ std::optional<DVec2> SurfaceInteraction::uv(std::size_t set) const {
 DVec4 SurfaceInteraction::color() const {
   if (!triangle || triangle->mesh == nullptr) return DVec4(1);
   return interpolate<DVec4>(*triangle, triangle->mesh->colors).value_or(DVec4(1));
+}
+
+bool shows_front(const Triangle& triangle, const Vec3& d) {
+  return !(glm::dot(DVec3(d), area_vector(triangle)) > 0);
 }
 
 SurfaceInteraction interact(const Primitives& primitives, const Ray& ray, const Hit& hit) {

@@ -38,6 +38,9 @@ struct SurfaceInteraction {
   [[nodiscard]] DVec4 color() const;
 };
 
+/// Whether a ray of direction d comes from the front of the triangle, or along it.
+[[nodiscard]] bool shows_front(const Triangle& triangle, const Vec3& d);
+
 /// The front of a triangle is where its corners go anticlockwise; of a sphere the outside; of a
 /// plane and a disc where the normal points; of a quadric where the polynomial grows. Where a
 /// surface has no normal (a triangle without area, a quadric's apex) the one that faces the ray is

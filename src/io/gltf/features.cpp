@@ -104,11 +104,6 @@ void check_extension(Asset& asset, const Element& at) {
   }
 }
 
-bool differs(const JsonValue& object, const char* key, double standard) {
-  const JsonValue* value = object.find(key);
-  return value != nullptr && value->number != standard;
-}
-
 class FeatureSearch {
  public:
   explicit FeatureSearch(Asset& asset) : asset_(asset) {}
@@ -117,13 +112,7 @@ class FeatureSearch {
     const Element pbr = at.member("pbrMetallicRoughness");
     if (at.value->find("pbrMetallicRoughness") != nullptr) {
       present(pbr, "baseColorTexture", "textures are not drawn yet; the base colour factor is");
-      present(pbr, "metallicRoughnessTexture", lighting);
-      for (const char* key : {"metallicFactor", "roughnessFactor"}) {
-        if (differs(*pbr.value, key, 1)) asset_.warn(pbr.member(key), lighting);
-      }
     }
-    present(at, "normalTexture", lighting);
-    present(at, "occlusionTexture", lighting);
     present(at, "emissiveTexture", emission);
     if (const JsonValue* factor = at.value->find("emissiveFactor")) {
       const auto shines = [](const JsonValue& item) { return item.number != 0; };
@@ -131,16 +120,10 @@ class FeatureSearch {
         asset_.warn(at.member("emissiveFactor"), emission);
       }
     }
-    const JsonValue* mode = at.value->find("alphaMode");
-    if (mode != nullptr && mode->string != "OPAQUE") {
-      asset_.warn(at.member("alphaMode"), "transparency is not drawn yet; the surface is opaque");
-    }
   }
 
   void primitive(const Element& at) {
     present(at, "targets", "morph targets are not applied yet; the base shape is drawn");
-    present(at.member("attributes"), "COLOR_0",
-            "vertex colours are not drawn yet; the base colour factor is");
   }
 
   void present(const Element& at, const char* key, const std::string& message) {
@@ -148,9 +131,8 @@ class FeatureSearch {
   }
 
  private:
-  inline static const std::string lighting =
-      "is ignored, like all that changes lighting only: pictures are flat";
-  inline static const std::string emission = "emission is not drawn yet; the base colour factor is";
+  inline static const std::string emission =
+      "emission is not drawn in flat pictures; the base colour is";
 
   Asset& asset_;
 };

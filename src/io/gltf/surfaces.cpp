@@ -69,8 +69,8 @@ std::vector<std::uint32_t> used_vertices(const std::vector<Corners>& triangles,
     result.insert(result.end(), corners.begin(), corners.end());
   }
   std::ranges::sort(result);
-  const auto rest = std::ranges::unique(result);
-  result.erase(rest.begin(), rest.end());
+  const auto rest = std::unique(result.begin(), result.end());
+  result.erase(rest, result.end());
   return result;
 }
 

@@ -1,10 +1,60 @@
+#include "render/surfaces.hpp"
+
 #include <microtrace/integrator.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 
 namespace microtrace {
+namespace {
+
+/// What is left of the light behind; less could not change a float32.
+constexpr double kLeastLight = 0x1p-25;
+
+/// The hits at the present depth, so that none is counted for each triangle that meets there.
+class Depth {
+ public:
+  explicit Depth(const World& world, const Ray& ray) : surfaces_(world.surfaces), ray_(ray) {}
+
+  /// Whether the hit is a point of a surface that was not there yet. Hits come in their order.
+  bool is_new(const Hit& hit) {
+    if (count_ > 0 && hits_[0].t != hit.t) count_ = 0;
+    const auto known = std::span(hits_).first(count_);
+    const bool result = std::ranges::none_of(
+        known, [&](const Hit& other) { return surfaces_.is_same_point(ray_, other, hit); });
+    if (count_ < hits_.size()) hits_[count_++] = hit;
+    return result;
+  }
+
+ private:
+  const Surfaces& surfaces_;
+  const Ray& ray_;
+  std::array<Hit, 16> hits_;
+  std::size_t count_ = 0;
+};
+
+/// Surfaces from `hit` on, each over those behind it (T. Porter and T. Duff, Compositing digital
+/// images, 1984).
+Sample composite(const World& world, const Ray& ray, std::optional<Hit> hit) {
+  DVec3 color(0);
+  double through = 1;  // of the light behind
+  Depth depth(world, ray);
+  while (hit) {
+    if (depth.is_new(*hit)) {
+      const Vec4 surface = world.surfaces.look(ray, *hit);
+      const double alpha = surface.w;
+      if (alpha > 0) color += through * alpha * DVec3(surface);
+      through *= 1 - alpha;
+      if (through < kLeastLight) break;
+    }
+    hit = world.bvh.next(ray, *hit);
+  }
+  return {.color = Vec3(color), .alpha = static_cast<float>(1 - through)};
+}
+
+}  // namespace
 
 void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
                            std::span<Sample> samples) const {
@@ -13,8 +63,11 @@ void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i] = Sample{};
     if (!hits[i]) continue;
-    const Object& object = world.bvh.primitives().object(hits[i]->id);
-    samples[i] = {.color = Vec3(material_of(world.scene, object).base_color), .alpha = 1};
+    if (const std::optional<Vec3> color = world.surfaces.plain_look(rays[i], *hits[i])) {
+      samples[i] = {.color = *color, .alpha = 1};
+    } else {
+      samples[i] = composite(world, rays[i], hits[i]);
+    }
   }
 }
 

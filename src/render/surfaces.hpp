@@ -1,0 +1,63 @@
+#pragma once
+/// What the surfaces of a scene look like to a ray, before any light.
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/hit.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/primitives.hpp>
+#include <microtrace/ray.hpp>
+#include <microtrace/scene.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace microtrace {
+
+struct SurfaceInteraction;
+
+/// Made once for a picture; any number of threads may ask it.
+class Surfaces {
+ public:
+  /// Both must outlive this.
+  Surfaces(const Scene& scene, const Primitives& primitives);
+
+  /// The base colour of what the ray hits, linear Rec. 709, and how much of it is there: alpha 0
+  /// where the surface is seen from a side that it lacks or lies under its material's cutoff, 1
+  /// where it hides all behind it (glTF 2.0, sections 3.9.4 and 3.9.6).
+  [[nodiscard]] Vec4 look(const Ray& ray, const Hit& hit) const;
+
+  /// The same where it takes no textures and vertex colours, and the ray need go no further; in
+  /// most pictures most hits. Sooner.
+  [[nodiscard]] std::optional<Vec3> plain_look(const Ray& ray, const Hit& hit) const {
+    const Entry& entry = entries_[primitives_.object_index(hit.id)];
+    if (entry.kind == Kind::various) return std::nullopt;
+    if (entry.kind == Kind::one_sided && !is_front(ray, hit)) return std::nullopt;
+    return entry.color;
+  }
+
+  /// Whether two hits of one ray are one point of one surface: on the edge or corner that two
+  /// triangles of a mesh share, with the same side to the ray.
+  [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;
+
+  /// Of `hit` and those after it the first that is there at all: with alpha above 0.
+  [[nodiscard]] std::optional<Hit> first_seen(const Bvh& bvh, const Ray& ray,
+                                              std::optional<Hit> hit) const;
+
+ private:
+  enum class Kind : std::uint8_t { plain, one_sided, various };
+  struct Entry {
+    Vec3 color;
+    Kind kind;
+  };
+
+  [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
+  [[nodiscard]] Vec4 base_color(const Material& material, const SurfaceInteraction& at) const;
+
+  const Scene& scene_;
+  const Primitives& primitives_;
+  std::vector<Entry> entries_;  // by object
+};
+
+}  // namespace microtrace
