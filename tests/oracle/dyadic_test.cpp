@@ -1,9 +1,9 @@
 /// Dyadic and Root against CGAL's rationals and square-root extensions.
 
 #include "exact/root.hpp"
-#include "oracle/effort.hpp"
 #include "oracle/real_roots.hpp"
 #include "oracle/rounding_check.hpp"
+#include "support/effort.hpp"
 
 #include <gtest/gtest.h>
 

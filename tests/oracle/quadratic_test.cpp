@@ -2,10 +2,10 @@
 /// hits of different shapes.
 
 #include "exact/intersect.hpp"
-#include "oracle/effort.hpp"
 #include "oracle/real_roots.hpp"
 #include "oracle/rounding_check.hpp"
 #include "support/adversarial_rays.hpp"
+#include "support/effort.hpp"
 #include "support/reproduction.hpp"
 
 #include <deque>

@@ -3,10 +3,10 @@
 
 #include "exact/intersect.hpp"
 #include "oracle/cgal_intersections.hpp"
-#include "oracle/effort.hpp"
 #include "oracle/rounding_check.hpp"
 #include "support/adversarial_rays.hpp"
 #include "support/counterexamples.hpp"
+#include "support/effort.hpp"
 #include "support/reproduction.hpp"
 
 #include <optional>

@@ -1,16 +1,17 @@
-// The tree and its kernels against every primitive asked by the float64 filters and exact
-// arithmetic behind them (filter_test.cpp holds those to the exact answer). ctest runs this for
-// every instruction set that the machine has.
+// The tree and its kernels against every primitive asked: each kernel of the machine, each way of
+// asking, over scenes and rays that are made to defeat them. MICROTRACE_TRAVERSAL_RAYS scales it.
 
 #include "accel/bundle.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "support/adversarial_scenes.hpp"
+#include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,22 @@ using namespace adversarial;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+using Answers = std::vector<std::optional<Hit>>;
+
+// By the definition and exact arithmetic alone.
+std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
+  std::optional<exact::Root> nearest;
+  std::optional<Hit> best;
+  primitives.for_each([&](PrimitiveId id, const auto& shape) {
+    const auto t = exact::first_hit(shape, ray);
+    if (!t || (nearest && *t >= *nearest)) return;
+    nearest = t;
+    best = {.id = id, .t = exact::round_to_float(*t)};
+  });
+  return best;
+}
+
+// By the float64 filters, which filter_test.cpp holds to exact arithmetic, and that behind them.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   Bundle bundle(primitives, std::span(&ray, 1));
@@ -40,91 +57,81 @@ std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   return ::testing::AssertionFailure() << show(a) << " is not " << show(b);
 }
 
-int scale() {
-  const char* text = std::getenv("MICROTRACE_TRAVERSAL_SCENES");
-  return text != nullptr ? std::atoi(text) : 400;
+// Rays with one origin, often nearly parallel: what becomes a tile.
+void add_tile(Random& random, const Scene& scene, std::vector<Ray>& rays) {
+  const Vec3 o = origin(random, scene);
+  const bool coherent = random.one_in(2);
+  const Ray middle = random_ray(random, scene, o);
+  for (int i = random.between(1, 64); i > 0; --i) {
+    rays.push_back(coherent ? middle : random_ray(random, scene, o));
+    if (coherent) rays.back().d = random.jitter(middle.d, 1 << random.between(0, 20));
+  }
 }
 
-constexpr int kRaysPerScene = 256;
-
-// The instruction set is the parameter.
-class Traversal : public testing::TestWithParam<const Kernels*> {
- protected:
-  void SetUp() override {
-    setenv("MICROTRACE_ISA", GetParam()->name, 1);
-    ASSERT_EQ(&best_kernels(), GetParam());
+// Tiles and unrelated rays in turn, now and then more than one batch of a stream.
+std::vector<Ray> rays_for(Random& random, const Scene& scene) {
+  std::vector<Ray> rays;
+  for (int part = random.between(1, 6); part > 0; --part) {
+    for (int tile = random.between(0, 6); tile > 0; --tile) add_tile(random, scene, rays);
+    const int count = random.one_in(12) ? 2500 : random.between(1, 200);
+    const std::vector<Ray> unrelated = unrelated_rays(random, scene, count);
+    rays.insert(rays.end(), unrelated.begin(), unrelated.end());
   }
+  return rays;
+}
+
+// Every call, with the kernels that the environment names.
+void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& expected) {
+  Answers together(rays.size(), Hit{});
+  bvh.intersect(rays, together);
+  const auto occluded = std::make_unique<bool[]>(rays.size());
+  bvh.occluded(rays, std::span(occluded.get(), rays.size()));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ASSERT_TRUE(same(together[i], expected[i])) << "ray " << i;
+    ASSERT_EQ(occluded[i], expected[i].has_value()) << "ray " << i;
+    ASSERT_TRUE(same(bvh.intersect(rays[i]), expected[i])) << "ray " << i;
+    ASSERT_EQ(bvh.occluded(rays[i]), expected[i].has_value()) << "ray " << i;
+  }
+}
+
+class Traversal : public testing::TestWithParam<SceneKind> {
+ protected:
   void TearDown() override { unsetenv("MICROTRACE_ISA"); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Isa, Traversal, testing::ValuesIn(available_kernels()),
-                         [](const auto& isa) { return std::string(isa.param->name); });
+INSTANTIATE_TEST_SUITE_P(Scenes, Traversal, testing::ValuesIn(scene_kinds),
+                         [](const auto& kind) { return std::string(name(kind.param)); });
 
-TEST_P(Traversal, SingleRaysEqualAskingEveryPrimitive) {
-  Random random(11);
-  int hits = 0;
-  for (int round = 0; round < scale(); ++round) {
-    const Scene scene = random_scene(random);
-    const Bvh bvh(scene);
-    for (int i = 0; i < kRaysPerScene; ++i) {
-      const Ray ray = random_ray(random, scene, origin(random, scene));
-      const auto expected = by_asking_all(bvh.primitives(), ray);
-      ASSERT_TRUE(same(bvh.intersect(ray), expected)) << "scene " << round << ", ray " << i;
-      ASSERT_EQ(bvh.occluded(ray), expected.has_value()) << "scene " << round << ", ray " << i;
-      hits += expected.has_value() ? 1 : 0;
-    }
-  }
-  EXPECT_GT(hits, scale() * kRaysPerScene / 4);
-}
-
-TEST_P(Traversal, TilesEqualAskingEveryPrimitive) {
-  Random random(12);
-  for (int round = 0; round < scale(); ++round) {
-    const Scene scene = random_scene(random);
-    const Bvh bvh(scene);
-    std::vector<Ray> rays;
-    for (int tile = 0; tile < kRaysPerScene / 64; ++tile) {
-      const Vec3 o = origin(random, scene);
-      const bool coherent = random.one_in(2);
-      const Ray middle = random_ray(random, scene, o);
-      for (int i = random.between(1, 64); i > 0; --i) {
-        rays.push_back(coherent ? middle : random_ray(random, scene, o));
-        if (coherent) rays.back().d = random.jitter(middle.d, 1 << random.between(0, 20));
+TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
+  Random random = traversal::announced_random(11 + static_cast<std::uint64_t>(GetParam()));
+  const std::size_t count = traversal::ray_count(double{1} / scene_kinds.size()) + 1;
+  std::size_t cast = 0, hits = 0;
+  for (int round = 0; cast < count; ++round) {
+    SCOPED_TRACE(round);
+    const Scene scene = random_scene(random, GetParam());
+    const std::vector<Ray> rays = rays_for(random, scene);
+    const Primitives primitives(scene);
+    Answers expected;
+    for (const Ray& ray : rays) {
+      expected.push_back(by_asking_all(primitives, ray));
+      hits += expected.back().has_value() ? 1 : 0;
+      if (random.one_in(32)) {
+        ASSERT_TRUE(same(expected.back(), by_definition(primitives, ray)));
       }
     }
-    std::vector<std::optional<Hit>> hits(rays.size(), Hit{});
-    bvh.intersect(rays, hits);
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      ASSERT_TRUE(same(hits[i], by_asking_all(bvh.primitives(), rays[i])))
-          << "scene " << round << ", ray " << i;
-  }
-}
-
-TEST_P(Traversal, StreamsEqualAskingEveryPrimitive) {
-  Random random(13);
-  int hits_of_all = 0;
-  for (int round = 0; round < scale(); ++round) {
-    const Scene scene = random_scene(random);
-    const Bvh bvh(scene);
-    // Sometimes more than one batch of the stream.
-    const int count = random.one_in(20) ? 2500 : random.between(1, 200);
-    const std::vector<Ray> rays = unrelated_rays(random, scene, count);
-    std::vector<std::optional<Hit>> hits(rays.size(), Hit{});
-    bvh.intersect(rays, hits);
-    const auto occluded = std::make_unique<bool[]>(rays.size());
-    bvh.occluded(rays, std::span(occluded.get(), rays.size()));
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto expected = by_asking_all(bvh.primitives(), rays[i]);
-      ASSERT_TRUE(same(hits[i], expected)) << "scene " << round << ", ray " << i;
-      ASSERT_EQ(occluded[i], expected.has_value()) << "scene " << round << ", ray " << i;
-      hits_of_all += expected.has_value() ? 1 : 0;
+    for (const Kernels* kernels : available_kernels()) {
+      SCOPED_TRACE(kernels->name);
+      setenv("MICROTRACE_ISA", kernels->name, 1);
+      ASSERT_EQ(&best_kernels(), kernels);
+      check_calls(Bvh(scene), rays, expected);
+      if (testing::Test::HasFatalFailure()) return;
     }
+    cast += rays.size();
   }
-  EXPECT_GT(hits_of_all, scale() * 25);
+  EXPECT_GT(hits, count / 8);
 }
 
-// Thirty thousand small triangles: walks go deep, packets break up, all places of the stream fill.
-TEST_P(Traversal, StreamsEqualSingleRaysInADeepTree) {
+TEST(TraversalOfADeepTree, GivesStreamsTheAnswersOfSingleRays) {
   Random random(14);
   Scene scene;
   scene.objects.push_back(
@@ -133,7 +140,6 @@ TEST_P(Traversal, StreamsEqualSingleRaysInADeepTree) {
                      const float size = random.power_of_two(-9, -4);
                      return Corners{c, c + random.in_cube(size), c + random.in_cube(size)};
                    })});
-  const Bvh bvh(scene);
   std::vector<Ray> rays;
   for (int group = 0; group < 100; ++group) {
     const Vec3 centre = random.in_cube(1);
@@ -141,15 +147,20 @@ TEST_P(Traversal, StreamsEqualSingleRaysInADeepTree) {
     for (int i = 0; i < 50; ++i)
       rays.push_back({.o = centre + random.in_cube(0.05F), .d = random.in_cube(1), .t_max = t_max});
   }
-  std::vector<std::optional<Hit>> hits(rays.size());
-  bvh.intersect(rays, hits);
-  const auto occluded = std::make_unique<bool[]>(rays.size());
-  bvh.occluded(rays, std::span(occluded.get(), rays.size()));
+  Answers expected;
   std::size_t found = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    ASSERT_TRUE(same(hits[i], bvh.intersect(rays[i]))) << "ray " << i;
-    ASSERT_EQ(occluded[i], hits[i].has_value()) << "ray " << i;
-    found += hits[i].has_value() ? 1 : 0;
+  for (const Kernels* kernels : available_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    setenv("MICROTRACE_ISA", kernels->name, 1);
+    const Bvh bvh(scene);
+    if (expected.empty()) {
+      for (const Ray& ray : rays) {
+        expected.push_back(bvh.intersect(ray));
+        found += expected.back().has_value() ? 1 : 0;
+      }
+    }
+    check_calls(bvh, rays, expected);
+    unsetenv("MICROTRACE_ISA");
   }
   EXPECT_GT(found, rays.size() / 8);
   EXPECT_LT(found, rays.size());

@@ -11,52 +11,56 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-Mesh random_mesh(Random& random) {
+Mesh random_mesh(Random& random, SceneKind kind) {
   const auto near = [&](const Vec3& c, float size) { return c + random.in_cube(size); };
-  switch (random.between(0, 6)) {
-    case 0: {  // a soup of small triangles
+  switch (kind) {
+    case SceneKind::soup:
       return mesh_of(random.between(1, 400), [&] {
         const Vec3 c = random.in_cube(1);
         return Corners{near(c, 0.1F), near(c, 0.1F), near(c, 0.1F)};
       });
-    }
-    case 1:  // an integer lattice: shared corners, coplanar walls, duplicates, no area
+    case SceneKind::lattice:
       return mesh_of(random.between(1, 400), [&] {
         return Corners{random.on_grid(4), random.on_grid(4), random.on_grid(4)};
       });
-    case 2:  // huge and tiny
+    case SceneKind::huge_and_tiny:
       return mesh_of(random.between(1, 300), [&] {
         const Vec3 c = random.in_cube(1);
         const float size = random.power_of_two(-20, 6);
         return Corners{near(c, size), near(c, size), near(c, size)};
       });
-    case 3: {  // far from the origin
+    case SceneKind::far_from_zero: {
       const Vec3 c = random.in_cube(0x1p22F);
       return mesh_of(random.between(1, 300), [&] {
         return Corners{near(c, 4), near(c, 4), near(c, 4)};
       });
     }
-    case 4:  // slivers
+    case SceneKind::slivers:
       return mesh_of(random.between(1, 300), [&] {
         const Vec3 a = random.in_cube(1), b = random.in_cube(1);
         return Corners{a, b, near((a + b) * 0.5F, random.power_of_two(-26, -6))};
       });
-    case 5:  // walls through integer planes, split at whole numbers: rays along edges and within
-             // planes
+    case SceneKind::walls:
       return mesh_of(random.between(1, 300), [&] {
         const int axis = random.between(0, 2);
         Corners corners{random.on_grid(3), random.on_grid(3), random.on_grid(3)};
         corners[1][axis] = corners[2][axis] = corners[0][axis];
         return corners;
       });
-    default:  // beyond what the kernels take, not finite
-      return mesh_of(random.between(1, 100), [&] {
-        const float size = random.power_of_two(-140, 60);
-        Corners corners{random.in_cube(size), random.in_cube(size), random.in_cube(size)};
-        if (random.one_in(10)) corners[0].x = random.one_in(2) ? NAN : kInfinity;
-        return corners;
-      });
+    case SceneKind::any_size:
+      break;
   }
+  return mesh_of(random.between(1, 100), [&] {
+    const float size = random.power_of_two(-140, 60);
+    Corners corners{random.in_cube(size), random.in_cube(size), random.in_cube(size)};
+    if (random.one_in(10)) corners[0].x = random.one_in(2) ? NAN : kInfinity;
+    return corners;
+  });
+}
+
+SceneKind any_kind(Random& random) {
+  return scene_kinds[static_cast<std::size_t>(
+      random.between(0, static_cast<int>(scene_kinds.size()) - 1))];
 }
 
 // A corner, or a point of an edge or of the inside, of some triangle.
@@ -85,13 +89,37 @@ Vec3 target(Random& random, const Scene& scene) {
 
 }  // namespace
 
+const char* name(SceneKind kind) {
+  switch (kind) {
+    case SceneKind::soup:
+      return "soup";
+    case SceneKind::lattice:
+      return "lattice";
+    case SceneKind::huge_and_tiny:
+      return "huge_and_tiny";
+    case SceneKind::far_from_zero:
+      return "far_from_zero";
+    case SceneKind::slivers:
+      return "slivers";
+    case SceneKind::walls:
+      return "walls";
+    case SceneKind::any_size:
+      return "any_size";
+  }
+  return "";
+}
+
 Scene random_scene(Random& random) {
+  return random_scene(random, any_kind(random));
+}
+
+Scene random_scene(Random& random, SceneKind kind) {
   Scene scene;
   const auto add = [&](Shape shape) {
     scene.objects.push_back({.name = "", .shape = std::move(shape)});
   };
-  add(random_mesh(random));
-  if (random.one_in(2)) add(random_mesh(random));
+  add(random_mesh(random, kind));
+  if (random.one_in(2)) add(random_mesh(random, any_kind(random)));
   if (random.one_in(4)) add(scene.objects[0].shape);  // every hit of it is a tie
   for (int i = random.between(-20, 20); i > 0; --i) {
     add(Sphere{random.on_grid(4), float(random.between(0, 2))});

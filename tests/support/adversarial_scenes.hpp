@@ -24,7 +24,26 @@ using Corners = std::array<Vec3, 3>;
   return mesh;
 }
 
-/// One or more meshes of up to 400 triangles, and often some other shapes.
+enum class SceneKind {
+  soup,           ///< small triangles anywhere
+  lattice,        ///< integer corners: shared ones, coplanar walls, duplicates, no area
+  huge_and_tiny,  ///< sizes from 2^-20 to 2^6
+  far_from_zero,  ///< 2^20 triangle sizes away from (0, 0, 0)
+  slivers,        ///< heights down to 2^-26 of the length
+  walls,          ///< in planes x, y or z = an integer: rays along edges and within planes
+  any_size,       ///< 2^-140 to 2^60, beyond what kernels take; some not finite
+};
+
+inline constexpr std::array scene_kinds = {
+    SceneKind::soup,    SceneKind::lattice, SceneKind::huge_and_tiny, SceneKind::far_from_zero,
+    SceneKind::slivers, SceneKind::walls,   SceneKind::any_size};
+
+[[nodiscard]] const char* name(SceneKind kind);
+
+/// A mesh of up to 400 triangles, often a second one, of any kind, or the first again, and some
+/// other shapes.
+[[nodiscard]] Scene random_scene(Random& random, SceneKind kind);
+/// Of any kind.
 [[nodiscard]] Scene random_scene(Random& random);
 
 /// A point from which rays are likely to meet such a scene, often one of its surfaces.

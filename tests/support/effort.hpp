@@ -1,5 +1,5 @@
 #pragma once
-/// How many cases the oracle's tests run, and from which seed.
+/// How many cases the long tests run, and from which seed.
 
 #include "support/adversarial_rays.hpp"
 
@@ -8,13 +8,15 @@
 #include <iostream>
 #include <string>
 
-namespace microtrace::oracle {
+namespace microtrace {
 
 /// A number from the environment, or the fallback.
 [[nodiscard]] inline std::uint64_t from_environment(const char* variable, std::uint64_t fallback) {
   const char* text = std::getenv(variable);
   return text == nullptr ? fallback : std::stoull(text);
 }
+
+namespace oracle {
 
 /// The share of MICROTRACE_ORACLE_CASES, 1000000 by default, that one test runs.
 [[nodiscard]] inline int case_count(double share) {
@@ -35,4 +37,30 @@ inline void announce(int rays, int hits) {
   std::cout << rays << " rays agree, " << hits << " of them hit\n";
 }
 
-}  // namespace microtrace::oracle
+}  // namespace oracle
+
+namespace traversal {
+
+// Sanitizers slow these tests down by a factor of about ten.
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr std::uint64_t kUsualRays = 100'000;
+#else
+inline constexpr std::uint64_t kUsualRays = 1'000'000;
+#endif
+
+/// The share of MICROTRACE_TRAVERSAL_RAYS, 1000000 by default, that one test casts.
+[[nodiscard]] inline std::size_t ray_count(double share) {
+  return static_cast<std::size_t>(
+      share * static_cast<double>(from_environment("MICROTRACE_TRAVERSAL_RAYS", kUsualRays)));
+}
+
+/// The generator of one test, seeded by MICROTRACE_TRAVERSAL_SEED and the test's own number. Prints
+/// the seed.
+[[nodiscard]] inline adversarial::Random announced_random(std::uint64_t test) {
+  const std::uint64_t seed = from_environment("MICROTRACE_TRAVERSAL_SEED", 1);
+  std::cout << "MICROTRACE_TRAVERSAL_SEED=" << seed << '\n';
+  return adversarial::Random(seed * 1000 + test);
+}
+
+}  // namespace traversal
+}  // namespace microtrace
