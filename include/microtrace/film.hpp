@@ -2,10 +2,13 @@
 /// The picture being made.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/math.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <variant>
 #include <vector>
 
 namespace microtrace {
@@ -17,6 +20,19 @@ struct PixelRect {
   [[nodiscard]] ImageSize size() const { return {.width = x1 - x0, .height = y1 - y0}; }
 };
 
+/// How 8-bit formats show a film's numbers; float formats hold the numbers themselves.
+struct Display {
+  bool srgb = true;  ///< linear light, encoded by sRGB's curve; else v is shown as
+                     ///< round(255 (scale v + offset)), clamped
+  Vec3 scale{1}, offset{0};
+};
+
+/// One number for each pixel beside the colours, row by row from the upper left.
+struct Channel {
+  std::string name;  ///< as OpenEXR's: "depth.Z", "id.instance"
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+};
+
 /// width x height linear Rec. 709 colours, row by row from the upper left, with alpha or without.
 class Film {
  public:
@@ -24,7 +40,8 @@ class Film {
 
   /// All pixels black, and transparent where there is alpha.
   explicit Film(ImageSize size, Alpha alpha = Alpha::none)
-      : size_(size),
+      : whole(size),
+        size_(size),
         pixels_(std::size_t{size.width} * size.height),
         alpha_(alpha == Alpha::none ? 0 : pixels_.size()) {}
 
@@ -41,6 +58,11 @@ class Film {
   [[nodiscard]] std::span<const float> alpha_row(std::uint32_t y) const {
     return std::span(alpha_).subspan(index(0, y), size_.width);
   }
+
+  ImageSize whole;               ///< the picture that this film is a part of
+  std::uint32_t x0 = 0, y0 = 0;  ///< this film's upper left pixel there
+  Display display{};
+  std::vector<Channel> channels{};  ///< each with a number for every pixel of this film
 
  private:
   [[nodiscard]] std::size_t index(std::uint32_t x, std::uint32_t y) const {

@@ -69,21 +69,30 @@ class SceneFile {
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
 /// Writes a picture; the kind is the ending's: .ppm by the library itself, any other by
-/// OpenImageIO, whose module is loaded then. Integer formats are sRGB-encoded 8 bit, float formats
-/// linear. The file appears whole or not at all. "-" is standard output, and takes PPM. Throws
-/// Error.
+/// OpenImageIO, whose module is loaded then. Float formats (.exr, .hdr) hold the film's numbers,
+/// the others 8 bits as its display says. Alpha is multiplied into the colours of float formats and
+/// divided out of the others, before they are encoded. Only .exr takes further channels; there a
+/// film that is a part of a picture has the whole as its display window. The file appears whole or
+/// not at all. "-" is standard output, and takes PPM. Throws Error: usage where the format lacks
+/// what the film has.
 void save_image(const Film& film, const std::filesystem::path& path,
                 PpmEncoding ppm = PpmEncoding::binary);
 
-/// Throws the Error that save_image would throw at once for this path, and writes nothing: to be
-/// asked before a long rendering.
-void check_image_path(const std::filesystem::path& path);
+/// What a film has beside colours.
+struct FilmContents {
+  bool alpha = false;
+  bool channels = false;
+};
+
+/// Throws the Error that save_image would throw at once for this path and such a film, and writes
+/// nothing: to be asked before a long rendering.
+void check_image_path(const std::filesystem::path& path, const FilmContents& contents = {});
 
 /// Removes the temporary files of pictures being saved. Safe in a signal handler that then ends the
 /// process.
 void remove_unfinished_files() noexcept;
 
-/// The bytes of a PPM file.
+/// The bytes of a PPM file. Throws Error (usage) for a film with alpha.
 [[nodiscard]] std::string encode_ppm(const Film& film, PpmEncoding ppm = PpmEncoding::binary);
 
 }  // namespace microtrace

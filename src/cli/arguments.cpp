@@ -34,7 +34,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, crop, view, statistics;
+  std::string output, size, crop, view, background, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -45,6 +45,10 @@ Parsed parse_arguments(int argc, char** argv) {
       "--crop", crop,
       "x0,y0,x1,y1: draw only the pixels from x0 to x1 - 1, y0 to y1 - 1, as they are in "
       "the whole picture; 0,0 is its upper left corner");
+  app.add_option(
+      "--background", background,
+      "what is seen behind all objects: #rrggbb in sRGB, r,g,b in linear light from 0 to "
+      "1, or transparent: an alpha channel [as the scene says, or black]");
   app.add_option("--spp,--samples", a.samples,
                  "rays for each pixel, spread over it [1, through its centre]")
       ->check(CLI::Range(1U, kMaxSamples));
@@ -70,6 +74,7 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (!size.empty()) a.size = parse_size(size);
+    if (!background.empty()) a.background = parse_background(background);
     if (!view.empty()) a.view = parse_view(view);
     if (!crop.empty()) a.crop = parse_crop(crop);
     if (!statistics.empty())

@@ -1,6 +1,8 @@
 #pragma once
 /// The command line.
 
+#include "cli/option_values.hpp"
+
 #include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
 
@@ -18,6 +20,7 @@ struct Arguments {
   std::filesystem::path output;  ///< a file, or "-" for standard output
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
+  std::optional<Background> background{};
   std::uint32_t samples = 1;  ///< per pixel
   std::string camera;         ///< a name or an index; empty: the default
   std::optional<View> view{};

@@ -30,21 +30,24 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
 
 void run(const cli::Arguments& arguments) {
   cli::Stopwatch watch;
-  const auto [scene, warnings] = load_scene(arguments.scene);
+  auto [scene, warnings] = load_scene(arguments.scene);
   report(warnings, arguments);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);
   watch.loaded();
   if (arguments.validate) return;
 
-  check_image_path(arguments.output);
+  const bool transparent = arguments.background && !arguments.background->color;
+  if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
+  check_image_path(arguments.output, {.alpha = transparent});
   const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
   const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
   const Film film = render(scene, camera, size,
                            {.threads = threads,
                             .progress = progress,
                             .samples = arguments.samples,
-                            .crop = arguments.crop});
+                            .crop = arguments.crop,
+                            .transparent = transparent});
   watch.rendered();
 
   save_image(film, arguments.output, arguments.ppm);

@@ -1,5 +1,6 @@
 #include "cli/option_values.hpp"
 
+#include "scene/srgb.hpp"
 #include "scene/validate.hpp"
 
 #include <algorithm>
@@ -24,10 +25,12 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-template <typename Number>
-std::optional<Number> read(std::string_view text) {
+/// All of the text as a number; `format` is an integer's base.
+template <typename Number, typename... Format>
+std::optional<Number> read(std::string_view text, Format... format) {
   Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] =
+      std::from_chars(text.data(), text.data() + text.size(), value, format...);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
@@ -91,6 +94,34 @@ View parse_view(const std::string& text) {
                                            "or AZIMUTH,ELEVATION in degrees, elevation from -90 "
                                            "to 90, not " +
                                            text);
+}
+
+Background parse_background(const std::string& text) {
+  if (text == "transparent") return {};
+  const std::vector<std::string_view> parts = split(text);
+  Vec3 color(0);
+  bool good = false;
+  if (text.size() == 7 && text[0] == '#') {
+    const std::string_view digits = std::string_view(text).substr(1);
+    good = digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+    for (glm::length_t i = 0; good && i < 3; ++i) {
+      const auto code =
+          read<std::uint8_t>(digits.substr(2 * static_cast<std::size_t>(i), 2), 16).value_or(0);
+      color[i] = static_cast<float>(linear_from_srgb(code / 255.0));
+    }
+  } else if (parts.size() == 3) {
+    good = true;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      const auto value = read<float>(parts[static_cast<std::size_t>(i)]);
+      good = good && value && *value >= 0 && *value <= 1;
+      color[i] = value.value_or(0);
+    }
+  }
+  if (good) return {.color = color};
+  throw CLI::ValidationError("--background",
+                             "wants transparent, #rrggbb (sRGB), or three numbers from 0 to 1 "
+                             "(linear light) as 0.2,0.4,1, not " +
+                                 text);
 }
 
 }  // namespace microtrace::cli

@@ -3,6 +3,7 @@
 
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
+#include <microtrace/math.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -22,5 +23,13 @@ namespace microtrace::cli {
 [[nodiscard]] PixelRect parse_crop(const std::string& text);
 /// A side's name, or AZIMUTH,ELEVATION in degrees
 [[nodiscard]] View parse_view(const std::string& text);
+
+/// What lies behind all objects: a colour, or nothing (transparent).
+struct Background {
+  std::optional<Vec3> color;  ///< linear Rec. 709
+};
+
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent"
+[[nodiscard]] Background parse_background(const std::string& text);
 
 }  // namespace microtrace::cli

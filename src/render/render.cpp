@@ -56,6 +56,9 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const RayGenerator ray_through(camera, size);
   Film film = make_film(window.size(),
                         options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
+  film.whole = size;
+  film.x0 = window.x0;
+  film.y0 = window.y0;
   const TilePainter painter(world, options.integrator != nullptr ? *options.integrator : flat,
                             ray_through, options, window, film);
   for_each_tile(

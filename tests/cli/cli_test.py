@@ -172,6 +172,22 @@ class CommandLine(unittest.TestCase):
         self.assertIn(b"--view", none.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_backgrounds(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        corner = lambda *options: self.picture(cube, "--size", "40x30", *options)[2][0][:3]
+        self.assertEqual(corner(), b"\0\0\0")
+        self.assertEqual(corner("--background", "#2b7CfF"), b"\x2b\x7c\xff")
+        self.assertEqual(corner("--background", "0.5,0,1"), b"\xbc\x00\xff")  # linear light
+        for background in ("blue", "#12345", "#12345g", "1,2,0", "1,1", "1,1,1,1", "nan,0,0", "-1,0,0"):
+            wrong = self.run_program(cube, "--background", background)
+            self.assertEqual(wrong.returncode, 2, background)
+            self.assertIn(b"--background", wrong.stderr)
+        for output in ("-", "a.ppm", "a.jpg"):
+            wrong = self.run_program(cube, "--background", "transparent", "-o", output)
+            self.assertEqual(wrong.returncode, 2, wrong.stderr)
+            self.assertIn(b"has no alpha; write .png or .exr", wrong.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_samples(self):
         one = self.picture(SCENE, "--size", "64x48")
         self.assertEqual(self.picture(SCENE, "--size", "64x48", "--samples", "1"), one)

@@ -2,6 +2,7 @@
 
 #include <microtrace/io.hpp>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -60,6 +61,29 @@ TEST(Ppm, SavedFileHoldsTheEncodedBytes) {
     save_image(film, folder / "a.PPM", encoding);
     EXPECT_EQ(read_bytes(folder / "a.PPM"), encode_ppm(film, encoding));
   }
+}
+
+TEST(Ppm, AlphaIsRefused) {
+  const Film film({2, 1}, Film::Alpha::premultiplied);
+  EXPECT_THROW((void)encode_ppm(film), Error);
+  const Folder folder;
+  EXPECT_THROW(save_image(film, folder / "a.ppm"), Error);
+  EXPECT_THROW(check_image_path(folder / "a.ppm", {.alpha = true}), Error);
+  EXPECT_THROW(check_image_path(folder / "a.ppm", {.channels = true}), Error);
+  EXPECT_NO_THROW(check_image_path(folder / "a.ppm"));
+  EXPECT_EQ(folder.entries(), 0U);
+}
+
+TEST(Ppm, NumbersThatAreNoColoursAreShownAsTheDisplaySays) {
+  Film film({5, 1});
+  film.display = {.srgb = false, .scale = Vec3(0.5F), .offset = Vec3(0.5F, 0.5F, 0)};
+  film.at(0, 0) = {-1, 0, 1};
+  film.at(1, 0) = {1, 0.5F, 0.25F};
+  film.at(2, 0) = {INFINITY, -INFINITY, NAN};
+  film.at(3, 0) = {-3, 3, -0.1F};
+  film.at(4, 0) = {0, 1.0F / 255, 2.0F / 255};  // codes 127.5, 128 and 1
+  EXPECT_EQ(encode_ppm(film, PpmEncoding::ascii),
+            "P3\n5 1\n255\n0 128 128 255 191 32 255 0 0 0 255 0 128 128 1\n");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "io/image/srgb.hpp"
+#include "scene/srgb.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,7 @@
 #include "io/image/module.hpp"
 
+#include "io/image/module_picture.hpp"
+
 #include <microtrace/error.hpp>
 
 #include <cstdlib>
@@ -88,12 +90,13 @@ void take_reason(void* context, const char* bytes, std::size_t size) {
 
 ImageModule::ImageModule(std::string file) : file_(std::move(file)) {
   void* module = load_module(file_);
-  can_encode_ = find_function<MicrotraceCanEncode>(module, can_encode_name, file_);
+  find_format_ = find_function<MicrotraceFindFormat>(module, find_format_name, file_);
   encode_ = find_function<MicrotraceEncode>(module, encode_name, file_);
 }
 
-void ImageModule::check(const std::string& ending) const {
-  if (can_encode_(ending.c_str()) != 0) return;
+MicrotraceFormat ImageModule::find_format(const std::string& ending) const {
+  MicrotraceFormat format{};
+  if (find_format_(ending.c_str(), &format) != 0) return format;
   std::string message = "no picture can be written with the ending .";
   message += ending;
   message += "; use .ppm, .png or .exr, or another that OpenImageIO can write";
@@ -102,9 +105,9 @@ void ImageModule::check(const std::string& ending) const {
 
 void ImageModule::encode(const Film& film, const std::string& ending,
                          const std::function<void(std::string_view)>& out) const {
-  const MicrotracePicture picture{film.size().width, film.size().height, &film.row(0)[0].x};
+  const ModulePicture picture(film, find_format(ending));
   Sinks sinks{out, {}, {}};
-  const int failed = encode_(&picture, ending.c_str(), take_bytes, take_reason, &sinks);
+  const int failed = encode_(&picture.get(), ending.c_str(), take_bytes, take_reason, &sinks);
   if (sinks.thrown) std::rethrow_exception(sinks.thrown);
   if (failed == 0) return;
   std::string message = "can't be encoded: ";

@@ -18,8 +18,9 @@ class ImageModule {
   /// Throws Error(unsupported) that names the places where the module was sought.
   explicit ImageModule(std::string file);
 
-  /// Throws Error(usage) unless files of this ending (small letters, no dot) can be written.
-  void check(const std::string& ending) const;
+  /// What files of this ending (small letters, no dot) hold. Throws Error(usage) where none can be
+  /// written.
+  [[nodiscard]] MicrotraceFormat find_format(const std::string& ending) const;
 
   /// Hands the bytes of the whole picture file to `out`. Throws Error(io).
   void encode(const Film& film, const std::string& ending,
@@ -27,7 +28,7 @@ class ImageModule {
 
  private:
   std::string file_;
-  MicrotraceCanEncode can_encode_ = nullptr;
+  MicrotraceFindFormat find_format_ = nullptr;
   MicrotraceEncode encode_ = nullptr;
 };
 

@@ -7,19 +7,41 @@
 
 extern "C" {
 
+/// What files of one ending hold.
+struct MicrotraceFormat {
+  std::int32_t is_float;      ///< linear float32, else 8 bits
+  std::int32_t has_alpha;     ///< beside red, green and blue
+  std::int32_t has_channels;  ///< any number of them by any name, each of any MicrotraceNumber
+};
+
+enum MicrotraceNumber : std::int32_t { kMicrotraceU8, kMicrotraceU32, kMicrotraceF32 };
+
+struct MicrotraceChannel {
+  const char* name;    ///< R, G, B, then A if there is alpha, then others
+  const void* first;   ///< the upper left pixel's number
+  std::size_t stride;  ///< bytes from pixel to pixel; rows follow each other
+  MicrotraceNumber number;
+};
+
+/// 8-bit alpha is not multiplied into the colours, float alpha is.
 struct MicrotracePicture {
   std::uint32_t width, height;
-  const float* rgb;  ///< linear Rec. 709, row by row from the upper left
+  std::uint32_t x0, y0;                     ///< of the upper left pixel in the whole picture
+  std::uint32_t whole_width, whole_height;  ///< of which this may be a part
+  std::int32_t is_color;                    ///< sRGB, where it is 8 bits, else numbers of any kind
+  const MicrotraceChannel* channels;
+  std::size_t channel_count;
 };
 
 /// Takes text or bytes; `context` is the caller's. Never throws.
 using MicrotraceSink = void (*)(void* context, const char* bytes, std::size_t size);
 
-/// Can pictures be written for this ending (small letters, no dot)? 1 or 0.
-using MicrotraceCanEncode = int (*)(const char* ending);
+/// Can pictures be written for this ending (small letters, no dot)? Describes them and returns 1,
+/// or returns 0.
+using MicrotraceFindFormat = int (*)(const char* ending, MicrotraceFormat* format);
 
 /// Hands the bytes of the picture's file to `out` and returns 0, or hands a reason to `error` and
-/// returns 1.
+/// returns 1. The channels are such as the format has.
 using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* ending,
                                  MicrotraceSink out, MicrotraceSink error, void* context);
 }
@@ -27,7 +49,7 @@ using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* e
 namespace microtrace::io {
 
 inline constexpr char module_file_name[] = "microtrace_openimageio.so";
-inline constexpr char can_encode_name[] = "microtrace_can_encode_v1";
-inline constexpr char encode_name[] = "microtrace_encode_v1";
+inline constexpr char find_format_name[] = "microtrace_find_format_v2";
+inline constexpr char encode_name[] = "microtrace_encode_v2";
 
 }  // namespace microtrace::io

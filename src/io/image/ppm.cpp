@@ -1,34 +1,20 @@
 #include "io/image/ppm.hpp"
 
-#include "io/image/srgb.hpp"
+#include "io/image/eight_bits.hpp"
+
+#include <microtrace/error.hpp>
 
 #include <cstddef>
-#include <span>
+#include <vector>
 
 namespace microtrace {
 namespace {
 
-void append_binary(std::span<const Vec3> row, std::string& out) {
-  const std::size_t start = out.size();
-  out.resize(start + 3 * row.size());
-  char* byte = out.data() + start;
-  for (const Vec3& color : row) {
-    *byte++ = static_cast<char>(io::encode_srgb(color.x));
-    *byte++ = static_cast<char>(io::encode_srgb(color.y));
-    *byte++ = static_cast<char>(io::encode_srgb(color.z));
-  }
-}
-
-void append_ascii(std::span<const Vec3> row, std::string& out) {
-  constexpr std::size_t pixels_per_line = 5;  // "255 255 255 " five times is 59 characters
-  for (std::size_t x = 0; x < row.size(); ++x) {
-    const Vec3& color = row[x];
-    out += std::to_string(io::encode_srgb(color.x));
-    out += ' ';
-    out += std::to_string(io::encode_srgb(color.y));
-    out += ' ';
-    out += std::to_string(io::encode_srgb(color.z));
-    out += (x + 1 == row.size() || (x + 1) % pixels_per_line == 0) ? '\n' : ' ';
+void append_ascii(const std::vector<std::uint8_t>& row, std::string& out) {
+  constexpr std::size_t numbers_per_line = 15;  // "255 " fifteen times is 59 characters
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    out += std::to_string(row[i]);
+    out += (i + 1 == row.size() || (i + 1) % numbers_per_line == 0) ? '\n' : ' ';
   }
 }
 
@@ -46,16 +32,22 @@ std::string ppm_header(ImageSize size, PpmEncoding encoding) {
 }
 
 void append_ppm_row(const Film& film, std::uint32_t y, PpmEncoding encoding, std::string& out) {
+  const std::size_t numbers = std::size_t{3} * film.size().width;
   if (encoding == PpmEncoding::binary) {
-    append_binary(film.row(y), out);
+    const std::size_t start = out.size();
+    out.resize(start + numbers);
+    encode_row(film, y, reinterpret_cast<std::uint8_t*>(out.data() + start));
   } else {
-    append_ascii(film.row(y), out);
+    std::vector<std::uint8_t> row(numbers);
+    encode_row(film, y, row.data());
+    append_ascii(row, out);
   }
 }
 
 }  // namespace io
 
 std::string encode_ppm(const Film& film, PpmEncoding ppm) {
+  if (film.has_alpha()) throw Error(ErrorKind::usage, "", "a picture with alpha can't be PPM");
   std::string bytes = io::ppm_header(film.size(), ppm);
   for (std::uint32_t y = 0; y < film.size().height; ++y) io::append_ppm_row(film, y, ppm, bytes);
   return bytes;

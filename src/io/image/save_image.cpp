@@ -41,22 +41,41 @@ void save_ppm(const Film& film, const std::filesystem::path& path, PpmEncoding e
   file.commit();
 }
 
+/// Throws Error(usage) unless the format holds all that the film has.
+void require(const FilmContents& contents, const MicrotraceFormat& format,
+             const std::filesystem::path& path, const std::string& ending) {
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ErrorKind::usage, path == "-" ? "standard output" : path.string(),
+                "." + ending + message);
+  };
+  if (contents.channels && format.has_channels == 0)
+    refuse(" holds colours alone; write further channels to an .exr file");
+  if (contents.alpha && format.has_alpha == 0)
+    refuse(" has no alpha; write .png or .exr, or give the background a colour");
+}
+
+constexpr MicrotraceFormat ppm_format{};  // 8 bits, no alpha, no channels
+
 }  // namespace
 
-void check_image_path(const std::filesystem::path& path) {
+void check_image_path(const std::filesystem::path& path, const FilmContents& contents) {
   const std::string ending = format_ending(path);
-  if (ending != "ppm") io::ImageModule(path.string()).check(ending);
+  require(contents,
+          ending == "ppm" ? ppm_format : io::ImageModule(path.string()).find_format(ending), path,
+          ending);
   io::check_target(path);
 }
 
 void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm) {
   const std::string ending = format_ending(path);
+  const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
   if (ending == "ppm") {
+    require(contents, ppm_format, path, ending);
     save_ppm(film, path, ppm);
     return;
   }
   const io::ImageModule module(path.string());
-  module.check(ending);
+  require(contents, module.find_format(ending), path, ending);
   io::AtomicFile file(path);
   module.encode(film, ending, [&file](std::string_view bytes) { file.write(bytes); });
   file.commit();

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace microtrace::io {
+namespace microtrace {
 
 /// x^(1/5) for x in (0, 1], by Newton's method from above, where it descends until rounding ends
 /// it.
@@ -70,4 +70,4 @@ constexpr std::uint8_t encode_srgb(float v) {
   return static_cast<std::uint8_t>(code + (v >= srgb_thresholds[code] ? 1 : 0));
 }
 
-}  // namespace microtrace::io
+}  // namespace microtrace

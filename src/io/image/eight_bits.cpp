@@ -1,0 +1,48 @@
+#include "io/image/eight_bits.hpp"
+
+#include "scene/srgb.hpp"
+
+#include <span>
+
+namespace microtrace::io {
+namespace {
+
+/// round(255 v) for v in [0, 1]; values outside are clamped, NaN gives 0.
+std::uint8_t encode_linear(float v) {
+  if (!(v > 0)) return 0;
+  return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
+}
+
+template <class Encode>
+void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Encode&& encode) {
+  const std::span<const Vec3> colors = film.row(y);
+  if (!film.has_alpha()) {
+    for (const Vec3& color : colors) {
+      for (glm::length_t i = 0; i < 3; ++i) *out++ = encode(color, i);
+    }
+    return;
+  }
+  const std::span<const float> alphas = film.alpha_row(y);
+  for (std::size_t x = 0; x < colors.size(); ++x) {
+    const float alpha = alphas[x];
+    const Vec3 color = alpha > 0 ? colors[x] / alpha : Vec3(0);
+    for (glm::length_t i = 0; i < 3; ++i) *out++ = alpha > 0 ? encode(color, i) : std::uint8_t{0};
+    *out++ = encode_linear(alpha);
+  }
+}
+
+}  // namespace
+
+void encode_row(const Film& film, std::uint32_t y, std::uint8_t* out) {
+  if (film.display.srgb) {
+    encode_all(film, y, out,
+               [](const Vec3& color, glm::length_t i) { return encode_srgb(color[i]); });
+    return;
+  }
+  const Vec3 scale = film.display.scale, offset = film.display.offset;
+  encode_all(film, y, out, [&](const Vec3& color, glm::length_t i) {
+    return encode_linear(scale[i] * color[i] + offset[i]);
+  });
+}
+
+}  // namespace microtrace::io

@@ -1,0 +1,30 @@
+#pragma once
+/// A film as the module wants it.
+
+#include "io/image/module_abi.hpp"
+
+#include <microtrace/film.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace microtrace::io {
+
+class ModulePicture {
+ public:
+  /// The film must outlive it.
+  ModulePicture(const Film& film, const MicrotraceFormat& format);
+
+  [[nodiscard]] const MicrotracePicture& get() const { return picture_; }
+
+ private:
+  void add_float_colors(const Film& film);
+  void add_byte_colors(const Film& film);
+  void add_channels(const Film& film);
+
+  std::vector<std::uint8_t> bytes_;  // of the pixels, where the format wants them
+  std::vector<MicrotraceChannel> channels_;
+  MicrotracePicture picture_;
+};
+
+}  // namespace microtrace::io
