@@ -62,7 +62,7 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
 
 namespace {
 
-// Asks every primitive: for rays whose size the kernels' error bounds don't cover.
+// Asks every primitive: for rays that can't be brought within the kernels' error bounds.
 std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   Bundle bundle(primitives, std::span(&ray, 1));
@@ -97,11 +97,12 @@ std::size_t unrelated_length(std::span<const Ray> rays) {
 }  // namespace
 
 std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
-  if (!suits_kernels(ray)) return ask_all(primitives, ray);
-  Judge judge(primitives, ray);
-  Best best = no_hit(ray);
+  const double t_scale = kernel_t_scale(ray);
+  if (t_scale == 0) return ask_all(primitives, ray);
+  Judge judge(primitives, ray, t_scale);
+  Best best = judge.no_hit();
   for (const PrimitiveId id : outside) judge.consider(id, best);
-  if (has_tree) kernels->closest(view(), kernel_ray(ray), judge.slow_path(), best);
+  if (has_tree) kernels->closest(view(), kernel_ray(ray, t_scale), judge.slow_path(), best);
   if (best.id == kNoPrimitive) return std::nullopt;
   return judge.hit(best.id);
 }
@@ -110,28 +111,32 @@ std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
   if (!exact::is_valid(ray) || after >= primitives.count()) return std::nullopt;
   const KnownHit known(primitives, ray, after);
   if (!known.exists()) return std::nullopt;
-  Judge judge(primitives, ray, &known);
-  Best best = no_hit(ray);
-  if (suits_kernels(ray)) {
-    for (const PrimitiveId id : outside) judge.consider(id, best);
-    if (has_tree)
-      kernels->closest(view(), kernel_ray_from(ray, known.bounds()), judge.slow_path(), best);
-  } else {
+  const double t_scale = kernel_t_scale(ray);
+  Judge judge(primitives, ray, t_scale == 0 ? 1 : t_scale, &known);
+  Best best = judge.no_hit();
+  if (t_scale == 0) {
     for (PrimitiveId id = 0; id < primitives.count(); ++id) judge.consider(id, best);
+  } else {
+    for (const PrimitiveId id : outside) judge.consider(id, best);
+    if (has_tree) {
+      const KernelRay from = kernel_ray_from(ray, t_scale, known.bounds());
+      kernels->closest(view(), from, judge.slow_path(), best);
+    }
   }
   if (best.id == kNoPrimitive) return std::nullopt;
   return judge.hit(best.id);
 }
 
 bool Bvh::Impl::occluded(const Ray& ray) const {
-  if (!suits_kernels(ray)) return ask_all(primitives, ray).has_value();
-  Judge judge(primitives, ray);
-  Best best = no_hit(ray);
+  const double t_scale = kernel_t_scale(ray);
+  if (t_scale == 0) return ask_all(primitives, ray).has_value();
+  Judge judge(primitives, ray, t_scale);
+  Best best = judge.no_hit();
   for (const PrimitiveId id : outside) {
     judge.consider(id, best);
     if (best.id != kNoPrimitive) return true;
   }
-  return has_tree && kernels->any(view(), kernel_ray(ray), judge.slow_path());
+  return has_tree && kernels->any(view(), kernel_ray(ray, t_scale), judge.slow_path());
 }
 
 bool Bvh::Impl::intersect_tile(std::span<const Ray> rays,

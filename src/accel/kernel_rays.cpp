@@ -1,6 +1,7 @@
 #include "accel/kernel_rays.hpp"
 
 #include "accel/slow_path.hpp"
+#include "exact/intersect.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,11 @@ bool within(const Vec3& v, float limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
+// Where culling may begin for hits from t on.
+float begin_at(float t) {
+  return t < kLeastBegin ? 0 : std::min(t, kFarthestCoordinate);
+}
+
 }  // namespace
 
 bool suits_kernels(const Ray& ray) {
@@ -23,24 +29,43 @@ bool suits_kernels(const Ray& ray) {
          ray.t_min >= 0 && ray.t_min <= kFarthestCoordinate && ray.t_min <= ray.t_max;
 }
 
-KernelRay kernel_ray(const Ray& ray) {
+double kernel_t_scale(const Ray& ray) {
+  if (suits_kernels(ray)) return 1;
+  if (!exact::is_valid(ray) || !within(ray.o, kFarthestCoordinate)) return 0;
+  const float size = std::max({std::abs(ray.d.x), std::abs(ray.d.y), std::abs(ray.d.z)});
+  if (size >= kShortestDirection && size <= kLongestDirection) return 1;  // t_min is far
+  const double scale = std::scalbn(1.0, std::ilogb(size));
+  // Multiplied by a power of two, a float32 that is not too large is exact unless it underflows.
+  const auto is_exact = [](double x) {
+    return std::abs(x) > 0x1p100 || static_cast<float>(x) == x;
+  };
+  const bool all_exact = is_exact(ray.d.x / scale) && is_exact(ray.d.y / scale) &&
+                         is_exact(ray.d.z / scale) && is_exact(ray.t_max * scale);
+  return all_exact ? scale : 0;
+}
+
+KernelRay kernel_ray(const Ray& ray, double t_scale) {
   KernelRay k{};
-  for (int axis = 0; axis < 3; ++axis) {
-    k.o[axis] = ray.o[axis];
-    k.d[axis] = ray.d[axis];
+  for (int axis = 0; axis < 3; ++axis) k.o[axis] = ray.o[axis];
+  if (t_scale == 1) {
+    for (int axis = 0; axis < 3; ++axis) k.d[axis] = ray.d[axis];
+    k.t_min = ray.t_min;
+    k.t_begin = begin_at(ray.t_min);
+  } else {
+    for (int axis = 0; axis < 3; ++axis) k.d[axis] = static_cast<float>(ray.d[axis] / t_scale);
+    const Best bounds = outwards(ray.t_min * t_scale, ray.t_min * t_scale, kNoPrimitive);
+    k.t_min = bounds.hi;
+    k.t_begin = begin_at(bounds.lo);
   }
-  k.t_min = ray.t_min;
-  k.t_max = ray.t_max;
-  k.t_begin = ray.t_min < kLeastBegin ? 0 : ray.t_min;
+  k.t_max = no_hit(ray, t_scale).hi;
   return k;
 }
 
-KernelRay kernel_ray_from(const Ray& ray, const exact::Enclosure& begin) {
-  KernelRay k = kernel_ray(ray);
-  const Best bounds = outwards(begin.lo, begin.hi, 0);
+KernelRay kernel_ray_from(const Ray& ray, double t_scale, const exact::Enclosure& begin) {
+  KernelRay k = kernel_ray(ray, t_scale);
+  const Best bounds = outwards(begin.lo * t_scale, begin.hi * t_scale, kNoPrimitive);
   k.t_min = std::nextafter(bounds.hi, std::numeric_limits<float>::infinity());
-  const float least = std::min(bounds.lo, kFarthestCoordinate);
-  k.t_begin = std::max(k.t_begin, least < kLeastBegin ? 0 : least);
+  k.t_begin = std::max(k.t_begin, begin_at(bounds.lo));
   return k;
 }
 

@@ -13,12 +13,19 @@ namespace microtrace {
 /// Whether a ray is valid and keeps KernelRay's limits.
 [[nodiscard]] bool suits_kernels(const Ray& ray);
 
-/// The caller's part of a KernelRay, for a ray that does.
-[[nodiscard]] KernelRay kernel_ray(const Ray& ray);
+/// The power of two 2^k for which o + t d, written as o + (2^k t) (d / 2^k), keeps KernelRay's
+/// limits: 1 for a ray that suits kernels. 0 if there is none, or if a component of d / 2^k would
+/// be rounded, or if the ray is not valid.
+[[nodiscard]] double kernel_t_scale(const Ray& ray);
+
+/// The caller's part of a KernelRay; t_scale is kernel_t_scale(ray), not 0, and multiplies all its
+/// t.
+[[nodiscard]] KernelRay kernel_ray(const Ray& ray, double t_scale);
 
 /// The same for a ray that looks for hits after a number of which only an enclosure is known: what
 /// could be on either side of it goes to the slow path.
-[[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, const exact::Enclosure& begin);
+[[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
+                                        const exact::Enclosure& begin);
 
 /// Makes a tile without hits of 1 to kTileRays rays with one origin. False if not all of them suit
 /// kernels.

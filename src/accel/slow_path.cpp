@@ -25,9 +25,10 @@ Best outwards(double lo, double hi, PrimitiveId id) {
   return {.lo = rounded_down(lo), .hi = rounded_up(hi), .id = id};
 }
 
-Best best_of(const ClosestHit& closest, const Ray& ray) {
+Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale) {
   const auto found = closest.candidate();
-  return found ? outwards(found->lo, found->hi, found->id) : no_hit(ray);
+  return found ? outwards(found->lo * t_scale, found->hi * t_scale, found->id)
+               : no_hit(ray, t_scale);
 }
 
 std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
@@ -35,9 +36,10 @@ std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId 
   return primitives.visit(id, [&](const auto& shape) { return exact::first_hit(shape, ray); });
 }
 
-Judge::Judge(const Primitives& primitives, const Ray& ray, const KnownHit* after)
+Judge::Judge(const Primitives& primitives, const Ray& ray, double t_scale, const KnownHit* after)
     : primitives_(&primitives),
       ray_(&ray),
+      t_scale_(t_scale),
       after_(after),
       filterable_(is_filterable(ray.o) && is_filterable(ray.d)) {}
 
@@ -46,7 +48,7 @@ void Judge::consider(std::uint32_t id, Best& best) const {
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);
-  if (closest.candidate()) best = best_of(closest, *ray_);
+  if (closest.candidate()) best = best_of(closest, *ray_, t_scale_);
 }
 
 Hit Judge::hit(std::uint32_t id) const {

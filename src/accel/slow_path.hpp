@@ -8,18 +8,22 @@
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace microtrace {
 
-/// The best of a ray before there is one.
-[[nodiscard]] inline Best no_hit(const Ray& ray) {
-  return {.lo = ray.t_max, .hi = ray.t_max, .id = kNoPrimitive};
+/// The best of a ray before there is one; t_scale is the one of its kernel ray.
+[[nodiscard]] inline Best no_hit(const Ray& ray, double t_scale = 1) {
+  // All hits within the kernels' limits are below 2^60.
+  const float t_max =
+      t_scale == 1 ? ray.t_max : static_cast<float>(std::min(ray.t_max * t_scale, 0x1p100));
+  return {.lo = t_max, .hi = t_max, .id = kNoPrimitive};
 }
 
 /// A hit with t in [lo, hi] in the kernels' form: the interval rounded outwards.
 [[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
-[[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray);
+[[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale = 1);
 
 /// Where primitive id is hit, decided exactly.
 [[nodiscard]] std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
@@ -30,8 +34,13 @@ class KnownHit;
 /// One ray's questions to primitives, by number.
 class Judge {
  public:
-  /// All must outlive the judge. With `after` it only lets through hits that follow that one.
-  Judge(const Primitives& primitives, const Ray& ray, const KnownHit* after = nullptr);
+  /// All must outlive the judge. What kernels call t is t_scale times the ray's. With `after` only
+  /// hits that follow that one are let through.
+  Judge(const Primitives& primitives, const Ray& ray, double t_scale = 1,
+        const KnownHit* after = nullptr);
+
+  /// The best before there is one.
+  [[nodiscard]] Best no_hit() const { return microtrace::no_hit(*ray_, t_scale_); }
 
   /// Takes primitive id into account; best may come from a kernel.
   void consider(std::uint32_t id, Best& best) const;
@@ -51,6 +60,7 @@ class Judge {
 
   const Primitives* primitives_;
   const Ray* ray_;
+  double t_scale_;
   const KnownHit* after_;
   bool filterable_;
 };

@@ -149,9 +149,15 @@ Ray random_ray(Random& random, const Scene& scene, const Vec3& o) {
   if (random.one_in(6)) ray.d = random.on_grid(2);
   if (random.one_in(6)) ray.d[random.between(0, 2)] = 0;
   if (random.one_in(8)) ray.d *= random.power_of_two(-30, 30);
+  if (random.one_in(16)) ray.d *= random.power_of_two(-140, 120);
   if (random.one_in(20)) ray.d[random.between(0, 2)] = random.any_float(-149, -100);
   if (random.one_in(3)) ray.t_min = 0;
   if (random.one_in(5)) ray.t_max = random.one_in(2) ? 1 : float(random.unit() * 4);
+  if (random.one_in(16) && ray.d != Vec3(0)) {
+    // A range that ends about where the target is.
+    const float size = std::max({std::abs(ray.d.x), std::abs(ray.d.y), std::abs(ray.d.z)});
+    ray.t_max = std::min(1 / size, std::numeric_limits<float>::max()) * float(random.unit() * 4);
+  }
   if (random.one_in(20)) ray.t_min = std::min(1.0F, ray.t_max);
   return ray;
 }
