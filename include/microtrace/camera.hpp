@@ -72,6 +72,8 @@ class RayGenerator {
   [[nodiscard]] Ray operator()(double x, double y) const;
 
  private:
+  friend class SegmentWidener;  // goes the other way, from points to pixels
+
   // Perspective: origin and d ~ corner + x right + y down. Orthographic: the same for the origin, d
   // fixed. Environment: the frame itself.
   enum class Kind { perspective, orthographic, environment };

@@ -58,6 +58,9 @@ struct Mesh {
   /// image where its first pixel lies, v goes down.
   std::vector<std::vector<Vec2>> uv_sets{};
   std::vector<Vec4> colors{};  ///< linear Rec. 709 and alpha; a factor of the material's
+  /// Lines from vertex to vertex; points, where both ends are one vertex. They have no area, so no
+  /// ray meets them: `render` draws them one pixel wide by widen_segments.
+  std::vector<std::array<std::uint32_t, 2>> segments{};
 };
 
 using Shape = std::variant<Sphere, Plane, Disc, Triangle, Quadric, Mesh>;

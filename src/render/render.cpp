@@ -6,6 +6,7 @@
 #include <microtrace/bvh.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/segments.hpp>
 #include <microtrace/threads.hpp>
 
 #include <new>
@@ -46,6 +47,11 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
   const FloatEnvironment environment;  // new threads inherit it
+  if (has_segments(scene)) {
+    Scene widened = scene;
+    widen_segments(widened, camera, size);
+    return render(widened, camera, size, options);
+  }
   check(options);
   const PixelRect window = window_of(size, options.crop);
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();

@@ -107,20 +107,27 @@ Rule check_attributes(const Mesh& mesh) {
   return {};
 }
 
+template <typename Primitive>
+Rule check_indices(const char* field, const std::vector<Primitive>& primitives,
+                   std::size_t positions) {
+  for (const Primitive& primitive : primitives) {
+    for (const std::uint32_t index : primitive) {
+      if (index < positions) continue;
+      std::string message = "index ";
+      message.append(std::to_string(index)).append(" is not below the number of positions, ");
+      return broken(field, message.append(std::to_string(positions)));
+    }
+  }
+  return {};
+}
+
 Rule check(const Mesh& mesh) {
   if (Rule rule = check_attributes(mesh)) return rule;
   for (const Vec3& position : mesh.positions) {
     if (Rule rule = finite("positions", position)) return rule;
   }
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t index : triangle) {
-      if (index < mesh.positions.size()) continue;
-      std::string message = "index ";
-      message.append(std::to_string(index)).append(" is not below the number of positions, ");
-      return broken("triangles", message.append(std::to_string(mesh.positions.size())));
-    }
-  }
-  return {};
+  if (Rule rule = check_indices("triangles", mesh.triangles, mesh.positions.size())) return rule;
+  return check_indices("segments", mesh.segments, mesh.positions.size());
 }
 
 Rule check(const Pose& pose) {

@@ -130,6 +130,31 @@ TEST(GltfGeometry, AccessorsWithoutViewAreZero) {
   EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0)}));
 }
 
+TEST(GltfGeometry, PointsAndLinesAreSegmentsOfTheMesh) {
+  using Segments = std::vector<std::array<std::uint32_t, 2>>;
+  const std::vector<Segments> expected = {
+      {{1, 1}, {2, 2}, {0, 0}, {2, 2}, {1, 1}},  // POINTS
+      {{1, 2}, {0, 2}},                          // LINES: the fifth vertex is left over
+      {{1, 2}, {2, 0}, {0, 2}, {2, 1}, {1, 1}},  // LINE_LOOP
+      {{1, 2}, {2, 0}, {0, 2}, {2, 1}},          // LINE_STRIP
+  };
+  for (int mode = 0; mode < 4; ++mode) {
+    AssetBuilder asset;
+    // Vertices 3 to 5 of 6, which become 0 to 2.
+    const std::size_t positions = asset.add_positions(points(6));
+    const std::size_t indices = asset.add_indices({4, 5, 3, 5, 4}, u8);
+    asset.add_object(
+        {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", mode}});
+    asset.json["nodes"][0]["scale"] = {2, 2, -2};
+    const LoadedScene scene = load(asset);
+    const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
+    EXPECT_EQ(mesh.segments, expected[static_cast<std::size_t>(mode)]) << mode;
+    EXPECT_EQ(mesh.positions[0].x, 2 * points(6)[3].x);
+    EXPECT_THAT(mesh.triangles, IsEmpty());
+    EXPECT_EQ(scene.warnings.size(), mode == 1 ? 1U : 0U) << mode;
+  }
+}
+
 TEST(GltfGeometry, QuantisedPositionsTakeTheirNodesScale) {
   AssetBuilder asset;
   asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -162,14 +187,14 @@ TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   const std::vector<Case> cases = {
       {{{"attributes", {{"NORMAL", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
       {{{"attributes", nlohmann::json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
-      {{{"attributes", {{"POSITION", 0}}}, {"mode", 0}}, "/mode: points and lines are not drawn"},
-      {{{"attributes", {{"POSITION", 0}}}, {"mode", 3}}, "/mode: points and lines are not drawn"},
       {{{"attributes", {{"POSITION", 1}}}}, "vertices that make no whole triangle"},
+      {{{"attributes", {{"POSITION", 2}}}, {"mode", 1}}, "vertices that make no whole triangle"},
   };
   for (const Case& c : cases) {
     AssetBuilder asset;
     asset.add_positions(points(6));
     asset.add_positions(points(2));
+    asset.add_positions(points(1));
     asset.add_object(c.primitive);
     const LoadedScene scene = load(asset);
     EXPECT_THAT(scene.scene.objects, IsEmpty());

@@ -38,6 +38,7 @@ Mesh baked(const Mesh& mesh, const DMat4& world_from_mesh) {
     result.positions.emplace_back(world_from_mesh * glm::dvec4(p, 1));
   }
   result.triangles = mesh.triangles;
+  result.segments = mesh.segments;
   if (mirrored) {
     for (auto& corners : result.triangles) std::swap(corners[1], corners[2]);
   }

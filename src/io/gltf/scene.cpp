@@ -51,8 +51,9 @@ class SceneMaker {
       const std::vector<DMat4>* instances = instances_.of(placed.node);
       const std::size_t times = instances != nullptr ? instances->size() : 1;
       for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
-        triangles += times * surface.mesh.triangles.size();
-        vertices += times * surface.mesh.positions.size();
+        const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
+        triangles += times * (surface.mesh.triangles.size() + 2 * segments);
+        vertices += times * (surface.mesh.positions.size() + 4 * segments);
       }
       if (std::max(triangles, vertices) <= gltf::max_elements) continue;
       asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
@@ -206,7 +207,8 @@ LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) c
     result.scene.textures = gltf::make_textures(asset);
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
     result.scene.lights = gltf::make_lights(asset, model, tree, nodes);
-    if (result.scene.objects.empty()) asset.warn(asset.root(), "nothing to draw: no triangles");
+    if (result.scene.objects.empty())
+      asset.warn(asset.root(), "nothing to draw: no triangles, lines or points");
     result.warnings = asset.warnings();
     return result;
   });

@@ -1,9 +1,9 @@
 #include "io/gltf/surfaces.hpp"
 
+#include "io/gltf/topology.hpp"
 #include "io/gltf/vertex_attributes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <numeric>
@@ -13,87 +13,6 @@
 
 namespace microtrace::io::gltf {
 namespace {
-
-using Corners = std::array<std::uint32_t, 3>;
-
-bool is_drawn(int mode) {
-  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-         mode == TINYGLTF_MODE_TRIANGLE_FAN;
-}
-
-/// In a list of vertices, the end of one strip, fan or loop and the start of another.
-constexpr std::uint32_t restart = 0xFFFFFFFF;
-
-/// glTF 2.0, section 3.7.2.1: the triangles that a list of vertices makes, first corner and winding
-/// as written there. An incomplete last triangle is left out.
-void add_triangles(int mode, std::span<const std::uint32_t> v, std::vector<Corners>& result) {
-  if (mode == TINYGLTF_MODE_TRIANGLES) {
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3) result.push_back({v[i], v[i + 1], v[i + 2]});
-  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
-    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
-      result.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
-    }
-  } else {
-    for (std::size_t i = 0; i + 2 < v.size(); ++i) result.push_back({v[i + 1], v[i + 2], v[0]});
-  }
-}
-
-std::vector<Corners> triangles_of(int mode, std::span<const std::uint32_t> vertices) {
-  std::vector<Corners> result;
-  while (!vertices.empty()) {
-    const auto end = std::ranges::find(vertices, restart);
-    const auto size = static_cast<std::size_t>(end - vertices.begin());
-    add_triangles(mode, vertices.first(size), result);
-    vertices = vertices.subspan(std::min(size + 1, vertices.size()));
-  }
-  return result;
-}
-
-/// The vertices that triangles use, ascending.
-std::vector<std::uint32_t> used_vertices(const std::vector<Corners>& triangles,
-                                         std::size_t vertex_count) {
-  std::vector<std::uint32_t> result;
-  if (vertex_count / 8 <= triangles.size() * 3) {
-    std::vector<bool> used(vertex_count);
-    for (const Corners& corners : triangles) {
-      for (const std::uint32_t vertex : corners) used[vertex] = true;
-    }
-    result.reserve(std::min(vertex_count, triangles.size() * 3));
-    for (std::size_t i = 0; i < vertex_count; ++i) {
-      if (used[i]) result.push_back(static_cast<std::uint32_t>(i));
-    }
-    return result;
-  }
-  // A few of many vertices, as where primitives share one long accessor.
-  for (const Corners& corners : triangles) {
-    result.insert(result.end(), corners.begin(), corners.end());
-  }
-  std::ranges::sort(result);
-  const auto rest = std::unique(result.begin(), result.end());
-  result.erase(rest, result.end());
-  return result;
-}
-
-/// Makes the indices those into `used`.
-void renumber(std::vector<Corners>& triangles, const std::vector<std::uint32_t>& used) {
-  const std::uint32_t end = used.back() + 1;
-  if (end == used.size()) return;
-  if (end / 8 <= triangles.size() * 3) {
-    std::vector<std::uint32_t> number_of(end);
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      number_of[used[i]] = static_cast<std::uint32_t>(i);
-    }
-    for (Corners& corners : triangles) {
-      for (std::uint32_t& vertex : corners) vertex = number_of[vertex];
-    }
-    return;
-  }
-  for (Corners& corners : triangles) {
-    for (std::uint32_t& vertex : corners) {
-      vertex = static_cast<std::uint32_t>(std::ranges::lower_bound(used, vertex) - used.begin());
-    }
-  }
-}
 
 class SurfaceMaker {
  public:
@@ -120,21 +39,12 @@ class SurfaceMaker {
       return std::nullopt;
     }
     const std::vector<std::uint32_t> vertices = vertices_of(at, primitive, position->second);
-    if (!is_drawn(primitive.mode)) {
-      asset_.warn(at.member("mode"), "points and lines are not drawn yet");
-      return std::nullopt;
-    }
-    const std::size_t left_over =
-        primitive.mode == TINYGLTF_MODE_TRIANGLES ? vertices.size() % 3 : 0;
-    if (vertices.size() < 3 || left_over != 0) {
-      asset_.warn(at, "has vertices that make no whole triangle; they are left out");
-    }
-    std::vector<Corners> triangles = triangles_of(primitive.mode, vertices);
-    if (triangles.empty()) return std::nullopt;
     Surface result{.material = primitive.material};
-    result.vertices = used_vertices(triangles, accessor(position->second).count);
-    renumber(triangles, result.vertices);
-    result.mesh.triangles = std::move(triangles);
+    if (add_primitives(primitive.mode, vertices, result.mesh)) {
+      asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
+    }
+    if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
+    result.vertices = number_vertices(result.mesh, accessor(position->second).count);
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
                     {.material = material(primitive), .detail = detail_}, result.mesh);

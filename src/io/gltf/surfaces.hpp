@@ -1,5 +1,5 @@
 #pragma once
-/// The triangles of mesh primitives, in the mesh's own space.
+/// The triangles and lines of mesh primitives, in the mesh's own space.
 
 #include "io/gltf/accessors.hpp"
 #include "io/gltf/asset.hpp"
@@ -17,7 +17,7 @@
 
 namespace microtrace::io::gltf {
 
-/// One primitive of a mesh: only the vertices that its triangles use, in the order of the file.
+/// One primitive of a mesh: only the vertices that it uses, in the order of the file.
 struct Surface {
   Mesh mesh{};
   /// Which of the primitive's vertices each of the mesh is, ascending: AccessorReader::read takes
@@ -27,8 +27,8 @@ struct Surface {
   std::size_t number = 0;  ///< among the mesh's primitives
 };
 
-/// The surfaces of each mesh, by its index. Primitives without POSITION or without data,
-/// points and lines make none, with a warning. Throws Error: invalid_scene where accessors are not
+/// The surfaces of each mesh, by its index. Primitives without POSITION or without data make
+/// none, with a warning. Throws Error: invalid_scene where accessors are not
 /// what the primitive needs or indices are out of range, limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset,
                                                               const tinygltf::Model& model,

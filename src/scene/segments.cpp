@@ -1,0 +1,82 @@
+#include "scene/segment_widener.hpp"
+
+#include <microtrace/segments.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace microtrace {
+namespace {
+
+/// The corners that all take what one vertex of the old mesh carries, or a mixture of two.
+struct Source {
+  std::uint32_t from, to;
+  double t;  // the share of `to`
+};
+
+/// Four values for each wide segment, after those of the vertices there are.
+template <typename Value, typename Mix>
+void extend(std::vector<Value>& values, const std::vector<Source>& sources, Mix&& mix) {
+  if (values.empty()) return;
+  values.reserve(values.size() + 2 * sources.size());
+  for (const Source& source : sources) {
+    const Value value = mix(values[source.from], values[source.to], source.t);
+    values.insert(values.end(), 2, value);
+  }
+}
+
+/// Colours and coordinates go from one end to the other.
+template <typename Value>
+Value between(const Value& a, const Value& b, double t) {
+  return a + (b - a) * static_cast<float>(t);
+}
+
+/// Directions are the nearer end's, so that their length stays 1.
+template <typename Value>
+Value nearer(const Value& a, const Value& b, double t) {
+  return t < 0.5 ? a : b;
+}
+
+void widen(Mesh& mesh, const SegmentWidener& widened) {
+  const Vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
+  std::vector<Source> sources;  // one for each two corners
+  sources.reserve(2 * mesh.segments.size());
+  mesh.positions.reserve(mesh.positions.size() + 4 * mesh.segments.size());
+  mesh.triangles.reserve(mesh.triangles.size() + 2 * mesh.segments.size());
+  for (const auto& [a, b] : mesh.segments) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const auto wide = widened(mesh.positions[a], mesh.positions[b]);
+    sources.push_back({.from = a, .to = b, .t = wide ? wide->start : 0});
+    sources.push_back({.from = a, .to = b, .t = wide ? wide->end : 1});
+    for (std::size_t i = 0; i < 4; ++i) {
+      mesh.positions.push_back(wide ? wide->corners[i] : nowhere);
+    }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
+  mesh.segments.clear();
+  extend(mesh.normals, sources, nearer<Vec3>);
+  extend(mesh.tangents, sources, nearer<Vec4>);
+  extend(mesh.colors, sources, between<Vec4>);
+  for (std::vector<Vec2>& set : mesh.uv_sets) extend(set, sources, between<Vec2>);
+}
+
+}  // namespace
+
+bool has_segments(const Scene& scene) {
+  return std::ranges::any_of(scene.objects, [](const Object& object) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    return mesh != nullptr && !mesh->segments.empty();
+  });
+}
+
+void widen_segments(Scene& scene, const Camera& camera, ImageSize size) {
+  const SegmentWidener widened(camera, size);
+  for (Object& object : scene.objects) {
+    auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh != nullptr && !mesh->segments.empty()) widen(*mesh, widened);
+  }
+}
+
+}  // namespace microtrace
