@@ -79,7 +79,6 @@ TEST(GltfLights, WithoutDirectionAreLeftOut) {
 
 TEST(GltfLights, BrokenOnesAreRefused) {
   const std::vector<nlohmann::json> broken = {
-      {{"type", "glow"}},
       {{"intensity", 1}},
       {{"type", "spot"}},
       {{"type", "point"}, {"intensity", -1}},

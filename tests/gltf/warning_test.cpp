@@ -28,7 +28,7 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
       {R"({"skins": [{"joints": [0]}], "nodes": [{"mesh": 0, "skin": 0}]})", "/nodes/0/skin",
        "skins"},
       {R"({"animations": [{"channels": [{"sampler": 0, "target": {"path": "scale"}}],
-                           "samplers": [{"input": 0, "output": 0}]}]})",
+                           "samplers": [{"input": 2, "output": 0}]}]})",
        "/animations/0", "animations"},
       {R"({"meshes": [{"primitives": [{"attributes": {"POSITION": 0},
                                        "indices": 1, "targets": [{"POSITION": 0}]}]}]})",
@@ -39,6 +39,7 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
   for (const Ignored& c : cases) {
     SCOPED_TRACE(c.add);
     AssetBuilder asset = cube();
+    asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "SCALAR"}});
     asset.json.merge_patch(nlohmann::json::parse(c.add));
     EXPECT_THAT(
         texts(load(asset).warnings),

@@ -24,9 +24,10 @@ inline constexpr std::size_t max_elements = std::size_t{1} << 27;
 [[nodiscard]] std::size_t component_size(int component_type);
 [[nodiscard]] std::size_t element_size(int type, int component_type);
 
-/// Checks every buffer view and accessor of the model: in range, aligned, strides wide enough, the
-/// shape of sparse parts (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws Error (invalid_scene).
-void check_accessors(const Asset& asset, const tinygltf::Model& model);
+/// Checks every buffer view and accessor of the model: in range, strides wide enough, the shape of
+/// sparse parts (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws Error (invalid_scene); warns of
+/// those that are not aligned.
+void check_accessors(Asset& asset, const tinygltf::Model& model);
 
 /// Decodes accessors that check_accessors has accepted and whose data is there: of any component
 /// type, interleaved, sparse, or without buffer view (zeros).

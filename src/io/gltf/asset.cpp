@@ -15,6 +15,14 @@ Element Element::item(std::size_t index) const {
   return {index < value->items.size() ? &value->items[index] : value, child(pointer, index)};
 }
 
+Asset::Asset(JsonDocument& json) : json_(json) {
+  for (const auto& [offset, pointer] : json.repeated_keys()) {
+    JsonValue key;
+    key.offset = offset;
+    warn({&key, pointer}, "stands twice in its object; the last one counts");
+  }
+}
+
 const std::vector<JsonValue>& Asset::array(std::string_view name) const {
   static const std::vector<JsonValue> none;
   const JsonValue* found = json_.root().find(name);

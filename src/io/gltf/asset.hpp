@@ -26,8 +26,9 @@ struct Element {
 
 class Asset {
  public:
-  /// The document must outlive the asset, which changes it by drop alone.
-  explicit Asset(JsonDocument& json) : json_(json) {}
+  /// The document must outlive the asset, which changes it by drop alone. Warns of keys that stand
+  /// twice in an object.
+  explicit Asset(JsonDocument& json);
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
   [[nodiscard]] const std::string& file() const { return json_.file(); }

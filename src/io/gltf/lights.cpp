@@ -83,9 +83,7 @@ std::optional<Light> placed(const Asset& asset, const Element& light,
     if (!is_somewhere) return std::nullopt;
     return PointLight{.position = position, .color = color, .intensity = intensity, .range = range};
   }
-  if (type != "spot") {
-    asset.fail(light.member("type"), "must be \"directional\", \"point\" or \"spot\"");
-  }
+  if (type != "spot") return std::nullopt;  // check_schema has warned
   const Cone cone = cone_of(asset, light);
   if (!is_somewhere || !direction) return std::nullopt;
   return SpotLight{.position = position,
@@ -116,8 +114,9 @@ std::vector<NamedLight> make_lights(Asset& asset, const tinygltf::Model& model,
         lights.item(index(asset, *reference, "light", lights.value->items.size()));
     std::optional<Light> in_world = placed(asset, light, node.world_from_node);
     if (!in_world) {
-      asset.warn(reference->member("light"),
-                 "has no position and direction in the world; the light is left out");
+      asset.warn(
+          reference->member("light"),
+          "has no known type, or no position and direction in the world; the light is left out");
       continue;
     }
     const JsonValue* own = light.value->find("name");

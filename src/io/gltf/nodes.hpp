@@ -2,6 +2,7 @@
 /// The node tree: checked, walked, and composed.
 
 #include "io/gltf/asset.hpp"
+#include "io/gltf/check/forest.hpp"
 #include "io/gltf/model.hpp"
 
 #include <microtrace/math.hpp>
@@ -13,8 +14,6 @@
 #include <vector>
 
 namespace microtrace::io::gltf {
-
-inline constexpr std::size_t max_nodes = std::size_t{1} << 20;
 
 /// A node of the scene being drawn.
 struct PlacedNode {

@@ -5,8 +5,8 @@
 #include "io/gltf/baking.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
-#include "io/gltf/check/consistency.hpp"
 #include "io/gltf/check/schema.hpp"
+#include "io/gltf/check/semantics.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
 #include "io/gltf/instances.hpp"
@@ -141,7 +141,8 @@ struct GltfFile::Content {
           const LoadOptions& options)
       : name(file_name),
         container(gltf::open_container(bytes, name)),
-        json(container.json, container.is_glb ? name + " (JSON chunk)" : name),
+        json(container.json, container.is_glb ? name + " (JSON chunk)" : name, max_json_values,
+             RepeatedKeys::last_counts),
         asset(json),
         model(checked_model()),
         tree(asset, model),
@@ -164,7 +165,7 @@ struct GltfFile::Content {
   tinygltf::Model checked_model() {
     gltf::check_requirements(asset);
     gltf::check_schema(asset);
-    gltf::check_consistency(asset);
+    gltf::check_semantics(asset);
     tinygltf::Model result = gltf::parse_model(asset);
     gltf::check_accessors(asset, result);
     return result;

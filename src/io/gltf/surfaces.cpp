@@ -21,15 +21,10 @@ class SurfaceMaker {
       : asset_(asset), model_(model), reader_(reader), materials_(materials), detail_(detail) {}
 
   std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
-    check_attributes(at, primitive);
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
       asset_.warn(at, "has no POSITION attribute; nothing is drawn for it");
       return std::nullopt;
-    }
-    check_position(at.member("attributes").member("POSITION"), position->second);
-    if (primitive.indices >= 0) {
-      check_indices(at.member("indices"), accessor(primitive.indices));
     }
     if (!reader_.has_data(position->second) ||
         (primitive.indices >= 0 && !reader_.has_data(primitive.indices))) {
@@ -60,35 +55,6 @@ class SurfaceMaker {
   const Material& material(const tinygltf::Primitive& primitive) const {
     if (primitive.material < 0) return materials_.back();
     return materials_[static_cast<std::size_t>(primitive.material)];
-  }
-
-  void check_attributes(const Element& at, const tinygltf::Primitive& primitive) const {
-    if (primitive.attributes.empty()) return;
-    const auto& [first_name, first] = *primitive.attributes.begin();
-    for (const auto& [name, index] : primitive.attributes) {
-      if (accessor(index).count != accessor(first).count) {
-        asset_.fail(at.member("attributes").member(name),
-                    "has " + std::to_string(accessor(index).count) + " elements, but " +
-                        first_name + " has " + std::to_string(accessor(first).count));
-      }
-    }
-  }
-
-  void check_position(const Element& at, int index) {
-    const tinygltf::Accessor& position = accessor(index);
-    const auto& used = model_.extensionsUsed;
-    const bool quantised = std::ranges::find(used, "KHR_mesh_quantization") != used.end();
-    const bool is_float = position.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
-    const bool is_short = component_size(position.componentType) < 4;
-    if (position.type != TINYGLTF_TYPE_VEC3 || !(is_float || (quantised && is_short))) {
-      asset_.fail(at,
-                  "refers to an accessor that is not of type VEC3 and componentType 5126, float, "
-                  "or with KHR_mesh_quantization 5120 to 5123");
-    }
-    if (position.minValues.empty() || position.maxValues.empty()) {
-      asset_.warn(asset_.element("accessors", static_cast<std::size_t>(index)),
-                  "holds positions without min and max, which glTF 2.0 asks for");
-    }
   }
 
   void check_count(const Element& at, std::size_t count) {
@@ -131,21 +97,6 @@ class SurfaceMaker {
                   "primitive starts there");
     }
     return result;
-  }
-
-  void check_indices(const Element& at, const tinygltf::Accessor& indices) const {
-    const bool is_unsigned = indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                             indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                             indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (indices.type != TINYGLTF_TYPE_SCALAR || !is_unsigned) {
-      asset_.fail(at,
-                  "refers to an accessor that is not of type SCALAR and an unsigned integer "
-                  "componentType: 5121, 5123 or 5125");
-    }
-    const auto view = static_cast<std::size_t>(indices.bufferView);
-    if (indices.bufferView >= 0 && model_.bufferViews[view].byteStride != 0) {
-      asset_.fail(at, "refers to an accessor whose view has byteStride; indices lie without gaps");
-    }
   }
 
   Asset& asset_;

@@ -24,11 +24,14 @@ constexpr std::string_view whitespace = " \t\r\n";
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const JsonDocument& document, std::string_view text, JsonValue& root,
-              std::size_t max_values)
+              std::size_t max_values, RepeatedKeys policy,
+              std::vector<std::pair<std::size_t, std::string>>& repeated_keys)
       : document_(document),
         text_(text),
         root_(root),
         max_values_(max_values),
+        policy_(policy),
+        repeated_keys_(repeated_keys),
         end_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   bool null() override { return scalar(of_kind(JsonValue::Kind::null), 4); }
@@ -63,7 +66,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool start_array(std::size_t /*size*/) override { return open(JsonValue::Kind::array); }
 
   bool end_object() override {
-    require_unique_keys(*open_.back());
+    make_keys_unique(*open_.back());
     return close();
   }
 
@@ -192,21 +195,31 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
 
-  void require_unique_keys(const JsonValue& object) const {
+  void make_keys_unique(JsonValue& object) {
     std::vector<std::pair<std::string_view, std::size_t>> keys;
     keys.reserve(object.members.size());
     for (const auto& [name, value] : object.members) keys.emplace_back(name, value.key_offset);
     std::sort(keys.begin(), keys.end());
     std::size_t first = text_.size();
     std::string_view repeated;
+    std::vector<std::size_t> outdone;  // offsets of keys, of which a later one counts
     for (std::size_t i = 1; i < keys.size(); ++i) {
-      if (keys[i].first != keys[i - 1].first || keys[i].second >= first) continue;
-      std::tie(repeated, first) = keys[i];
+      if (keys[i].first != keys[i - 1].first) continue;
+      outdone.push_back(keys[i - 1].second);
+      if (keys[i].second < first) std::tie(repeated, first) = keys[i];
     }
-    if (first == text_.size()) return;
-    fail(
-        ErrorKind::invalid_scene, first,
-        std::string("the key ").append(in_quotes(repeated)).append(" stands twice in this object"));
+    if (outdone.empty()) return;
+    if (policy_ == RepeatedKeys::are_refused) {
+      fail({first, "the key " + in_quotes(repeated) + " stands twice in this object"});
+    }
+    std::sort(outdone.begin(), outdone.end());
+    const std::string parent = pointer();
+    std::erase_if(object.members, [&](const JsonMember& member) {
+      const std::size_t offset = member.value.key_offset;
+      if (!std::binary_search(outdone.begin(), outdone.end(), offset)) return false;
+      repeated_keys_.emplace_back(offset, child(parent, member.key));
+      return true;
+    });
   }
 
   /// Of the innermost open value, or of the member whose key was read last.
@@ -235,6 +248,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   std::string_view text_;
   JsonValue& root_;
   std::size_t max_values_;
+  RepeatedKeys policy_;
+  std::vector<std::pair<std::size_t, std::string>>& repeated_keys_;
   std::vector<JsonValue*> open_;  // from the root to the innermost
   std::size_t end_ = 0;           // of the last token
   Last last_ = Last::open;
@@ -249,7 +264,8 @@ const JsonValue* JsonValue::find(std::string_view key) const {
   return found == members.end() ? nullptr : &found->value;
 }
 
-JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t max_values)
+JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t max_values,
+                           RepeatedKeys repeated)
     : text_(text), file_(std::move(file)) {
   if (text.size() > max_json_size) {
     throw Error(ErrorKind::limit, file_, "the JSON text is larger than 1 GiB");
@@ -259,7 +275,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
   if (content.find_first_not_of(whitespace) == std::string_view::npos) {
     throw Error(ErrorKind::invalid_scene, file_, "is empty");
   }
-  TreeBuilder builder(*this, text, root_, max_values);
+  TreeBuilder builder(*this, text, root_, max_values, repeated, repeated_keys_);
   nlohmann::json::sax_parse(text.data(), text.data() + text.size(), &builder);
   builder.require_end();
 }
@@ -277,24 +293,6 @@ Diagnostic JsonDocument::at(std::size_t offset, const std::string& pointer,
           .pointer = printable(pointer),
           .message = std::move(message),
           .excerpt = excerpt(text, offset)};
-}
-
-std::string child(const std::string& pointer, std::string_view key) {
-  std::string out = pointer + "/";
-  for (const char c : key) {
-    if (c == '~') {
-      out += "~0";
-    } else if (c == '/') {
-      out += "~1";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-std::string child(const std::string& pointer, std::size_t index) {
-  return pointer + "/" + std::to_string(index);
 }
 
 }  // namespace microtrace::io

@@ -40,15 +40,24 @@ struct JsonMember {
   JsonValue value;
 };
 
+/// What is done about a key that stands twice in one object.
+enum class RepeatedKeys { are_refused, last_counts };
+
 class JsonDocument {
  public:
   /// Parses a whole text (RFC 8259); a UTF-8 byte order mark before it is skipped. Throws Error
   /// (invalid_scene; limit where one of the maxima above is exceeded) with line, column and excerpt
   /// for: not JSON, not UTF-8, a number beyond double's range, a key twice in an object.
-  JsonDocument(std::string_view text, std::string file, std::size_t max_values = max_json_values);
+  JsonDocument(std::string_view text, std::string file, std::size_t max_values = max_json_values,
+               RepeatedKeys repeated = RepeatedKeys::are_refused);
 
   [[nodiscard]] const JsonValue& root() const { return root_; }
   [[nodiscard]] const std::string& file() const { return file_; }
+  /// Keys of objects whose value a later one of the same name has taken: where each stood, and the
+  /// pointer to both.
+  [[nodiscard]] const std::vector<std::pair<std::size_t, std::string>>& repeated_keys() const {
+    return repeated_keys_;
+  }
 
   /// A message about the byte at `offset` of the text, with line, column and caret. Control
   /// characters in the pointer are shown as \x1b.
@@ -59,6 +68,7 @@ class JsonDocument {
   std::string_view text_;  // the caller's; outlives the document
   std::string file_;
   JsonValue root_;
+  std::vector<std::pair<std::size_t, std::string>> repeated_keys_;
 };
 
 /// Appends one reference token to a JSON pointer, escaped as RFC 6901 says.

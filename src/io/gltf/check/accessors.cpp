@@ -10,7 +10,7 @@ using Size =
 
 class Checker {
  public:
-  Checker(const Asset& asset, const tinygltf::Model& model) : asset_(asset), model_(model) {}
+  Checker(Asset& asset, const tinygltf::Model& model) : asset_(asset), model_(model) {}
 
   void view(std::size_t index) const {
     const tinygltf::BufferView& view = model_.bufferViews[index];
@@ -84,13 +84,13 @@ class Checker {
   void aligned(const Element& at, std::size_t view, Size offset, Size alignment) const {
     const Size start = model_.bufferViews[view].byteOffset + offset;
     if (offset % alignment != 0 || start % alignment != 0) {
-      asset_.fail(at, "starts at byte " + std::to_string(offset) + " of its view and byte " +
-                          std::to_string(start) + " of the buffer; both must be multiples of " +
-                          std::to_string(alignment));
+      asset_.warn(at,
+                  "is not aligned: its offsets in the view and the buffer must be multiples of " +
+                      std::to_string(alignment));
     }
   }
 
-  const Asset& asset_;
+  Asset& asset_;
   const tinygltf::Model& model_;
 };
 
@@ -130,8 +130,8 @@ std::size_t element_size(int type, int component_type) {
   }
 }
 
-void check_accessors(const Asset& asset, const tinygltf::Model& model) {
-  const Checker checker(asset, model);
+void check_accessors(Asset& asset, const tinygltf::Model& model) {
+  Checker checker(asset, model);
   for (std::size_t i = 0; i < model.bufferViews.size(); ++i) checker.view(i);
   for (std::size_t i = 0; i < model.accessors.size(); ++i) checker.accessor(i);
 }

@@ -51,7 +51,8 @@ bool is_attribute_name(std::string_view name) {
   if (name.starts_with('_') || std::ranges::find(single, name) != single.end()) return true;
   return std::ranges::any_of(sets, [&](std::string_view set) {
     return name.starts_with(set) && name.size() > set.size() &&
-           name.find_first_not_of("0123456789", set.size()) == std::string_view::npos;
+           name.find_first_not_of("0123456789", set.size()) == std::string_view::npos &&
+           (name[set.size()] != '0' || name.size() == set.size() + 1);
   });
 }
 
@@ -150,7 +151,7 @@ class Checker {
       return true;
     }
     unknown(at, listed(rule.values, text_of), text_of(number), rule.closed);
-    return false;
+    return rule.kept;
   }
 
   bool string(const Element& at, const Rule& rule) const {
@@ -160,7 +161,7 @@ class Checker {
       return true;
     }
     unknown(at, listed(rule.strings, in_quotes), in_quotes(string), rule.closed);
-    return false;
+    return rule.kept;
   }
 
   void unknown(const Element& at, const std::string& known, const std::string& found,

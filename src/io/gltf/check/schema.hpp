@@ -61,6 +61,7 @@ struct Rule {
   Place place = Place::other;                      ///< of the object or objects
   std::span<const double> values = {};             ///< the known numbers, if not empty
   std::span<const std::string_view> strings = {};  ///< the known strings, if not empty
+  bool kept = false;                               ///< others stay, for readers to pass over
   bool closed = false;                             ///< no other number or string is survived
 };
 

@@ -115,7 +115,7 @@ constexpr Rule spot_rules[] = {
 constexpr Rule light_rules[] = {
     color("color"),
     at_least("intensity", 0),
-    {.key = "type", .form = Form::string, .required = true, .strings = light_types},
+    {.key = "type", .form = Form::string, .required = true, .strings = light_types, .kept = true},
     {.key = "range", .form = Form::number, .min = 0, .above_min = true},
     {.key = "spot", .form = Form::object, .members = spot_rules}};
 constexpr Rule lights[] = {

@@ -75,7 +75,7 @@ constexpr Rule accessor_rules[] = {
 
 constexpr Rule animation_target_rules[] = {
     {.key = "node", .form = Form::index, .target = "nodes"},
-    {.key = "path", .form = Form::string, .required = true, .strings = paths},
+    {.key = "path", .form = Form::string, .required = true, .strings = paths, .kept = true},
 };
 constexpr Rule channel_rules[] = {
     {.key = "sampler", .form = Form::integer, .required = true, .min = 0},
@@ -130,7 +130,7 @@ constexpr Rule camera_rules[] = {
 
 constexpr Rule image_rules[] = {
     {.key = "uri", .form = Form::string},
-    {.key = "mimeType", .form = Form::string, .strings = image_types},
+    {.key = "mimeType", .form = Form::string, .strings = image_types, .kept = true},
     {.key = "bufferView", .form = Form::index, .target = "bufferViews"},
 };
 constexpr Rule sampler_rules[] = {

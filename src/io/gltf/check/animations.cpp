@@ -1,0 +1,130 @@
+#include "io/gltf/check/semantics.hpp"
+
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr int i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, f32 = 5126;
+
+std::string text(double number) {
+  return std::to_string(static_cast<unsigned long long>(number));
+}
+
+/// glTF 2.0, section 3.11: what the values of a path may be stored as.
+bool is_allowed(const std::string& path, const Format& f) {
+  if (path == "translation" || path == "scale") return f == Format{"VEC3", f32};
+  const char* type = path == "rotation" ? "VEC4" : "SCALAR";
+  return is_one_of(
+      f, {{type, f32}, {type, i8, true}, {type, u8, true}, {type, i16, true}, {type, u16, true}});
+}
+
+class AnimationCheck {
+ public:
+  AnimationCheck(Asset& asset, AccessorHeads& accessors) : asset_(asset), accessors_(accessors) {}
+
+  void animation(const Element& at) {
+    const Element samplers = at.member("samplers");
+    for (std::size_t i = 0; i < samplers.value->items.size(); ++i) input(samplers.item(i));
+    const Element channels = at.member("channels");
+    targets_.clear();
+    for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
+      const Element channel = channels.item(i);
+      const Element sampler = channel.member("sampler");
+      if (sampler.value->number >= static_cast<double>(samplers.value->items.size())) {
+        asset_.fail(sampler, "is " + text(sampler.value->number) + ", but the animation has only " +
+                                 std::to_string(samplers.value->items.size()) + " samplers");
+      }
+      const auto index = static_cast<std::size_t>(sampler.value->number);
+      target(channel.member("target"), samplers.item(index));
+    }
+  }
+
+ private:
+  static bool is_spline(const Element& sampler) {
+    const JsonValue* interpolation = sampler.value->find("interpolation");
+    return interpolation != nullptr && interpolation->string == "CUBICSPLINE";
+  }
+
+  void input(const Element& sampler) {
+    const Element at = sampler.member("input");
+    accessors_.use(at, Purpose::animation_input);
+    accessors_.use(sampler.member("output"), Purpose::animation_output);
+    const AccessorHead& head = accessors_[*at.value];
+    if (head.format != Format{"SCALAR", f32}) {
+      asset_.fail(at, "names an accessor of " + head.format.text() +
+                          "; times are SCALAR of componentType 5126");
+    }
+    if (!head.has_bounds) {
+      asset_.warn(asset_.element("accessors", static_cast<std::size_t>(at.value->number)),
+                  "holds animation times without min and max, which glTF 2.0 asks for");
+    }
+    if (is_spline(sampler) && head.count < 2) {
+      asset_.fail(at, "has one time, but CUBICSPLINE asks for two or more");
+    }
+  }
+
+  void target(const Element& at, const Element& sampler) {
+    const JsonValue* index = at.value->find("node");
+    const std::string& path = at.member("path").value->string;
+    const bool known =
+        path == "translation" || path == "rotation" || path == "scale" || path == "weights";
+    if (index == nullptr || !known) return;  // ignored (section 3.11), or an extension's
+    const auto number = static_cast<std::size_t>(index->number);
+    const JsonValue& node = asset_.array("nodes")[number];
+    if (path != "weights" && node.find("matrix") != nullptr) {
+      asset_.fail(at.member("node"), "has a matrix, which can't be animated by " + path);
+    }
+    const std::size_t targets = morph_targets(node);
+    if (path == "weights" && targets == 0) {
+      asset_.fail(at.member("node"), "has no mesh with morph targets whose weights could change");
+    }
+    if (!targets_.insert(std::to_string(number) + path).second) {
+      asset_.warn(at, "is the target of an earlier channel already");
+    }
+    output(sampler, path, targets);
+  }
+
+  [[nodiscard]] std::size_t morph_targets(const JsonValue& node) const {
+    const JsonValue* mesh = node.find("mesh");
+    if (mesh == nullptr) return 0;
+    const JsonValue& json = asset_.array("meshes")[static_cast<std::size_t>(mesh->number)];
+    const std::vector<JsonValue>& primitives = json.find("primitives")->items;
+    if (primitives.empty()) return 0;
+    const JsonValue* targets = primitives[0].find("targets");
+    return targets != nullptr ? targets->items.size() : 0;
+  }
+
+  void output(const Element& sampler, const std::string& path, std::size_t targets) const {
+    const Element at = sampler.member("output");
+    const AccessorHead& values = accessors_[*at.value];
+    if (!is_allowed(path, values.format)) {
+      asset_.fail(at, "names an accessor of " + values.format.text() +
+                          ", which glTF 2.0 does not allow for " + path);
+    }
+    const double times = accessors_[*sampler.member("input").value].count;
+    const double expected = times * (is_spline(sampler) ? 3 : 1) *
+                            (path == "weights" ? static_cast<double>(targets) : 1);
+    if (values.count != expected) {
+      asset_.fail(at, "has " + text(values.count) + " elements for " + path + ", must have " +
+                          text(expected) + " for " + text(times) + " times");
+    }
+  }
+
+  Asset& asset_;
+  AccessorHeads& accessors_;
+  std::unordered_set<std::string> targets_;  // of the animation's channels so far
+};
+
+}  // namespace
+
+void check_animations(Asset& asset, AccessorHeads& accessors) {
+  AnimationCheck check(asset, accessors);
+  for (std::size_t i = 0; i < asset.array("animations").size(); ++i) {
+    check.animation(asset.element("animations", i));
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,67 @@
+#include "io/gltf/check/semantics.hpp"
+#include "io/gltf/uri.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+void check_uri(const Asset& asset, const Element& at) {
+  const std::string& uri = at.value->string;
+  if (is_data_uri(uri)) {
+    if (!split_data_uri(uri)) asset.fail(at, "is no data URI of the form data:TYPE;base64,DATA");
+  } else if (const RelativePath path = relative_path(uri); !path.refusal.empty()) {
+    asset.fail(at, path.refusal);
+  }
+}
+
+void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
+  const bool has_view = at.value->find("bufferView") != nullptr;
+  if (has_view == (at.value->find("uri") != nullptr)) {
+    asset.fail(at, "must have either a uri or a bufferView");
+  }
+  if (!has_view) return check_uri(asset, at.member("uri"));
+  if (at.value->find("mimeType") == nullptr) {
+    asset.warn(at, "has a bufferView without mimeType; the data tells");
+  }
+  const Element view = at.member("bufferView");
+  accessors.use_view(view, static_cast<std::size_t>(view.value->number), Purpose::image);
+}
+
+/// Warns where an image says to be of another kind than the place that names it takes.
+void check_source(Asset& asset, const Element& texture, std::string_view type,
+                  std::string_view other_type) {
+  const JsonValue* index = texture.value->find("source");
+  if (index == nullptr) return;
+  const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number)];
+  const JsonValue* given = image.find("mimeType");
+  if (given == nullptr || given->string == type || given->string == other_type) return;
+  asset.warn(texture.member("source"),
+             "names an image of " + given->string + ", must be " + std::string(type) + " here");
+}
+
+}  // namespace
+
+void check_images(Asset& asset, AccessorHeads& accessors) {
+  for (std::size_t i = 0; i < asset.array("images").size(); ++i) {
+    check_image(asset, asset.element("images", i), accessors);
+  }
+  constexpr std::array<std::pair<const char*, const char*>, 4> extensions = {
+      {{"EXT_texture_avif", "image/avif"},
+       {"EXT_texture_webp", "image/webp"},
+       {"KHR_texture_basisu", "image/ktx2"},
+       {"MSFT_texture_dds", "image/vnd-ms.dds"}}};
+  for (std::size_t i = 0; i < asset.array("textures").size(); ++i) {
+    const Element at = asset.element("textures", i);
+    check_source(asset, at, "image/png", "image/jpeg");
+    if (at.value->find("extensions") == nullptr) continue;
+    for (const auto& [name, type] : extensions) {
+      const Element extension = at.member("extensions").member(name);
+      if (extension.value->find("source") != nullptr) check_source(asset, extension, type, "");
+    }
+  }
+}
+
+}  // namespace microtrace::io::gltf

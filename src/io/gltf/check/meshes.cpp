@@ -1,0 +1,248 @@
+#include "io/gltf/check/semantics.hpp"
+#include "io/gltf/check/texture_infos.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr int i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126;
+
+struct Semantic {
+  std::string_view name;  ///< without the number of its set
+  std::size_t set = 0;
+};
+
+Semantic split(std::string_view name) {
+  const std::size_t last = name.rfind('_');
+  if (name.starts_with('_') || last == std::string_view::npos) return {name};
+  std::size_t set = 0;
+  for (const char digit : name.substr(last + 1)) {
+    set = std::min<std::size_t>(set * 10 + static_cast<std::size_t>(digit - '0'), 1U << 20);
+  }
+  return {name.substr(0, last), set};
+}
+
+bool is_one_of(int value, std::initializer_list<int> values) {
+  return std::find(values.begin(), values.end(), value) != values.end();
+}
+
+/// glTF 2.0, section 3.7.2.1, the table of attributes; of morph targets 3.7.2.2.
+bool is_standard(std::string_view name, const Format& f, bool of_target) {
+  const bool is_float = f.component_type == f32 && !f.normalized;
+  const bool is_unit = f.normalized && is_one_of(f.component_type, {u8, u16});
+  const bool is_signed_unit = of_target && f.normalized && is_one_of(f.component_type, {i8, i16});
+  const bool is_fraction = is_float || is_unit || is_signed_unit;
+  if (name == "POSITION" || name == "NORMAL") return f.type == "VEC3" && is_float;
+  if (name == "TANGENT") return f.type == (of_target ? "VEC3" : "VEC4") && is_float;
+  if (name == "TEXCOORD") return f.type == "VEC2" && is_fraction;
+  if (name == "COLOR") return (f.type == "VEC3" || f.type == "VEC4") && is_fraction;
+  if (name == "WEIGHTS") return f.type == "VEC4" && (is_float || is_unit);
+  if (name == "JOINTS") {
+    return f.type == "VEC4" && !f.normalized && is_one_of(f.component_type, {u8, u16});
+  }
+  return f.component_type != u32;  // an application's own
+}
+
+/// What KHR_mesh_quantization adds.
+bool is_quantised(std::string_view name, const Format& f, bool of_target) {
+  const bool is_signed = is_one_of(f.component_type, {i8, i16});
+  const bool is_short = is_signed || is_one_of(f.component_type, {u8, u16});
+  if (name == "POSITION") return f.type == "VEC3" && (of_target ? is_signed : is_short);
+  if (name == "NORMAL") return f.type == "VEC3" && is_signed && f.normalized;
+  if (name == "TANGENT") {
+    return f.type == (of_target ? "VEC3" : "VEC4") && is_signed && f.normalized;
+  }
+  return name == "TEXCOORD" && f.type == "VEC2" && is_short;
+}
+
+std::size_t component_size(int type) {
+  return is_one_of(type, {i8, u8}) ? 1 : is_one_of(type, {i16, u16}) ? 2 : 4;
+}
+
+class MeshCheck {
+ public:
+  MeshCheck(Asset& asset, AccessorHeads& accessors)
+      : asset_(asset),
+        accessors_(accessors),
+        quantised_(asset.uses("KHR_mesh_quantization")),
+        infos_(texture_infos(asset)) {}
+
+  void mesh(const Element& at) {
+    const Element primitives = at.member("primitives");
+    std::size_t targets = 0;
+    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+      const Element primitive = primitives.item(k);
+      const std::size_t count = target_count(primitive);
+      if (k == 0) targets = count;
+      if (count != targets) {
+        asset_.fail(primitive, "has " + std::to_string(count) +
+                                   " morph targets, but the mesh's first primitive has " +
+                                   std::to_string(targets));
+      }
+      this->primitive(primitive);
+    }
+    check_weights(asset_, at, targets);
+  }
+
+ private:
+  static std::size_t target_count(const Element& primitive) {
+    const JsonValue* targets = primitive.value->find("targets");
+    return targets != nullptr ? targets->items.size() : 0;
+  }
+
+  void primitive(const Element& at) {
+    const Element attributes = at.member("attributes");
+    same_counts(attributes);
+    sets(attributes);
+    this->attributes(attributes, false);
+    if (at.value->find("indices") != nullptr) indices(at.member("indices"));
+    const Element targets = at.member("targets");
+    for (std::size_t i = 0; i < target_count(at); ++i) target(targets.item(i), attributes);
+    material(at, attributes);
+  }
+
+  void same_counts(const Element& at) const {
+    if (at.value->members.empty()) return;
+    const JsonMember& first = at.value->members.front();
+    for (const JsonMember& member : at.value->members) {
+      const double count = accessors_[member.value].count;
+      if (count == accessors_[first.value].count) continue;
+      asset_.fail(at.member(member.key), "has " + text(count) + " elements, but " + first.key +
+                                             " has " + text(accessors_[first.value].count));
+    }
+  }
+
+  /// TEXCOORD_0, TEXCOORD_1 and so on without a gap; as many JOINTS as WEIGHTS.
+  void sets(const Element& at) const {
+    std::size_t joints = 0, weights = 0;
+    for (const std::string_view name : {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}) {
+      std::size_t count = 0, end = 0;
+      for (const JsonMember& member : at.value->members) {
+        const Semantic semantic = split(member.key);
+        if (semantic.name != name) continue;
+        ++count;
+        end = std::max(end, semantic.set + 1);
+      }
+      if (count != end) {
+        asset_.warn(at, "has sets of " + std::string(name) + " that are not numbered from 0 on");
+      }
+      (name == "JOINTS" ? joints : weights) = count;
+    }
+    if (joints != weights) {
+      asset_.fail(at, "has " + std::to_string(joints) + " sets of JOINTS, but " +
+                          std::to_string(weights) + " of WEIGHTS; each needs the other");
+    }
+  }
+
+  void attributes(const Element& at, bool of_target) {
+    std::vector<std::string> dropped;
+    for (const JsonMember& member : at.value->members) {
+      const Element attribute{&member.value, child(at.pointer, member.key)};
+      accessors_.use(attribute, Purpose::vertex_attribute);
+      if (!format(attribute, split(member.key).name, of_target)) {
+        dropped.push_back(member.key);
+        // One without the other means nothing.
+        if (member.key.starts_with("JOINTS_")) dropped.push_back("WEIGHTS_" + member.key.substr(7));
+        if (member.key.starts_with("WEIGHTS_")) dropped.push_back("JOINTS_" + member.key.substr(8));
+        continue;
+      }
+      alignment(attribute);
+      if (member.key == "POSITION" && !accessors_[member.value].has_bounds) {
+        asset_.warn(asset_.element("accessors", static_cast<std::size_t>(member.value.number)),
+                    "holds positions without min and max, which glTF 2.0 asks for");
+      }
+    }
+    for (const std::string& key : dropped) asset_.drop(at, key);
+  }
+
+  /// False where nothing can be made of it.
+  [[nodiscard]] bool format(const Element& at, std::string_view name, bool of_target) const {
+    const Format& format = accessors_[*at.value].format;
+    if (is_standard(name, format, of_target)) return true;
+    if (is_quantised(name, format, of_target)) {
+      if (!quantised_) {
+        asset_.warn(at, "is quantised, which asks for extension KHR_mesh_quantization");
+      }
+      return true;
+    }
+    asset_.warn(at, "names an accessor of " + format.text() +
+                        ", which glTF 2.0 does not allow for this attribute; it is ignored");
+    return false;
+  }
+
+  void alignment(const Element& at) const {
+    const AccessorHead& head = accessors_[*at.value];
+    if (!head.view) return;
+    const std::size_t components =
+        head.format.type == "SCALAR" ? 1 : static_cast<std::size_t>(head.format.type.back() - '0');
+    const std::size_t stride =
+        head.stride != 0 ? head.stride : components * component_size(head.format.component_type);
+    if (head.offset % 4 != 0 || head.start % 4 != 0 || stride % 4 != 0) {
+      asset_.warn(at, "has vertices that do not all start at a multiple of 4 bytes");
+    }
+  }
+
+  void indices(const Element& at) {
+    accessors_.use(at, Purpose::vertex_indices);
+    const Format& format = accessors_[*at.value].format;
+    if (io::gltf::is_one_of(format, {{"SCALAR", u8}, {"SCALAR", u16}, {"SCALAR", u32}})) return;
+    asset_.fail(at, "names an accessor of " + format.text() +
+                        "; indices are SCALAR of componentType 5121, 5123 or 5125");
+  }
+
+  void target(const Element& at, const Element& base) {
+    for (const JsonMember& member : at.value->members) {
+      const Element attribute{&member.value, child(at.pointer, member.key)};
+      if (member.key.starts_with("JOINTS_") || member.key.starts_with("WEIGHTS_")) {
+        asset_.fail(attribute, "can't be morphed");
+      }
+      const JsonValue* of_base = base.value->find(member.key);
+      if (of_base == nullptr) asset_.fail(attribute, "morphs what the primitive does not have");
+      const double count = accessors_[member.value].count;
+      if (count != accessors_[*of_base].count) {
+        asset_.fail(attribute, "has " + text(count) + " elements, but the primitive's has " +
+                                   text(accessors_[*of_base].count));
+      }
+    }
+    attributes(at, true);
+  }
+
+  void material(const Element& at, const Element& attributes) const {
+    const JsonValue* index = at.value->find("material");
+    if (index == nullptr) return;
+    const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number)];
+    for (const auto& [name, set] : textures.sets) {
+      if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
+      asset_.warn(at.member("material"), "asks for TEXCOORD_" + text(set) + " by its " + name +
+                                             ", which the primitive does not have");
+    }
+    if (textures.needs_tangents && attributes.value->find("TANGENT") == nullptr) {
+      asset_.warn(at.member("material"),
+                  "asks for tangents, which neither the primitive nor a normal texture gives");
+    }
+  }
+
+  static std::string text(double number) {
+    return std::to_string(static_cast<unsigned long long>(number));
+  }
+
+  Asset& asset_;
+  AccessorHeads& accessors_;
+  bool quantised_;
+  std::vector<MaterialTextures> infos_;  // by material
+};
+
+}  // namespace
+
+void check_meshes(Asset& asset, AccessorHeads& accessors) {
+  MeshCheck check(asset, accessors);
+  for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
+    check.mesh(asset.element("meshes", i));
+  }
+}
+
+}  // namespace microtrace::io::gltf

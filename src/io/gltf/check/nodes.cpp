@@ -1,0 +1,120 @@
+#include "io/gltf/check/semantics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// What a node may ask of a mesh.
+struct MeshParts {
+  std::size_t targets = 0;
+  bool has_joints = false;  ///< every primitive
+};
+
+std::vector<MeshParts> mesh_parts(const Asset& asset) {
+  std::vector<MeshParts> result;
+  for (const JsonValue& mesh : asset.array("meshes")) {
+    const std::vector<JsonValue>& primitives = mesh.find("primitives")->items;
+    MeshParts parts;
+    if (!primitives.empty() && primitives[0].find("targets") != nullptr) {
+      parts.targets = primitives[0].find("targets")->items.size();
+    }
+    parts.has_joints = std::ranges::all_of(primitives, [](const JsonValue& primitive) {
+      return primitive.find("attributes")->find("JOINTS_0") != nullptr;
+    });
+    result.push_back(parts);
+  }
+  return result;
+}
+
+void check_matrix(Asset& asset, const Element& at) {
+  for (const char* other : {"translation", "rotation", "scale"}) {
+    if (at.value->find(other) != nullptr) {
+      asset.fail(at.member(other), "stands beside a matrix; give one or the other");
+    }
+  }
+  const Element matrix = at.member("matrix");
+  const auto item = [&](std::size_t i) { return matrix.value->items[i].number; };
+  if (item(3) != 0 || item(7) != 0 || item(11) != 0 || item(15) != 1) {
+    asset.warn(matrix, "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
+  }
+  const auto dot = [&](std::size_t a, std::size_t b) {
+    return item(a) * item(b) + item(a + 1) * item(b + 1) + item(a + 2) * item(b + 2);
+  };
+  for (const auto& [a, b] : {std::pair{0, 4}, std::pair{0, 8}, std::pair{4, 8}}) {
+    const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
+    const double cosine = dot(i, k) / std::sqrt(dot(i, i) * dot(k, k));
+    if (!(std::abs(cosine) <= 1e-3)) {
+      asset.warn(matrix, "is no product of translation, rotation and scale, as glTF 2.0 asks");
+      return;
+    }
+  }
+}
+
+void check_rotation(Asset& asset, const Element& at) {
+  double square = 0;
+  for (const JsonValue& item : at.value->items) square += item.number * item.number;
+  if (square == 0) asset.fail(at, "is zero, must be a unit quaternion");
+  if (std::abs(square - 1) > 1e-3) asset.warn(at, "is no unit quaternion; it is normalised");
+}
+
+void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& meshes) {
+  const JsonValue* mesh = at.value->find("mesh");
+  const bool has_skin = at.value->find("skin") != nullptr;
+  if (mesh == nullptr) {
+    if (has_skin) asset.warn(at.member("skin"), "has no effect: the node has no mesh");
+    if (at.value->find("weights") == nullptr) return;
+    asset.warn(at.member("weights"), "have no effect: the node has no mesh");
+    return Asset::drop(at, "weights");
+  }
+  const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
+  if (has_skin && !parts.has_joints) {
+    asset.warn(at.member("skin"), "moves a mesh of which not every primitive has JOINTS_0");
+  }
+  check_weights(asset, at, parts.targets);
+}
+
+/// A camera whose type check_schema did not know.
+void check_camera(const Asset& asset, const Element& at) {
+  const JsonValue* index = at.value->find("camera");
+  if (index == nullptr) return;
+  const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
+  if (camera.find("type") == nullptr) Asset::drop(at, "camera");
+}
+
+}  // namespace
+
+void check_weights(Asset& asset, const Element& at, std::size_t targets) {
+  const JsonValue* weights = at.value->find("weights");
+  if (weights == nullptr || weights->items.size() == targets) return;
+  asset.warn(at.member("weights"), "has " + std::to_string(weights->items.size()) + " items for " +
+                                       std::to_string(targets) +
+                                       " morph targets; they are ignored");
+  Asset::drop(at, "weights");
+}
+
+void check_nodes(Asset& asset, const NodeForest& forest) {
+  const std::vector<MeshParts> meshes = mesh_parts(asset);
+  for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
+    const Element at = asset.element("nodes", i);
+    if (at.value->find("matrix") != nullptr) check_matrix(asset, at);
+    if (at.value->find("rotation") != nullptr) check_rotation(asset, at.member("rotation"));
+    check_mesh(asset, at, meshes);
+    check_camera(asset, at);
+  }
+  for (std::size_t i = 0; i < asset.array("scenes").size(); ++i) {
+    const Element nodes = asset.element("scenes", i).member("nodes");
+    for (std::size_t k = 0; k < nodes.value->items.size(); ++k) {
+      const Element node = nodes.item(k);
+      if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number))) {
+        asset.warn(node,
+                   "is a child of node " + std::to_string(*parent) + "; scenes name roots only");
+      }
+    }
+  }
+}
+
+}  // namespace microtrace::io::gltf

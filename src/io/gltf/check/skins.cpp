@@ -1,0 +1,81 @@
+#include "io/gltf/check/semantics.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr int f32 = 5126;
+
+std::size_t index_of(const JsonValue& value) {
+  return static_cast<std::size_t>(value.number);
+}
+
+void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
+  const std::vector<JsonValue>& joints = at.member("joints").value->items;
+  const auto has_other_root = [&](const JsonValue& joint) {
+    return forest.root(index_of(joint)) != forest.root(index_of(joints[0]));
+  };
+  if (std::ranges::any_of(joints, has_other_root)) {
+    asset.warn(at.member("joints"), "are nodes without a common root");
+  }
+  const JsonValue* skeleton = at.value->find("skeleton");
+  if (skeleton == nullptr) return;
+  const auto is_outside = [&](const JsonValue& joint) {
+    return !forest.is_within(index_of(joint), index_of(*skeleton));
+  };
+  if (std::ranges::any_of(joints, is_outside)) {
+    asset.warn(at.member("skeleton"), "is not above all of the skin's joints");
+  }
+}
+
+void check_matrices(const Asset& asset, const Element& at, AccessorHeads& accessors) {
+  if (at.value->find("inverseBindMatrices") == nullptr) return;
+  const Element matrices = at.member("inverseBindMatrices");
+  accessors.use(matrices, Purpose::inverse_bind_matrices);
+  const AccessorHead& head = accessors[*matrices.value];
+  if (head.format != Format{"MAT4", f32}) {
+    asset.fail(matrices, "names an accessor of " + head.format.text() +
+                             "; inverse bind matrices are MAT4 of componentType 5126");
+  }
+  const std::size_t joints = at.member("joints").value->items.size();
+  if (head.count < static_cast<double>(joints)) {
+    asset.fail(matrices, "has " + std::to_string(static_cast<std::size_t>(head.count)) +
+                             " matrices for " + std::to_string(joints) + " joints");
+  }
+}
+
+/// Whether a root is in any scene, by node.
+std::vector<bool> roots_in_scenes(const Asset& asset, const NodeForest& forest) {
+  std::vector<bool> result(asset.array("nodes").size());
+  for (const JsonValue& scene : asset.array("scenes")) {
+    const JsonValue* nodes = scene.find("nodes");
+    if (nodes == nullptr) continue;
+    for (const JsonValue& node : nodes->items) result[forest.root(index_of(node))] = true;
+  }
+  return result;
+}
+
+}  // namespace
+
+void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& forest) {
+  for (std::size_t i = 0; i < asset.array("skins").size(); ++i) {
+    const Element at = asset.element("skins", i);
+    check_joints(asset, at, forest);
+    check_matrices(asset, at, accessors);
+  }
+  const std::vector<bool> in_scene = roots_in_scenes(asset, forest);
+  for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
+    const Element at = asset.element("nodes", i);
+    if (!in_scene[forest.root(i)] || at.value->find("skin") == nullptr) continue;
+    const JsonValue& skin = asset.array("skins")[index_of(*at.value->find("skin"))];
+    const std::vector<JsonValue>& joints = skin.find("joints")->items;
+    if (!joints.empty() && !in_scene[forest.root(index_of(joints[0]))]) {
+      asset.warn(at.member("skin"), "has joints that are in no scene");
+    }
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,70 @@
+#include "io/gltf/check/semantics.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr double element_array_buffer = 34963, u32 = 5125, f32 = 5126;
+
+void check_view(Asset& asset, const Element& at) {
+  const JsonValue* stride = at.value->find("byteStride");
+  if (stride == nullptr) return;
+  if (std::fmod(stride->number, 4) != 0) {
+    asset.fail(at.member("byteStride"), "must be a multiple of 4");
+  }
+  if (stride->number > at.member("byteLength").value->number) {
+    asset.fail(at.member("byteStride"), "is greater than byteLength");
+  }
+  const JsonValue* target = at.value->find("target");
+  if (target != nullptr && target->number == element_array_buffer) {
+    asset.warn(at.member("byteStride"), "stands in a view of indices, which lie without gaps");
+  }
+}
+
+std::size_t components(const std::string& type) {
+  if (type == "SCALAR") return 1;
+  const auto n = static_cast<std::size_t>(type.back() - '0');
+  return type.starts_with("MAT") ? n * n : n;
+}
+
+void check_bounds(const Asset& asset, const Element& at) {
+  const std::size_t expected = components(at.member("type").value->string);
+  for (const char* key : {"min", "max"}) {
+    const JsonValue* bounds = at.value->find(key);
+    if (bounds == nullptr || bounds->items.size() == expected) continue;
+    asset.fail(at.member(key), "must have " + std::to_string(expected) + " items, has " +
+                                   std::to_string(bounds->items.size()));
+  }
+}
+
+void check_accessor(Asset& asset, const Element& at) {
+  const JsonValue* component = at.value->find("componentType");
+  const JsonValue* normalized = at.value->find("normalized");
+  if (component == nullptr || at.value->find("type") == nullptr) {
+    return;  // check_schema has warned of a type that it does not know
+  }
+  check_bounds(asset, at);
+  if (at.value->find("byteOffset") != nullptr && at.value->find("bufferView") == nullptr) {
+    asset.warn(at.member("byteOffset"), "has no effect: the accessor has no bufferView");
+  }
+  const bool can_be_normalized = component->number != f32 && component->number != u32;
+  if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
+    asset.warn(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
+    Asset::drop(at, "normalized");
+  }
+}
+
+}  // namespace
+
+void check_storage(Asset& asset) {
+  for (std::size_t i = 0; i < asset.array("bufferViews").size(); ++i) {
+    check_view(asset, asset.element("bufferViews", i));
+  }
+  for (std::size_t i = 0; i < asset.array("accessors").size(); ++i) {
+    check_accessor(asset, asset.element("accessors", i));
+  }
+}
+
+}  // namespace microtrace::io::gltf

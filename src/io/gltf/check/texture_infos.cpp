@@ -1,0 +1,50 @@
+#include "io/gltf/check/texture_infos.hpp"
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// KHR_texture_transform may choose another set than the texture info itself.
+double set_of(const JsonValue& info) {
+  const JsonValue* extensions = info.find("extensions");
+  const JsonValue* transform =
+      extensions != nullptr ? extensions->find("KHR_texture_transform") : nullptr;
+  const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;
+  if (set == nullptr) set = info.find("texCoord");
+  return set != nullptr ? set->number : 0;
+}
+
+/// By check_schema's rules every object in a material whose name ends in Texture is a texture info.
+void collect(const JsonValue& object, std::vector<std::pair<std::string, double>>& sets) {
+  for (const JsonMember& member : object.members) {
+    if (member.key == "extras" || member.value.kind != JsonValue::Kind::object) continue;
+    const JsonValue* index = member.value.find("index");
+    if (member.key.ends_with("Texture") && index != nullptr) {
+      sets.emplace_back(member.key, set_of(member.value));
+    } else {
+      collect(member.value, sets);
+    }
+  }
+}
+
+bool needs_tangents(const JsonValue& material) {
+  const JsonValue* extensions = material.find("extensions");
+  if (extensions == nullptr || material.find("normalTexture") != nullptr) return false;
+  const JsonValue* clearcoat = extensions->find("KHR_materials_clearcoat");
+  return extensions->find("KHR_materials_anisotropy") != nullptr ||
+         (clearcoat != nullptr && clearcoat->find("clearcoatNormalTexture") != nullptr);
+}
+
+}  // namespace
+
+std::vector<MaterialTextures> texture_infos(const Asset& asset) {
+  std::vector<MaterialTextures> result;
+  for (const JsonValue& material : asset.array("materials")) {
+    MaterialTextures textures;
+    collect(material, textures.sets);
+    textures.needs_tangents = needs_tangents(material);
+    result.push_back(std::move(textures));
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf
