@@ -71,6 +71,10 @@ class RayGenerator {
   /// 0.5) the centre of its first pixel; fractions and points outside the picture are allowed.
   [[nodiscard]] Ray operator()(double x, double y) const;
 
+  /// How far a point lies from the camera along its viewing direction; for an environment camera,
+  /// in its own direction.
+  [[nodiscard]] double depth(const DVec3& point) const;
+
  private:
   friend class SegmentWidener;  // goes the other way, from points to pixels
 

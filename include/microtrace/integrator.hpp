@@ -3,6 +3,8 @@
 /// an Integrator.
 
 #include <microtrace/bvh.hpp>
+#include <microtrace/camera.hpp>
+#include <microtrace/film.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
@@ -19,6 +21,7 @@ struct World {
   const Scene& scene;
   const Bvh& bvh;            ///< of that scene
   const Surfaces& surfaces;  ///< of that scene: src/render/surfaces.hpp
+  const RayGenerator& camera;
 };
 
 /// The light of one ray without the scene's background.
@@ -39,6 +42,13 @@ class Integrator {
   /// of threads call it at a time.
   virtual void trace(const World& world, std::span<const Ray> rays,
                      std::span<Sample> samples) const = 0;
+
+  /// Whether the samples are numbers of any kind rather than light: then they are not filtered, and
+  /// not put over the background.
+  [[nodiscard]] virtual bool is_data() const { return false; }
+
+  /// How 8-bit formats should show the finished film.
+  [[nodiscard]] virtual Display display(const Film& /*film*/) const { return {}; }
 
  protected:
   Integrator() = default;

@@ -1,6 +1,7 @@
 #pragma once
 /// From a scene to a picture.
 
+#include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
@@ -9,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace microtrace {
 
@@ -28,12 +30,15 @@ struct RenderOptions {
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};
+  /// Channels of the film beside the colours, in this order; each once.
+  std::vector<Aov> aovs{};
   bool transparent = false;  ///< leaves the background out and gives the film alpha
 };
 
 /// Colours by the integrator, over scene.background where it leaves some; rays hit only in
 /// (scene.epsilon, infinity). Threads and progress have no influence on the picture. Throws Error:
-/// usage where samples or crop are out of range, limit where memory or primitive numbers run out.
+/// usage where samples, crop or aovs are not as above or an integrator of data is asked for more
+/// than one sample, limit where memory or primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});
 

@@ -20,6 +20,7 @@ Exit codes: 0 done, 1 failure inside, 2 usage, 3 invalid scene, 4 required featu
 Examples:
   microtrace scenes/perspective1.json -o perspective1.ppm
   microtrace model.glb --size 1920x1080 --spp 16 -o model.png
+  microtrace model.glb --aov id,depth,normal --background transparent -o model.exr
   microtrace scene.json -o - | other-program)";
 
 std::filesystem::path default_output(const std::string& scene) {
@@ -34,7 +35,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, crop, view, background, statistics;
+  std::string output, size, crop, view, background, integrator, aovs, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -58,6 +59,14 @@ Parsed parse_arguments(int argc, char** argv) {
                  "AZIMUTH,ELEVATION in degrees: 0,0 is +z, the front, 90,0 is +x [30,25 where the "
                  "scene has no camera]")
       ->excludes("--camera");
+  app.add_option("--integrator", integrator,
+                 "what the picture shows: flat (colours without light), or a quantity as --aov has "
+                 "them [flat]");
+  app.add_option(
+      "--aov", aovs,
+      "exact quantities at pixel centres as further channels of an .exr file: depth, "
+      "distance, position, normal, face_normal, uv, barycentric, albedo, id, with commas "
+      "between");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
@@ -75,6 +84,8 @@ Parsed parse_arguments(int argc, char** argv) {
     app.parse(argc, argv);
     if (!size.empty()) a.size = parse_size(size);
     if (!background.empty()) a.background = parse_background(background);
+    if (!integrator.empty()) a.integrator = parse_integrator(integrator);
+    if (!aovs.empty()) a.aovs = parse_aovs(aovs);
     if (!view.empty()) a.view = parse_view(view);
     if (!crop.empty()) a.crop = parse_crop(crop);
     if (!statistics.empty())
@@ -103,6 +114,11 @@ Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize s
     message += std::to_string(i) + " (" + scene.cameras[i].name + ")";
   }
   throw Error(ErrorKind::usage, "", message);
+}
+
+std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {
+  if (arguments.integrator) return std::make_unique<AovIntegrator>(*arguments.integrator);
+  return std::make_unique<FlatIntegrator>();
 }
 
 }  // namespace microtrace::cli

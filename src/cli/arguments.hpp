@@ -8,8 +8,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -21,8 +23,10 @@ struct Arguments {
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   std::optional<Background> background{};
-  std::uint32_t samples = 1;  ///< per pixel
-  std::string camera;         ///< a name or an index; empty: the default
+  std::uint32_t samples = 1;        ///< per pixel
+  std::optional<Aov> integrator{};  ///< nothing: flat
+  std::vector<Aov> aovs{};
+  std::string camera;  ///< a name or an index; empty: the default
   std::optional<View> view{};
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;
@@ -43,5 +47,8 @@ struct Parsed {
 /// The camera that --camera or --view asks for, else the scene's default. Throws Error (usage) with
 /// the names there are.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size);
+
+/// What --integrator names.
+[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Arguments& arguments);
 
 }  // namespace microtrace::cli

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <unistd.h>
 
 namespace {
@@ -39,14 +40,17 @@ void run(const cli::Arguments& arguments) {
 
   const bool transparent = arguments.background && !arguments.background->color;
   if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
-  check_image_path(arguments.output, {.alpha = transparent});
+  check_image_path(arguments.output, {.alpha = transparent, .channels = !arguments.aovs.empty()});
   const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
   const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
+  const std::unique_ptr<Integrator> integrator = cli::make_integrator(arguments);
   const Film film = render(scene, camera, size,
                            {.threads = threads,
                             .progress = progress,
+                            .integrator = integrator.get(),
                             .samples = arguments.samples,
                             .crop = arguments.crop,
+                            .aovs = arguments.aovs,
                             .transparent = transparent});
   watch.rendered();
 

@@ -35,6 +35,12 @@ std::optional<Number> read(std::string_view text, Format... format) {
   return value;
 }
 
+std::string aov_names() {
+  std::string names;
+  for (const Aov aov : kAovs) names.append(names.empty() ? "" : ", ").append(name_of(aov));
+  return names;
+}
+
 constexpr std::array<std::pair<std::string_view, View>, 7> kViews{{
     {"front", {.azimuth = 0, .elevation = 0}},
     {"right", {.azimuth = 90, .elevation = 0}},
@@ -122,6 +128,27 @@ Background parse_background(const std::string& text) {
                              "wants transparent, #rrggbb (sRGB), or three numbers from 0 to 1 "
                              "(linear light) as 0.2,0.4,1, not " +
                                  text);
+}
+
+std::optional<Aov> parse_integrator(const std::string& text) {
+  if (text == "flat") return std::nullopt;
+  if (const auto aov = aov_named(text)) return aov;
+  throw CLI::ValidationError("--integrator", "wants flat, " + aov_names() + ", not " + text);
+}
+
+std::vector<Aov> parse_aovs(const std::string& text) {
+  std::vector<Aov> aovs;
+  for (const std::string_view name : split(text)) {
+    const auto aov = aov_named(name);
+    if (!aov) {
+      throw CLI::ValidationError(
+          "--aov", "wants names from " + aov_names() + " with commas between, not " + text);
+    }
+    if (std::ranges::find(aovs, *aov) != aovs.end())
+      throw CLI::ValidationError("--aov", "names " + std::string(name) + " twice");
+    aovs.push_back(*aov);
+  }
+  return aovs;
 }
 
 }  // namespace microtrace::cli

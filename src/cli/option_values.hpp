@@ -1,6 +1,7 @@
 #pragma once
 /// What stands behind options on the command line.
 
+#include <microtrace/aov.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/math.hpp>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -31,5 +33,10 @@ struct Background {
 
 /// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent"
 [[nodiscard]] Background parse_background(const std::string& text);
+
+/// flat: nothing; else a quantity's name
+[[nodiscard]] std::optional<Aov> parse_integrator(const std::string& text);
+/// Names of quantities with commas between them, each once
+[[nodiscard]] std::vector<Aov> parse_aovs(const std::string& text);
 
 }  // namespace microtrace::cli

@@ -1,4 +1,5 @@
 #include "float_environment.hpp"
+#include "render/aov_painter.hpp"
 #include "render/surfaces.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
@@ -9,8 +10,10 @@
 #include <microtrace/segments.hpp>
 #include <microtrace/threads.hpp>
 
+#include <algorithm>
 #include <new>
 #include <string>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -26,10 +29,19 @@ Film make_film(ImageSize size, Film::Alpha alpha) {
 }
 
 void check(const RenderOptions& options) {
-  if (options.samples >= 1 && options.samples <= kMaxSamples) return;
-  throw Error(ErrorKind::usage, "",
-              "samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
-                  std::to_string(options.samples));
+  const auto refuse = [](const std::string& message) {
+    throw Error(ErrorKind::usage, "", message);
+  };
+  if (options.samples < 1 || options.samples > kMaxSamples) {
+    refuse("samples per pixel must be 1 to " + std::to_string(kMaxSamples) + ", not " +
+           std::to_string(options.samples));
+  }
+  if (options.samples > 1 && options.integrator != nullptr && options.integrator->is_data())
+    refuse("this integrator's picture is of numbers that are never mixed: one sample per pixel");
+  std::vector<Aov> aovs = options.aovs;
+  std::ranges::sort(aovs);
+  if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
+    refuse("asks for the channels of " + std::string(name_of(*twice)) + " twice");
 }
 
 PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
@@ -57,18 +69,23 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();
   const Bvh bvh(scene, {.threads = threads});
   const Surfaces surfaces(scene, bvh.primitives());
-  const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces};
+  const RayGenerator rays(camera, size);
+  const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays};
   const FlatIntegrator flat;
-  const RayGenerator ray_through(camera, size);
+  const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
   Film film = make_film(window.size(),
                         options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.whole = size;
   film.x0 = window.x0;
   film.y0 = window.y0;
-  const TilePainter painter(world, options.integrator != nullptr ? *options.integrator : flat,
-                            ray_through, options, window, film);
-  for_each_tile(
-      window, threads, [&](const PixelRect& tile) { painter.paint(tile); }, options.progress);
+  const TilePainter colors(world, integrator, options.samples, window, film);
+  const AovPainter channels(world, options.aovs, window, film);
+  const auto draw = [&](const PixelRect& tile) {
+    colors.paint(tile);
+    if (!options.aovs.empty()) channels.paint(tile);
+  };
+  for_each_tile(window, threads, draw, options.progress);
+  film.display = integrator.display(film);
   return film;
 }
 

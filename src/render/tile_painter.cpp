@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <span>
 
 namespace microtrace {
@@ -55,19 +53,15 @@ class Batch {
 
 }  // namespace
 
-TilePainter::TilePainter(const World& world, const Integrator& integrator,
-                         const RayGenerator& ray_through, const RenderOptions& options,
+TilePainter::TilePainter(const World& world, const Integrator& integrator, std::uint32_t samples,
                          const PixelRect& window, Film& film)
     : world_(world),
       integrator_(integrator),
-      ray_through_(ray_through),
+      ray_(world.camera, world.scene),
       window_(window),
       film_(film),
-      pattern_(sample_pattern(options.samples)),
-      background_(world.scene.background),
-      // The open interval (epsilon, infinity): rays hold closed ones, so it begins at the next
-      // float32.
-      t_min_(std::nextafter(world.scene.epsilon, std::numeric_limits<float>::infinity())),
+      pattern_(sample_pattern(samples)),
+      background_(integrator.is_data() ? Vec3(0) : world.scene.background),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
   // The rays of a batch should go nearly the same way, so few pixels make one where each has many
@@ -76,12 +70,6 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
          std::size_t{block_width_} * block_height_ * pattern_.size() > kMaxBatch) {
     (block_height_ == block_width_ ? block_height_ : block_width_) /= 2;
   }
-}
-
-Ray TilePainter::ray(double x, double y) const {
-  Ray ray = ray_through_(x, y);
-  ray.t_min = std::max(ray.t_min, t_min_);
-  return ray;
 }
 
 void TilePainter::set(std::uint32_t x, std::uint32_t y, const Sample& sample) const {
@@ -108,7 +96,7 @@ void TilePainter::paint_block(const PixelRect& block) const {
       for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
         for (const PixelOffset& offset : pattern_) {
           before_each();
-          batch.add(ray(x + offset.x, y + offset.y), pixel);
+          batch.add(ray_(x + offset.x, y + offset.y), pixel);
         }
       }
     }

@@ -1,6 +1,7 @@
 #pragma once
 /// Fills the film tile by tile.
 
+#include "render/camera_rays.hpp"
 #include "render/sample_pattern.hpp"
 
 #include <microtrace/film.hpp>
@@ -14,25 +15,23 @@ namespace microtrace {
 class TilePainter {
  public:
   /// All of these must outlive it; the film holds the pixels of `window`.
-  TilePainter(const World& world, const Integrator& integrator, const RayGenerator& ray_through,
-              const RenderOptions& options, const PixelRect& window, Film& film);
+  TilePainter(const World& world, const Integrator& integrator, std::uint32_t samples,
+              const PixelRect& window, Film& film);
 
   /// A tile of the window, at most kTileEdge pixels a side.
   void paint(const PixelRect& tile) const;
 
  private:
   void paint_block(const PixelRect& block) const;
-  [[nodiscard]] Ray ray(double x, double y) const;
   void set(std::uint32_t x, std::uint32_t y, const Sample& sample) const;
 
   const World& world_;
   const Integrator& integrator_;
-  const RayGenerator& ray_through_;
+  CameraRays ray_;
   const PixelRect& window_;
   Film& film_;
   std::vector<PixelOffset> pattern_;
   Vec3 background_;
-  float t_min_;
   std::uint32_t block_width_, block_height_;
 };
 

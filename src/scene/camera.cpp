@@ -96,4 +96,9 @@ Ray RayGenerator::operator()(double x, double y) const {
   return ray;
 }
 
+double RayGenerator::depth(const DVec3& point) const {
+  const DVec3 way = point - position_;
+  return kind_ == Kind::environment ? std::sqrt(glm::dot(way, way)) : glm::dot(way, forward_);
+}
+
 }  // namespace microtrace

@@ -188,6 +188,25 @@ class CommandLine(unittest.TestCase):
             self.assertIn(b"has no alpha; write .png or .exr", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_quantities(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        quantities = ("depth", "distance", "position", "normal", "face_normal", "barycentric", "id")
+        options = [cube, "--size", "40x30"]
+        flat = self.picture(*options)
+        self.assertEqual(self.picture(*options, "--integrator", "flat"), flat)
+        pictures = [flat] + [self.picture(*options, "--integrator", name) for name in quantities]
+        self.assertEqual(len({b"".join(rows) for _, _, rows in pictures}), len(pictures))
+        normals = b"".join(self.picture(*options, "--integrator", "face_normal", "--view", "front")[2])
+        self.assertEqual({normals[i:i + 3] for i in range(0, len(normals), 3)},
+                         {b"\x80\x80\x80", b"\x80\x80\xff"})
+        for wrong in (["--integrator", "light"], ["--integrator", "depth", "--spp", "4"],
+                      ["--aov", "depth,beauty", "-o", "a.exr"], ["--aov", "depth,depth", "-o", "a.exr"],
+                      ["--aov", "", "-o", "a.exr"], ["--aov", "depth", "-o", "a.png"],
+                      ["--aov", "depth", "-o", "-"]):
+            result = self.run_program(*options, *wrong)
+            self.assertEqual(result.returncode, 2, (wrong, result.stderr))
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_samples(self):
         one = self.picture(SCENE, "--size", "64x48")
         self.assertEqual(self.picture(SCENE, "--size", "64x48", "--samples", "1"), one)

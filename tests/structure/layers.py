@@ -23,11 +23,11 @@ MAY_INCLUDE = {
 }
 # Public headers that a part must not see.
 HIDDEN = {
-    "exact": {"scene", "camera", "film", "io", "render", "integrator", "bvh", "primitives"},
-    "scene": {"film", "io", "render", "integrator", "bvh"},
-    "accel": {"camera", "film", "io", "render", "integrator"},
+    "exact": {"scene", "camera", "film", "io", "render", "integrator", "aov", "bvh", "primitives"},
+    "scene": {"film", "io", "render", "integrator", "aov", "bvh"},
+    "accel": {"camera", "film", "io", "render", "integrator", "aov"},
     "render": {"io"},
-    "io": {"render", "bvh", "integrator"},
+    "io": {"render", "bvh", "integrator", "aov"},
 }
 # Libraries that only these folders may include.
 LIBRARIES = {

@@ -1,0 +1,35 @@
+#pragma once
+/// The rays that pictures are made of.
+
+#include <microtrace/camera.hpp>
+#include <microtrace/ray.hpp>
+#include <microtrace/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace microtrace {
+
+/// Those of a camera, in the open interval (scene.epsilon, infinity): rays hold closed ones, so it
+/// begins at the next float32.
+class CameraRays {
+ public:
+  /// The camera must outlive it.
+  CameraRays(const RayGenerator& camera, const Scene& scene)
+      : camera_(camera),
+        t_min_(std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity())) {}
+
+  /// Through pixel coordinates, as RayGenerator's.
+  [[nodiscard]] Ray operator()(double x, double y) const {
+    Ray ray = camera_(x, y);
+    ray.t_min = std::max(ray.t_min, t_min_);
+    return ray;
+  }
+
+ private:
+  const RayGenerator& camera_;
+  float t_min_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,116 @@
+#include "render/aov_value.hpp"
+
+#include <microtrace/aov.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include <glm/common.hpp>
+
+namespace microtrace {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A colour for a number, none of them dark: a mixer of bits makes neighbours differ
+/// (S. Vigna's SplitMix64).
+Vec3 color_of_id(std::uint32_t id) {
+  std::uint64_t x = id * std::uint64_t{0x9E3779B97F4A7C15};
+  x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9;
+  x = (x ^ x >> 27) * 0x94D049BB133111EB;
+  x ^= x >> 31;
+  const auto part = [x](int shift) {
+    return 0.25F + 0.75F * static_cast<float>(x >> shift & 0xFFU) / 255;
+  };
+  return {part(0), part(8), part(16)};
+}
+
+template <class F>
+void for_each_pixel(const Film& film, F&& f) {
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    for (const Vec3& value : film.row(y)) f(value);
+  }
+}
+
+/// 1 for the nearest, 0.2 for the farthest.
+Display of_lengths(const Film& film) {
+  float nearest = kInfinity, farthest = -kInfinity;
+  for_each_pixel(film, [&](const Vec3& value) {
+    if (!std::isfinite(value.x)) return;
+    nearest = std::min(nearest, value.x);
+    farthest = std::max(farthest, value.x);
+  });
+  const float range = farthest - nearest;
+  const float scale = range > 0 && std::isfinite(range) ? -0.8F / range : 0;
+  const float offset = scale < 0 ? 1 - scale * nearest : 1;
+  return {.srgb = false, .scale = Vec3(scale), .offset = Vec3(offset)};
+}
+
+/// The bounding box to [0, 1].
+Display of_positions(const Film& film) {
+  Vec3 low(kInfinity), high(-kInfinity);
+  for_each_pixel(film, [&](const Vec3& value) {
+    if (value == Vec3(0)) return;  // most likely nothing at all
+    low = glm::min(low, value);
+    high = glm::max(high, value);
+  });
+  Display display{.srgb = false};
+  for (glm::length_t i = 0; i < 3; ++i) {
+    const float range = high[i] - low[i];
+    const bool has_range = range > 0 && std::isfinite(range);
+    display.scale[i] = has_range ? 1 / range : 0;
+    display.offset[i] = has_range ? -low[i] / range : 0.5F;
+  }
+  return display;
+}
+
+}  // namespace
+
+void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
+                          std::span<Sample> samples) const {
+  std::array<std::optional<Hit>, kMaxBatch> hits;
+  find_seen(world, rays, std::span(hits).first(rays.size()));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::optional<Hit>& hit = hits[i];
+    std::array<float, 3> v{};
+    if (!hit) {
+      v = value_of_nothing(aov_);
+    } else if (aov_ == Aov::id) {
+      const Vec3 color = color_of_id(ids_of(world, hit)[0]);
+      v = {color.x, color.y, color.z};
+    } else {
+      v = value_of(aov_, {.world = world,
+                          .ray = rays[i],
+                          .hit = *hit,
+                          .at = interact(world.bvh.primitives(), rays[i], *hit)});
+    }
+    const bool is_number = channels_of(aov_).size() == 1;  // shown grey
+    samples[i] = {.color = is_number ? Vec3(v[0]) : Vec3(v[0], v[1], v[2]),
+                  .alpha = hit ? 1.0F : 0.0F};
+  }
+}
+
+Display AovIntegrator::display(const Film& film) const {
+  switch (aov_) {
+    case Aov::depth:
+    case Aov::distance:
+      return of_lengths(film);
+    case Aov::position:
+      return of_positions(film);
+    case Aov::normal:
+    case Aov::face_normal:
+      return {.srgb = false, .scale = Vec3(0.5F), .offset = Vec3(0.5F)};
+    case Aov::albedo:
+      return {};
+    case Aov::uv:
+    case Aov::barycentric:
+    case Aov::id:
+      break;
+  }
+  return {.srgb = false};
+}
+
+}  // namespace microtrace
