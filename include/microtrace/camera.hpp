@@ -61,6 +61,19 @@ struct EnvironmentCamera {
 
 using Camera = std::variant<PerspectiveCamera, OrthographicCamera, EnvironmentCamera>;
 
+/// A camera of one picture as other programs want it. Camera space is right-handed, x right, y up,
+/// z backward. A point (x, y, z) of it is seen at pixel coordinates (center.x + pixels_per_unit x /
+/// w, center.y - pixels_per_unit y / w), where w is -z for perspective cameras and 1 for
+/// orthographic ones.
+struct CameraModel {
+  DMat4 world_from_camera{1};  ///< rigid
+  DVec2 center{0};             ///< of the picture, pixels
+  /// The focal length in pixels, the same for x and y; orthographic: pixels per world unit;
+  /// environment: 0.
+  double pixels_per_unit = 0;
+  DepthRange depth{};
+};
+
 /// The rays of one camera for one picture. Directions have unit length, computed in float64 and
 /// rounded once.
 class RayGenerator {
@@ -74,6 +87,8 @@ class RayGenerator {
   /// How far a point lies from the camera along its viewing direction; for an environment camera,
   /// in its own direction.
   [[nodiscard]] double depth(const DVec3& point) const;
+
+  [[nodiscard]] CameraModel model() const;
 
  private:
   friend class SegmentWidener;  // goes the other way, from points to pixels

@@ -68,15 +68,21 @@ class SceneFile {
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
+/// A text to be written beside a picture.
+struct Sidecar {
+  std::filesystem::path path;
+  std::string text;
+};
+
 /// Writes a picture; the kind is the ending's: .ppm by the library itself, any other by
 /// OpenImageIO, whose module is loaded then. Float formats (.exr, .hdr) hold the film's numbers,
 /// the others 8 bits as its display says. Alpha is multiplied into the colours of float formats and
 /// divided out of the others, before they are encoded. Only .exr takes further channels; there a
 /// film that is a part of a picture has the whole as its display window. The file appears whole or
-/// not at all. "-" is standard output, and takes PPM. Throws Error: usage where the format lacks
-/// what the film has.
+/// not at all. "-" is standard output, and takes PPM. A sidecar is written whole before either
+/// file takes its place. Throws Error: usage where the format lacks what the film has.
 void save_image(const Film& film, const std::filesystem::path& path,
-                PpmEncoding ppm = PpmEncoding::binary);
+                PpmEncoding ppm = PpmEncoding::binary, const Sidecar* sidecar = nullptr);
 
 /// What a film has beside colours.
 struct FilmContents {
@@ -87,6 +93,9 @@ struct FilmContents {
 /// Throws the Error that save_image would throw at once for this path and such a film, and writes
 /// nothing: to be asked before a long rendering.
 void check_image_path(const std::filesystem::path& path, const FilmContents& contents = {});
+
+/// The same for a sidecar's path beside that of its picture.
+void check_sidecar_path(const std::filesystem::path& path, const std::filesystem::path& picture);
 
 /// Removes the temporary files of pictures being saved. Safe in a signal handler that then ends the
 /// process.

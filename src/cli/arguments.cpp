@@ -4,6 +4,7 @@
 
 #include <microtrace/render.hpp>
 
+#include <algorithm>
 #include <map>
 
 #include <CLI/App.hpp>
@@ -35,7 +36,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, crop, view, background, integrator, aovs, statistics;
+  std::string output, size, crop, view, background, integrator, aovs, sidecar, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -67,6 +68,9 @@ Parsed parse_arguments(int argc, char** argv) {
       "exact quantities at pixel centres as further channels of an .exr file: depth, "
       "distance, position, normal, face_normal, uv, barycentric, albedo, id, with commas "
       "between");
+  app.add_option("--sidecar", sidecar,
+                 "JSON file for camera, objects with ids, names, boxes and visible pixels, and "
+                 "materials [the picture's name with .json added, where --aov has id]");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
@@ -92,6 +96,9 @@ Parsed parse_arguments(int argc, char** argv) {
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;
     if (output.empty() && !a.validate) a.output = default_output(a.scene);
+    a.sidecar = sidecar;
+    if (sidecar.empty() && std::ranges::find(a.aovs, Aov::id) != a.aovs.end())
+      (a.sidecar = a.output) += ".json";
   } catch (const CLI::ParseError& error) {
     parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
   }

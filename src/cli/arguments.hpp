@@ -26,7 +26,8 @@ struct Arguments {
   std::uint32_t samples = 1;        ///< per pixel
   std::optional<Aov> integrator{};  ///< nothing: flat
   std::vector<Aov> aovs{};
-  std::string camera;  ///< a name or an index; empty: the default
+  std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
+  std::string camera;             ///< a name or an index; empty: the default
   std::optional<View> view{};
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;

@@ -1,14 +1,10 @@
 #include "cli/arguments.hpp"
-#include "cli/progress_bar.hpp"
+#include "cli/picture.hpp"
 #include "cli/statistics.hpp"
-
-#include <microtrace/render.hpp>
-#include <microtrace/threads.hpp>
 
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <unistd.h>
 
 namespace {
@@ -38,25 +34,9 @@ void run(const cli::Arguments& arguments) {
   watch.loaded();
   if (arguments.validate) return;
 
-  const bool transparent = arguments.background && !arguments.background->color;
   if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
-  check_image_path(arguments.output, {.alpha = transparent, .channels = !arguments.aovs.empty()});
-  const unsigned threads = arguments.threads != 0 ? arguments.threads : default_threads();
-  const auto progress = arguments.quiet ? nullptr : cli::progress_bar();
-  const std::unique_ptr<Integrator> integrator = cli::make_integrator(arguments);
-  const Film film = render(scene, camera, size,
-                           {.threads = threads,
-                            .progress = progress,
-                            .integrator = integrator.get(),
-                            .samples = arguments.samples,
-                            .crop = arguments.crop,
-                            .aovs = arguments.aovs,
-                            .transparent = transparent});
-  watch.rendered();
-
-  save_image(film, arguments.output, arguments.ppm);
-  watch.written();
-  watch.report(arguments.statistics, scene, film.size(), arguments.samples, threads);
+  cli::check_outputs(arguments, arguments.output, arguments.sidecar);
+  cli::make_picture(scene, camera, size, arguments, arguments.output, arguments.sidecar, watch);
 }
 
 }  // namespace

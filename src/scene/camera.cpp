@@ -101,4 +101,14 @@ double RayGenerator::depth(const DVec3& point) const {
   return kind_ == Kind::environment ? std::sqrt(glm::dot(way, way)) : glm::dot(way, forward_);
 }
 
+CameraModel RayGenerator::model() const {
+  const DVec3 right = glm::normalize(right_), up = -glm::normalize(down_);
+  const double step = kind_ == Kind::environment ? 0 : glm::length(right_);  // from pixel to pixel
+  return {.world_from_camera =
+              DMat4(DVec4(right, 0), DVec4(up, 0), DVec4(-forward_, 0), DVec4(position_, 1)),
+          .center = DVec2(size_.width, size_.height) * 0.5,
+          .pixels_per_unit = step > 0 ? 1 / step : 0,
+          .depth = depth_};
+}
+
 }  // namespace microtrace

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <type_traits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -58,34 +57,11 @@ void Framing::add_support(const Support& support) {
 
 void Framing::add(const Scene& scene) {
   const FloatEnvironment environment;
-  const auto add_shape = [this](const auto& shape) {
-    using S = std::remove_cvref_t<decltype(shape)>;
-    if constexpr (std::is_same_v<S, Mesh>) {
-      for (const Vec3& p : shape.positions) {
-        if (is_finite(p)) add(DVec3(p));
-      }
-    } else if constexpr (std::is_same_v<S, Triangle>) {
-      for (const Vec3& p : {shape.a, shape.b, shape.c}) {
-        if (is_finite(p)) add(DVec3(p));
-      }
-    } else if constexpr (std::is_same_v<S, Sphere>) {
-      if (is_finite(shape.center) && shape.radius >= 0 && std::isfinite(shape.radius))
-        add_support(SphereSupport{.center = shape.center, .radius = shape.radius});
-    } else if constexpr (std::is_same_v<S, Disc>) {
-      const bool is_there = is_finite(shape.center) && is_finite(shape.normal) &&
-                            shape.normal != Vec3(0) && shape.radius >= 0 &&
-                            std::isfinite(shape.radius);
-      if (is_there)
-        add_support(DiscSupport{.center = shape.center,
-                                .normal = glm::normalize(DVec3(shape.normal)),
-                                .radius = shape.radius});
-    } else if constexpr (std::is_same_v<S, Quadric>) {
-      if (const auto support = ellipsoid(shape)) add_support(*support);
-    } else {
-      static_assert(std::is_same_v<S, Plane>, "has no bounds");
-    }
-  };
-  for (const Object& object : scene.objects) std::visit(add_shape, object.shape);
+  for (const Object& object : scene.objects) {
+    visit_extent(
+        object.shape, [this](const DVec3& point) { add(point); },
+        [this](const auto& support) { add_support(support); });
+  }
 }
 
 // A camera at x right + y up + z back sees a point p within the slope s of the right side if

@@ -1,5 +1,8 @@
 #include "scene/support.hpp"
 
+#include <limits>
+
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
 namespace microtrace {
@@ -18,6 +21,27 @@ std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
   const double square = -glm::dot(half_linear, center) - sign * q.j;
   if (!(square >= 0) || !std::isfinite(square)) return std::nullopt;
   return EllipsoidSupport{.center = center, .inverse = inverse * square};
+}
+
+std::optional<Bounds> bounds_of(const Shape& shape) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Bounds bounds{.low = DVec3(infinity), .high = DVec3(-infinity)};
+  visit_extent(
+      shape,
+      [&](const DVec3& p) {
+        bounds.low = glm::min(bounds.low, p);
+        bounds.high = glm::max(bounds.high, p);
+      },
+      [&](const auto& support) {
+        for (glm::length_t axis = 0; axis < 3; ++axis) {
+          DVec3 unit(0);
+          unit[axis] = 1;
+          bounds.high[axis] = support(unit);
+          bounds.low[axis] = -support(-unit);
+        }
+      });
+  if (!(bounds.low.x <= bounds.high.x)) return std::nullopt;
+  return bounds;
 }
 
 }  // namespace microtrace

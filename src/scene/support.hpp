@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include <glm/geometric.hpp>
 
@@ -48,5 +50,43 @@ struct EllipsoidSupport {
 
 /// Nothing if the quadric is no ellipsoid, or an empty one.
 [[nodiscard]] std::optional<EllipsoidSupport> ellipsoid(const Quadric& quadric);
+
+/// Calls point(DVec3) for points whose convex hull is the shape's, or support(f) with its support
+/// function; neither where it is empty or has no bounds. Vertices that are not finite do not count.
+template <class Point, class Support>
+void visit_extent(const Shape& shape, Point&& point, Support&& support) {
+  const auto visit = [&](const auto& s) {
+    using S = std::remove_cvref_t<decltype(s)>;
+    if constexpr (std::is_same_v<S, Mesh>) {
+      for (const Vec3& p : s.positions) {
+        if (is_finite(p)) point(DVec3(p));
+      }
+    } else if constexpr (std::is_same_v<S, Triangle>) {
+      for (const Vec3& p : {s.a, s.b, s.c}) {
+        if (is_finite(p)) point(DVec3(p));
+      }
+    } else if constexpr (std::is_same_v<S, Sphere>) {
+      if (is_finite(s.center) && s.radius >= 0 && std::isfinite(s.radius))
+        support(SphereSupport{.center = s.center, .radius = s.radius});
+    } else if constexpr (std::is_same_v<S, Disc>) {
+      const bool is_there = is_finite(s.center) && is_finite(s.normal) && s.normal != Vec3(0) &&
+                            s.radius >= 0 && std::isfinite(s.radius);
+      if (is_there)
+        support(DiscSupport{
+            .center = s.center, .normal = glm::normalize(DVec3(s.normal)), .radius = s.radius});
+    } else if constexpr (std::is_same_v<S, Quadric>) {
+      if (const auto f = ellipsoid(s)) support(*f);
+    } else {
+      static_assert(std::is_same_v<S, Plane>, "has no bounds");
+    }
+  };
+  std::visit(visit, shape);
+}
+
+/// The axis-aligned box of a shape; nothing where it is empty or has no bounds.
+struct Bounds {
+  DVec3 low, high;
+};
+[[nodiscard]] std::optional<Bounds> bounds_of(const Shape& shape);
 
 }  // namespace microtrace

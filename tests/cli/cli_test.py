@@ -190,7 +190,7 @@ class CommandLine(unittest.TestCase):
 
     def test_quantities(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
-        quantities = ("depth", "distance", "position", "normal", "face_normal", "barycentric", "id")
+        quantities = ("depth", "distance", "position", "normal", "barycentric", "id")
         options = [cube, "--size", "40x30"]
         flat = self.picture(*options)
         self.assertEqual(self.picture(*options, "--integrator", "flat"), flat)

@@ -23,10 +23,10 @@ MAY_INCLUDE = {
 }
 # Public headers that a part must not see.
 HIDDEN = {
-    "exact": {"scene", "camera", "film", "io", "render", "integrator", "aov", "bvh", "primitives"},
-    "scene": {"film", "io", "render", "integrator", "aov", "bvh"},
-    "accel": {"camera", "film", "io", "render", "integrator", "aov"},
-    "render": {"io"},
+    "exact": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
+    "scene": {"film", "io", "render", "integrator", "aov", "sidecar", "bvh"},
+    "accel": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
+    "render": {"io", "sidecar"},
     "io": {"render", "bvh", "integrator", "aov"},
 }
 # Libraries that only these folders may include.

@@ -151,11 +151,16 @@ void AtomicFile::write(std::string_view bytes) {
   }
 }
 
-void AtomicFile::commit() {
+void AtomicFile::close() {
+  if (descriptor_ < 0) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   // After EINTR Linux has closed the descriptor, and the data is with the kernel.
   if (closed != 0 && errno != EINTR) fail(errno, "make room, or name another file");
+}
+
+void AtomicFile::commit() {
+  close();
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "name another file");
   temporary_.clear();

@@ -20,7 +20,10 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  /// Closes the file and puts it in the target's place. Nothing may be written after it.
+  /// Closes the file: all of it is with the system then. Nothing may be written after it.
+  void close();
+
+  /// Closes the file and puts it in the target's place.
   void commit();
 
  private:

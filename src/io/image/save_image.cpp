@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace microtrace {
@@ -27,9 +28,8 @@ std::string format_ending(const std::filesystem::path& path) {
   return ending.substr(1);
 }
 
-void save_ppm(const Film& film, const std::filesystem::path& path, PpmEncoding encoding) {
+void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
   constexpr std::size_t block = std::size_t{1} << 16;
-  io::AtomicFile file(path);
   std::string bytes = io::ppm_header(film.size(), encoding);
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
     io::append_ppm_row(film, y, encoding, bytes);
@@ -38,7 +38,6 @@ void save_ppm(const Film& film, const std::filesystem::path& path, PpmEncoding e
     bytes.clear();
   }
   file.write(bytes);
-  file.commit();
 }
 
 /// Throws Error(usage) unless the format holds all that the film has.
@@ -66,19 +65,36 @@ void check_image_path(const std::filesystem::path& path, const FilmContents& con
   io::check_target(path);
 }
 
-void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm) {
+void check_sidecar_path(const std::filesystem::path& path, const std::filesystem::path& picture) {
+  std::error_code ignored;
+  if (path == picture || std::filesystem::equivalent(path, picture, ignored)) {
+    throw Error(ErrorKind::usage, path.string(),
+                "is the picture's file too; name another for the sidecar");
+  }
+  io::check_target(path);
+}
+
+void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm,
+                const Sidecar* sidecar) {
   const std::string ending = format_ending(path);
   const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
-  if (ending == "ppm") {
-    require(contents, ppm_format, path, ending);
-    save_ppm(film, path, ppm);
-    return;
+  std::optional<io::ImageModule> module;
+  if (ending != "ppm") module.emplace(path.string());
+  require(contents, module ? module->find_format(ending) : ppm_format, path, ending);
+  std::optional<io::AtomicFile> beside;
+  if (sidecar != nullptr) {
+    beside.emplace(sidecar->path);
+    beside->write(sidecar->text);
+    beside->close();
   }
-  const io::ImageModule module(path.string());
-  require(contents, module.find_format(ending), path, ending);
   io::AtomicFile file(path);
-  module.encode(film, ending, [&file](std::string_view bytes) { file.write(bytes); });
+  if (module) {
+    module->encode(film, ending, [&file](std::string_view bytes) { file.write(bytes); });
+  } else {
+    write_ppm(film, ppm, file);
+  }
   file.commit();
+  if (beside) beside->commit();
 }
 
 }  // namespace microtrace

@@ -1,0 +1,57 @@
+#include "cli/picture.hpp"
+
+#include "cli/progress_bar.hpp"
+
+#include <microtrace/render.hpp>
+#include <microtrace/sidecar.hpp>
+#include <microtrace/threads.hpp>
+
+#include <algorithm>
+
+namespace microtrace::cli {
+namespace {
+
+bool is_transparent(const Arguments& arguments) {
+  return arguments.background && !arguments.background->color;
+}
+
+}  // namespace
+
+void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
+                   const std::filesystem::path& sidecar) {
+  check_image_path(output,
+                   {.alpha = is_transparent(arguments), .channels = !arguments.aovs.empty()});
+  if (!sidecar.empty()) check_sidecar_path(sidecar, output);
+}
+
+void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
+                  const Arguments& arguments, const std::filesystem::path& output,
+                  const std::filesystem::path& sidecar, Stopwatch& watch) {
+  const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
+  RenderOptions options{
+      .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
+      .progress = arguments.quiet ? nullptr : progress_bar(),
+      .integrator = integrator.get(),
+      .samples = arguments.samples,
+      .crop = arguments.crop,
+      .aovs = arguments.aovs,
+      .transparent = is_transparent(arguments),
+  };
+  // The sidecar counts pixels by their ids, whether the picture keeps these or not.
+  const bool ids_for_sidecar_alone =
+      !sidecar.empty() && std::ranges::find(options.aovs, Aov::id) == options.aovs.end();
+  if (ids_for_sidecar_alone) options.aovs.push_back(Aov::id);
+  Film film = render(scene, camera, size, options);
+  watch.rendered();
+
+  Sidecar beside{.path = sidecar, .text = {}};
+  if (!sidecar.empty())
+    beside.text = describe_picture(scene, camera, film, output.filename().string());
+  if (ids_for_sidecar_alone)
+    std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
+  save_image(film, output, arguments.ppm, sidecar.empty() ? nullptr : &beside);
+  watch.written();
+  watch.report(arguments.statistics, scene, film.size(), arguments.samples, options.threads);
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,145 @@
+#include "float_environment.hpp"
+#include "io/sidecar/seen_pixels.hpp"
+#include "scene/support.hpp"
+#include "scene/validate.hpp"
+
+#include <microtrace/sidecar.hpp>
+
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <string_view>
+
+#include <glm/matrix.hpp>
+#include <nlohmann/json.hpp>
+
+namespace microtrace {
+namespace {
+
+std::string quoted(const std::string& text) {
+  using Json = nlohmann::json;
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// JSON has no infinity.
+std::string number(double x) {
+  return std::isfinite(x) ? decimal(x) : "null";
+}
+std::string number(std::uint32_t x) {
+  return std::to_string(x);
+}
+
+template <typename Number>
+std::string array(std::initializer_list<Number> numbers) {
+  std::string text = "[";
+  for (const Number x : numbers) text.append(text.size() > 1 ? ", " : "").append(number(x));
+  return text += ']';
+}
+
+std::string array(const DVec3& v) {
+  return array({v.x, v.y, v.z});
+}
+
+std::string rows(const DMat4& m) {
+  std::string text = "[";
+  for (glm::length_t r = 0; r < 4; ++r) {
+    text.append(r > 0 ? ", " : "").append(array({m[0][r], m[1][r], m[2][r], m[3][r]}));
+  }
+  return text += ']';
+}
+
+/// Of a rigid transform: the rotation turned back, no division.
+DMat4 inverse(const DMat4& rigid) {
+  const glm::dmat3 back = glm::transpose(glm::dmat3(rigid));
+  DMat4 result(back);
+  result[3] = DVec4(-(back * DVec3(rigid[3])), 1);
+  return result;
+}
+
+std::string camera_text(const Camera& camera, ImageSize size) {
+  constexpr std::array kTypes = {"perspective", "orthographic", "environment"};
+  const CameraModel model = RayGenerator(camera, size).model();
+  std::string text = "{\n    \"type\": \"";
+  text.append(kTypes.at(camera.index())).append("\",\n");
+  text.append("    \"axes\": \"x right, y up, z backward\",\n");
+  text.append("    \"world_from_camera\": ").append(rows(model.world_from_camera)).append(",\n");
+  text.append("    \"camera_from_world\": ").append(rows(inverse(model.world_from_camera)));
+  if (model.pixels_per_unit > 0) {
+    const bool is_perspective = std::holds_alternative<PerspectiveCamera>(camera);
+    const std::string scale = number(model.pixels_per_unit);
+    text.append(",\n    ").append(is_perspective ? "\"fx\": " : "\"pixels_per_unit\": ");
+    text.append(scale);
+    if (is_perspective) text.append(", \"fy\": ").append(scale);
+    text.append(", \"cx\": ").append(number(model.center.x));
+    text.append(", \"cy\": ").append(number(model.center.y));
+    text.append(",\n    \"near\": ").append(number(model.depth.near));
+    text.append(", \"far\": ").append(number(model.depth.far));
+  }
+  return text += "\n  }";
+}
+
+std::string_view type_of(const Shape& shape) {
+  constexpr std::array<std::string_view, 6> kTypes = {"sphere",   "plane",   "disc",
+                                                      "triangle", "quadric", "mesh"};
+  static_assert(std::variant_size_v<Shape> == kTypes.size());
+  return kTypes[shape.index()];
+}
+
+std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen) {
+  std::string text = "{\"id\": " + std::to_string(id);
+  text.append(", \"name\": ").append(quoted(object.name));
+  text.append(", \"type\": \"").append(type_of(object.shape)).append("\"");
+  text.append(", \"material\": ")
+      .append(std::to_string(object.material ? *object.material + 1 : 0));
+  if (seen != nullptr) {
+    const PixelRect& box = seen->box;
+    text.append(", \"visible_pixels\": ").append(std::to_string(seen->count));
+    text.append(", \"box\": ");
+    text.append(seen->count > 0 ? array({box.x0, box.y0, box.x1, box.y1}) : "null");
+  }
+  text.append(", \"world_box\": ");
+  if (const auto bounds = bounds_of(object.shape)) {
+    text.append("{\"min\": ").append(array(bounds->low));
+    text.append(", \"max\": ").append(array(bounds->high)).append("}");
+  } else {
+    text.append("null");
+  }
+  return text += '}';
+}
+
+/// A JSON array with a line for each item.
+template <class Item>
+std::string list(std::size_t count, Item&& item) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < count; ++i) {
+    text.append(i > 0 ? ",\n    " : "\n    ").append(item(i));
+  }
+  return text.append(count > 0 ? "\n  ]" : "]");
+}
+
+}  // namespace
+
+std::string describe_picture(const Scene& scene, const Camera& camera, const Film& film,
+                             const std::string& picture) {
+  const FloatEnvironment environment;
+  const auto seen = io::find_seen_pixels(film, scene.objects.size());
+  const ImageSize size = film.size();
+  std::string text = "{\n  \"version\": 1,\n  \"picture\": " + quoted(picture);
+  text.append(",\n  \"width\": ").append(number(film.whole.width));
+  text.append(",\n  \"height\": ").append(number(film.whole.height));
+  text.append(",\n  \"crop\": ");
+  text.append(array({film.x0, film.y0, film.x0 + size.width, film.y0 + size.height}));
+  text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole));
+  text.append(",\n  \"objects\": ");
+  text.append(list(scene.objects.size(), [&](std::size_t i) {
+    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr);
+  }));
+  text.append(",\n  \"materials\": ");
+  text.append(list(scene.materials.size(), [&](std::size_t i) {
+    return "{\"id\": " + std::to_string(i + 1) + ", \"name\": " + quoted(scene.materials[i].name) +
+           "}";
+  }));
+  return text += "\n}\n";
+}
+
+}  // namespace microtrace

@@ -1,0 +1,22 @@
+#pragma once
+/// Where the objects of a picture are seen.
+
+#include <microtrace/film.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace microtrace::io {
+
+struct SeenPixels {
+  std::uint64_t count = 0;
+  PixelRect box{};  ///< in the whole picture
+};
+
+/// For each of the scene's objects; nothing if the film has no channel "id.instance".
+[[nodiscard]] std::optional<std::vector<SeenPixels>> find_seen_pixels(const Film& film,
+                                                                      std::size_t objects);
+
+}  // namespace microtrace::io

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Draws scenes with exact quantities and checks the sidecar against the EXR file, by a reader and by formulas of its own.
+
+usage: sidecar_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+from exr import Exr
+
+PROGRAM = os.path.abspath(sys.argv[1])
+SOURCE = Path(sys.argv[2]).resolve()
+ALL = "depth,distance,position,normal,face_normal,uv,barycentric,albedo,id"
+
+
+def transformed(rows, point):
+    return [sum(r[k] * point[k] for k in range(3)) + r[3] for r in rows[:3]]
+
+
+class Sidecar(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def run_program(self, *arguments):
+        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
+                              cwd=self.folder, timeout=60)
+
+    def draw(self, scene, *options):
+        """The sidecar and the picture, after the checks that hold for every scene."""
+        result = self.run_program(SOURCE / "scenes" / scene, "--aov", ALL, "-o", "a.exr", "--size", "60x45", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.exr", "a.exr.json"])
+        sidecar = json.loads((self.folder / "a.exr.json").read_text())
+        picture = Exr(self.folder / "a.exr")
+        self.assertEqual(sidecar["version"], 1)
+        self.assertEqual(sidecar["picture"], "a.exr")
+        self.assertEqual(picture.display_window, (0, 0, sidecar["width"], sidecar["height"]))
+        self.assertEqual(list(picture.data_window), sidecar["crop"])
+        for name, kind in picture.types.items():
+            self.assertEqual(kind, "I" if name.startswith("id.") else "f", name)
+        self.check_objects(sidecar, picture)
+        self.check_camera(sidecar, picture)
+        return sidecar, picture
+
+    def pixels(self, picture, *names):
+        """x and y in the whole picture, then the channels' numbers."""
+        x0, y0, _, _ = picture.data_window
+        for row in range(picture.height):
+            for column in range(picture.width):
+                yield (x0 + column, y0 + row, *(picture.channels[name][row][column] for name in names))
+
+    def check_objects(self, sidecar, picture):
+        objects = sidecar["objects"]
+        self.assertEqual([o["id"] for o in objects], list(range(1, len(objects) + 1)))
+        self.assertEqual(len({o["name"] for o in objects}), len(objects))
+        seen = {}
+        for x, y, instance, primitive, material, depth, *p in self.pixels(
+                picture, "id.instance", "id.primitive", "id.material", "depth.Z", "position.X", "position.Y",
+                "position.Z"):
+            if instance == 0:
+                self.assertEqual((primitive, material, *p), (0, 0, 0, 0, 0))
+                self.assertEqual(depth, math.inf)
+                continue
+            self.assertGreater(primitive, 0)
+            thing = objects[instance - 1]
+            self.assertEqual(material, thing["material"])
+            seen.setdefault(instance, []).append((x, y))
+            if thing["world_box"]:
+                for k in range(3):
+                    low, high = thing["world_box"]["min"][k], thing["world_box"]["max"][k]
+                    slack = 1e-6 * max(abs(low), abs(high))
+                    self.assertTrue(low - slack <= p[k] <= high + slack, (thing, p))
+        for thing in objects:
+            pixels = seen.get(thing["id"], [])
+            self.assertEqual(thing["visible_pixels"], len(pixels))
+            columns, rows = [x for x, _ in pixels], [y for _, y in pixels]
+            box = [min(columns), min(rows), max(columns) + 1, max(rows) + 1] if pixels else None
+            self.assertEqual(thing["box"], box)
+        self.assertLessEqual({o["material"] for o in objects}, {0} | {m["id"] for m in sidecar["materials"]})
+
+    def check_camera(self, sidecar, picture):
+        """Each position projects into the middle of its pixel, at its depth."""
+        camera = sidecar["camera"]
+        there, back = camera["world_from_camera"], camera["camera_from_world"]
+        for a in range(4):
+            for b in range(4):
+                product = sum(there[a][k] * back[k][b] for k in range(4))
+                self.assertAlmostEqual(product, 1 if a == b else 0, places=9)
+        checked = 0
+        for x, y, instance, depth, distance, *p in self.pixels(
+                picture, "id.instance", "depth.Z", "distance.T", "position.X", "position.Y", "position.Z"):
+            if instance == 0:
+                continue
+            checked += 1
+            cx, cy, cz = transformed(back, p)
+            place = [row[3] for row in there[:3]]
+            size = 1e-6 * (max(map(abs, place + p)) + 1)
+            if camera["type"] == "environment":
+                length = math.sqrt(cx * cx + cy * cy + cz * cz)
+                self.assertAlmostEqual(depth, length, delta=size)
+                u = math.atan2(cx, -cz) / (2 * math.pi) + 0.5
+                v = 0.5 - math.asin(cy / length) / math.pi
+                self.assertAlmostEqual(u * sidecar["width"], x + 0.5, delta=1e-2)
+                self.assertAlmostEqual(v * sidecar["height"], y + 0.5, delta=1e-2)
+                continue
+            self.assertAlmostEqual(depth, -cz, delta=size)
+            if camera["type"] == "perspective":
+                self.assertAlmostEqual(distance, math.sqrt(cx * cx + cy * cy + cz * cz), delta=size)
+                u, v = camera["cx"] - camera["fx"] * cx / cz, camera["cy"] + camera["fy"] * cy / cz
+            else:
+                self.assertAlmostEqual(distance, -cz, delta=size)
+                u = camera["cx"] + camera["pixels_per_unit"] * cx
+                v = camera["cy"] - camera["pixels_per_unit"] * cy
+            self.assertAlmostEqual(u, x + 0.5, delta=1e-3)
+            self.assertAlmostEqual(v, y + 0.5, delta=1e-3)
+            self.assertGreaterEqual(depth, camera["near"])
+            self.assertTrue(camera["far"] is None or depth <= camera["far"])
+        self.assertGreater(checked, 50)
+
+    def test_scenes(self):
+        for scene in ("perspective1.json", "orthographic.json", "environment.json", "ellipsoid.json", "disc.json",
+                      "mesh.json", "gltf/cube.glb", "gltf/knot.glb"):
+            with self.subTest(scene):
+                self.draw(scene)
+
+    def test_views_and_crops(self):
+        self.draw("gltf/cube.glb", "--view", "-33,71")
+        sidecar, _ = self.draw("gltf/knot.glb", "--crop", "7,9,52,40", "--spp", "3", "--background", "transparent")
+        self.assertEqual(sidecar["crop"], [7, 9, 52, 40])
+        self.assertEqual((sidecar["width"], sidecar["height"]), (60, 45))
+
+    def test_closed_forms(self):
+        """A unit sphere before a wall, seen along -z."""
+        scene = {"version": 1,
+                 "cameras": [{"type": "perspective", "position": [0, 0, 4], "direction": [0, 0, -1], "vertical_fov": 60}],
+                 "objects": [{"name": "ball", "type": "sphere", "center": [0, 0, 0], "radius": 1},
+                             {"name": "wall", "type": "plane", "point": [0, 0, -2], "normal": [0, 0, 1], "color": [1, 0, 0]}]}
+        (self.folder / "s.json").write_text(json.dumps(scene))
+        result = self.run_program("s.json", "--aov", ALL, "-o", "a.exr", "--size", "80x60")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        sidecar, picture = json.loads((self.folder / "a.exr.json").read_text()), Exr(self.folder / "a.exr")
+        ball, wall = sidecar["objects"]
+        self.assertEqual((ball["name"], wall["name"]), ("ball", "wall"))
+        self.assertEqual(ball["world_box"], {"min": [-1, -1, -1], "max": [1, 1, 1]})
+        self.assertIsNone(wall["world_box"])
+        focal = 30 / math.tan(math.radians(30))
+        self.assertAlmostEqual(sidecar["camera"]["fx"], focal, places=9)
+        radius = focal / math.sqrt(15)  # of the ball's outline
+        self.assertAlmostEqual(ball["visible_pixels"], math.pi * radius * radius, delta=0.02 * math.pi * radius * radius)
+        self.assertEqual(ball["visible_pixels"] + wall["visible_pixels"], 80 * 60)
+        self.assertEqual(wall["box"], [0, 0, 80, 60])
+        x0, y0, x1, y1 = ball["box"]
+        self.assertEqual((x0 + x1, y0 + y1), (80, 60))
+        for x, y, instance, depth, *n in self.pixels(picture, "id.instance", "depth.Z", "normal.X", "normal.Y", "normal.Z"):
+            right, up = (x + 0.5 - 40) / focal, (30 - y - 0.5) / focal
+            if instance == 2:
+                self.assertEqual((depth, *n), (6, 0, 0, 1))
+                continue
+            # |(right, up, -1) d + (0, 0, 4)| = 1
+            a, b, c = right * right + up * up + 1, -4, 15
+            d = (-b - math.sqrt(b * b - a * c)) / a
+            self.assertAlmostEqual(depth, d, delta=1e-6)
+            for got, wanted in zip(n, (right * d, up * d, 4 - d)):
+                self.assertAlmostEqual(got, wanted, delta=1e-6)
+
+    def test_named_sidecars(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        options = [cube, "--size", "20x15"]
+        result = self.run_program(*options, "-o", "a.png", "--sidecar", "b.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["a.png", "b.json"])
+        sidecar = json.loads((self.folder / "b.json").read_text())
+        self.assertEqual(sidecar["picture"], "a.png")
+        self.assertGreater(sum(o["visible_pixels"] for o in sidecar["objects"]), 50)
+        self.assertEqual(self.run_program(*options, "-o", "c.exr", "--sidecar", "d.json").returncode, 0)
+        self.assertEqual(set(Exr(self.folder / "c.exr").types), {"R", "G", "B"})
+        first = (self.folder / "d.json").read_bytes()
+        self.assertEqual(self.run_program(*options, "-o", "c.exr", "--sidecar", "d.json", "-t", "3").returncode, 0)
+        self.assertEqual((self.folder / "d.json").read_bytes(), first)
+
+    def test_all_or_nothing(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        (self.folder / "a.exr").write_text("precious")
+        for sidecar, code in (("missing/b.json", 5), ("/dev/full", 5), ("a.exr", 2), ("./a.exr", 2), (".", 5)):
+            result = self.run_program(cube, "-o", "a.exr", "--sidecar", sidecar)
+            self.assertEqual(result.returncode, code, (sidecar, result.stderr))
+            self.assertEqual(os.listdir(self.folder), ["a.exr"])
+            self.assertEqual((self.folder / "a.exr").read_text(), "precious")
+        (self.folder / "full.exr").symlink_to("/dev/full")
+        result = self.run_program(cube, "-o", "full.exr", "--sidecar", "b.json")
+        self.assertEqual(result.returncode, 5, result.stderr)
+        self.assertFalse((self.folder / "b.json").exists())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
