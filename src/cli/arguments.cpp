@@ -86,12 +86,12 @@ Parsed parse_arguments(int argc, char** argv) {
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
   try {
     app.parse(argc, argv);
-    if (!size.empty()) a.size = parse_size(size);
-    if (!background.empty()) a.background = parse_background(background);
-    if (!integrator.empty()) a.integrator = parse_integrator(integrator);
-    if (!aovs.empty()) a.aovs = parse_aovs(aovs);
-    if (!view.empty()) a.view = parse_view(view);
-    if (!crop.empty()) a.crop = parse_crop(crop);
+    if (app.count("--size") > 0) a.size = parse_size(size);
+    if (app.count("--background") > 0) a.background = parse_background(background);
+    if (app.count("--integrator") > 0) a.integrator = parse_integrator(integrator);
+    if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
+    if (app.count("--view") > 0) a.view = parse_view(view);
+    if (app.count("--crop") > 0) a.crop = parse_crop(crop);
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;
