@@ -9,6 +9,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LES
   # GCC bug 105651: a false alarm on "text" + std::string.
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict)
 endif()
+if(MICROTRACE_FUZZ)
+  target_compile_options(microtrace_flags INTERFACE -fsanitize=fuzzer-no-link)
+  target_link_options(microtrace_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 if(MICROTRACE_SANITIZE)
   target_compile_options(microtrace_flags INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -85,6 +85,8 @@ std::vector<BadFile> bad_files() {
   const std::string good = cube().glb();
   std::string wrong_length = good;
   wrong_length[8] = static_cast<char>(wrong_length[8] + 4);
+  std::string no_length = good;
+  no_length.replace(8, 4, 4, '\0');
   std::string long_chunk = good;
   long_chunk[15] = 0x7F;
   constexpr auto invalid = ErrorKind::invalid_scene;
@@ -96,6 +98,7 @@ std::vector<BadFile> bad_files() {
       {"last byte missing", good.substr(0, good.size() - 1), invalid, "cut off"},
       {"container version 1", glb_file({{json_chunk, json}}, 1), ErrorKind::unsupported, "version"},
       {"length beyond the file", wrong_length, invalid, "cut off"},
+      {"length less than the header", no_length, invalid, "less than"},
       {"chunk longer than the file", long_chunk, invalid, "claims"},
       {"BIN first", glb_file({{bin_chunk, bin}, {json_chunk, json}}), invalid, "first chunk"},
       {"BIN third", glb_file({{json_chunk, json}, {7, "1234"}, {bin_chunk, bin}}), invalid,

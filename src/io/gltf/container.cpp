@@ -77,7 +77,13 @@ void check_header(std::string_view bytes, const std::string& name) {
                 "GLB container version is " + std::to_string(version) +
                     ", only 2 is read; export the file as glTF 2.0");
   }
-  if (const std::uint32_t length = read_u32(bytes, 8); length > bytes.size()) {
+  const std::uint32_t length = read_u32(bytes, 8);
+  if (length < header_size + chunk_header_size) {
+    throw Error(ErrorKind::invalid_scene, name,
+                "GLB header claims " + std::to_string(length) +
+                    " bytes, less than a header and a chunk take; export it again");
+  }
+  if (length > bytes.size()) {
     throw Error(ErrorKind::invalid_scene, name,
                 "GLB header claims " + std::to_string(length) + " bytes, the file has " +
                     std::to_string(bytes.size()) + "; it was cut off");

@@ -160,7 +160,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
       first.push_back(static_cast<std::size_t>(node));
   }
   // A child that the scene names beside its ancestor, which it must not, has its place there.
-  std::ranges::stable_partition(first, [this](std::size_t node) { return parents_[node] < 0; });
+  std::stable_partition(first.begin(), first.end(),
+                        [this](std::size_t node) { return parents_[node] < 0; });
   std::vector<bool> placed(parents_.size());
   std::vector<PlacedNode> result;
   std::vector<PlacedNode> open;

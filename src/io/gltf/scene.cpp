@@ -94,7 +94,8 @@ class SceneMaker {
   /// make_materials puts the one of surfaces without material last.
   [[nodiscard]] std::uint32_t material(const Surface& surface) const {
     const std::size_t none = model_.materials.size();
-    return static_cast<std::uint32_t>(surface.material < 0 ? none : surface.material);
+    return surface.material < 0 ? static_cast<std::uint32_t>(none)
+                                : static_cast<std::uint32_t>(surface.material);
   }
 
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const {

@@ -1,0 +1,272 @@
+#!/usr/bin/env python3
+"""Writes what the fuzz targets begin with: seeds and dictionaries.
+
+usage: make_seeds.py PROJECT_FOLDER FOLDER
+
+FOLDER/json_scene and FOLDER/gltf hold small files, json_scene.dict and gltf.dict the words of each format. glTF
+assets with a binary chunk are written in the target's own form: JSON, a zero byte, the chunk.
+"""
+
+import base64
+import json
+import shutil
+import struct
+import sys
+import zlib
+from pathlib import Path
+
+GLTF_WORDS = """
+asset version minVersion generator extensionsUsed extensionsRequired extensions extras scene scenes nodes children mesh
+meshes primitives attributes POSITION NORMAL TANGENT TEXCOORD_0 TEXCOORD_1 COLOR_0 JOINTS_0 WEIGHTS_0 indices mode targets
+weights material materials pbrMetallicRoughness baseColorFactor baseColorTexture metallicFactor roughnessFactor
+metallicRoughnessTexture normalTexture occlusionTexture emissiveTexture emissiveFactor strength index texCoord alphaMode OPAQUE MASK BLEND
+alphaCutoff doubleSided textures source sampler samplers magFilter minFilter wrapS wrapT images uri mimeType image/png
+image/jpeg bufferView bufferViews buffer buffers byteOffset byteLength byteStride target accessors componentType
+normalized count type SCALAR VEC2 VEC3 VEC4 MAT2 MAT3 MAT4 min max sparse values cameras camera perspective orthographic yfov znear
+zfar aspectRatio xmag ymag skins skin joints inverseBindMatrices skeleton animations channels samplers node path translation
+rotation scale matrix input output interpolation LINEAR STEP CUBICSPLINE name variants mappings mode
+KHR_materials_unlit KHR_texture_transform offset KHR_lights_punctual lights light directional spot point intensity color
+range innerConeAngle outerConeAngle KHR_mesh_quantization KHR_draco_mesh_compression EXT_mesh_gpu_instancing TRANSLATION ROTATION SCALE
+EXT_meshopt_compression KHR_meshopt_compression ATTRIBUTES TRIANGLES INDICES filter fallback OCTAHEDRAL QUATERNION EXPONENTIAL COLOR
+KHR_materials_variants KHR_node_visibility visible KHR_animation_pointer pointer KHR_texture_basisu EXT_texture_webp
+KHR_materials_emissive_strength emissiveStrength KHR_materials_clearcoat KHR_materials_transmission KHR_materials_ior
+data:application/octet-stream;base64, data:image/png;base64, 5120 5121 5122 5123 5125 5126 34962 34963 4294967295 2147483648
+1e38 1e-45 -1 null true false
+"""
+
+
+def words_of_schema(value):
+    """All names and fixed words of a JSON schema."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            if key == "properties":
+                yield from part
+            yield from words_of_schema(part)
+    elif isinstance(value, list):
+        for part in value:
+            yield from [part] if isinstance(part, str) else words_of_schema(part)
+    elif isinstance(value, str) and value.isidentifier():
+        yield value
+
+
+def dictionary(words):
+    lines = []
+    for word in dict.fromkeys(words):
+        quoted = word if word.lstrip("-")[:1].isdigit() or word in ("null", "true", "false") else f'"{word}"'
+        lines.append('"' + quoted.replace("\\", "\\\\").replace('"', '\\"') + '"')
+    return "\n".join(lines) + "\n"
+
+
+def png(width, height):
+    """A picture of 8-bit RGBA pixels."""
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+    rows = b"".join(b"\0" + bytes((40 * x + 90 * y + 50 * c) % 256 for x in range(width) for c in range(4))
+                    for y in range(height))
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+
+
+class Asset:
+    """The JSON and the buffer of one asset that has a camera and a node with one quadrilateral."""
+
+    def __init__(self):
+        self.buffer = b""
+        self.json = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}]}
+        self.json["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
+        self.json["nodes"] = [{"camera": 0, "translation": [0, 0, 3]}, {"mesh": 0}]
+        points = [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
+        self.primitive = {"attributes": {"POSITION": self.accessor("3f", "VEC3", points)},
+                          "indices": self.accessor("H", "SCALAR", [(k,) for k in (0, 1, 2, 0, 2, 3)])}
+        self.json["meshes"] = [{"primitives": [self.primitive]}]
+
+    def add(self, array, item):
+        self.json.setdefault(array, []).append(item)
+        return len(self.json[array]) - 1
+
+    def view(self, data, **more):
+        self.buffer += b"\0" * (-len(self.buffer) % 4)
+        self.buffer += data
+        return self.add("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer) - len(data), "byteLength": len(data), **more})
+
+    def accessor(self, code, kind, rows, **more):
+        kinds = {"b": 5120, "B": 5121, "h": 5122, "H": 5123, "I": 5125, "f": 5126}
+        data = b"".join(struct.pack("<" + code, *row) for row in rows)
+        limits = {"min": list(map(min, zip(*rows))), "max": list(map(max, zip(*rows)))}
+        return self.add("accessors", {"bufferView": self.view(data), "componentType": kinds[code[-1]], "count": len(rows),
+                                      "type": kind, **limits, **more})
+
+    def attribute(self, name, code, kind, rows, **more):
+        self.primitive["attributes"][name] = self.accessor(code, kind, rows, **more)
+
+    def uses(self, extension, required=False):
+        self.add("extensionsUsed", extension)
+        if required:
+            self.add("extensionsRequired", extension)
+
+    def packed(self):
+        self.json["buffers"] = [{"byteLength": len(self.buffer)}]
+        return json.dumps(self.json, separators=(",", ":")).encode() + b"\0" + self.buffer
+
+    def embedded(self):
+        text = base64.b64encode(self.buffer).decode()
+        self.json["buffers"] = [{"byteLength": len(self.buffer), "uri": "data:application/octet-stream;base64," + text}]
+        return json.dumps(self.json, indent=1).encode()
+
+
+def plain():
+    return Asset()
+
+
+def textured():
+    asset = Asset()
+    asset.attribute("TEXCOORD_0", "2f", "VEC2", [(0, 0), (1, 0), (1, 1), (0, 1)])
+    asset.attribute("NORMAL", "3f", "VEC3", [(0, 0, 1)] * 4)
+    asset.attribute("TANGENT", "4f", "VEC4", [(1, 0, 0, 1)] * 4)
+    asset.attribute("COLOR_0", "4B", "VEC4", [(255, 0, 0, 255), (0, 255, 0, 128), (0, 0, 255, 0), (9, 9, 9, 9)], normalized=True)
+    asset.uses("KHR_texture_transform")
+    transform = {"KHR_texture_transform": {"offset": [0.5, 0.25], "rotation": 1, "scale": [2, 3]}}
+    asset.add("images", {"bufferView": asset.view(png(3, 2)), "mimeType": "image/png"})
+    asset.add("samplers", {"magFilter": 9728, "wrapS": 33071, "wrapT": 33648})
+    asset.add("textures", {"source": 0, "sampler": 0})
+    asset.primitive["material"] = asset.add("materials", {
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": transform}, "baseColorFactor": [1, 0.5, 0.25, 0.5]},
+        "normalTexture": {"index": 0, "scale": 2}, "emissiveTexture": {"index": 0}, "emissiveFactor": [1, 1, 1],
+        "alphaMode": "MASK", "alphaCutoff": 0.4, "doubleSided": True})
+    return asset
+
+
+def embedded_image():
+    asset = Asset()
+    asset.attribute("TEXCOORD_0", "2H", "VEC2", [(0, 0), (65535, 0), (65535, 65535), (0, 65535)], normalized=True)
+    asset.add("images", {"uri": "data:image/png;base64," + base64.b64encode(png(2, 2)).decode()})
+    asset.add("textures", {"source": 0})
+    asset.primitive["material"] = asset.add("materials", {
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "alphaMode": "BLEND"})
+    return asset
+
+
+def animated():
+    asset = Asset()
+    times = asset.accessor("f", "SCALAR", [(0,), (1,)])
+    moves = asset.accessor("3f", "VEC3", [(0, 0, 0), (1, 0, 0)])
+    turns = asset.accessor("4f", "VEC4", [(0, 0, 0, 1), (0, 0, 1, 0)])
+    cubic = asset.accessor("3f", "VEC3", [(0, 0, 0), (1, 1, 1), (0, 0, 0), (0, 0, 0), (2, 2, 2), (0, 0, 0)])
+    asset.add("animations", {
+        "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}},
+                     {"sampler": 1, "target": {"node": 1, "path": "rotation"}},
+                     {"sampler": 2, "target": {"node": 1, "path": "scale"}}],
+        "samplers": [{"input": times, "output": moves}, {"input": times, "output": turns, "interpolation": "STEP"},
+                     {"input": times, "output": cubic, "interpolation": "CUBICSPLINE"}]})
+    return asset
+
+
+def morphed():
+    asset = Asset()
+    target = asset.accessor("3f", "VEC3", [(0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, 0)])
+    asset.primitive["targets"] = [{"POSITION": target}, {"POSITION": target}]
+    asset.json["meshes"][0]["weights"] = [0.5, 0.25]
+    times = asset.accessor("f", "SCALAR", [(0,), (2,)])
+    weights = asset.accessor("f", "SCALAR", [(0,), (1,), (1,), (0,)])
+    asset.add("animations", {"channels": [{"sampler": 0, "target": {"node": 1, "path": "weights"}}],
+                             "samplers": [{"input": times, "output": weights}]})
+    return asset
+
+
+def skinned():
+    asset = Asset()
+    asset.attribute("JOINTS_0", "4B", "VEC4", [(0, 1, 0, 0)] * 4)
+    asset.attribute("WEIGHTS_0", "4f", "VEC4", [(0.5, 0.5, 0, 0)] * 4)
+    matrix = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
+    asset.add("skins", {"joints": [2, 3], "skeleton": 2, "inverseBindMatrices": asset.accessor("16f", "MAT4", [matrix] * 2)})
+    asset.json["nodes"][1]["skin"] = 0
+    asset.json["nodes"] += [{"children": [3], "translation": [0.5, 0, 0]}, {"rotation": [0, 0, 0.6, 0.8], "scale": [1, 2, 1]}]
+    asset.json["scenes"][0]["nodes"].append(2)
+    return asset
+
+
+def sparse():
+    asset = Asset()
+    accessor = asset.json["accessors"][0]
+    accessor["sparse"] = {"count": 2, "indices": {"bufferView": asset.view(b"\1\0\3\0"), "componentType": 5123},
+                          "values": {"bufferView": asset.view(struct.pack("<6f", 1, -1, 0.5, -1, 1, 0.5))}}
+    accessor["min"], accessor["max"] = [-1, -1, 0], [1, 1, 0.5]
+    return asset
+
+
+def quantized():
+    asset = Asset()
+    asset.uses("KHR_mesh_quantization", required=True)
+    asset.attribute("POSITION", "3h", "VEC3", [(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)])
+    asset.json["accessors"][-1]["bufferView"] = asset.view(
+        b"".join(struct.pack("<3hxx", *p) for p in [(-9, -9, 0), (9, -9, 0), (9, 9, 0), (-9, 9, 0)]), byteStride=8)
+    asset.json["nodes"][1]["scale"] = [0.1, 0.1, 0.1]
+    return asset
+
+
+def instanced():
+    asset = Asset()
+    asset.uses("EXT_mesh_gpu_instancing")
+    places = asset.accessor("3f", "VEC3", [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    turns = asset.accessor("4b", "VEC4", [(0, 0, 0, 127)] * 3, normalized=True)
+    asset.json["nodes"][1]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places, "ROTATION": turns}}}
+    return asset
+
+
+def lit():
+    asset = Asset()
+    asset.uses("KHR_lights_punctual")
+    asset.uses("KHR_materials_variants")
+    asset.json["extensions"] = {
+        "KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 5, "range": 9, "spot": {"innerConeAngle": 0.1}}, {"type": "point"}]},
+        "KHR_materials_variants": {"variants": [{"name": "red"}, {"name": "blue"}]}}
+    asset.json["nodes"].append({"extensions": {"KHR_lights_punctual": {"light": 0}}, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]})
+    asset.json["scenes"][0]["nodes"].append(2)
+    asset.add("materials", {"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}})
+    asset.primitive["extensions"] = {"KHR_materials_variants": {"mappings": [{"material": 0, "variants": [0, 1]}]}}
+    return asset
+
+
+def strips():
+    asset = Asset()
+    for mode in range(7):
+        asset.json["meshes"][0]["primitives"].append({"attributes": asset.primitive["attributes"], "mode": mode})
+    return asset
+
+
+def compressed():
+    asset = Asset()
+    asset.uses("EXT_meshopt_compression")
+    # An index sequence of the least codec: header, two literal triangles in the table's codes, and the tail.
+    data = bytes([0xE1, 0xF0, 0x10] + [0] * 16)
+    asset.json["bufferViews"][1]["extensions"] = {"EXT_meshopt_compression": {
+        "buffer": 0, "byteOffset": asset.json["bufferViews"][asset.view(data)]["byteOffset"], "byteLength": len(data),
+        "byteStride": 2, "count": 6, "mode": "TRIANGLES"}}
+    asset.uses("KHR_draco_mesh_compression")
+    asset.primitive["extensions"] = {"KHR_draco_mesh_compression": {
+        "bufferView": asset.view(b"DRACO\2\2\1\1\0\0" + bytes(24)), "attributes": {"POSITION": 0}}}
+    return asset
+
+
+def main():
+    project, folder = Path(sys.argv[1]), Path(sys.argv[2])
+    shutil.rmtree(folder, ignore_errors=True)
+    for name in ("json_scene", "gltf"):
+        (folder / name).mkdir(parents=True)
+
+    for path in [*project.glob("tests/io/good/*.json"), *project.glob("scenes/*.json"), *project.glob("scenes/degenerate/*.json")]:
+        if path.stat().st_size < 4096:
+            shutil.copy(path, folder / "json_scene" / f"{path.parent.name}_{path.name}")
+    schema = json.loads((project / "docs/scene.schema.json").read_text())
+    numbers = ["0", "-0", "1e38", "1e39", "1e-45", "1e400", "0.5", "4294967296", "null", "true", "\\ud800", "\\u0000"]
+    (folder / "json_scene.dict").write_text(dictionary([*words_of_schema(schema), *numbers]))
+
+    for make in (plain, textured, embedded_image, animated, morphed, skinned, sparse, quantized, instanced, lit, strips, compressed):
+        (folder / "gltf" / make.__name__).write_bytes(make().packed())
+        if make in (plain, embedded_image):
+            (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())
+    shutil.copy(project / "scenes/gltf/cube.glb", folder / "gltf" / "cube.glb")
+    (folder / "gltf.dict").write_text(dictionary(GLTF_WORDS.split()))
+
+
+main()

@@ -1,0 +1,80 @@
+#include "read_and_draw.hpp"
+
+#include <microtrace/io.hpp>
+#include <microtrace/primitives.hpp>
+#include <microtrace/render.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <unistd.h>
+
+namespace microtrace::fuzz {
+namespace {
+
+void expect(bool promise, const char* words) {
+  if (promise) return;
+  std::cerr << "broken promise: " << words << '\n';
+  std::abort();
+}
+
+// Stays empty: files that scenes name are not there.
+const std::filesystem::path& empty_folder() {
+  static const std::filesystem::path folder = [] {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "microtrace-fuzz-XXXXXX").string();
+    expect(mkdtemp(pattern.data()) != nullptr, "a temporary folder can be made");
+    static const std::string made = pattern;
+    std::atexit([] { rmdir(made.c_str()); });
+    return std::filesystem::path(pattern);
+  }();
+  return folder;
+}
+
+std::optional<LoadedScene> read(std::string_view bytes, const std::string& name) {
+  // Half of the files are posed, by a number that depends on nothing but the file.
+  LoadOptions options;
+  if (bytes.size() % 2 == 1) options = {.time = 0.5, .animation = "all"};
+  try {
+    return parse_scene(bytes, name, empty_folder(), options);
+  } catch (const Error& error) {
+    expect(error.kind() != ErrorKind::internal, "no failure inside");
+    expect(!error.diagnostic().message.empty() && !error.diagnostic().text().empty(),
+           "every error has a message");
+    return std::nullopt;
+  }
+}
+
+void check(const Scene& scene) {
+  for (const Object& object : scene.objects) {
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh == nullptr) continue;
+    for (const auto& triangle : mesh->triangles) {
+      for (const std::uint32_t corner : triangle)
+        expect(corner < mesh->positions.size(), "a triangle's corners are positions of its mesh");
+    }
+  }
+}
+
+}  // namespace
+
+void read_and_draw(std::string_view bytes, const std::string& name) {
+  const std::optional<LoadedScene> loaded = read(bytes, name);
+  if (!loaded) return;
+  for (const Diagnostic& warning : loaded->warnings)
+    expect(!warning.message.empty(), "every warning has a message");
+  const Scene& scene = loaded->scene;
+  check(scene);
+  constexpr PrimitiveId kFew = 1000;
+  if (scene.cameras.empty() || Primitives(scene).count() > kFew) return;
+  try {
+    static_cast<void>(
+        render(scene, scene.cameras[0].camera, {.width = 4, .height = 3}, {.threads = 1}));
+  } catch (const Error& error) {
+    expect(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::limit,
+           "what is read can be drawn");
+  }
+}
+
+}  // namespace microtrace::fuzz
