@@ -59,7 +59,7 @@ class SceneFile {
   SceneFile& operator=(SceneFile&& other) noexcept;
 
   /// The scene at that time, as load_scene would read it. Throws Error.
-  [[nodiscard]] LoadedScene at(std::optional<double> time) const;
+  [[nodiscard]] LoadedScene at(std::optional<double> time);
 
  private:
   struct Content;

@@ -36,7 +36,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
-  std::string output, size, crop, view, background, integrator, aovs, sidecar, statistics;
+  std::string output, size, crop, view, background, integrator, aovs, sidecar, time, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -71,6 +71,11 @@ Parsed parse_arguments(int argc, char** argv) {
   app.add_option("--sidecar", sidecar,
                  "JSON file for camera, objects with ids, names, boxes and visible pixels, and "
                  "materials [the picture's name with .json added, where --aov has id]");
+  app.add_option("--time", time,
+                 "seconds into the animation of a glTF asset [the pose that the file gives]");
+  app.add_option(
+      "--animation", a.load.animation,
+      "animation that --time is of, by name or by number from 0; all: all at once [the first]");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
@@ -92,6 +97,9 @@ Parsed parse_arguments(int argc, char** argv) {
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
+    if (app.count("--time") > 0) a.load.time = parse_seconds(time);
+    if (app.count("--animation") > 0 && !a.load.time)
+      throw CLI::RequiredError("--time, where --animation is given,");
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;

@@ -20,6 +20,7 @@ enum class Statistics { none, text, json };
 struct Arguments {
   std::string scene;             ///< a file, or "-" for standard input
   std::filesystem::path output;  ///< a file, or "-" for standard output
+  LoadOptions load{};
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   std::optional<Background> background{};

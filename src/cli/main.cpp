@@ -27,7 +27,7 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
 
 void run(const cli::Arguments& arguments) {
   cli::Stopwatch watch;
-  auto [scene, warnings] = load_scene(arguments.scene);
+  auto [scene, warnings] = load_scene(arguments.scene, arguments.load);
   report(warnings, arguments);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);

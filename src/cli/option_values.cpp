@@ -151,4 +151,11 @@ std::vector<Aov> parse_aovs(const std::string& text) {
   return aovs;
 }
 
+double parse_seconds(const std::string& text) {
+  const auto value = read<double>(text);
+  if (!value || !std::isfinite(*value))
+    throw CLI::ValidationError("--time", "wants a number of seconds, not " + text);
+  return *value;
+}
+
 }  // namespace microtrace::cli

@@ -25,6 +25,8 @@ namespace microtrace::cli {
 [[nodiscard]] PixelRect parse_crop(const std::string& text);
 /// A side's name, or AZIMUTH,ELEVATION in degrees
 [[nodiscard]] View parse_view(const std::string& text);
+/// A finite number
+[[nodiscard]] double parse_seconds(const std::string& text);
 
 /// What lies behind all objects: a colour, or nothing (transparent).
 struct Background {

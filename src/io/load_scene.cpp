@@ -50,9 +50,8 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
   return document;
 }
 
-LoadedScene read(const Reader& reader, const std::filesystem::path& folder,
-                 const LoadOptions& options) {
-  if (const auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
+LoadedScene read(Reader& reader, const std::filesystem::path& folder, const LoadOptions& options) {
+  if (auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
   return io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
 }
 
@@ -89,7 +88,7 @@ SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&& other) noexcept = default;
 SceneFile& SceneFile::operator=(SceneFile&& other) noexcept = default;
 
-LoadedScene SceneFile::at(std::optional<double> time) const {
+LoadedScene SceneFile::at(std::optional<double> time) {
   const FloatEnvironment environment;
   LoadOptions options = content_->options;
   options.time = time;
@@ -103,7 +102,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
 LoadedScene parse_scene(std::string_view bytes, const std::string& name,
                         const std::filesystem::path& folder, const LoadOptions& options) {
   const FloatEnvironment environment;
-  return read(open(bytes, "", name, folder, options), folder, options);
+  Reader reader = open(bytes, "", name, folder, options);
+  return read(reader, folder, options);
 }
 
 }  // namespace microtrace

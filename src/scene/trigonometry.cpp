@@ -33,6 +33,15 @@ double cos_kernel(double x) {
   return 1.0 - (0.5 * z - z * z * c);
 }
 
+// The Taylor polynomial on [0, tan(pi/16)]: the first term left out is below 2^-55 of the sum
+// there.
+double atan_kernel(double x) {
+  const double z = x * x;
+  double s = 0;
+  for (int k = 23; k >= 3; k -= 2) s = z * (1.0 / k - s);
+  return x - x * s;
+}
+
 struct Reduced {
   double angle;  // radians, in [-pi/4, pi/4]
   int quadrant;  // 0 to 3
@@ -76,6 +85,14 @@ double cos_radians(double x) {
 double tan_radians(double x) {
   const Reduced r = reduce_radians(x);
   return sin_of(r) / cos_of(r);
+}
+double atan_radians(double x) {
+  const double magnitude = std::abs(x);
+  if (magnitude > 1) return std::copysign(std::numbers::pi / 2 - atan_radians(1 / magnitude), x);
+  const bool near_one = magnitude > std::numbers::sqrt2 - 1;  // the tangent of pi/8
+  const double tangent = near_one ? (magnitude - 1) / (magnitude + 1) : magnitude;
+  const double half = 2 * atan_kernel(tangent / (1 + std::sqrt(1 + tangent * tangent)));
+  return std::copysign(near_one ? std::numbers::pi / 4 + half : half, x);
 }
 double sin_degrees(double x) {
   return sin_of(reduce_degrees(x));

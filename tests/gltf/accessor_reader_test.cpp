@@ -50,14 +50,14 @@ int add(AssetBuilder& asset, int type, const char* shape, bool normalized,
 
 TEST(GltfAccessorReader, NormalizedIntegersFillTheUnitRange) {
   AssetBuilder asset;
-  const int i8 = add<std::int8_t>(asset, 5120, "SCALAR", true, {-128, -127, 0, 1, 127}, 5);
+  const int i8_ = add<std::int8_t>(asset, i8, "SCALAR", true, {-128, -127, 0, 1, 127}, 5);
   const int u8_ = add<std::uint8_t>(asset, u8, "SCALAR", true, {0, 1, 255}, 3);
-  const int i16 = add<std::int16_t>(asset, 5122, "SCALAR", true, {-32768, -32767, 32767}, 3);
+  const int i16_ = add<std::int16_t>(asset, i16, "SCALAR", true, {-32768, -32767, 32767}, 3);
   const int u16_ = add<std::uint16_t>(asset, u16, "SCALAR", true, {0, 13107, 65535}, 3);
   Reading reading(asset);
-  EXPECT_THAT(reading.reader.read<float>(i8), ElementsAre(-1, -1, 0, 1 / 127.0F, 1));
+  EXPECT_THAT(reading.reader.read<float>(i8_), ElementsAre(-1, -1, 0, 1 / 127.0F, 1));
   EXPECT_THAT(reading.reader.read<float>(u8_), ElementsAre(0, 1 / 255.0F, 1));
-  EXPECT_THAT(reading.reader.read<float>(i16), ElementsAre(-1, -1, 1));
+  EXPECT_THAT(reading.reader.read<float>(i16_), ElementsAre(-1, -1, 1));
   EXPECT_THAT(reading.reader.read<float>(u16_), ElementsAre(0, 0.2F, 1));
 }
 

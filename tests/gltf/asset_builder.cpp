@@ -2,6 +2,9 @@
 
 #include "io/gltf/scene.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace microtrace::tests {
 namespace {
 
@@ -53,6 +56,35 @@ std::size_t AssetBuilder::add_indices(const std::vector<std::uint32_t>& indices,
                            {"componentType", type},
                            {"count", indices.size()},
                            {"type", "SCALAR"}});
+}
+
+std::size_t AssetBuilder::add_accessor(const char* shape, const std::string& bytes,
+                                       int component_type, bool normalized) {
+  const std::string_view kind = shape;
+  const std::size_t width = kind == "SCALAR" ? 1 : kind == "MAT4" ? 16 : kind.back() - '0';
+  const std::size_t size = component_type <= u8 ? 1 : component_type <= u16 ? 2 : 4;
+  nlohmann::json accessor = {{"bufferView", add_view(bytes)},
+                             {"componentType", component_type},
+                             {"count", bytes.size() / (width * size)},
+                             {"type", shape}};
+  if (normalized) accessor["normalized"] = true;
+  if (component_type == f32 && width == 1) {
+    std::vector<float> numbers(bytes.size() / size);
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    accessor["min"] = {*std::ranges::min_element(numbers)};
+    accessor["max"] = {*std::ranges::max_element(numbers)};
+  }
+  return add("accessors", std::move(accessor));
+}
+
+void AssetBuilder::animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
+                           std::size_t output, const char* interpolation) {
+  nlohmann::json& animation = json["animations"][index];
+  animation["channels"].push_back(
+      {{"sampler", animation.contains("samplers") ? animation["samplers"].size() : 0},
+       {"target", {{"node", node}, {"path", path}}}});
+  animation["samplers"].push_back(
+      {{"input", input}, {"output", output}, {"interpolation", interpolation}});
 }
 
 std::size_t AssetBuilder::add_object(nlohmann::json primitive) {
@@ -153,6 +185,9 @@ LoadedScene load(const std::string& bytes) {
 }
 LoadedScene load(const AssetBuilder& asset) {
   return load(asset.embedded());
+}
+LoadedScene load(const AssetBuilder& asset, const LoadOptions& options) {
+  return io::load_gltf(asset.embedded(), "test.gltf", "nowhere", DMat4(1), options);
 }
 
 Vec4 color_of(const LoadedScene& loaded, std::size_t object) {

@@ -14,7 +14,26 @@
 
 namespace microtrace::tests {
 
-enum ComponentType { u8 = 5121, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum ComponentType { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+constexpr int component_type_of(std::int8_t) {
+  return i8;
+}
+constexpr int component_type_of(std::uint8_t) {
+  return u8;
+}
+constexpr int component_type_of(std::int16_t) {
+  return i16;
+}
+constexpr int component_type_of(std::uint16_t) {
+  return u16;
+}
+constexpr int component_type_of(std::uint32_t) {
+  return u32;
+}
+constexpr int component_type_of(float) {
+  return f32;
+}
 
 /// The bytes of a list of numbers as they lie in memory.
 template <typename Number>
@@ -33,6 +52,18 @@ struct AssetBuilder {
   std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
   std::size_t add_positions(const std::vector<Vec3>& positions);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, ComponentType type);
+  /// Numbers in a view of their own, with min and max where they are scalars; `shape` is as in
+  /// glTF: "SCALAR", "VEC3", "MAT4".
+  template <typename Number>
+  std::size_t add_numbers(const char* shape, const std::vector<Number>& numbers,
+                          bool normalized = false) {
+    return add_accessor(shape, bytes_of(numbers), component_type_of(Number{}), normalized);
+  }
+  std::size_t add_accessor(const char* shape, const std::string& bytes, int component_type,
+                           bool normalized);
+  /// A sampler in animation `index`, which may be new, and a channel from it.
+  void animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
+               std::size_t output, const char* interpolation = "LINEAR");
   /// A mesh of one primitive on a node of its own in the default scene; the node's index.
   std::size_t add_object(nlohmann::json primitive);
 
@@ -63,6 +94,7 @@ inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 /// Loads bytes as "test.gltf" from an empty folder name.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
+[[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);
 
 /// The base colour factor of an object's material.
 [[nodiscard]] Vec4 color_of(const LoadedScene& loaded, std::size_t object);

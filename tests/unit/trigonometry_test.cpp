@@ -47,6 +47,18 @@ TEST(Trigonometry, QuarterTurnsAreExact) {
   }
 }
 
+TEST(Trigonometry, ArctangentStaysWithinFourUnitsInTheLastPlace) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> angle(-1.57, 1.57), exponent(-300, 300);
+  for (int i = 0; i < 200000; ++i) {
+    const double x = i % 2 == 0 ? std::tan(angle(random)) : std::pow(10.0, exponent(random));
+    ASSERT_LE(units_in_last_place(atan_radians(x), std::atan(static_cast<long double>(x))), 4) << x;
+  }
+  EXPECT_EQ(atan_radians(0), 0);
+  EXPECT_EQ(atan_radians(HUGE_VAL), std::numbers::pi / 2);
+  EXPECT_EQ(atan_radians(-HUGE_VAL), -std::numbers::pi / 2);
+}
+
 TEST(Trigonometry, HalfAngles) {
   EXPECT_NEAR(sin_degrees(30), 0.5, 1e-16);
   EXPECT_NEAR(tan_radians(radians_from_degrees(45)), 1, 2e-16);

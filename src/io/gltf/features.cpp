@@ -170,9 +170,6 @@ void warn_of_ignored_features(Asset& asset) {
     search.present(asset.element("nodes", i), "skin",
                    "skins are not applied yet; the mesh is drawn in its node's place");
   }
-  for (std::size_t i = 0; i < asset.array("animations").size(); ++i) {
-    asset.warn(asset.element("animations", i), "animations are not played yet");
-  }
 }
 
 }  // namespace microtrace::io::gltf

@@ -3,7 +3,10 @@
 #include "io/gltf/extension.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include <glm/geometric.hpp>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -14,25 +17,12 @@ bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-DMat4 translation_of(const std::vector<double>& t) {
-  DMat4 result(1);
-  if (!t.empty()) result[3] = {t[0], t[1], t[2], 1};
-  return result;
+DVec3 vector_of(const std::vector<double>& v, const DVec3& otherwise) {
+  return v.empty() ? otherwise : DVec3(v[0], v[1], v[2]);
 }
 
-DMat4 scale_of(const std::vector<double>& s) {
-  DMat4 result(1);
-  for (int i = 0; i < 3 && !s.empty(); ++i) result[i][i] = s[static_cast<std::size_t>(i)];
-  return result;
-}
-
-/// The rotation matrix of the unit quaternion (x, y, z, w).
-DMat4 rotation_of(double x, double y, double z, double w) {
-  DMat4 result(1);
-  result[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
-  result[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
-  result[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
-  return result;
+Quaternion quaternion_of(const std::vector<double>& q) {
+  return q.empty() ? Quaternion(0, 0, 0, 1) : Quaternion(q[0], q[1], q[2], q[3]);
 }
 
 /// What the node says of itself.
@@ -133,21 +123,31 @@ DMat4 NodeTree::local(std::size_t index) {
     }
     return result;
   }
-  DMat4 rotation(1);
-  if (!node.rotation.empty()) {
-    const std::vector<double>& q = node.rotation;
-    const double square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-    const double length = std::sqrt(square);
-    if (length == 0) asset_.fail(at.member("rotation"), "is zero, must be a unit quaternion");
-    if (std::abs(square - 1) > 1e-3) {
-      asset_.warn(at.member("rotation"), "is no unit quaternion; it is normalised");
-    }
-    rotation = rotation_of(q[0] / length, q[1] / length, q[2] / length, q[3] / length);
+  const Quaternion rotation = quaternion_of(node.rotation);
+  const double square = glm::dot(rotation, rotation);
+  if (rotation == Quaternion(0)) {
+    asset_.fail(at.member("rotation"), "is zero, must be a unit quaternion");
   }
-  return translation_of(node.translation) * rotation * scale_of(node.scale);
+  if (std::abs(square - 1) > 1e-3) {
+    asset_.warn(at.member("rotation"), "is no unit quaternion; it is normalised");
+  }
+  return composed(vector_of(node.translation, DVec3(0)), normalised(rotation),
+                  vector_of(node.scale, DVec3(1)));
 }
 
-std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset) const {
+DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
+  const auto posed = pose.empty() ? pose.end() : pose.find(index);
+  if (posed == pose.end()) return parent_from_node_[index];
+  const auto& [translation, scale, rotation, weights] = posed->second;
+  if (!translation && !scale && !rotation) return parent_from_node_[index];
+  const tinygltf::Node& node = model_.nodes[index];
+  return composed(translation.value_or(vector_of(node.translation, DVec3(0))),
+                  rotation.value_or(normalised(quaternion_of(node.rotation))),
+                  scale.value_or(vector_of(node.scale, DVec3(1))));
+}
+
+std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset,
+                                        const PosedNodes& pose) const {
   std::vector<std::size_t> first;
   if (model_.scenes.empty()) {
     if (!model_.nodes.empty()) {
@@ -167,7 +167,7 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   std::vector<PlacedNode> open;
   for (std::size_t i = first.size(); i-- > 0;) {
     open.push_back(
-        {first[i], world_from_asset * parent_from_node_[first[i]], is_shown(asset, first[i])});
+        {first[i], world_from_asset * parent_from_node(first[i], pose), is_shown(asset, first[i])});
   }
   while (!open.empty()) {
     const PlacedNode next = open.back();
@@ -178,7 +178,7 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     const std::vector<int>& children = model_.nodes[next.node].children;
     for (std::size_t i = children.size(); i-- > 0;) {
       const auto child = static_cast<std::size_t>(children[i]);
-      open.push_back({child, next.world_from_node * parent_from_node_[child],
+      open.push_back({child, next.world_from_node * parent_from_node(child, pose),
                       next.visible && is_shown(asset, child)});
     }
   }
@@ -202,7 +202,11 @@ std::string NodeTree::path(std::size_t node) const {
 }
 
 DMat4 composed(const DVec3& translation, const glm::dvec4& rotation, const DVec3& scale) {
-  DMat4 result = rotation_of(rotation.x, rotation.y, rotation.z, rotation.w);
+  const auto [x, y, z, w] = std::array{rotation.x, rotation.y, rotation.z, rotation.w};
+  DMat4 result(1);
+  result[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
+  result[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
+  result[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
   for (int i = 0; i < 3; ++i) result[i] *= scale[i];
   result[3] = glm::dvec4(translation, 1);
   return result;

@@ -4,6 +4,7 @@
 #include "io/gltf/asset.hpp"
 #include "io/gltf/check/forest.hpp"
 #include "io/gltf/model.hpp"
+#include "io/gltf/posed_nodes.hpp"
 
 #include <microtrace/math.hpp>
 
@@ -34,7 +35,8 @@ class NodeTree {
 
   /// The nodes of the default scene, else of the first one, else all: parents before children,
   /// children in their order.
-  [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset) const;
+  [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset,
+                                              const PosedNodes& pose) const;
 
   /// The names of the node and those above it, with slashes between; at most 256 bytes, of which
   /// the last are kept. A node without name is called node0 by its index.
@@ -47,6 +49,7 @@ class NodeTree {
   void check_scenes() const;
   [[nodiscard]] std::vector<std::size_t> roots() const;
   [[nodiscard]] DMat4 local(std::size_t node);
+  [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
   Asset& asset_;
   const tinygltf::Model& model_;

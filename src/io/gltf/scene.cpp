@@ -1,6 +1,7 @@
 #include "io/gltf/scene.hpp"
 
 #include "io/gltf/accessors.hpp"
+#include "io/gltf/animations.hpp"
 #include "io/gltf/asset.hpp"
 #include "io/gltf/baking.hpp"
 #include "io/gltf/buffers.hpp"
@@ -152,7 +153,8 @@ struct GltfFile::Content {
         reader(asset, model, views),
         materials(gltf::make_materials(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
-        instances(asset, model, reader) {
+        instances(asset, model, reader),
+        animations(gltf::choose_animations(asset, options.animation)) {
     gltf::warn_of_ignored_features(asset);
     if (!container.is_aligned) {
       asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
@@ -172,6 +174,16 @@ struct GltfFile::Content {
     return result;
   }
 
+  gltf::PosedNodes pose_at(double time) {
+    if (!player) {
+      if (animations.empty()) {
+        asset.warn(asset.root(), "the asset has no animation; the time makes no difference");
+      }
+      player.emplace(asset, model, reader, animations);
+    }
+    return player->at(time);
+  }
+
   std::string name;
   gltf::Container container;
   JsonDocument json;
@@ -184,6 +196,8 @@ struct GltfFile::Content {
   std::vector<Material> materials;
   std::vector<std::vector<Surface>> surfaces;
   gltf::Instances instances;
+  std::vector<std::size_t> animations;          // chosen
+  std::optional<gltf::AnimationPlayer> player;  // of them, once a time was asked for
 };
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,
@@ -194,12 +208,13 @@ GltfFile::~GltfFile() = default;
 GltfFile::GltfFile(GltfFile&& other) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
 
-LoadedScene GltfFile::at(std::optional<double>, const DMat4& world_from_asset) const {
+LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_asset) {
   return guarded(content_->name, [&] {
+    const gltf::PosedNodes pose = time ? content_->pose_at(*time) : gltf::PosedNodes{};
     Asset asset = content_->asset;  // each pose adds warnings of its own
     const tinygltf::Model& model = content_->model;
     const NodeTree& tree = content_->tree;
-    const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset);
+    const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset, pose);
     SceneMaker maker(asset, model, tree, content_->surfaces, content_->instances);
     maker.check_size(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);

@@ -29,7 +29,7 @@ class GltfFile {
   /// The scene at a time, as LoadOptions says. Node transforms are composed in float64,
   /// `world_from_asset` (affine) first, and each vertex is rounded once to float32. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time,
-                               const DMat4& world_from_asset = DMat4(1)) const;
+                               const DMat4& world_from_asset = DMat4(1));
 
  private:
   struct Content;

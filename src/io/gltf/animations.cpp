@@ -1,0 +1,282 @@
+#include "io/gltf/animations.hpp"
+
+#include "io/json/excerpt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+using Numbers = std::shared_ptr<const std::vector<float>>;
+
+std::optional<std::size_t> whole_number(std::string_view text) {
+  std::size_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::string list_of_animations(const Asset& asset) {
+  constexpr std::size_t shown = 20;
+  const std::vector<JsonValue>& animations = asset.array("animations");
+  if (animations.empty()) return "the asset has no animations";
+  std::string result = "the asset has";
+  for (std::size_t i = 0; i < std::min(animations.size(), shown); ++i) {
+    result += (i == 0 ? " " : ", ") + std::to_string(i);
+    const JsonValue* name = animations[i].find("name");
+    if (name != nullptr) result += " (" + printable(name->string.substr(0, 64)) + ")";
+  }
+  if (animations.size() > shown) result += ", ... " + std::to_string(animations.size() - 1);
+  return result;
+}
+
+template <typename Vector>
+std::vector<float> flattened(const std::vector<Vector>& vectors) {
+  std::vector<float> result;
+  result.reserve(vectors.size() * static_cast<std::size_t>(Vector::length()));
+  for (const Vector& v : vectors) {
+    for (glm::length_t i = 0; i < Vector::length(); ++i) result.push_back(v[i]);
+  }
+  return result;
+}
+
+std::size_t components(int type) {
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return 1;
+    case TINYGLTF_TYPE_VEC3:
+      return 3;
+    case TINYGLTF_TYPE_VEC4:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+/// The targets of each primitive of a mesh are as many as those of its first.
+std::size_t target_count(const tinygltf::Model& model, int mesh) {
+  if (mesh < 0) return 0;
+  const auto& primitives = model.meshes[static_cast<std::size_t>(mesh)].primitives;
+  return primitives.empty() ? 0 : primitives[0].targets.size();
+}
+
+DVec3 vector_of(const std::vector<double>& v) {
+  return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+std::vector<std::size_t> choose_animations(const Asset& asset, const std::string& wanted) {
+  const std::vector<JsonValue>& animations = asset.array("animations");
+  if (wanted.empty())
+    return animations.empty() ? std::vector<std::size_t>{} : std::vector<std::size_t>{0};
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    const JsonValue* name = animations[i].find("name");
+    if (name != nullptr && name->string == wanted) return {i};
+  }
+  if (const auto index = whole_number(wanted); index && *index < animations.size()) return {*index};
+  std::vector<std::size_t> all;
+  if (wanted == "all") {
+    for (std::size_t i = 0; i < animations.size(); ++i) all.push_back(i);
+    return all;
+  }
+  throw Error(ErrorKind::usage, asset.file(),
+              "there is no animation " + in_quotes(wanted) + "; " + list_of_animations(asset));
+}
+
+/// Reads channels, and each accessor once.
+class AnimationPlayer::Reader {
+ public:
+  Reader(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
+      : asset_(asset), model_(model), reader_(reader) {}
+
+  std::optional<Channel> read(const Element& animation, const Element& channel) {
+    const Element target = channel.member("target");
+    const JsonValue* node = target.value->find("node");
+    const std::optional<Path> path = path_of(target.member("path"));
+    if (node == nullptr || !path) return std::nullopt;
+    const auto index = static_cast<std::size_t>(node->number);
+    const std::optional<std::size_t> width = width_of(target, index, *path);
+    if (!width) return std::nullopt;
+    const Element number = channel.member("sampler");
+    const Element sampler =
+        animation.member("samplers").item(static_cast<std::size_t>(number.value->number));
+    if (!has_data(sampler)) {
+      asset_.warn(channel, "needs a buffer without data; it is ignored");
+      return std::nullopt;
+    }
+    return Channel{.node = index, .path = *path, .keys = keyframes(sampler, *path, *width)};
+  }
+
+ private:
+  std::optional<Path> path_of(const Element& at) {
+    constexpr std::array<std::pair<std::string_view, Path>, 4> paths = {
+        {{"translation", Path::translation},
+         {"rotation", Path::rotation},
+         {"scale", Path::scale},
+         {"weights", Path::weights}}};
+    for (const auto& [name, path] : paths) {
+      if (at.value->string == name) return path;
+    }
+    asset_.warn(at,
+                "animation of " + in_quotes(at.value->string) + " is not supported; it is ignored");
+    return std::nullopt;
+  }
+
+  /// The numbers in one value; nothing where there is nothing to animate.
+  std::optional<std::size_t> width_of(const Element& target, std::size_t node, Path path) {
+    const tinygltf::Node& animated = model_.nodes[node];
+    if (path == Path::weights) {
+      const std::size_t targets = target_count(model_, animated.mesh);
+      if (targets != 0) return targets;
+      asset_.warn(target, "animates the weights of a node without morph targets; it is ignored");
+      return std::nullopt;
+    }
+    if (!animated.matrix.empty()) {
+      asset_.fail(target.member("node"),
+                  "is animated, but has a matrix; give translation, rotation and scale instead");
+    }
+    return path == Path::rotation ? 4 : 3;
+  }
+
+  bool has_data(const Element& sampler) const {
+    return reader_.has_data(accessor_of(sampler.member("input"))) &&
+           reader_.has_data(accessor_of(sampler.member("output")));
+  }
+
+  static int accessor_of(const Element& at) { return static_cast<int>(at.value->number); }
+
+  const tinygltf::Accessor& accessor(const Element& at) const {
+    return model_.accessors[static_cast<std::size_t>(accessor_of(at))];
+  }
+
+  Keyframes keyframes(const Element& sampler, Path path, std::size_t width) {
+    const Element input = sampler.member("input"), output = sampler.member("output");
+    check_types(input, output, path);
+    Keyframes keys{.are_rotations = path == Path::rotation,
+                   .width = width,
+                   .times = times(input),
+                   .values = numbers(output)};
+    std::size_t values_of_key = 1;
+    if (const JsonValue* kind = sampler.value->find("interpolation")) {
+      if (kind->string == "STEP") keys.interpolation = Interpolation::step;
+      if (kind->string == "CUBICSPLINE") {
+        keys.interpolation = Interpolation::cubic_spline;
+        values_of_key = 3;
+      }
+    }
+    const std::size_t wanted = keys.times->size() * values_of_key * width;
+    if (keys.values->size() != wanted) {
+      const std::size_t size = components(accessor(output).type);
+      asset_.fail(output, "has " + std::to_string(keys.values->size() / size) + " elements; " +
+                              std::to_string(keys.times->size()) + " keys need " +
+                              std::to_string(wanted / size));
+    }
+    return keys;
+  }
+
+  void check_types(const Element& input, const Element& output, Path path) const {
+    const tinygltf::Accessor& in = accessor(input);
+    const tinygltf::Accessor& out = accessor(output);
+    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      asset_.fail(input,
+                  "refers to an accessor that is not of type SCALAR and componentType 5126, float");
+    }
+    const int type = path == Path::weights    ? TINYGLTF_TYPE_SCALAR
+                     : path == Path::rotation ? TINYGLTF_TYPE_VEC4
+                                              : TINYGLTF_TYPE_VEC3;
+    const bool may_be_integer = path == Path::rotation || path == Path::weights;
+    const bool is_integer = out.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_narrow = component_size(out.componentType) < 4;
+    if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
+      asset_.fail(output, std::string("refers to an accessor that is not of type ") +
+                              (type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
+                               : type == TINYGLTF_TYPE_VEC4 ? "VEC4"
+                                                            : "VEC3") +
+                              (may_be_integer ? " and float or normalized integers of 8 or 16 bits"
+                                              : " and float"));
+    }
+  }
+
+  Numbers times(const Element& input) {
+    Numbers result = numbers(input);
+    for (std::size_t i = 0; i < result->size(); ++i) {
+      const float before = i == 0 ? 0 : (*result)[i - 1], time = (*result)[i];
+      // Written so that no NaN passes.
+      const bool ascends = i == 0 ? time >= before : time > before;
+      if (ascends) continue;
+      asset_.fail(asset_.element("accessors", static_cast<std::size_t>(accessor_of(input))),
+                  "element " + std::to_string(i) +
+                      " breaks the order of an animation's times, which ascend from 0 or later");
+    }
+    return result;
+  }
+
+  Numbers numbers(const Element& at) {
+    const int index = accessor_of(at);
+    Numbers& result = numbers_[index];
+    if (result) return result;
+    const tinygltf::Accessor& source = accessor(at);
+    count_ += source.count * components(source.type);
+    if (count_ > max_elements) {
+      asset_.fail(at, "brings the animations to more than 2^27 numbers, the most that is read",
+                  ErrorKind::limit);
+    }
+    result = std::make_shared<const std::vector<float>>(
+        source.type == TINYGLTF_TYPE_SCALAR ? reader_.read<float>(index)
+        : source.type == TINYGLTF_TYPE_VEC3 ? flattened(reader_.read<Vec3>(index))
+                                            : flattened(reader_.read<glm::vec4>(index)));
+    return result;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  std::unordered_map<int, Numbers> numbers_;  // by accessor
+  std::size_t count_ = 0;                     // of them all
+};
+
+AnimationPlayer::AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+                                 const std::vector<std::size_t>& animations) {
+  Reader channel_reader(asset, model, reader);
+  for (const std::size_t index : animations) {
+    const Element animation = asset.element("animations", index);
+    const Element channels = animation.member("channels");
+    for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
+      std::optional<Channel> channel = channel_reader.read(animation, channels.item(i));
+      if (channel) channels_.push_back(std::move(*channel));
+    }
+  }
+}
+
+PosedNodes AnimationPlayer::at(double time) const {
+  PosedNodes pose;
+  for (const Channel& channel : channels_) {
+    NodePose& node = pose[channel.node];
+    std::vector<double> value = value_at(channel.keys, time);
+    switch (channel.path) {
+      case Path::translation:
+        node.translation = vector_of(value);
+        break;
+      case Path::rotation:
+        node.rotation = Quaternion(value[0], value[1], value[2], value[3]);
+        break;
+      case Path::scale:
+        node.scale = vector_of(value);
+        break;
+      case Path::weights:
+        node.weights = std::move(value);
+        break;
+    }
+  }
+  return pose;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,45 @@
+#pragma once
+/// An asset's animations: which there are, and what they make of the nodes at a time.
+
+#include "io/gltf/accessors.hpp"
+#include "io/gltf/asset.hpp"
+#include "io/gltf/keyframes.hpp"
+#include "io/gltf/model.hpp"
+#include "io/gltf/posed_nodes.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+/// The indices of the animations that are meant by a name, else an index, else "all"; of the first,
+/// if there is one, by an empty text. Throws Error (usage), which lists those that there are.
+[[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
+                                                         const std::string& wanted);
+
+/// Animations, read and checked.
+class AnimationPlayer {
+ public:
+  /// Channels without a target node, and those of properties that can't be animated, play no part;
+  /// for the latter there is a warning. Throws Error: invalid_scene, limit.
+  AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+                  const std::vector<std::size_t>& animations);
+
+  /// What all channels say at that time, in seconds. Where two have one target, the later one
+  /// holds.
+  [[nodiscard]] PosedNodes at(double time) const;
+
+ private:
+  enum class Path { translation, rotation, scale, weights };
+  struct Channel {
+    std::size_t node;
+    Path path;
+    Keyframes keys;
+  };
+  class Reader;
+
+  std::vector<Channel> channels_;
+};
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Animated assets as the program's users meet them.
+
+usage: animation_test.py PROGRAM [unittest arguments]
+"""
+
+import base64
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+PROGRAM = os.path.abspath(sys.argv[1])
+
+
+def moving_square():
+    """A glTF file: a square of side 1 that moves from x = 0 to 4 in two seconds; then another animation, "up", in y."""
+    parts = [
+        struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
+        struct.pack("<6H", 0, 1, 2, 2, 1, 3),
+        struct.pack("<2f", 0, 2),
+        struct.pack("<6f", 0, 0, 0, 4, 0, 0),
+        struct.pack("<6f", 0, 0, 0, 0, 4, 0),
+    ]
+    views, data = [], b""
+    for part in parts:
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        data += part
+    floats = lambda view, count, kind, **more: dict(bufferView=view, componentType=5126, count=count, type=kind, **more)
+    move = lambda output: {
+        "samplers": [{"input": 2, "output": output}],
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+    }
+    return json.dumps({
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0, 1]}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [2, 2, 10]}],
+        "cameras": [{"type": "orthographic",
+                     "orthographic": {"xmag": 4, "ymag": 3, "znear": 1, "zfar": 100}}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "animations": [move(3), dict(move(4), name="up")],
+        "accessors": [
+            floats(0, 4, "VEC3", min=[0, 0, 0], max=[1, 1, 0]),
+            {"bufferView": 1, "componentType": 5123, "count": 6, "type": "SCALAR"},
+            floats(2, 2, "SCALAR", min=[0], max=[2]),
+            floats(3, 2, "VEC3"),
+            floats(4, 2, "VEC3"),
+        ],
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}],
+    })
+
+
+def lower_left(picture):
+    """The column and row, from the picture's lower left corner, of the square's lower left pixel."""
+    magic, size, _, pixels = picture.split(b"\n", 3)
+    assert magic == b"P6"
+    width, height = map(int, size.split())
+    lit = [(i % width, height - 1 - i // width) for i in range(width * height)
+           if pixels[3 * i:3 * i + 3] != b"\0\0\0"]
+    return min(lit) if lit else None
+
+
+class Animation(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+        (self.folder / "move.gltf").write_text(moving_square())
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def run_program(self, *arguments):
+        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
+                              cwd=self.folder, timeout=60)
+
+    def square_at(self, *arguments):
+        # Ten pixels are one unit; the picture's lower left corner is (-2, -1).
+        result = self.run_program("move.gltf", "--size", "80x60", "-o", "-", *arguments)
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        column, row = lower_left(result.stdout)
+        return (column - 20) / 10, (row - 10) / 10
+
+    def test_time_poses_the_first_animation(self):
+        self.assertEqual(self.square_at(), (0, 0))
+        self.assertEqual(self.square_at("--time", "0.5"), (1, 0))
+        self.assertEqual(self.square_at("--time", "1e2"), (4, 0))
+        self.assertEqual(self.square_at("--time=-3"), (0, 0))
+
+    def test_animation_by_name_or_number_or_all(self):
+        self.assertEqual(self.square_at("--time", "1", "--animation", "up"), (0, 2))
+        self.assertEqual(self.square_at("--time", "1", "--animation", "1"), (0, 2))
+        self.assertEqual(self.square_at("--time", "1", "--animation", "0"), (2, 0))
+        # Of two channels with one target the later one holds.
+        self.assertEqual(self.square_at("--time", "1", "--animation", "all"), (0, 2))
+
+    def test_wrong_requests_are_usage_errors(self):
+        for arguments, fragment in (
+            (["--time", "soon"], "--time"), (["--time", "nan"], "--time"), (["--time", "inf"], "--time"),
+            (["--time", ""], "--time"), (["--time", "1s"], "--time"),
+            (["--animation", "up"], "--time"),
+            (["--time", "1", "--animation", "down"], "0, 1 (up)"),
+        ):
+            result = self.run_program("move.gltf", "-o", "out.ppm", *arguments)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertIn(fragment, result.stderr.decode(), arguments)
+            self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
+
+    def test_a_json_scenes_meshes_are_posed(self):
+        camera = {"type": "orthographic", "position": [2, 2, 10], "direction": [0, 0, -1], "height": 6}
+        (self.folder / "scene.json").write_text(json.dumps({
+            "version": 1, "cameras": [camera], "objects": [{"type": "mesh", "file": "move.gltf"}]}))
+        pictures = [self.run_program(scene, "--size", "80x60", "-o", "-", "--time", "1.5").stdout
+                    for scene in ("scene.json", "move.gltf")]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertEqual(lower_left(pictures[0]), (50, 10))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

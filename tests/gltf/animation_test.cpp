@@ -1,0 +1,205 @@
+#include "gltf/asset_builder.hpp"
+#include "io/gltf/scene.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Vec3 corner(const LoadedScene& loaded, std::size_t number = 7) {
+  return std::get<Mesh>(loaded.scene.objects.at(0).shape).positions.at(number);
+}
+
+Vec3 corner_at(const AssetBuilder& asset, double time, const char* animation = "") {
+  return corner(load(asset, {.time = time, .animation = animation}));
+}
+
+void expect_near(const Vec3& value, const Vec3& wanted) {
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], wanted[i], 1e-6) << i;
+}
+
+/// A cube that turns once about z from 1 to 3 seconds, in four quarters, and moves by 10 in x.
+AssetBuilder turning_cube() {
+  AssetBuilder asset = cube();
+  const float half = std::sqrt(0.5F);
+  const std::size_t input = asset.add_numbers<float>("SCALAR", {1, 1.5F, 2, 2.5F, 3});
+  const std::size_t turns = asset.add_numbers<float>(
+      "VEC4", {0, 0, 0, 1, 0, 0, half, half, 0, 0, 1, 0, 0, 0, half, -half, 0, 0, 0, -1});
+  const std::size_t ends = asset.add_numbers<float>("SCALAR", {1, 3});
+  const std::size_t moves = asset.add_numbers<float>("VEC3", {0, 0, 0, 10, 0, 0});
+  asset.animate(0, 0, "rotation", input, turns);
+  asset.animate(0, 0, "translation", ends, moves);
+  return asset;
+}
+
+TEST(GltfAnimation, ACubeTurnsAboutZWhileItMoves) {
+  const AssetBuilder asset = turning_cube();
+  for (double time = 1; time <= 3; time += 0.0625) {
+    const double angle = (time - 1) * std::numbers::pi, move = 5 * (time - 1);
+    expect_near(corner_at(asset, time), Vec3(std::cos(angle) - std::sin(angle) + move,
+                                             std::cos(angle) + std::sin(angle), 1));
+  }
+  EXPECT_THAT(texts(load(asset, {.time = 2}).warnings), IsEmpty());
+}
+
+TEST(GltfAnimation, WithoutATimeTheFilesOwnPoseIsDrawn) {
+  AssetBuilder asset = turning_cube();
+  asset.json["nodes"][0]["translation"] = {0, 0, 3};
+  const LoadedScene rest = load(asset);
+  EXPECT_EQ(corner(rest), Vec3(1, 1, 4));
+  EXPECT_THAT(texts(rest.warnings), IsEmpty());
+}
+
+TEST(GltfAnimation, TimesAreClamped) {
+  const AssetBuilder asset = turning_cube();
+  EXPECT_EQ(corner_at(asset, 0), Vec3(1, 1, 1));
+  EXPECT_EQ(corner_at(asset, -1e30), Vec3(1, 1, 1));
+  EXPECT_EQ(corner_at(asset, 1e30), Vec3(11, 1, 1));
+}
+
+TEST(GltfAnimation, WhatAChannelLeavesOutIsAsTheFileHasIt) {
+  AssetBuilder asset = cube();
+  asset.json["nodes"][0].update({{"translation", {5, 0, 0}}, {"rotation", {0, 0, 1, 0}}});
+  const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
+  asset.animate(0, 0, "scale", input, asset.add_numbers<float>("VEC3", {1, 1, 1, 3, 5, 7}));
+  EXPECT_EQ(corner_at(asset, 0.5), Vec3(3, -3, 4));
+}
+
+TEST(GltfAnimation, ChildrenMoveWithTheirParents) {
+  AssetBuilder asset = turning_cube();
+  asset.json["nodes"].push_back({{"mesh", 0}, {"translation", {0, 0, 100}}});
+  asset.json["nodes"][0]["children"] = {1};
+  asset.json["nodes"][0].erase("mesh");
+  expect_near(corner_at(asset, 2), Vec3(4, -1, 101));
+}
+
+TEST(GltfAnimation, StepAndCubicSplineAreRead) {
+  AssetBuilder asset = cube();
+  const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
+  asset.animate(0, 0, "translation", input, asset.add_numbers<float>("VEC3", {0, 0, 0, 10, 0, 0}),
+                "STEP");
+  EXPECT_EQ(corner_at(asset, 0.99).x, 1);
+  EXPECT_EQ(corner_at(asset, 1).x, 11);
+  asset.json.erase("animations");
+  // Along x with the tangents 0 and 8 inward, along y the tangents 4 outward and 0.
+  asset.animate(0, 0, "translation", input,
+                asset.add_numbers<float>("VEC3", {7, 7, 7, 0, 0, 0, 0, 4, 0,  //
+                                                  8, 0, 0, 1, 1, 0, 7, 7, 7}),
+                "CUBICSPLINE");
+  const Vec3 p = corner_at(asset, 0.5) - Vec3(1);
+  EXPECT_FLOAT_EQ(p.x, 0.5F - 1);     // 3 t^2 - 2 t^3 and 8 (t^3 - t^2)
+  EXPECT_FLOAT_EQ(p.y, 0.5F + 0.5F);  // the same and 4 (t^3 - 2 t^2 + t)
+}
+
+TEST(GltfAnimation, NormalizedIntegersAreRotations) {
+  const auto turned = [](auto one, auto zero) {
+    AssetBuilder asset = cube();
+    using Integer = decltype(one);
+    const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
+    asset.animate(
+        0, 0, "rotation", input,
+        asset.add_numbers<Integer>("VEC4", {zero, zero, zero, one, zero, zero, one, zero}, true));
+    return corner_at(asset, 0.5);
+  };
+  expect_near(turned(std::int8_t{127}, std::int8_t{0}), Vec3(-1, 1, 1));
+  expect_near(turned(std::int16_t{32767}, std::int16_t{0}), Vec3(-1, 1, 1));
+  expect_near(turned(std::uint8_t{255}, std::uint8_t{0}), Vec3(-1, 1, 1));
+  expect_near(turned(std::uint16_t{65535}, std::uint16_t{0}), Vec3(-1, 1, 1));
+}
+
+TEST(GltfAnimation, IsChosenByNameOrIndexOrAllTogether) {
+  AssetBuilder asset = turning_cube();
+  const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
+  asset.animate(1, 0, "scale", input, asset.add_numbers<float>("VEC3", {1, 1, 1, 1, 1, 5}));
+  asset.json["animations"][0]["name"] = "turn";
+  asset.json["animations"][1]["name"] = "grow";
+  EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
+  EXPECT_EQ(corner_at(asset, 3, "turn"), Vec3(11, 1, 1));
+  EXPECT_EQ(corner_at(asset, 3, "grow"), Vec3(1, 1, 5));
+  EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(1, 1, 5));
+  EXPECT_EQ(corner_at(asset, 3, "all"), Vec3(11, 1, 5));
+  asset.json["animations"][0]["name"] = "1";  // names go before numbers
+  EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(11, 1, 1));
+  for (const char* wrong : {"run", "2", "-1", "0x0", " 1", "99999999999999999999999"}) {
+    try {
+      (void)load(asset, {.time = 0, .animation = wrong});
+      ADD_FAILURE() << wrong;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(wrong), HasSubstr("0 (1), 1 (grow)")));
+    }
+  }
+}
+
+TEST(GltfAnimation, ATimeWithoutAnimationsIsWarnedOf) {
+  EXPECT_THAT(texts(load(cube(), {.time = 1}).warnings), ElementsAre(HasSubstr("no animation")));
+}
+
+TEST(GltfAnimation, AFileIsReadOnceAndPosedOften) {
+  const std::string bytes = turning_cube().glb();
+  io::GltfFile file(bytes, "test.glb", "");
+  EXPECT_EQ(corner(file.at(3)), Vec3(11, 1, 1));
+  EXPECT_EQ(corner(file.at(0)), Vec3(1, 1, 1));
+  EXPECT_EQ(corner(file.at(std::nullopt)), Vec3(1, 1, 1));
+  EXPECT_EQ(corner(file.at(3)), Vec3(11, 1, 1));
+}
+
+TEST(GltfAnimation, ChannelsThatCannotBePlayedAreWarnedOf) {
+  AssetBuilder asset = turning_cube();
+  nlohmann::json& channels = asset.json["animations"][0]["channels"];
+  channels[0]["target"]["path"] = "pointer";
+  EXPECT_THAT(texts(load(asset, {.time = 3}).warnings),
+              ElementsAre(AllOf(HasSubstr("/animations/0/channels/0/target/path"),
+                                HasSubstr("\"pointer\" is not supported"))));
+  channels[0]["target"]["path"] = "rotation";
+  channels[0]["target"].erase("node");  // as the specification says: ignored
+  EXPECT_THAT(texts(load(asset, {.time = 3}).warnings), IsEmpty());
+  EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
+}
+
+TEST(GltfAnimation, WhatIsWrongWithASamplerIsRefused) {
+  AssetBuilder asset = turning_cube();
+  const std::size_t first = asset.json["accessors"].size() - 4;  // times, turns, ends, moves
+  const auto refused = [](const AssetBuilder& broken) -> std::string {
+    try {
+      (void)load(broken, {.time = 1});
+      return "nothing";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      return error.diagnostic().pointer + ": " + error.diagnostic().message;
+    }
+  };
+  const auto with = [&](std::size_t accessor, const char* key, const nlohmann::json& value) {
+    AssetBuilder broken = asset;
+    broken.json["accessors"][first + accessor][key] = value;
+    return refused(broken);
+  };
+  EXPECT_THAT(with(0, "componentType", 5125), HasSubstr("/animations/0/samplers/0/input: "));
+  EXPECT_THAT(with(1, "type", "VEC3"), HasSubstr("/animations/0/samplers/0/output: "));
+  EXPECT_THAT(with(1, "count", 4), AllOf(HasSubstr("/animations/0/samplers/0/output: "),
+                                         HasSubstr("has 4 elements"), HasSubstr("must have 5")));
+  EXPECT_THAT(with(3, "componentType", 5122), HasSubstr("/animations/0/samplers/1/output: "));
+  AssetBuilder broken = asset;
+  broken.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  EXPECT_THAT(refused(broken), HasSubstr("has a matrix"));
+  for (const std::vector<float>& times :
+       {std::vector<float>{1, 1}, {2, 1}, {-1, 1}, {NAN, 1}, {1, NAN}}) {
+    broken = asset;
+    const std::size_t input = broken.add_numbers<float>("SCALAR", times);
+    broken.json["accessors"][input].erase("min");
+    broken.json["accessors"][input].erase("max");
+    broken.json["animations"][0]["samplers"][1]["input"] = input;
+    EXPECT_THAT(refused(broken), HasSubstr("/accessors/" + std::to_string(input) + ": element "));
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::tests
