@@ -238,6 +238,37 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(result.stderr, b"")
         self.assertIn(b"Exit codes", self.run_program("--help").stdout)
 
+    def test_missing_modules(self):
+        """What an asset requires and no module can do is refused, with the package to install."""
+        asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
+                 "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                              + "A" * 48}],
+                 "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                 "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3, "bufferView": 0,
+                                "min": [0, 0, 0], "max": [0, 0, 0]},
+                               {"componentType": 5121, "type": "SCALAR", "count": 3}],
+                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}]}
+        draco = {"bufferView": 0, "attributes": {"POSITION": 0}}
+        meshopt = {"buffer": 0, "byteLength": 36, "byteStride": 12, "count": 3,
+                   "mode": "ATTRIBUTES"}
+        for name, package, holder, value in [
+                ("KHR_draco_mesh_compression", "libdraco-dev",
+                 asset["meshes"][0]["primitives"][0], draco),
+                ("EXT_meshopt_compression", "libmeshoptimizer-dev",
+                 asset["bufferViews"][0], meshopt)]:
+            holder["extensions"] = {name: value}
+            asset["extensionsUsed"] = [name]
+            environment = dict(os.environ, MICROTRACE_MODULE_PATH="/nowhere",
+                               ASAN_OPTIONS="detect_leaks=0")
+            for required, code in [([name], 4), ([], 0)]:
+                asset["extensionsRequired"] = required
+                (self.folder / "a.gltf").write_text(json.dumps(asset))
+                result = subprocess.run([PROGRAM, self.folder / "a.gltf", "-o", "-"],
+                                        capture_output=True, env=environment)
+                self.assertEqual(result.returncode, code, result.stderr)
+                self.assertIn(package.encode(), result.stderr)
+            del holder["extensions"]
+
     def test_usage_errors(self):
         for arguments in ([], ["--no-such-option", SCENE], [SCENE, "--size", "640"],
                           [SCENE, "--size", "0x4"], [SCENE, "--size", "1000000000x1000000000"],

@@ -21,7 +21,7 @@ class Reading {
         asset_(document_),
         model_(io::gltf::parse_model(asset_)),
         buffers_{{.storage = {}, .bytes = asset.buffer}},
-        views_(model_, buffers_),
+        views_(asset_, model_, buffers_),
         reader(asset_, model_, views_) {
     io::gltf::check_accessors(asset_, model_);
   }

@@ -34,6 +34,7 @@ LIBRARIES = {
     r"CGAL/|gmp": ["tests/oracle"],
     r"tiny_gltf|nlohmann/": ["src/io", "tests"],
     r"OpenImageIO/": ["src/modules", "tests/image"],
+    r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],
     r"CLI/": ["src/cli"],
     r"embree|benchmark/": ["bench"],
     r"\w*mmintrin\.h": ["src/accel/kernels/simd.hpp"],

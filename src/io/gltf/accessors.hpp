@@ -57,6 +57,8 @@ class AccessorReader {
   /// them.
   void replace(int accessor, std::string elements);
 
+  [[nodiscard]] const BufferViews& views() const { return views_; }
+
  private:
   struct Source;
   [[nodiscard]] Source source(int accessor);

@@ -57,6 +57,12 @@ bool Asset::uses(std::string_view extension) const {
   });
 }
 
+bool Asset::requires_extension(std::string_view extension) const {
+  return std::ranges::any_of(array("extensionsRequired"), [extension](const JsonValue& item) {
+    return item.string == extension;
+  });
+}
+
 void Asset::drop(const Element& object, std::string_view key) {
   // Elements let their holders read; the document itself is the asset's to change.
   auto& members = const_cast<JsonValue*>(object.value)->members;

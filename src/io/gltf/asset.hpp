@@ -42,6 +42,8 @@ class Asset {
   [[nodiscard]] const JsonValue* find(std::string_view pointer) const;
   /// Whether extensionsUsed names that extension.
   [[nodiscard]] bool uses(std::string_view extension) const;
+  /// Whether extensionsRequired names it.
+  [[nodiscard]] bool requires_extension(std::string_view extension) const;
 
   /// Takes a member that does no good out of an object of the asset's JSON, after a warning. What
   /// is left is what readers see. Elements in the object are no longer good.

@@ -1,10 +1,13 @@
 #pragma once
 /// The bytes of buffer views.
 
+#include "io/gltf/asset.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/model.hpp"
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,8 +15,9 @@ namespace microtrace::io::gltf {
 
 class BufferViews {
  public:
-  /// Of views that check_accessors has accepted. The buffers must outlive this.
-  BufferViews(const tinygltf::Model& model, const std::vector<Buffer>& buffers);
+  /// Of views that check_accessors has accepted; compressed ones are decoded. The buffers must
+  /// outlive this. Throws Error: invalid_scene, limit, unsupported.
+  BufferViews(Asset& asset, const tinygltf::Model& model, const std::vector<Buffer>& buffers);
 
   /// Nothing where the view's buffer has no data.
   [[nodiscard]] std::optional<std::string_view> bytes(int view) const {
@@ -21,6 +25,7 @@ class BufferViews {
   }
 
  private:
+  std::vector<std::string> decoded_;                    // by view; empty if it is not compressed
   std::vector<std::optional<std::string_view>> bytes_;  // by view
 };
 

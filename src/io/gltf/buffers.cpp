@@ -1,6 +1,7 @@
 #include "io/gltf/buffers.hpp"
 
 #include "io/file.hpp"
+#include "io/gltf/extension.hpp"
 #include "io/gltf/uri.hpp"
 #include "io/json/excerpt.hpp"
 
@@ -54,6 +55,14 @@ bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }
 
+/// Whether the buffer's views have compressed bytes too, which are read instead.
+bool is_fallback(const Element& buffer) {
+  const auto compression = extension(buffer, "EXT_meshopt_compression");
+  if (!compression) return false;
+  const JsonValue* fallback = compression->value->find("fallback");
+  return fallback != nullptr && fallback->boolean;
+}
+
 void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
   double total = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -81,6 +90,8 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     const Element uri = at.member("uri");
     if (bin && is_bin(i, buffers[i])) {
       buffer.bytes = *bin;
+    } else if (is_fallback(at)) {
+      continue;
     } else if (buffers[i].find("uri") != nullptr) {
       buffer.storage =
           is_data_uri(uri.value->string) ? decode(asset, uri) : read(asset, uri, folder);

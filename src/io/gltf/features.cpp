@@ -11,8 +11,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 5> honoured = {
-    "EXT_mesh_gpu_instancing",
+constexpr std::array<std::string_view, 7> honoured = {
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
     "KHR_lights_punctual",  // read; light has no influence on flat pictures
     "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
     "KHR_mesh_quantization",   "KHR_node_visibility",

@@ -149,7 +149,7 @@ struct GltfFile::Content {
         model(checked_model()),
         tree(asset, model),
         buffers(gltf::load_buffers(asset, container.bin, folder)),
-        views(model, buffers),
+        views(asset, model, buffers),
         reader(asset, model, views),
         materials(gltf::make_materials(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),

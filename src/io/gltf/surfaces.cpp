@@ -1,5 +1,6 @@
 #include "io/gltf/surfaces.hpp"
 
+#include "io/gltf/draco.hpp"
 #include "io/gltf/topology.hpp"
 #include "io/gltf/vertex_attributes.hpp"
 
@@ -18,7 +19,12 @@ class SurfaceMaker {
  public:
   SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
                std::span<const Material> materials, SurfaceDetail detail)
-      : asset_(asset), model_(model), reader_(reader), materials_(materials), detail_(detail) {}
+      : asset_(asset),
+        model_(model),
+        reader_(reader),
+        draco_(asset, model, reader.views(), reader),
+        materials_(materials),
+        detail_(detail) {}
 
   std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
@@ -26,6 +32,7 @@ class SurfaceMaker {
       asset_.warn(at, "has no POSITION attribute; nothing is drawn for it");
       return std::nullopt;
     }
+    const bool is_draco = draco_.decode(at, primitive);
     if (!reader_.has_data(position->second) ||
         (primitive.indices >= 0 && !reader_.has_data(primitive.indices))) {
       asset_.warn(at,
@@ -35,7 +42,8 @@ class SurfaceMaker {
     }
     const std::vector<std::uint32_t> vertices = vertices_of(at, primitive, position->second);
     Surface result{.material = primitive.material};
-    if (add_primitives(primitive.mode, vertices, result.mesh)) {
+    const int mode = is_draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (add_primitives(mode, vertices, result.mesh)) {
       asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
     }
     if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
@@ -102,6 +110,7 @@ class SurfaceMaker {
   Asset& asset_;
   const tinygltf::Model& model_;
   AccessorReader& reader_;
+  DracoDecoder draco_;
   std::span<const Material> materials_;
   SurfaceDetail detail_;
   std::size_t elements_ = 0;  // counted against max_elements

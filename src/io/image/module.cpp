@@ -1,10 +1,10 @@
 #include "io/image/module.hpp"
 
+#include "io/image/module_folders.hpp"
 #include "io/image/module_picture.hpp"
 
 #include <microtrace/error.hpp>
 
-#include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
 #include <utility>
@@ -14,23 +14,6 @@ namespace microtrace::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The folders where the module may lie, the most wanted first.
-std::vector<fs::path> module_folders() {
-  std::vector<fs::path> folders;
-  if (const char* named = std::getenv("MICROTRACE_MODULE_PATH"); named != nullptr && *named != 0) {
-    folders.emplace_back(named);
-    return folders;
-  }
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    folders.push_back((program.parent_path() / MICROTRACE_MODULES_FROM_PROGRAM).lexically_normal());
-  }
-  folders.emplace_back(MICROTRACE_INSTALLED_MODULES);
-  folders.emplace_back(MICROTRACE_BUILT_MODULES);
-  return folders;
-}
 
 void* load_module(const std::string& file) {
   std::string sought;

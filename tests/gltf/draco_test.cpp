@@ -1,0 +1,135 @@
+#include "gltf/asset_builder.hpp"
+#include "gltf/draco_sample.hpp"
+
+#include <dlfcn.h>
+#include <random>
+#include <stdexcept>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* extension = "KHR_draco_mesh_compression";
+const DracoSample& sample(bool sequential) {
+  static const std::array<DracoSample, 2> samples = [] {
+    void* module = ::dlopen(MICROTRACE_DRACO_SAMPLE, RTLD_NOW | RTLD_LOCAL);
+    if (module == nullptr) throw std::runtime_error(::dlerror());
+    const auto make = reinterpret_cast<MakeDracoSample>(::dlsym(module, "make_draco_sample"));
+    std::array<DracoSample, 2> result;
+    make(false, result[0]);
+    make(true, result[1]);
+    return result;
+  }();
+  return samples[sequential ? 1 : 0];
+}
+
+AssetBuilder asset_of(const std::string& bytes) {
+  AssetBuilder asset;
+  asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {extension};
+  const DracoSample& ids = sample(false);
+  const std::size_t points = draco_rows * draco_columns;
+  asset.add("accessors", {{"componentType", f32},
+                          {"count", points},
+                          {"type", "VEC3"},
+                          {"min", {-1, -1, -1}},
+                          {"max", {1, 1, 1}}});
+  asset.add("accessors", {{"componentType", f32}, {"count", points}, {"type", "VEC3"}});
+  asset.add("accessors",
+            {{"componentType", u8}, {"normalized", true}, {"count", points}, {"type", "VEC4"}});
+  asset.add("accessors",
+            {{"componentType", u16}, {"count", ids.triangles.size() * 3}, {"type", "SCALAR"}});
+  const std::size_t view = asset.add_view(bytes);
+  asset.add_object({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"COLOR_0", 2}}},
+                    {"indices", 3},
+                    {"extensions",
+                     {{extension,
+                       {{"bufferView", view},
+                        {"attributes",
+                         {{"POSITION", ids.position_id},
+                          {"NORMAL", ids.normal_id},
+                          {"COLOR_0", ids.color_id}}}}}}}});
+  return asset;
+}
+
+TEST(GltfDraco, MeshesAreThoseThatTheLibraryDecodes) {
+  for (const bool sequential : {false, true}) {
+    const DracoSample& expected = sample(sequential);
+    const LoadedScene scene = load(asset_of(expected.bytes));
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
+    EXPECT_EQ(mesh.positions, expected.positions);
+    EXPECT_EQ(mesh.triangles, expected.triangles);
+    ASSERT_EQ(mesh.normals.size(), expected.normals.size());
+    ASSERT_EQ(mesh.colors.size(), expected.positions.size());
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_NEAR(mesh.normals[i][k], expected.normals[i][k], 2e-7) << i;
+        EXPECT_NEAR(mesh.normals[i][k], mesh.positions[i][k], 1e-2) << i;
+      }
+      EXPECT_EQ(mesh.colors[i].y, 7 / 255.0F);
+      EXPECT_EQ(mesh.colors[i].w, 1);
+    }
+  }
+}
+
+void expect_refused(const AssetBuilder& asset, const char* message) {
+  try {
+    (void)load(asset);
+    ADD_FAILURE() << message << ": accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+    EXPECT_THAT(error.diagnostic().pointer, HasSubstr("/meshes/0/primitives/0")) << message;
+    EXPECT_THAT(error.diagnostic().message, HasSubstr(message));
+  }
+}
+
+TEST(GltfDraco, WhatDoesNotFitTheAccessorsIsRefused) {
+  const std::string bytes = sample(false).bytes;
+  AssetBuilder asset = asset_of(bytes);
+  asset.json["accessors"][3]["count"] = 3 * (draco_rows - 1) * draco_columns;
+  expect_refused(asset, "as many triangles and vertices");
+  asset = asset_of(bytes);
+  for (int i = 0; i < 3; ++i) asset.json["accessors"][i]["count"] = draco_rows * draco_columns + 1;
+  expect_refused(asset, "as many triangles and vertices");
+  asset = asset_of(bytes);
+  asset.json["accessors"][3]["count"] = 3e8;
+  expect_refused(asset, "can't hold as many");
+  asset = asset_of(bytes);
+  asset.json["meshes"][0]["primitives"][0]["extensions"][extension]["attributes"]["COLOR_0"] = 99;
+  expect_refused(asset, "no attribute of an id");
+  asset = asset_of(bytes);
+  asset.json["accessors"][2]["type"] = "VEC3";
+  expect_refused(asset, "accessor's type");
+  asset = asset_of("this is no mesh at all");
+  expect_refused(asset, "can't");
+}
+
+TEST(GltfDraco, DamagedBytesGiveErrorsOrMeshesInRange) {
+  std::mt19937 random(5);
+  const std::string good[] = {sample(false).bytes, sample(true).bytes};
+  for (int i = 0; i < 600; ++i) {
+    std::string bytes = good[i % 2];
+    if (random() % 4 == 0) bytes.resize(1 + random() % bytes.size());
+    for (unsigned k = random() % 4; k > 0; --k) {
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    try {
+      const LoadedScene scene = load(asset_of(bytes));
+      for (const Object& object : scene.scene.objects) {
+        const Mesh& mesh = std::get<Mesh>(object.shape);
+        for (const auto& corners : mesh.triangles) {
+          for (const std::uint32_t corner : corners) ASSERT_LT(corner, mesh.positions.size());
+        }
+      }
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::tests
