@@ -147,11 +147,7 @@ bool Bvh::Impl::intersect_tile(std::span<const Ray> rays,
     TileJudge judge(primitives, rays);
     judge.begin(tile, outside);
     kernels->closest_of_tile(view(), tile, judge.slow_path());
-    const FoundHits found{.rays = rays,
-                          .ids = tile.best_id,
-                          .o = {tile.o_x, tile.o_y, tile.o_z},
-                          .d = {tile.d_x, tile.d_y, tile.d_z}};
-    round_hits(primitives, *kernels, found, hits);
+    round_hits(primitives, *kernels, view(), rays, tile, hits);
   } else {
     Bundle bundle(primitives, rays);
     for (const PrimitiveId id : outside)
@@ -197,9 +193,16 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
   assert(rays.size() == hits.size());
   std::unique_ptr<RayStream> stream;
   while (!rays.empty()) {
-    std::size_t done = common_origin_length(rays);
+    const auto whole = rays.first(std::min<std::size_t>(rays.size(), kTileRays));
+    std::size_t done = whole.size();
     // A few rays don't repay what a tile costs.
-    const bool is_tile = done >= kLeastTile && impl_->intersect_tile(rays.first(done), hits);
+    bool is_tile = done >= kLeastTile && whole.front().o == whole.back().o &&
+                   impl_->intersect_tile(whole, hits);
+    if (!is_tile) {
+      done = common_origin_length(rays);
+      is_tile = done >= kLeastTile && done < whole.size() &&
+                impl_->intersect_tile(rays.first(done), hits);
+    }
     if (!is_tile) {
       done = impl_->has_tree ? unrelated_length(rays) : 1;
       const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };

@@ -42,6 +42,25 @@ class Corners {
   PrimitiveId first_ = 0, last_ = 0;  // of the object that mesh_ is
 };
 
+struct RoundedT {
+  std::uint64_t certain;  // a bit for each ray whose t is
+  const float* t;
+};
+
+// What is not certain is decided here.
+void write_hits(const Primitives& primitives, std::span<const Ray> rays, const std::uint32_t* ids,
+                const RoundedT& rounded, std::span<std::optional<Hit>> hits) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::uint32_t id = ids[i];
+    if ((rounded.certain >> i & 1U) != 0)
+      hits[i] = Hit{.id = id, .t = rounded.t[i]};
+    else if (id != kNoPrimitive)
+      hits[i] = Judge(primitives, rays[i]).hit(id);
+    else
+      hits[i].reset();
+  }
+}
+
 }  // namespace
 
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
@@ -57,15 +76,15 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
       triangles |= std::uint64_t{1} << i;
   }
   const std::uint64_t certain = triangles != 0 ? kernels.round_t(batch) & triangles : 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t id = found.ids[i];
-    if ((certain >> i & 1U) != 0)
-      hits[i] = Hit{.id = id, .t = batch.t[i]};
-    else if (id != kNoPrimitive)
-      hits[i] = Judge(primitives, found.rays[i]).hit(id);
-    else
-      hits[i].reset();
-  }
+  write_hits(primitives, found.rays, found.ids, {.certain = certain, .t = batch.t}, hits);
+}
+
+void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
+                std::span<const Ray> rays, const KernelTile& tile,
+                std::span<std::optional<Hit>> hits) {
+  alignas(64) float t[kTileRays];
+  const std::uint64_t certain = kernels.round_t_of_tile(tree, tile, t);
+  write_hits(primitives, rays, tile.best_id, {.certain = certain, .t = t}, hits);
 }
 
 }  // namespace microtrace

@@ -22,4 +22,9 @@ struct FoundHits {
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
                 std::span<std::optional<Hit>> hits);
 
+/// The same for the best hits of a tile of these rays.
+void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
+                std::span<const Ray> rays, const KernelTile& tile,
+                std::span<std::optional<Hit>> hits);
+
 }  // namespace microtrace

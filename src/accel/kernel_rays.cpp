@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace microtrace {
@@ -70,22 +71,10 @@ KernelRay kernel_ray_from(const Ray& ray, double t_scale, const exact::Enclosure
 }
 
 bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile) {
-  const auto fill = [&](std::size_t i, const Ray& ray) {
-    tile.d_x[i] = ray.d.x;
-    tile.d_y[i] = ray.d.y;
-    tile.d_z[i] = ray.d.z;
-    tile.t_min[i] = ray.t_min;
-    tile.best_lo[i] = tile.best_hi[i] = ray.t_max;
-    tile.best_id[i] = kNoPrimitive;
-  };
-  for (std::size_t i = 0; i < rays.size(); ++i) fill(i, rays[i]);
-  for (std::size_t i = rays.size(); i < kTileRays; ++i) fill(i, rays.back());
-  for (int axis = 0; axis < 3; ++axis) tile.o[axis] = rays[0].o[axis];
-  std::fill_n(tile.o_x, kTileRays, tile.o[0]);
-  std::fill_n(tile.o_y, kTileRays, tile.o[1]);
-  std::fill_n(tile.o_z, kTileRays, tile.o[2]);
-  tile.count = static_cast<int>(rays.size());
-  return within(rays[0].o, kFarthestCoordinate) && kernels.prepare_tile(tile);
+  // Kernels read rays as eight numbers, for they know no types of other headers.
+  static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
+                offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
+  return kernels.fill_tile(&rays[0].o.x, static_cast<int>(rays.size()), tile);
 }
 
 }  // namespace microtrace

@@ -27,8 +27,8 @@ namespace microtrace {
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
 
-/// Makes a tile without hits of 1 to kTileRays rays with one origin. False if not all of them suit
-/// kernels.
+/// A tile without hits of 1 to kTileRays rays. False if they have several origins or not all of
+/// them suit kernels.
 [[nodiscard]] bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile);
 
 }  // namespace microtrace

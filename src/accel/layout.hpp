@@ -21,14 +21,14 @@ struct alignas(64) WideNode {
 };
 static_assert(sizeof(WideNode) == 256);  // 224 and padding: four cache lines
 
-/// Up to eight triangles of moderate size (every |coordinate| at most 2^38). Each begins at the
-/// corner between its two shorter edges, which makes the error bounds of thin ones small. Unused
-/// places have NaN for v0 and are never hit.
+/// Up to eight triangles of moderate size (every |coordinate| at most 2^38) with corners a, b, c as
+/// the scene has them. Each begins at the corner between its two shorter edges, which makes the
+/// error bounds of thin ones small. Unused places have NaN for a and are never hit.
 struct alignas(64) TriangleBlock {
-  float v0_x[kWidth], v0_y[kWidth], v0_z[kWidth];  ///< a corner
-  float e1_x[kWidth], e1_y[kWidth], e1_z[kWidth];  ///< edge to the next corner, rounded
-  float e2_x[kWidth], e2_y[kWidth], e2_z[kWidth];  ///< edge to the one after, rounded
-  float largest_edge;                              ///< at least every |component| of e1 and e2
+  float a_x[kWidth], a_y[kWidth], a_z[kWidth];
+  float b_x[kWidth], b_y[kWidth], b_z[kWidth];
+  float c_x[kWidth], c_y[kWidth], c_z[kWidth];
+  float largest_edge;  ///< at least every |component| of e1 = fl(b - a) and e2 = fl(c - a)
   float edge_product;  ///< at least |component of e1| times |component of e2| of each triangle
   std::uint32_t id[kWidth];  ///< PrimitiveId; the most of it in a cache line that only hits need
 };

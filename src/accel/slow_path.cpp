@@ -1,6 +1,7 @@
 #include "accel/slow_path.hpp"
 
 #include "accel/filters/shape_filter.hpp"
+#include "accel/stage_counts.hpp"
 #include "exact/intersect.hpp"
 
 #include <cmath>
@@ -33,6 +34,7 @@ Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale) {
 
 std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
                                       const Ray& ray) {
+  ++slow_stages.exact;
   return primitives.visit(id, [&](const auto& shape) { return exact::first_hit(shape, ray); });
 }
 
@@ -44,6 +46,7 @@ Judge::Judge(const Primitives& primitives, const Ray& ray, double t_scale, const
       filterable_(is_filterable(ray.o) && is_filterable(ray.d)) {}
 
 void Judge::consider(std::uint32_t id, Best& best) const {
+  ++slow_stages.filters;
   if (id == best.id) return;  // a triangle that was split among leaves comes more than once
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
@@ -65,6 +68,7 @@ Hit Judge::hit(std::uint32_t id) const {
       const auto below = static_cast<float>(verdict.lo), above = static_cast<float>(verdict.hi);
       if (verdict.certainty == Certainty::hit && below == above) return Hit{.id = id, .t = below};
     }
+    ++slow_stages.exact;
     return Hit{.id = id, .t = exact::round_to_float(*exact::first_hit(shape, *ray_))};
   });
 }

@@ -6,6 +6,7 @@ namespace {
 void put(KernelTile& tile, std::size_t i, const Best& best) {
   tile.best_lo[i] = best.lo;
   tile.best_hi[i] = best.hi;
+  if (tile.best_id[i] != best.id) tile.best_place[i] = kNoPlace;
   tile.best_id[i] = best.id;
 }
 

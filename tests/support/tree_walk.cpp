@@ -155,9 +155,10 @@ void TreeWalk::visit(ChildRef ref, const Bounds& box, int depth) {
 void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
   float largest = 0;
   for (int i = 0; i < kWidth; ++i) {
-    const Vec3 a(block.v0_x[i], block.v0_y[i], block.v0_z[i]);
-    const Vec3 e1(block.e1_x[i], block.e1_y[i], block.e1_z[i]);
-    const Vec3 e2(block.e2_x[i], block.e2_y[i], block.e2_z[i]);
+    const Vec3 a(block.a_x[i], block.a_y[i], block.a_z[i]);
+    const Vec3 b(block.b_x[i], block.b_y[i], block.b_z[i]);
+    const Vec3 c(block.c_x[i], block.c_y[i], block.c_z[i]);
+    const Vec3 e1 = b - a, e2 = c - a;
     if (std::isnan(a.x)) {
       expect(std::isnan(a.y) && std::isnan(a.z), "an unused place has numbers");
       continue;
@@ -166,7 +167,7 @@ void TreeWalk::visit_block(const TriangleBlock& block, const Bounds& box) {
     primitives_.visit(block.id[i], [&](const auto& shape) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>) {
         const auto is_turned = [&](const Vec3& first, const Vec3& second, const Vec3& third) {
-          return a == first && e1 == second - first && e2 == third - first;
+          return a == first && b == second && c == third;
         };
         expect(is_turned(shape.a, shape.b, shape.c) || is_turned(shape.b, shape.c, shape.a) ||
                    is_turned(shape.c, shape.a, shape.b),

@@ -67,7 +67,7 @@ TriangleBlock empty_block() {
   TriangleBlock block{};
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int i = 0; i < kWidth; ++i) {
-    block.v0_x[i] = block.v0_y[i] = block.v0_z[i] = nan;
+    block.a_x[i] = block.a_y[i] = block.a_z[i] = nan;
     block.id[i] = std::numeric_limits<PrimitiveId>::max();
   }
   return block;
@@ -89,15 +89,15 @@ Triangle turned(const Triangle& t) {
 void put(TriangleBlock& block, std::size_t i, PrimitiveId id, const Triangle& unturned) {
   const Triangle t = turned(unturned);
   const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
-  block.v0_x[i] = t.a.x;
-  block.v0_y[i] = t.a.y;
-  block.v0_z[i] = t.a.z;
-  block.e1_x[i] = e1.x;
-  block.e1_y[i] = e1.y;
-  block.e1_z[i] = e1.z;
-  block.e2_x[i] = e2.x;
-  block.e2_y[i] = e2.y;
-  block.e2_z[i] = e2.z;
+  block.a_x[i] = t.a.x;
+  block.a_y[i] = t.a.y;
+  block.a_z[i] = t.a.z;
+  block.b_x[i] = t.b.x;
+  block.b_y[i] = t.b.y;
+  block.b_z[i] = t.b.z;
+  block.c_x[i] = t.c.x;
+  block.c_y[i] = t.c.y;
+  block.c_z[i] = t.c.z;
   block.id[i] = id;
   const float largest1 = largest_component(e1), largest2 = largest_component(e2);
   block.largest_edge = std::max({block.largest_edge, largest1, largest2});

@@ -3,6 +3,7 @@
 /// error bound (docs/exactness.md derives it): a lane is certainly out, certainly in with t in an
 /// interval, or left to the slow path.
 
+#include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 
@@ -23,8 +24,9 @@ struct Interval {
 template <class F, class G, class H>
 inline Interval<F> interval(const F& height, const F& size, const G& height_error,
                             const H& size_error) {
-  const F t = height / size, distance = t < F{} ? -t : t;
-  const F radius = (height_error + distance * size_error) * 1.08F / size + distance * (8 * kUnit);
+  const F inverse = 1 / size, t = height * inverse, distance = t < F{} ? -t : t;
+  const F radius =
+      (height_error + distance * size_error) * inverse * 1.08F + distance * (8 * kUnit);
   return {t - radius, t + radius};
 }
 
@@ -88,10 +90,12 @@ struct BlockTest {
     const float limit = t_limit < kFarthestHit ? t_limit : kFarthestHit;
     maybe = certain = 0;
     for (int i = 0; i < kWidth; i += N) {
-      const F a[3] = {load<N>(block.v0_x + i) - ray.o[0], load<N>(block.v0_y + i) - ray.o[1],
-                      load<N>(block.v0_z + i) - ray.o[2]};
-      const F e1[3] = {load<N>(block.e1_x + i), load<N>(block.e1_y + i), load<N>(block.e1_z + i)};
-      const F e2[3] = {load<N>(block.e2_x + i), load<N>(block.e2_y + i), load<N>(block.e2_z + i)};
+      const F x = load<N>(block.a_x + i), y = load<N>(block.a_y + i), z = load<N>(block.a_z + i);
+      const F a[3] = {x - ray.o[0], y - ray.o[1], z - ray.o[2]};
+      const F e1[3] = {load<N>(block.b_x + i) - x, load<N>(block.b_y + i) - y,
+                       load<N>(block.b_z + i) - z};
+      const F e2[3] = {load<N>(block.c_x + i) - x, load<N>(block.c_y + i) - y,
+                       load<N>(block.c_z + i) - z};
       const VolumeTest<N, float> test(a, e1, e2, ray.d, block.largest_edge, block.edge_product,
                                       ray.d_sum, ray.t_begin, limit);
       maybe |= test.maybe << i;
@@ -103,6 +107,8 @@ struct BlockTest {
     }
   }
 
+  /// Whether t() holds for a lane.
+  [[nodiscard]] bool has_t(int lane) const { return size_[lane] > 16 * size_error_; }
   /// Where a certain lane is hit.
   [[nodiscard]] Interval<float> t(int lane) const {
     return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
@@ -131,16 +137,21 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
 /// Takes the lanes that a block's test has left into account: updates best to the nearest hit. With
 /// kAny it stops at the first. slowly(id, best) is the slow path.
 template <int N, bool kAny, class Slowly>
-inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, float t_min,
+inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
                        Best& best, const Slowly& slowly) {
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
     if (id == best.id) continue;  // large triangles are in several leaves
     const Interval<float> t = test.t(lane);
-    const bool is_certain = (test.certain >> lane & 1U) != 0;
+    bool is_certain = (test.certain >> lane & 1U) != 0;
+    if (!is_certain) {
+      const Within within = within_edges(block, lane, ray.o, ray.d);
+      if (within == Within::no) continue;
+      is_certain = within == Within::yes && test.has_t(lane);
+    }
     if (is_certain && t.lo > best.hi) continue;
-    if (is_certain && t.hi < best.lo && t.lo >= t_min)
+    if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
       best = {t.lo, t.hi, id};
     else
       slowly(id, best);
@@ -157,7 +168,7 @@ inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf,
     if (has_triangles) {
       BlockTest<N> test;
       test.run(tree.blocks[i], ray, best.hi);
-      meet_lanes<N, kAny>(tree.blocks[i], test, ray.t_min, best, slowly);
+      meet_lanes<N, kAny>(tree.blocks[i], test, ray, best, slowly);
     } else {
       slowly(tree.others[i], best);
     }

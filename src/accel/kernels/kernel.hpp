@@ -54,24 +54,32 @@ struct KernelRay {
 };
 
 inline constexpr int kTileRays = 64;
+/// Rays that are culled together within a tile: two rows of eight pixels.
+inline constexpr int kGroupRays = 16, kGroups = kTileRays / kGroupRays;
+
+/// Directions within centre +- radius, axis by axis.
+struct Beam {
+  float centre[3], radius[3];
+};
+
+/// Where a triangle lies in the tree: its block's index times kWidth, plus its lane.
+inline constexpr std::uint32_t kNoPlace = ~0U;
 
 /// Rays with a common origin, best nearly parallel; an array for each of their parts. The limits
-/// are KernelRay's. The caller fills what stands above the line; places beyond the last ray repeat
-/// it.
+/// are KernelRay's. Places beyond the last ray repeat it and hit nothing.
 struct alignas(64) KernelTile {
-  float d_x[kTileRays], d_y[kTileRays], d_z[kTileRays];
+  float d[3][kTileRays];
   float t_min[kTileRays];
   float best_lo[kTileRays], best_hi[kTileRays];  ///< as in Best
   std::uint32_t best_id[kTileRays];
+  std::uint32_t best_place[kTileRays];  ///< of the best hit, kNoPlace unless it's a mesh's triangle
   float o[3];
-  int count;                                             ///< of rays
-  float o_x[kTileRays], o_y[kTileRays], o_z[kTileRays];  ///< o again, for HitBatch
-  // ---- by the kernel:
+  int count;                                    ///< of rays
   float near[3][kTileRays], far[3][kTileRays];  ///< near_factor and far_factor of each ray
-  float least_d[3], greatest_d[3];              ///< of each component of d
-  float d_sum;               ///< at least |d_x| + |d_y| + |d_z| of any vector between them
-  float t_begin[kTileRays];  ///< t_min, or 0 where that is tiny
-  float least_t_begin;       ///< of all rays
+  float t_begin[kTileRays];                     ///< t_min, or 0 where that is tiny
+  float least_t_begin;                          ///< of all rays
+  Beam beam, group_beam[kGroups];               ///< of all rays, of each group
+  float d_sum;          ///< at least |d_x| + |d_y| + |d_z| of any direction of the beam
   bool negative[3];     ///< whether d_i is below zero, for axes where that is the same for all rays
   bool common_sign[3];  ///< whether it is, and no d_i is so small that 1 / d_i overflows
   float least_near[3], greatest_near[3];  ///< of the factors, for axes with a common sign
@@ -130,9 +138,10 @@ struct Kernels {
   void (*closest)(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best);
   /// Whether there is any hit within the ray's range.
   bool (*any)(const TreeView& tree, KernelRay ray, const SlowPath& slow);
-  /// Fills the lower part of a tile without hits. False if a ray is not valid or beyond the limits;
-  /// then the tile is of no use.
-  bool (*prepare_tile)(KernelTile& tile);
+  /// Fills a tile without hits with up to kTileRays rays, each eight numbers: o, t_min, d, t_max.
+  /// False if their origins differ or one is not valid or beyond the limits; then the tile is of no
+  /// use.
+  bool (*fill_tile)(const float* rays, int count, KernelTile& tile);
   /// The same as closest for all rays of a prepared tile.
   void (*closest_of_tile)(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow);
   /// Fills the lower part of a stream, without hits.
@@ -144,6 +153,10 @@ struct Kernels {
   /// Fills t with the exact parameters rounded to nearest; returns the set of hits for which that
   /// is certain.
   std::uint64_t (*round_t)(HitBatch& hits);
+  /// The same for the hits of a tile that have a place.
+  std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
+  /// How many triangles' edges this thread has looked at by float64.
+  std::uint64_t (*edge_tests)();
 };
 
 extern const Kernels kPortableKernels;

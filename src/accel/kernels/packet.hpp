@@ -68,18 +68,18 @@ class PacketWalk {
   // A box around all rays from o to o + t_max d. The computed end is off by at most u |t_max d| +
   // u |o + t_max d|. Infinity times 0 is NaN and leaves a comparison's other side.
   void bound_segments() {
-    alignas(64) float lo[kRays], hi[kRays];
-    const F unit = all<N>(4 * kUnit);
+    const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
     for (int axis = 0; axis < 3; ++axis) {
+      F lo = infinity, hi = -infinity;
       for (int i = 0; i < kRays; i += N) {
         const F o = load<N>(stream_.o[axis] + first_ + i);
         const F way = load<N>(stream_.best_hi + first_ + i) * load<N>(stream_.d[axis] + first_ + i);
         const F margin = unit * (magnitude(o) + magnitude(way)) + kTiny, end = o + way;
-        store<N>(lo + i, lesser(end - margin, o));
-        store<N>(hi + i, greater(end + margin, o));
+        lo = lesser(lesser(end - margin, o), lo);
+        hi = greater(greater(end + margin, o), hi);
       }
-      lo_[axis] = reduce<N>(lo, [](const auto& a, const auto& b) { return lesser(a, b); });
-      hi_[axis] = reduce<N>(hi, [](const auto& a, const auto& b) { return greater(a, b); });
+      lo_[axis] = least_of<N>(lo);
+      hi_[axis] = greatest_of<N>(hi);
     }
   }
 
@@ -170,10 +170,11 @@ class PacketWalk {
       const F begin = load<N>(stream_.t_begin + at), t_max = load<N>(stream_.best_hi + at);
       const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
       for (int k = 0; k < kWidth; ++k) {
-        if (!(block.v0_x[k] == block.v0_x[k])) break;  // NaN: the block's unused places
-        const F a[3] = {block.v0_x[k] - o[0], block.v0_y[k] - o[1], block.v0_z[k] - o[2]};
-        const float e1[3] = {block.e1_x[k], block.e1_y[k], block.e1_z[k]};
-        const float e2[3] = {block.e2_x[k], block.e2_y[k], block.e2_z[k]};
+        const float x = block.a_x[k], y = block.a_y[k], z = block.a_z[k];
+        if (!(x == x)) break;  // NaN: the block's unused places
+        const F a[3] = {x - o[0], y - o[1], z - o[2]};
+        const float e1[3] = {block.b_x[k] - x, block.b_y[k] - y, block.b_z[k] - z};
+        const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
         const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
                                     begin, limit);
         const Lanes maybe = test.maybe & lanes;

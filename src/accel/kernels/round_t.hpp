@@ -9,55 +9,164 @@
 namespace microtrace {
 namespace {
 
-template <int N>
+/// D is one number or several.
+template <class D>
 struct Double3 {
-  Double<N> x, y, z;
+  D x, y, z;
+
+  friend Double3 operator-(const Double3& a, const Double3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+  }
 };
 
+inline double magnitude(double x) {
+  return __builtin_fabs(x);
+}
+
+/// A triangle's plane as seen from o, a ray's origin: n = e1 x e2 and A.n with A = a - o.
+template <class D>
+struct SeenPlane {
+  Double3<D> n;
+  D height, height_error;
+  Double3<D> sum;  ///< of the magnitudes that make each component of n
+
+  SeenPlane(const Double3<D>& o, const Double3<D>& a, const Double3<D>& b, const Double3<D>& c) {
+    const Double3<D> from = a - o, e1 = b - a, e2 = c - a;
+    const D left_x = e1.y * e2.z, left_y = e1.z * e2.x, left_z = e1.x * e2.y;
+    const D right_x = e1.z * e2.y, right_y = e1.x * e2.z, right_z = e1.y * e2.x;
+    sum = {magnitude(left_x) + magnitude(right_x), magnitude(left_y) + magnitude(right_y),
+           magnitude(left_z) + magnitude(right_z)};
+    n = {left_x - right_x, left_y - right_y, left_z - right_z};
+    height = n.x * from.x + n.y * from.y + n.z * from.z;
+    height_error =
+        9 * 0x1p-53 *
+            (sum.x * magnitude(from.x) + sum.y * magnitude(from.y) + sum.z * magnitude(from.z)) +
+        0x1p-600;
+  }
+};
+
+/// Writes N parameters; returns those that are certain. size_error bounds that of d.n.
+template <int N, class D>
+inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, const D& size_error,
+                     float* t) {
+  using V = Double<N>;
+  constexpr double unit = 0x1p-53;
+  const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
+  // As quotient_verdict, with one division: t errs by three roundings more than the quotient, and
+  // where size is above four times its error, 1 / (size - error) is at most 4/3 / size.
+  const V inverse = 1.0 / size, middle = plane.height * inverse, distance = magnitude(middle);
+  V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.34 +
+            distance * (8 * unit) + 0x1p-600;
+  error = magnitude(size) > 4 * size_error ? error : V{} + __builtin_inf();
+  float above[N];
+  narrowed<N>(middle - error, t);
+  narrowed<N>(middle + error, above);
+  return less_equal<N>(load<N>(above), load<N>(t));
+}
+
 template <int N>
-inline Double3<N> difference(const float (*p)[kHitBatch], const float* x, const float* y,
-                             const float* z, int i) {
-  return {widened<N>(p[0] + i) - widened<N>(x + i), widened<N>(p[1] + i) - widened<N>(y + i),
-          widened<N>(p[2] + i) - widened<N>(z + i)};
+inline Double3<Double<N>> widened(const float (*p)[kHitBatch], int i) {
+  return {widened<N>(p[0] + i), widened<N>(p[1] + i), widened<N>(p[2] + i)};
+}
+template <int N>
+inline Double3<Double<N>> widened(const float* const (&p)[3], int i) {
+  return {widened<N>(p[0] + i), widened<N>(p[1] + i), widened<N>(p[2] + i)};
+}
+
+template <int N>
+inline Double<N> size_error(const SeenPlane<Double<N>>& plane, const Double3<Double<N>>& d) {
+  return 8 * 0x1p-53 *
+             (plane.sum.x * magnitude(d.x) + plane.sum.y * magnitude(d.y) +
+              plane.sum.z * magnitude(d.z)) +
+         0x1p-600;
 }
 
 template <int N>
 std::uint64_t round_t(HitBatch& hits) {
-  using D = Double<N>;
-  constexpr double unit = 0x1p-53;
   std::uint64_t certain = 0;
   for (int i = 0; i < kHitBatch; i += N) {
-    const Double3<N> a = difference<N>(hits.a, hits.o[0], hits.o[1], hits.o[2], i);
-    const Double3<N> e1 = difference<N>(hits.b, hits.a[0], hits.a[1], hits.a[2], i),
-                     e2 = difference<N>(hits.c, hits.a[0], hits.a[1], hits.a[2], i);
-    const D left_x = e1.y * e2.z, left_y = e1.z * e2.x, left_z = e1.x * e2.y;
-    const D right_x = e1.z * e2.y, right_y = e1.x * e2.z, right_z = e1.y * e2.x;
-    const D sum_x = magnitude(left_x) + magnitude(right_x),
-            sum_y = magnitude(left_y) + magnitude(right_y),
-            sum_z = magnitude(left_z) + magnitude(right_z);
-    const D nx = left_x - right_x, ny = left_y - right_y, nz = left_z - right_z;
-    const D dx = widened<N>(hits.d[0] + i), dy = widened<N>(hits.d[1] + i),
-            dz = widened<N>(hits.d[2] + i);
-    const D height = nx * a.x + ny * a.y + nz * a.z, size = nx * dx + ny * dy + nz * dz;
-    const D height_error =
-        9 * unit * (sum_x * magnitude(a.x) + sum_y * magnitude(a.y) + sum_z * magnitude(a.z)) +
-        0x1p-600;
-    const D size_error =
-        8 * unit * (sum_x * magnitude(dx) + sum_y * magnitude(dy) + sum_z * magnitude(dz)) +
-        0x1p-600;
-    // As quotient_verdict, with one division: t errs by three roundings more than the quotient, and
-    // where size is above four times its error, 1 / (size - error) is at most 4/3 / size.
-    const D inverse = 1.0 / size, t = height * inverse, distance = magnitude(t);
-    const D error = (height_error + distance * size_error) * magnitude(inverse) * 1.34 +
-                    distance * (8 * unit) + 0x1p-600;
-    float above[N];
-    narrowed<N>(t - error, hits.t + i);
-    narrowed<N>(t + error, above);
-    const D room = magnitude(size) - 4 * size_error;
-    for (int lane = 0; lane < N; ++lane)
-      certain |= std::uint64_t{room[lane] > 0 && hits.t[i + lane] == above[lane]} << (i + lane);
+    const SeenPlane<Double<N>> plane(widened<N>(hits.o, i), widened<N>(hits.a, i),
+                                     widened<N>(hits.b, i), widened<N>(hits.c, i));
+    const auto d = widened<N>(hits.d, i);
+    certain |= std::uint64_t{round_t<N>(plane, d, size_error<N>(plane, d), hits.t + i)} << i;
   }
   return certain;
+}
+
+/// One triangle after another of those that a tile's rays hit.
+template <int N>
+class TileRounding {
+ public:
+  TileRounding(const TreeView& tree, const KernelTile& tile, float* t)
+      : tree_(tree), tile_(tile), t_(t), o_{tile.o[0], tile.o[1], tile.o[2]} {}
+
+  std::uint64_t run() {
+    std::uint64_t certain = 0;
+    for (int i = 0; i < kTileRays; i += kWidth) {
+      const std::uint32_t* places = tile_.best_place + i;
+      const Lanes hits = ~lanes_within(places, kNoPlace, kNoPlace) & all_lanes<kWidth>;
+      if (hits == 0) continue;
+      const std::uint32_t place = places[first_lane(hits)];
+      const bool is_one = (hits & ~lanes_within(places, place, place)) == 0;
+      for (int k = 0; k < kWidth; k += N)
+        certain |= std::uint64_t{(is_one ? round_one(place, i + k) : round_several(place, i + k)) &
+                                 (hits >> k)}
+                   << (i + k);
+    }
+    return certain;
+  }
+
+ private:
+  // Rays that hit one triangle: its plane is that of the rays before, often.
+  Lanes round_one(std::uint32_t place, int i) {
+    if (place != place_) {
+      place_ = place;
+      const TriangleBlock& block = tree_.blocks[place / kWidth];
+      const std::uint32_t k = place % kWidth;
+      plane_ = {o_,
+                {block.a_x[k], block.a_y[k], block.a_z[k]},
+                {block.b_x[k], block.b_y[k], block.b_z[k]},
+                {block.c_x[k], block.c_y[k], block.c_z[k]}};
+      const double sum = greater(greater(plane_.sum.x, plane_.sum.y), plane_.sum.z);
+      size_error_ = 8 * 0x1p-53 * (sum * double{tile_.d_sum}) + 0x1p-600;
+    }
+    return round_t<N>(plane_, d(i), size_error_, t_ + i);
+  }
+
+  // Rays without a hit take the triangle `other`.
+  Lanes round_several(std::uint32_t other, int i) const {
+    float corner[9][N];
+    for (int lane = 0; lane < N; ++lane) {
+      const std::uint32_t at = tile_.best_place[i + lane], place = at == kNoPlace ? other : at;
+      const float* p = tree_.blocks[place / kWidth].a_x + place % kWidth;
+      for (int k = 0; k < 9; ++k) corner[k][lane] = p[k * kWidth];
+    }
+    const auto vertex = [&](int k) {
+      return Double3<Double<N>>{widened<N>(corner[k]), widened<N>(corner[k + 1]),
+                                widened<N>(corner[k + 2])};
+    };
+    const Double<N> zero{};
+    const SeenPlane<Double<N>> plane({zero + o_.x, zero + o_.y, zero + o_.z}, vertex(0), vertex(3),
+                                     vertex(6));
+    return round_t<N>(plane, d(i), size_error<N>(plane, d(i)), t_ + i);
+  }
+
+  [[nodiscard]] Double3<Double<N>> d(int i) const {
+    return {widened<N>(tile_.d[0] + i), widened<N>(tile_.d[1] + i), widened<N>(tile_.d[2] + i)};
+  }
+
+  const TreeView& tree_;
+  const KernelTile& tile_;
+  float* t_;
+  Double3<double> o_;
+  std::uint32_t place_ = kNoPlace;
+  SeenPlane<double> plane_{{}, {}, {}, {}};
+  double size_error_ = 0;
+};
+
+template <int N>
+std::uint64_t round_t_of_tile(const TreeView& tree, const KernelTile& tile, float* t) {
+  return TileRounding<N>(tree, tile, t).run();
 }
 
 }  // namespace

@@ -151,6 +151,57 @@ inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
   return set != 0 ? a : b;
 }
 
+/// Writes a number to the given lanes' places.
+template <int N>
+inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
+#if defined(__AVX512VL__)
+  if constexpr (N == 16)
+    return _mm512_mask_storeu_epi32(p, static_cast<__mmask16>(lanes),
+                                    _mm512_set1_epi32(static_cast<int>(number)));
+#endif
+  for (; lanes != 0; lanes &= lanes - 1) p[__builtin_ctz(lanes)] = number;
+}
+
+/// combine of all lanes, halving the vector as often as needed. combine must not depend on order.
+template <int N, class Combine>
+inline float combined(const Float<N>& v, const Combine& combine) {
+  if constexpr (N == 1) {
+    return v[0];
+  } else {
+    float lanes[N];
+    store<N>(lanes, v);
+    return combined<N / 2>(combine(load<N / 2>(lanes), load<N / 2>(lanes + N / 2)), combine);
+  }
+}
+template <int N>
+inline float least_of(const Float<N>& v) {
+  return combined<N>(v, [](const auto& a, const auto& b) { return lesser(a, b); });
+}
+template <int N>
+inline float greatest_of(const Float<N>& v) {
+  return combined<N>(v, [](const auto& a, const auto& b) { return greater(a, b); });
+}
+
+/// Eight rows of eight become columns.
+inline void transpose(Float<8> (&m)[8]) {
+  Float<8> pairs[8], fours[8];
+  for (int i = 0; i < 8; i += 2) {
+    pairs[i] = __builtin_shufflevector(m[i], m[i + 1], 0, 8, 1, 9, 4, 12, 5, 13);
+    pairs[i + 1] = __builtin_shufflevector(m[i], m[i + 1], 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  for (int i = 0; i < 8; i += 4) {
+    for (int k = 0; k < 2; ++k) {
+      const Float<8>&p = pairs[i + k], &q = pairs[i + k + 2];
+      fours[i + 2 * k] = __builtin_shufflevector(p, q, 0, 1, 8, 9, 4, 5, 12, 13);
+      fours[i + 2 * k + 1] = __builtin_shufflevector(p, q, 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  }
+  for (int i = 0; i < 4; ++i) {
+    m[i] = __builtin_shufflevector(fours[i], fours[i + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    m[i + 4] = __builtin_shufflevector(fours[i], fours[i + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
 inline int first_lane(std::uint64_t lanes) {
   return __builtin_ctzll(lanes);
 }

@@ -176,8 +176,7 @@ class StreamWalk {
     });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
-      meet_lanes<N, kAny>(*block, flight->test, flight->ray.t_min, flight->best,
-                          slow_path(*flight));
+      meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, slow_path(*flight));
       ++flight->stack.size;  // what it has popped may lie beyond the hit now
       next_[flight - flights_] = next_after_leaf(*flight);
     }

@@ -2,12 +2,13 @@
 /// 64 rays from one origin through the tree together: a node's eight boxes are first held against
 /// the beam that the rays form, then each box that is left against the rays, only to know whether
 /// one enters. What depends on the origin alone is computed once for each triangle, so that each
-/// ray costs three dot products. Error bounds as in single_ray.hpp.
+/// ray costs three dot products.
 
+#include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 #include "accel/kernels/single_ray.hpp"
-#include "accel/kernels/slabs.hpp"
+#include "accel/kernels/tile_view.hpp"
 
 namespace microtrace {
 namespace {
@@ -44,8 +45,7 @@ class TileWalk {
   void update_limit() {
     F limit = load<N>(tile_.best_hi);
     for (int i = N; i < kTileRays; i += N) limit = greater(limit, load<N>(tile_.best_hi + i));
-    limit_ = limit[0];
-    for (int i = 1; i < N; ++i) limit_ = limit[i] > limit_ ? limit[i] : limit_;
+    limit_ = greatest_of<N>(limit);
   }
 
   // The children's planes through which rays enter and leave along an axis.
@@ -79,12 +79,22 @@ class TileWalk {
       const int lane = first_lane(entered);
       if (!some_ray_enters(node, lane)) continue;
       const StackEntry entry{node.child[lane], near[lane]};
+      fetch(entry.child);
       int place = top++;
       for (; place > first && stack[place - 1].near < entry.near; --place)
         stack[place] = stack[place - 1];
       stack[place] = entry;
     }
     return top;
+  }
+
+  // Inlined by force: GCC takes a function of prefetches alone for one without effect.
+  __attribute__((always_inline)) void fetch(ChildRef child) const {
+    const bool is_node = (child & child_ref::kKind) == 0;
+    const char* p = is_node ? reinterpret_cast<const char*>(tree_.nodes + child)
+                            : reinterpret_cast<const char*>(tree_.blocks + first_entry(child));
+    const int lines = is_node ? 4 : 5;
+    for (int i = 0; i < lines; ++i) __builtin_prefetch(p + 64 * i);
   }
 
   [[nodiscard]] bool some_ray_enters(const WideNode& node, int lane) const {
@@ -117,7 +127,7 @@ class TileWalk {
   void meet_leaf(ChildRef leaf) {
     if ((leaf & child_ref::kKind) == child_ref::kTriangles) {
       for_each_entry(leaf, [&](std::uint32_t i) {
-        meet_block(tree_.blocks[i]);
+        meet_block(i);
         return false;
       });
     } else {
@@ -128,139 +138,106 @@ class TileWalk {
     }
   }
 
-  // What the triangles of a block look like from the origin.
-  struct View {
-    alignas(64) float u_x[kWidth], u_y[kWidth], u_z[kWidth];  // e2 x A
-    float v_x[kWidth], v_y[kWidth], v_z[kWidth];              // A x e1
-    float n_x[kWidth], n_y[kWidth], n_z[kWidth];              // e1 x e2
-    float height[kWidth];                                     // n . A
-    float error[kWidth], size_error[kWidth], height_error[kWidth];
-    Lanes seen;  // triangles that are not certainly missed by every ray of the beam
-  };
-
-  struct Bounds {
-    B least, greatest;
-  };
-  // Of the product of a vector with any direction of the beam.
-  [[nodiscard]] Bounds over_beam(const B& x, const B& y, const B& z) const {
-    const B* const v[3] = {&x, &y, &z};
-    Bounds bounds{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const B p = *v[axis] * tile_.least_d[axis], q = *v[axis] * tile_.greatest_d[axis];
-      bounds.least += lesser(p, q);
-      bounds.greatest += greater(p, q);
-    }
-    return bounds;
-  }
-
-  void view_from_origin(const TriangleBlock& block, View& view) const {
-    constexpr int M = kNodeLanes;
-    view.seen = 0;
-    for (int i = 0; i < kWidth; i += M) {
-      const B ax = load<M>(block.v0_x + i) - tile_.o[0], ay = load<M>(block.v0_y + i) - tile_.o[1],
-              az = load<M>(block.v0_z + i) - tile_.o[2];
-      const B e1x = load<M>(block.e1_x + i), e1y = load<M>(block.e1_y + i),
-              e1z = load<M>(block.e1_z + i);
-      const B e2x = load<M>(block.e2_x + i), e2y = load<M>(block.e2_y + i),
-              e2z = load<M>(block.e2_z + i);
-      const B ux = e2y * az - e2z * ay, uy = e2z * ax - e2x * az, uz = e2x * ay - e2y * ax;
-      const B vx = ay * e1z - az * e1y, vy = az * e1x - ax * e1z, vz = ax * e1y - ay * e1x;
-      const B nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z, nz = e1x * e2y - e1y * e2x;
-      const B a_sum = magnitude(ax) + magnitude(ay) + magnitude(az);
-      // Each triangle's own bounds: a huge one beside it would make a tiny one uncertain for every
-      // ray. em and m as TriangleBlock's.
-      const B e1 = greater(greater(magnitude(e1x), magnitude(e1y)), magnitude(e1z));
-      const B e2 = greater(greater(magnitude(e2x), magnitude(e2y)), magnitude(e2z));
-      const B m = e1 * e2 * (1 + 0x1p-22F);
-      const B error = (a_sum * greater(e1, e2) + m) * (18 * kUnit * tile_.d_sum) + kTiny;
-
-      // The beam is certainly outside an edge if u, v or size - u - v has one sign for all its
-      // directions, and size the other. The bounds' own roundings are those of the rays' products;
-      // the third form has three more, of its three parts.
-      const Bounds u = over_beam(ux, uy, uz), v = over_beam(vx, vy, vz);
-      const Bounds w = over_beam(nx - ux - vx, ny - uy - vy, nz - uz - vz);
-      const Bounds size = over_beam(nx, ny, nz);
-      const B lowest = lesser(lesser(u.greatest, v.greatest),
-                              w.greatest);  // negative: outside, seen from one side
-      const B highest =
-          greater(greater(u.least, v.least), w.least);  // positive: outside, seen from the other
-      const Lanes front = less_equal<M>(-error, size.greatest),
-                  back = less_equal<M>(size.least, error);
-      view.seen |=
-          ((front & less_equal<M>(-2 * error, lowest)) | (back & less_equal<M>(highest, 2 * error)))
-          << i;
-
-      store<M>(view.u_x + i, ux);
-      store<M>(view.u_y + i, uy);
-      store<M>(view.u_z + i, uz);
-      store<M>(view.v_x + i, vx);
-      store<M>(view.v_y + i, vy);
-      store<M>(view.v_z + i, vz);
-      store<M>(view.n_x + i, nx);
-      store<M>(view.n_y + i, ny);
-      store<M>(view.n_z + i, nz);
-      store<M>(view.height + i, nx * ax + ny * ay + nz * az);
-      store<M>(view.error + i, error);
-      store<M>(view.size_error + i, m * (15 * kUnit * tile_.d_sum) + kTiny);
-      store<M>(view.height_error + i, a_sum * m * (18 * kUnit) + kTiny);
+  void meet_block(std::uint32_t index) {
+    const TriangleBlock& block = tree_.blocks[index];
+    const TileView<kNodeLanes> view(block, tile_);
+    for (int group = 0; group < kGroups; ++group) {
+      if (view.seen[group] == 0) continue;
+      const int first = group * kGroupRays;
+      for (int i = first; i < first + kGroupRays; i += N)
+        meet_triangles(view, group, i, block, index);
     }
   }
 
-  void meet_block(const TriangleBlock& block) {
-    View view;
-    view_from_origin(block, view);
-    for (Lanes lanes = view.seen; lanes != 0; lanes &= lanes - 1) {
+  // Those that group `group` may see, on the rays [i, i + N).
+  void meet_triangles(const TileView<kNodeLanes>& view, int group, int i,
+                      const TriangleBlock& block, std::uint32_t index) {
+    const F dx = load<N>(tile_.d[0] + i), dy = load<N>(tile_.d[1] + i),
+            dz = load<N>(tile_.d[2] + i);
+    for (Lanes lanes = view.seen[group]; lanes != 0; lanes &= lanes - 1) {
       const int k = first_lane(lanes);
-      for (int i = 0; i < kTileRays; i += N) meet_triangle(view, k, block.id[k], i);
+      F size = dx * view.n[0][k] + dy * view.n[1][k] + dz * view.n[2][k];
+      F u = dx * view.u[0][k] + dy * view.u[1][k] + dz * view.u[2][k];
+      F v = dx * view.v[0][k] + dy * view.v[1][k] + dz * view.v[2][k];
+      F height = all<N>(view.height[k]);
+      if ((view.two_sided >> k & 1U) != 0) {
+        u = with_sign_of<N>(u, size);
+        v = with_sign_of<N>(v, size);
+        height = with_sign_of<N>(height, size);
+        size = magnitude(size);
+      }
+      const F within = lesser(lesser(u, v), size - (u + v));
+      const Lanes maybe = less_equal<N>(all<N>(-view.error[k]), within);
+      if (maybe != 0) {
+        const Lanes certain = less<N>(all<N>(view.error[k]), within);
+        meet_hits({.height = height,
+                   .size = size,
+                   .height_error = view.height_error[k],
+                   .size_error = view.size_error[k]},
+                  maybe, certain, i, {block, k, index * kWidth + static_cast<std::uint32_t>(k)});
+      }
     }
   }
 
-  void meet_triangle(const View& view, int k, std::uint32_t id, int i) {
-    const F dx = load<N>(tile_.d_x + i), dy = load<N>(tile_.d_y + i), dz = load<N>(tile_.d_z + i);
-    const F zero{}, one = all<N>(1.0F);
-    const F signed_size = dx * view.n_x[k] + dy * view.n_y[k] + dz * view.n_z[k];
-    const F sign = signed_size < zero ? -one : one;
-    const F size = signed_size * sign;
-    const F u = (dx * view.u_x[k] + dy * view.u_y[k] + dz * view.u_z[k]) * sign;
-    const F v = (dx * view.v_x[k] + dy * view.v_y[k] + dz * view.v_z[k]) * sign;
-    const F within = lesser(lesser(u, v), size - (u + v));
-    Lanes maybe = less_equal<N>(all<N>(-view.error[k]), within);
-    if (maybe == 0) return;
+  struct Quotient {
+    F height, size;  // t = height / size
+    float height_error, size_error;
+  };
+  struct Candidate {
+    const TriangleBlock& block;
+    int lane;
+    std::uint32_t place;
+  };
 
-    const float size_error = view.size_error[k];
+  // Rays [i, i + N) of which some, `maybe`, go through a triangle, `certain` for certain.
+  void meet_hits(const Quotient& q, Lanes maybe, Lanes certain, int i, const Candidate& triangle) {
     const F best_lo = load<N>(tile_.best_lo + i), best_hi = load<N>(tile_.best_hi + i);
     const F t_begin = load<N>(tile_.t_begin + i);
     const F limit = lesser(best_hi, all<N>(kFarthestHit));
-    const F height = sign * view.height[k];
-    maybe &= less_equal<N>(height - size * limit, limit * size_error + view.height_error[k]);
-    maybe &= less_equal<N>(size * t_begin - height, t_begin * size_error + view.height_error[k]);
+    maybe &= less_equal<N>(q.height - q.size * limit, limit * q.size_error + q.height_error);
+    maybe &= less_equal<N>(q.size * t_begin - q.height, t_begin * q.size_error + q.height_error);
     if (maybe == 0) return;
 
-    const auto [lo, hi] = interval(height, size, view.height_error[k], size_error);
-    const Lanes certain =
-        maybe & less<N>(all<N>(view.error[k]), within) & less<N>(all<N>(16 * size_error), size);
+    certain &= maybe;
+    if (certain != maybe) look_at_edges(maybe, certain, i, triangle);
+    const auto [lo, hi] = interval(q.height, q.size, q.height_error, q.size_error);
+    certain &= less<N>(all<N>(16 * q.size_error), q.size);
     const Lanes nearer =
         certain & less<N>(hi, best_lo) & less_equal<N>(load<N>(tile_.t_min + i), lo);
     const Lanes farther = certain & less<N>(best_hi, lo);
+    const std::uint32_t id = triangle.block.id[triangle.lane];
     if (nearer != 0) {
       store<N>(tile_.best_lo + i, select<N>(nearer, lo, best_lo));
       store<N>(tile_.best_hi + i, select<N>(nearer, hi, best_hi));
-      for (Lanes lanes = nearer; lanes != 0; lanes &= lanes - 1)
-        tile_.best_id[i + first_lane(lanes)] = id;
+      store_where<N>(nearer, id, tile_.best_id + i);
+      store_where<N>(nearer, triangle.place, tile_.best_place + i);
     }
     for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
       const int ray = i + first_lane(lanes);
       // A triangle that was split among leaves comes more than once.
-      if (tile_.best_id[ray] != id) decide_slowly(ray, id);
+      if (tile_.best_id[ray] != id) decide_slowly(ray, id, triangle.place);
     }
   }
 
-  void decide_slowly(int ray, std::uint32_t id) {
+  // Moves what it can from `maybe` alone to `certain`, or out.
+  void look_at_edges(Lanes& maybe, Lanes& certain, int i, const Candidate& triangle) const {
+    for (Lanes lanes = maybe & ~certain; lanes != 0; lanes &= lanes - 1) {
+      const int lane = first_lane(lanes), ray = i + lane;
+      const float d[3] = {tile_.d[0][ray], tile_.d[1][ray], tile_.d[2][ray]};
+      const Within within = within_edges(triangle.block, triangle.lane, tile_.o, d);
+      if (within == Within::no) maybe &= ~(Lanes{1} << lane);
+      if (within == Within::yes) certain |= Lanes{1} << lane;
+    }
+  }
+
+  void decide_slowly(int ray, std::uint32_t id, std::uint32_t place) {
     Best best{tile_.best_lo[ray], tile_.best_hi[ray], tile_.best_id[ray]};
     slow_.consider(slow_.context, ray, id, best);
     tile_.best_lo[ray] = best.lo;
     tile_.best_hi[ray] = best.hi;
-    tile_.best_id[ray] = best.id;
+    if (best.id != id) return;
+    tile_.best_id[ray] = id;
+    tile_.best_place[ray] = place;
   }
 
   const TreeView& tree_;

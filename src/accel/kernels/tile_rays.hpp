@@ -1,0 +1,130 @@
+#pragma once
+/// A tile's rays, as the walk wants them: by columns, with the beam that they form.
+
+#include "accel/kernels/kernel.hpp"
+#include "accel/kernels/simd.hpp"
+#include "accel/kernels/slabs.hpp"
+
+namespace microtrace {
+namespace {
+
+/// Rays by rows become columns. False if they have several origins.
+inline bool read_rows(const float* rays, KernelTile& tile) {
+  Float<8> differences{};
+  for (int i = 0; i < kTileRays; i += 8) {
+    Float<8> column[8];
+    for (int k = 0; k < 8; ++k)
+      column[k] = load<8>(rays + 8 * (i + k < tile.count ? i + k : tile.count - 1));
+    transpose(column);
+    for (int axis = 0; axis < 3; ++axis) {
+      differences = differences + magnitude(column[axis] - tile.o[axis]);
+      store<8>(tile.d[axis] + i, column[4 + axis]);
+    }
+    store<8>(tile.t_min + i, column[3]);
+    store<8>(tile.best_lo + i, column[7]);
+    store<8>(tile.best_hi + i, column[7]);
+  }
+  // Different float32s never have the difference 0, and NaN fails the comparison.
+  return less_equal<8>(differences, Float<8>{}) == all_lanes<8>;
+}
+
+inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
+  Beam beam;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float centre = 0.5F * least[axis] + 0.5F * greatest[axis];
+    beam.centre[axis] = centre;
+    beam.radius[axis] =
+        greater(greatest[axis] - centre, centre - least[axis]) * (1 + 0x1p-22F) + 0x1p-126F;
+  }
+  return beam;
+}
+
+/// Bounds of the factors of all rays: they fall as |d| grows.
+inline void bound_factors(const float (&least)[3], const float (&greatest)[3], KernelTile& tile) {
+  const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
+  float near[8], far[8];
+  for (int i = 0; i < 8; i += 4) {
+    Float<4> near_factors, far_factors;
+    slab_factors<4>(load<4>(d + i), near_factors, far_factors);
+    store<4>(near + i, near_factors);
+    store<4>(far + i, far_factors);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    tile.negative[axis] = greatest[axis] < 0;
+    tile.common_sign[axis] = (greatest[axis] < 0 || least[axis] >= 0) &&
+                             __builtin_fabsf(far[axis]) <= __FLT_MAX__ &&
+                             __builtin_fabsf(far[axis + 4]) <= __FLT_MAX__;
+    tile.least_near[axis] = near[axis + 4];
+    tile.greatest_near[axis] = near[axis];
+    tile.least_far[axis] = far[axis + 4];
+    tile.greatest_far[axis] = far[axis];
+  }
+}
+
+template <int N>
+bool fill_tile(const float* rays, int count, KernelTile& tile) {
+  using F = Float<N>;
+  tile.count = count;
+  for (int axis = 0; axis < 3; ++axis) {
+    tile.o[axis] = rays[axis];
+    if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
+  }
+  if (!read_rows(rays, tile)) return false;
+  // Who asks for one tile after another has the next behind this one, mostly.
+  for (int i = 0; i < 8 * kTileRays; i += 16) __builtin_prefetch(rays + 8 * kTileRays + i);
+  __builtin_memset(tile.best_id, 0xff, sizeof tile.best_id);
+  __builtin_memset(tile.best_place, 0xff, sizeof tile.best_place);
+  static_assert(kNoPrimitive == 0xffffffff && kNoPlace == 0xffffffff);
+
+  const F longest = all<N>(kLongestDirection), shortest = all<N>(kShortestDirection);
+  Lanes suited = all_lanes<N>;
+  const F infinity = all<N>(__builtin_inff());
+  F least_t_begin = infinity;
+  float tile_least[3], tile_greatest[3];
+  for (int first = 0; first < kTileRays; first += kGroupRays) {
+    float least_d[3], greatest_d[3];
+    F least[3] = {infinity, infinity, infinity}, greatest[3] = {-infinity, -infinity, -infinity};
+    for (int i = first; i < first + kGroupRays; i += N) {
+      F size{};
+      for (int axis = 0; axis < 3; ++axis) {
+        const F d = load<N>(tile.d[axis] + i), length = magnitude(d);
+        F near, far;
+        slab_factors<N>(d, near, far);
+        store<N>(tile.near[axis] + i, near);
+        store<N>(tile.far[axis] + i, far);
+        size = greater(length, size);
+        suited &= less_equal<N>(length, longest);
+        least[axis] = lesser(d, least[axis]);
+        greatest[axis] = greater(d, greatest[axis]);
+      }
+      const F t_min = load<N>(tile.t_min + i);
+      const F t_begin = t_min < all<N>(kLeastBegin) ? F{} : t_min;
+      store<N>(tile.t_begin + i, t_begin);
+      least_t_begin = lesser(t_begin, least_t_begin);
+      suited &= less_equal<N>(shortest, size) & less_equal<N>(F{}, t_min) &
+                less_equal<N>(t_min, all<N>(kFarthestCoordinate)) &
+                less_equal<N>(t_min, load<N>(tile.best_hi + i));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      least_d[axis] = least_of<N>(least[axis]);
+      greatest_d[axis] = greatest_of<N>(greatest[axis]);
+      tile_least[axis] = first == 0 ? least_d[axis] : lesser(least_d[axis], tile_least[axis]);
+      tile_greatest[axis] =
+          first == 0 ? greatest_d[axis] : greater(greatest_d[axis], tile_greatest[axis]);
+    }
+    tile.group_beam[first / kGroupRays] = beam_between(least_d, greatest_d);
+  }
+  if (suited != all_lanes<N>) return false;
+  for (int i = count; i < kTileRays; ++i) tile.best_lo[i] = tile.best_hi[i] = -__builtin_inff();
+  tile.beam = beam_between(tile_least, tile_greatest);
+  tile.d_sum = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    tile.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
+  tile.d_sum *= 1 + 0x1p-21F;
+  tile.least_t_begin = least_of<N>(least_t_begin);
+  bound_factors(tile_least, tile_greatest, tile);
+  return true;
+}
+
+}  // namespace
+}  // namespace microtrace

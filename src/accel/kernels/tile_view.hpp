@@ -1,0 +1,107 @@
+#pragma once
+/// A block's triangles as the rays of a tile see them from their common origin, and which of them
+/// which rays may see at all.
+
+#include "accel/kernels/block_test.hpp"
+#include "accel/kernels/kernel.hpp"
+#include "accel/kernels/simd.hpp"
+
+namespace microtrace {
+namespace {
+
+/// N triangles at a time, N <= kWidth.
+template <int N>
+struct TileView {
+  // Each times the sign of n . d, where that is the same for all directions of the beam.
+  alignas(64) float u[3][kWidth];  ///< e2 x A
+  float v[3][kWidth];              ///< A x e1
+  float n[3][kWidth];              ///< e1 x e2
+  float height[kWidth];            ///< n . A
+  float error[kWidth], size_error[kWidth], height_error[kWidth];
+  Lanes seen[kGroups];  ///< triangles that are not certainly missed by every ray of a group
+  Lanes two_sided;      ///< triangles of which some rays may see one side and some the other
+
+  TileView(const TriangleBlock& block, const KernelTile& tile) : seen{}, two_sided(0) {
+    for (int i = 0; i < kWidth; i += N) look_at(block, tile, i);
+  }
+
+ private:
+  using F = Float<N>;
+  struct Vector {
+    F x, y, z;
+  };
+  struct Range {
+    F middle, radius;
+  };
+
+  static Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  }
+  // Of the product with any direction of the beam.
+  static Range over(const Beam& beam, const Vector& a) {
+    return {a.x * beam.centre[0] + a.y * beam.centre[1] + a.z * beam.centre[2],
+            magnitude(a.x) * beam.radius[0] + magnitude(a.y) * beam.radius[1] +
+                magnitude(a.z) * beam.radius[2]};
+  }
+  static F greatest(const Beam& beam, const Vector& a) {
+    const Range range = over(beam, a);
+    return range.middle + range.radius;
+  }
+  static Vector with_sign_of(const Vector& a, const F& b) {
+    return {microtrace::with_sign_of<N>(a.x, b), microtrace::with_sign_of<N>(a.y, b),
+            microtrace::with_sign_of<N>(a.z, b)};
+  }
+  static void store(float (&to)[3][kWidth], int i, const Vector& a) {
+    microtrace::store<N>(to[0] + i, a.x);
+    microtrace::store<N>(to[1] + i, a.y);
+    microtrace::store<N>(to[2] + i, a.z);
+  }
+
+  void look_at(const TriangleBlock& block, const KernelTile& tile, int i) {
+    const Vector corner{load<N>(block.a_x + i), load<N>(block.a_y + i), load<N>(block.a_z + i)};
+    const Vector a{corner.x - tile.o[0], corner.y - tile.o[1], corner.z - tile.o[2]};
+    const Vector e1{load<N>(block.b_x + i) - corner.x, load<N>(block.b_y + i) - corner.y,
+                    load<N>(block.b_z + i) - corner.z};
+    const Vector e2{load<N>(block.c_x + i) - corner.x, load<N>(block.c_y + i) - corner.y,
+                    load<N>(block.c_z + i) - corner.z};
+    Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
+    F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
+    // Each triangle's own bounds: a huge one beside it would make a tiny one uncertain for every
+    // ray. em and m as TriangleBlock's.
+    const F a_sum = magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
+    const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
+    const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
+    const F m = em1 * em2 * (1 + 0x1p-22F);
+    const F bound = (a_sum * greater(em1, em2) + m) * (18 * kUnit * tile.d_sum) + kTiny;
+    const F size_bound = m * (15 * kUnit * tile.d_sum) + kTiny;
+
+    const Range size = over(tile.beam, normal);
+    // The range has roundings of its own, as many as a ray's product.
+    const Lanes both = less_equal<N>(magnitude(size.middle) - size.radius, 2 * size_bound);
+    normal = with_sign_of(normal, size.middle);
+    p = with_sign_of(p, size.middle);
+    q = with_sign_of(q, size.middle);
+    h = microtrace::with_sign_of<N>(h, size.middle);
+    two_sided |= both << i;
+
+    // A group is certainly outside an edge where u, v or size - u - v is negative for all its
+    // directions. The third form has three more roundings, of its three parts.
+    const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
+    for (int group = 0; group < kGroups; ++group) {
+      const Beam& beam = tile.group_beam[group];
+      const F within = lesser(lesser(greatest(beam, p), greatest(beam, q)), greatest(beam, r));
+      seen[group] |= (both | less_equal<N>(-2 * bound, within)) << i;
+    }
+
+    store(u, i, p);
+    store(v, i, q);
+    store(n, i, normal);
+    microtrace::store<N>(height + i, h);
+    microtrace::store<N>(error + i, bound);
+    microtrace::store<N>(size_error + i, size_bound);
+    microtrace::store<N>(height_error + i, a_sum * m * (18 * kUnit) + kTiny);
+  }
+};
+
+}  // namespace
+}  // namespace microtrace
