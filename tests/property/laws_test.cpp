@@ -66,7 +66,8 @@ void expect_equal(const Answers& a, const Answers& b, float scale = 1) {
     if (!a[i]) continue;
     ASSERT_EQ(a[i]->id, b[i]->id) << "ray " << i;
     const float t = a[i]->t * scale;
-    if (!std::isnormal(t) && t != 0) continue;  // rounded by its size
+    const auto has_all_bits = [](float x) { return std::isnormal(x) || x == 0; };
+    if (!has_all_bits(t) || !has_all_bits(a[i]->t)) continue;  // rounded by its size
     ASSERT_EQ(t, b[i]->t) << "ray " << i;
   }
 }
