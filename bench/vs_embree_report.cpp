@@ -61,15 +61,18 @@ std::string object(const RayRow& row) {
                  {"mode_fast", quoted(row.mode_fast)},
                  {"mode_robust", quoted(row.mode_robust)},
                  {"disagreements_fast", number(row.disagreements_fast)},
-                 {"disagreements_robust", number(row.disagreements_robust)}});
+                 {"disagreements_robust", number(row.disagreements_robust)},
+                 {"float64_edges_per_ray", number(row.edges)},
+                 {"float64_filters_per_ray", number(row.filters)},
+                 {"exact_per_ray", number(row.exact)}});
 }
 
 }  // namespace
 
 std::string table_head() {
-  return print("%-17s %-10s %9s %11s %11s %13s %7s %8s %9s  %s\n", "scene", "kind", "rays",
-               "microtrace", "Embree fast", "Embree robust", "x fast", "x robust", "differ",
-               "Embree's best: fast / robust");
+  return print("%-17s %-10s %9s %11s %11s %13s %7s %8s %9s %8s %8s %8s  %s\n", "scene", "kind",
+               "rays", "microtrace", "Embree fast", "Embree robust", "x fast", "x robust", "differ",
+               "edges", "filters", "exact", "Embree's best: fast / robust");
 }
 
 std::string table_lines(const SceneRows& rows) {
@@ -82,12 +85,13 @@ std::string table_lines(const SceneRows& rows) {
       build.bytes_per_triangle_embree, build.ms_embree_medium,
       build.ms_embree_medium / build.ms_microtrace);
   for (const RayRow& row : rows.rays)
-    lines += print("%-17s %-10s %9zu %6.2f Mr/s %6.2f Mr/s %8.2f Mr/s %7.2f %8.2f %9.2g  %s / %s\n",
-                   row.scene.c_str(), row.kind.c_str(), row.rays, row.mrays_microtrace,
-                   row.mrays_embree_fast, row.mrays_embree_robust,
-                   row.mrays_microtrace / row.mrays_embree_fast,
-                   row.mrays_microtrace / row.mrays_embree_robust, row.disagreements_fast,
-                   row.mode_fast.c_str(), row.mode_robust.c_str());
+    lines += print(
+        "%-17s %-10s %9zu %6.2f Mr/s %6.2f Mr/s %8.2f Mr/s %7.2f %8.2f %9.2g %8.1g %8.1g %8.1g  %s "
+        "/ %s\n",
+        row.scene.c_str(), row.kind.c_str(), row.rays, row.mrays_microtrace, row.mrays_embree_fast,
+        row.mrays_embree_robust, row.mrays_microtrace / row.mrays_embree_fast,
+        row.mrays_microtrace / row.mrays_embree_robust, row.disagreements_fast, row.edges,
+        row.filters, row.exact, row.mode_fast.c_str(), row.mode_robust.c_str());
   return lines;
 }
 
