@@ -16,11 +16,18 @@ namespace microtrace {
 
 inline constexpr std::uint32_t kMaxSamples = 65536;
 
+/// Where the time of a rendering went, in seconds.
+struct RenderTimes {
+  double build = 0;  ///< making the tree
+  double trace = 0;  ///< drawing
+};
+
 struct RenderOptions {
   unsigned threads = 0;  ///< 0: default_threads()
   /// Told the share of the picture that is done, in (0, 1]; by one thread at a time, not always the
   /// caller's.
   std::function<void(double)> progress{};
+  RenderTimes* times = nullptr;            ///< if given, set at the end
   const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
   /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
   /// square, in the same places in each pixel, and weigh the same (a box filter): sample k of n
@@ -36,9 +43,9 @@ struct RenderOptions {
 };
 
 /// Colours by the integrator, over scene.background where it leaves some; rays hit only in
-/// (scene.epsilon, infinity). Threads and progress have no influence on the picture. Throws Error:
-/// usage where samples, crop or aovs are not as above or an integrator of data is asked for more
-/// than one sample, limit where memory or primitive numbers run out.
+/// (scene.epsilon, infinity). Threads, progress and times have no influence on the picture. Throws
+/// Error: usage where samples, crop or aovs are not as above or an integrator of data is asked for
+/// more than one sample, limit where memory or primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});
 

@@ -85,6 +85,12 @@ Parsed parse_arguments(int argc, char** argv) {
   app.add_flag("--stats{text}", statistics,
                "time and memory used, to standard error; --stats=json for programs")
       ->check(CLI::IsMember({"text", "json"}));
+  app.add_option("--progress", a.progress,
+                 "bar: drawn where standard error is a terminal; json: lines for programs, to "
+                 "standard error; none [bar]")
+      ->transform(CLI::Transformer(std::map<std::string, Progress>{
+          {"none", Progress::none}, {"bar", Progress::bar}, {"json", Progress::json}}))
+      ->type_name("KIND");
   app.add_flag("--strict", a.strict, "warnings are errors: exit 3, no picture");
   app.add_flag("--validate", a.validate, "check the scene, draw nothing");
   app.add_flag("-q,--quiet", a.quiet, "no warnings and no progress bar");

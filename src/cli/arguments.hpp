@@ -16,6 +16,7 @@
 namespace microtrace::cli {
 
 enum class Statistics { none, text, json };
+enum class Progress { none, bar, json };
 
 struct Arguments {
   std::string scene;             ///< a file, or "-" for standard input
@@ -33,6 +34,7 @@ struct Arguments {
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
+  Progress progress = Progress::bar;
   bool quiet = false;
   bool strict = false;
   bool validate = false;

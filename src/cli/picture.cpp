@@ -15,6 +15,11 @@ bool is_transparent(const Arguments& arguments) {
   return arguments.background && !arguments.background->color;
 }
 
+std::function<void(double)> progress_of(const Arguments& arguments) {
+  if (arguments.progress == Progress::json) return progress_lines();
+  return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar();
+}
+
 }  // namespace
 
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
@@ -28,9 +33,11 @@ void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
                   const Arguments& arguments, const std::filesystem::path& output,
                   const std::filesystem::path& sidecar, Stopwatch& watch) {
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
+  RenderTimes times;
   RenderOptions options{
       .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
-      .progress = arguments.quiet ? nullptr : progress_bar(),
+      .progress = progress_of(arguments),
+      .times = &times,
       .integrator = integrator.get(),
       .samples = arguments.samples,
       .crop = arguments.crop,
@@ -42,7 +49,7 @@ void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
       !sidecar.empty() && std::ranges::find(options.aovs, Aov::id) == options.aovs.end();
   if (ids_for_sidecar_alone) options.aovs.push_back(Aov::id);
   Film film = render(scene, camera, size, options);
-  watch.rendered();
+  watch.rendered(times);
 
   Sidecar beside{.path = sidecar, .text = {}};
   if (!sidecar.empty())

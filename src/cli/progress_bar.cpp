@@ -43,4 +43,15 @@ std::function<void(double)> progress_bar() {
   };
 }
 
+std::function<void(double)> progress_lines() {
+  return [start = Clock::now(), last = Clock::time_point()](double share) mutable {
+    using namespace std::chrono_literals;
+    const Clock::time_point now = Clock::now();
+    if (share < 1 && now - last < 100ms) return;
+    last = now;
+    std::fprintf(stderr, "{\"progress\": %.4f, \"seconds\": %.3f}\n", share,
+                 std::chrono::duration<double>(now - start).count());
+  };
+}
+
 }  // namespace microtrace::cli

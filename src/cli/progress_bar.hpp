@@ -7,4 +7,8 @@ namespace microtrace::cli {
 /// it at the end. Empty where standard error is no terminal, or a dumb one.
 [[nodiscard]] std::function<void(double)> progress_bar();
 
+/// Writes {"progress": SHARE, "seconds": SINCE_START} to standard error, a line at a time: ten a
+/// second at most, and one at the end.
+[[nodiscard]] std::function<void(double)> progress_lines();
+
 }  // namespace microtrace::cli

@@ -1,6 +1,8 @@
 #pragma once
 #include "cli/arguments.hpp"
 
+#include <microtrace/render.hpp>
+
 #include <chrono>
 #include <cstdint>
 
@@ -12,7 +14,10 @@ class Stopwatch {
   using Clock = std::chrono::steady_clock;
 
   void loaded() { load_ = lap(); }
-  void rendered() { render_ = lap(); }
+  void rendered(const RenderTimes& times) {
+    render_ = lap();
+    times_ = times;
+  }
   void written() { write_ = lap(); }
 
   /// Times in seconds, rays, and memory, to standard error.
@@ -24,6 +29,7 @@ class Stopwatch {
 
   Clock::time_point last_ = Clock::now();
   double load_ = 0, render_ = 0, write_ = 0;
+  RenderTimes times_{};
 };
 
 }  // namespace microtrace::cli

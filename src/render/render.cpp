@@ -11,12 +11,19 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <new>
 #include <string>
 #include <vector>
 
 namespace microtrace {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds(Clock::time_point from, Clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
 
 Film make_film(ImageSize size, Film::Alpha alpha) {
   try {
@@ -67,7 +74,9 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   check(options);
   const PixelRect window = window_of(size, options.crop);
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();
+  const auto start = Clock::now();
   const Bvh bvh(scene, {.threads = threads});
+  const auto built = Clock::now();
   const Surfaces surfaces(scene, bvh.primitives());
   const RayGenerator rays(camera, size);
   const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays};
@@ -86,6 +95,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   };
   for_each_tile(window, threads, draw, options.progress);
   film.display = integrator.display(film);
+  if (options.times != nullptr)
+    *options.times = {.build = seconds(start, built), .trace = seconds(built, Clock::now())};
   return film;
 }
 

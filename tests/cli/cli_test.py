@@ -224,6 +224,23 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(numbers["threads"], 2)
         self.assertIn(b"rays/s", self.run_program(SCENE, "-o", "a.ppm", "--stats").stderr)
 
+    def test_times_of_stages(self):
+        result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "-o", "a.ppm", "--stats=json")
+        numbers = json.loads(result.stderr)
+        for stage in ("load_s", "build_s", "trace_s", "write_s"):
+            self.assertGreater(numbers[stage], 0, stage)
+        self.assertLessEqual(numbers["build_s"] + numbers["trace_s"], numbers["render_s"])
+
+    def test_progress_for_programs(self):
+        result = self.run_program(SCENE, "-o", "a.ppm", "--progress", "json")
+        lines = [json.loads(line) for line in result.stderr.splitlines()]
+        shares = [line["progress"] for line in lines]
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1)
+        self.assertGreaterEqual(lines[-1]["seconds"], 0)
+        self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=none").stderr, b"")
+        self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=dots").returncode, 2)
+
     def test_validate_draws_nothing(self):
         self.assertEqual(self.run_program(SCENE, "--validate").returncode, 0)
         self.assertEqual(os.listdir(self.folder), [])

@@ -13,9 +13,18 @@ import subprocess
 import sys
 from pathlib import Path
 
-PROGRAM, SOURCE, FOLDER = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+PROGRAM, SOURCE, FOLDER = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
 SCENES = ["perspective1.json", "perspective2.json", "perspective3.json", "environment.json",
           "orthographic.json", "hyperboloid.json", "gltf/knot.glb"]
+QUESTIONS = [[scene, "-o", "-"] for scene in SCENES] + [
+    ["perspective2.json", "--spp", "7", "-o", "-"],
+    ["gltf/cube.glb", "--view", "-71,33", "--integrator", "normal", "-o", "-"],
+    ["gltf/knot.glb", "--integrator", "barycentric", "-o", "-"],
+    ["ellipsoid.json", "--view", "iso", "--integrator", "depth", "-o", "-"],
+    # The framed camera's numbers and the boxes to their last digit.
+    ["perspective1.json", "--view", "12.5,-61", "-o", "/dev/null", "--sidecar", "-"],
+    ["gltf/knot.glb", "--view", "-200,10", "-o", "/dev/null", "--sidecar", "-"],
+]
 ISAS = ["portable", "avx2", "avx512"]  # one that the machine lacks falls back to portable
 VARIANTS = {
     "gcc-debug": {"CMAKE_CXX_COMPILER": "g++", "CMAKE_BUILD_TYPE": "Debug"},
@@ -34,11 +43,11 @@ def build(name, settings):
     return folder / "src/cli/microtrace"
 
 
-def digest(program, scene, isa, threads):
-    picture = subprocess.run([program, SOURCE / "scenes" / scene, "-o", "-", "-t", str(threads)],
-                             check=True, capture_output=True,
-                             env=dict(os.environ, MICROTRACE_ISA=isa)).stdout
-    return hashlib.sha256(picture).hexdigest()
+def digest(program, question, isa, threads):
+    answer = subprocess.run([program, *question, "-t", str(threads)], check=True, capture_output=True,
+                            cwd=SOURCE / "scenes", env=dict(os.environ, MICROTRACE_ISA=isa)).stdout
+    assert answer, question
+    return hashlib.sha256(answer).hexdigest()
 
 
 for compiler in {settings["CMAKE_CXX_COMPILER"] for settings in VARIANTS.values()}:
@@ -46,11 +55,11 @@ for compiler in {settings["CMAKE_CXX_COMPILER"] for settings in VARIANTS.values(
         sys.exit(f"{compiler} is not installed; ./test installs it")
 programs = {"this build": PROGRAM} | {name: build(name, s) for name, s in VARIANTS.items()}
 differing = 0
-for scene in SCENES:
-    digests = {(name, isa, threads): digest(program, scene, isa, threads)
+for question in QUESTIONS:
+    digests = {(name, isa, threads): digest(program, question, isa, threads)
                for (name, program), isa, threads in itertools.product(programs.items(), ISAS, (1, 2))}
     expected = digests["this build", "portable", 1]
-    print(f"{scene}: {expected[:16]} from {len(digests)} combinations")
+    print(f"{' '.join(question)}: {expected[:16]} from {len(digests)} combinations")
     for combination, value in digests.items():
         if value != expected:
             differing += 1
