@@ -1,11 +1,14 @@
 #include "cli/arguments.hpp"
 
+#include "cli/help.hpp"
 #include "cli/option_values.hpp"
 
 #include <microtrace/render.hpp>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <utility>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -29,6 +32,33 @@ std::filesystem::path default_output(const std::string& scene) {
   return std::filesystem::path(scene).stem() += ".ppm";
 }
 
+/// The words in which --help speaks of options' values, and the options' order.
+void name_values(CLI::App& app) {
+  constexpr std::array<std::pair<const char*, const char*>, 16> kNames{{
+      {"SCENE", "FILE"},
+      {"--output", "FILE"},
+      {"--size", "WxH"},
+      {"--crop", "RECT"},
+      {"--background", "COLOUR"},
+      {"--spp", "N"},
+      {"--camera", "NAME"},
+      {"--view", "VIEW"},
+      {"--integrator", "NAME"},
+      {"--aov", "LIST"},
+      {"--sidecar", "FILE"},
+      {"--time", "S"},
+      {"--animation", "NAME"},
+      {"--threads", "N"},
+      {"--ppm", "KIND"},
+      {"--progress", "KIND"},
+  }};
+  for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
+  for (const char* option :
+       {"--threads", "--stats", "--progress", "--strict", "--validate", "--quiet"}) {
+    app.get_option(option)->group("Running");
+  }
+}
+
 }  // namespace
 
 Parsed parse_arguments(int argc, char** argv) {
@@ -36,6 +66,7 @@ Parsed parse_arguments(int argc, char** argv) {
   Arguments& a = parsed.arguments;
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
+  set_help_format(app);
   std::string output, size, crop, view, background, integrator, aovs, sidecar, time, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
@@ -80,8 +111,7 @@ Parsed parse_arguments(int argc, char** argv) {
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
       ->transform(CLI::Transformer(std::map<std::string, PpmEncoding>{
-          {"binary", PpmEncoding::binary}, {"ascii", PpmEncoding::ascii}}))
-      ->type_name("KIND");
+          {"binary", PpmEncoding::binary}, {"ascii", PpmEncoding::ascii}}));
   app.add_flag("--stats{text}", statistics,
                "time and memory used, to standard error; --stats=json for programs")
       ->check(CLI::IsMember({"text", "json"}));
@@ -89,12 +119,12 @@ Parsed parse_arguments(int argc, char** argv) {
                  "bar: drawn where standard error is a terminal; json: lines for programs, to "
                  "standard error; none [bar]")
       ->transform(CLI::Transformer(std::map<std::string, Progress>{
-          {"none", Progress::none}, {"bar", Progress::bar}, {"json", Progress::json}}))
-      ->type_name("KIND");
+          {"none", Progress::none}, {"bar", Progress::bar}, {"json", Progress::json}}));
   app.add_flag("--strict", a.strict, "warnings are errors: exit 3, no picture");
   app.add_flag("--validate", a.validate, "check the scene, draw nothing");
   app.add_flag("-q,--quiet", a.quiet, "no warnings and no progress bar");
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
+  name_values(app);
   try {
     app.parse(argc, argv);
     if (app.count("--size") > 0) a.size = parse_size(size);
