@@ -131,7 +131,7 @@ class Sidecar(unittest.TestCase):
         self.assertGreater(checked, 50)
 
     def test_scenes(self):
-        for scene in ("perspective1.json", "orthographic.json", "environment.json", "ellipsoid.json", "disc.json",
+        for scene in ("perspective1.json", "orthographic.json", "environment.json", "ellipsoid.json", "framed.json",
                       "mesh.json", "gltf/cube.glb", "gltf/knot.glb"):
             with self.subTest(scene):
                 self.draw(scene)
