@@ -42,6 +42,17 @@ class Bvh {
   /// the ray does not hit.
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
 
+  /// Where a ray that leaves the hit of `ray` into `direction` begins: spawn_origin (spawn.hpp),
+  /// which minds the other surfaces too. What is promised there holds, but for nearness: the origin
+  /// may be some 2^10 representable numbers away. And the straight way to it meets no triangle and
+  /// no disc, and leaves no sphere or quadric, if it comes from where `ray` was just before the hit
+  /// (or, if the new ray does not go back to that side of the surface, where `ray` would be just
+  /// behind it). So a path leaves a closed mesh only where it passes through a surface on purpose,
+  /// not in creases and corners. Nothing also where there is no such float32 point: between walls
+  /// closer together than that.
+  [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
+                                                 const Vec3& direction) const;
+
   /// Whether intersect(ray) would find something; sooner.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 

@@ -28,7 +28,8 @@ namespace microtrace {
 /// one.
 ///
 /// Not promised: that the origin is on the right side of other surfaces as near to the hit point as
-/// those few roundings. In a concave crease it may have left the room by the other wall.
+/// those few roundings. In a concave crease it may have left the room by the other wall;
+/// Bvh::spawn_origin minds them.
 ///
 /// Nothing if the ray does not hit the surface, if the direction is zero or not finite, for a
 /// triangle without area, or if there is no such float32 point (beyond the largest number, or

@@ -5,6 +5,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/slow_path.hpp"
+#include "accel/spawn_among.hpp"
 #include "accel/tile_judge.hpp"
 #include "float_environment.hpp"
 
@@ -181,6 +182,13 @@ std::optional<Hit> Bvh::intersect(const Ray& ray) const {
 std::optional<Hit> Bvh::next(const Ray& ray, const Hit& after) const {
   const FloatEnvironment environment;
   return impl_->next(ray, after.id);
+}
+
+std::optional<Vec3> Bvh::spawn_origin(const Ray& ray, const Hit& hit, const Vec3& direction) const {
+  const FloatEnvironment environment;
+  if (!exact::is_valid(ray) || hit.id >= impl_->primitives.count()) return std::nullopt;
+  return spawn_among(impl_->primitives, impl_->has_tree ? &impl_->tree : nullptr, impl_->outside,
+                     ray, hit.id, direction);
 }
 
 bool Bvh::occluded(const Ray& ray) const {

@@ -1,155 +1,10 @@
-#include "accel/filters/shape_filter.hpp"
-#include "exact/implicit.hpp"
-#include "exact/intersect.hpp"
-#include "exact/range.hpp"
+#include "accel/departure.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/spawn.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace microtrace {
 namespace {
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-/// The distance from |x| to the next larger number: x, rounded to nearest, errs by at most half of
-/// it.
-double spacing(float x) {
-  const float size = std::abs(x);
-  const float next = std::nextafter(size, kInfinity);
-  return next == kInfinity ? 0x1p104 : double{next} - size;
-}
-
-/// How an origin is moved off a surface: one coordinate, number by number.
-struct Nudge {
-  int axis;
-  float towards;  ///< infinity or its negative
-
-  void apply(Vec3& p) const { p[axis] = std::nextafter(p[axis], towards); }
-};
-
-/// Along the axis of which one step gains most, v being the surface's gradient or what stands for
-/// it.
-Nudge best_nudge(const Vec3& p, const DVec3& v) {
-  int best = 0;
-  for (int k = 1; k < 3; ++k) {
-    if (std::abs(v[k]) * spacing(p[k]) > std::abs(v[best]) * spacing(p[best])) best = k;
-  }
-  return {.axis = best, .towards = v[best] < 0 ? -kInfinity : kInfinity};
-}
-
-double to_double(const exact::Dyadic& x) {
-  return exact::enclose(exact::rational(x, 1.0F)).lo;
-}
-
-DVec3 gradient_of(const exact::Implicit& f, const Vec3& p) {
-  DVec3 g{0};
-  for (int k = 0; k < 3; ++k) {
-    Vec3 e{0};
-    e[k] = 1;
-    g[k] = to_double(f.slope(exact::vector(p), exact::vector(e)));
-  }
-  return g;
-}
-
-/// Whether p is on that side, and a ray from there meets the surface as often as from the surface
-/// itself: once if F turns back to zero, else never.
-bool is_clear_of(const exact::Implicit& f, const Vec3& p, const Vec3& direction, int side) {
-  if (f.value(exact::vector(p)).sign() != side) return false;
-  const bool returns = f.quadratic(exact::vector(direction)).sign() * side < 0;
-  return f.zeros_ahead(p, direction) == (returns ? 1 : 0);
-}
-
-/// A surface asked by exact arithmetic. point() goes first.
-template <class AnyShape>
-class ExactSurface {
- public:
-  explicit ExactSurface(const AnyShape& shape) : shape_(shape) {}
-
-  /// The hit's point rounded, if there is a hit.
-  std::optional<Vec3> point(const Ray& ray) {
-    t_ = exact::first_hit(shape_, ray);
-    if (!t_) return std::nullopt;
-    f_.emplace(shape_);
-    return exact::round_point(ray, *t_);
-  }
-  [[nodiscard]] int side(const Ray& ray, const Vec3& direction) const {
-    return f_->sign_behind(ray, *t_, direction);
-  }
-  [[nodiscard]] DVec3 gradient(const Vec3& p) const { return gradient_of(*f_, p); }
-  [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& direction, int side) const {
-    return is_clear_of(*f_, p, direction, side);
-  }
-
- private:
-  const AnyShape& shape_;
-  std::optional<exact::Implicit> f_;
-  std::optional<exact::Root> t_;
-};
-
-/// A triangle asked in float64 first.
-class TriangleSurface {
- public:
-  explicit TriangleSurface(const Triangle& triangle)
-      : triangle_(triangle),
-        normal_(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a)) {}
-
-  std::optional<Vec3> point(const Ray& ray) {
-    if (is_filterable(ray.o) && is_filterable(ray.d) && is_filterable(triangle_)) {
-      const Verdict verdict =
-          seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
-      if (verdict.certainty == Certainty::miss) return std::nullopt;
-      if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded(ray, verdict)) return p;
-      }
-    }
-    return ExactSurface(triangle_).point(ray);
-  }
-  [[nodiscard]] int side(const Ray& ray, const Vec3& direction) const {
-    const Approximate slope = normal_.along(direction);
-    if (slope.is_positive() || slope.is_negative()) return slope.value > 0 ? 1 : -1;
-    return exact::Implicit(triangle_).sign_behind(ray, exact::rational(0.0F), direction);
-  }
-  [[nodiscard]] DVec3 gradient(const Vec3& p) const {
-    double largest = 0, error = 0;
-    for (int k = 0; k < 3; ++k) {
-      largest = std::max(largest, std::abs(normal_.value[k]) * spacing(p[k]));
-      error += gamma(5) * normal_.permanent[k] * spacing(p[k]);
-    }
-    // So far the choice of the axis and its sign are right, or as good.
-    return error <= 0x1p-9 * largest ? normal_.value : gradient_of(exact::Implicit(triangle_), p);
-  }
-  [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& direction, int side) const {
-    const DVec3 from_a = DVec3(p) - DVec3(triangle_.a);
-    // As in TrianglePlaneFilter.
-    const Approximate value{
-        .value = glm::dot(from_a, normal_.value),
-        .error = gamma(9) * glm::dot(glm::abs(from_a), normal_.permanent) + kUnderflow};
-    if (value.is_positive() || value.is_negative()) return (value.value > 0 ? 1 : -1) == side;
-    return is_clear_of(exact::Implicit(triangle_), p, direction, side);
-  }
-
- private:
-  // Where bounds on each coordinate round to the same number.
-  static std::optional<Vec3> rounded(const Ray& ray, const Verdict& t) {
-    Vec3 p{0};
-    for (int k = 0; k < 3; ++k) {
-      const double o = ray.o[k], d = ray.d[k], middle = (t.lo + t.hi) / 2;
-      const double x = o + middle * d;
-      const double error = (t.hi - t.lo) * std::abs(d) +
-                           gamma(8) * (std::abs(o) + std::abs(middle * d)) + kUnderflow;
-      p[k] = static_cast<float>(x - error);
-      if (p[k] != static_cast<float>(x + error)) return std::nullopt;
-    }
-    return p;
-  }
-
-  const Triangle& triangle_;
-  CrossProduct normal_;
-};
 
 /// The representable numbers by which an origin is moved at most. A flat surface needs no more than
 /// four: with w_k = spacing(p_k) the rounded point is at most 1/2 sum |n_k| w_k <= 3/2 |n_i| w_i
@@ -159,19 +14,13 @@ constexpr int kFlatSteps = 4, kCurvedSteps = 64;
 
 template <class Surface>
 std::optional<Vec3> spawn(Surface surface, const Ray& ray, const Vec3& direction, int most_steps) {
-  if (!exact::is_finite(direction) || direction == Vec3(0)) return std::nullopt;
   const FloatEnvironment environment;
-  std::optional<Vec3> p = surface.point(ray);
-  if (!p || !exact::is_finite(*p)) return std::nullopt;
-  int side = surface.side(ray, direction);
-  if (side == 0) side = surface.side(ray, -ray.d);
-  if (side == 0) side = 1;  // the ray itself ran within the surface
-  DVec3 outwards = double(side) * surface.gradient(*p);
-  if (outwards == DVec3(0)) outwards = direction;  // the tip of a cone
-  const Nudge nudge = best_nudge(*p, outwards);
-  for (int step = 0; step <= most_steps && std::isfinite((*p)[nudge.axis]); ++step) {
-    if (surface.is_clear(*p, direction, side)) return p;
-    nudge.apply(*p);
+  const std::optional<Departure> start = departure(surface, ray, direction);
+  if (!start) return std::nullopt;
+  Vec3 p = start->p;
+  for (int step = 0; step <= most_steps && exact::is_finite(p); ++step) {
+    if (surface.is_clear(p, direction, start->side)) return p;
+    start->nudge.apply(p);
   }
   return std::nullopt;
 }

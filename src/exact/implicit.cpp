@@ -56,6 +56,17 @@ Dyadic Implicit::bilinear(const Vector& p, const Vector& e) const {
          dot(mixed_, {p.y * e.z + p.z * e.y, p.x * e.z + p.z * e.x, p.x * e.y + p.y * e.x});
 }
 
+int Implicit::sign_at(const Ray& ray, const Root& t) const {
+  const Vector o = vector(ray.o), d = vector(ray.d);
+  const Dyadic alpha = quadratic(d), beta = slope(o, d), gamma = value(o);
+  // alpha t^2 + beta t + gamma times r^2, with t = (p + s sqrt(q)) / r.
+  const Dyadic rational_part = alpha * (square(t.p) + (t.sign == 0 ? Dyadic() : t.q)) +
+                               beta * t.p * t.r + gamma * square(t.r);
+  if (t.sign == 0) return rational_part.sign();
+  const Dyadic factor = twice(alpha) * t.p + beta * t.r;
+  return sign({rational_part, square(factor) * t.q, 1.0F, t.sign * factor.sign()});
+}
+
 int Implicit::sign_behind(const Ray& ray, const Root& t, const Vec3& e) const {
   const Vector direction = vector(e);
   // The slope at o + t d is linear in t; where it vanishes, F grows like s^2 Q(e).
@@ -75,6 +86,19 @@ int Implicit::zeros_ahead(const Vec3& p, const Vec3& e) const {
   const auto roots = quadratic_roots(twice(alpha), beta, twice(gamma));
   if (!roots) return 0;
   return roots->lo == roots->hi ? 1 : 2;
+}
+
+bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray, const Root& t) {
+  const Vector from = vector(q), o = vector(ray.o) - from, d = vector(ray.d);
+  const Vector a = vector(triangle.a) - from, b = vector(triangle.b) - from,
+               c = vector(triangle.c) - from;
+  // On which side of each edge the line passes, as in first_hit.
+  const auto side = [&](const Vector& p, const Vector& r) {
+    const Vector normal = cross(p, r);
+    return sign(linear_in(t, dot(o, normal), dot(d, normal)));
+  };
+  const int u = side(b, c), v = side(c, a), w = side(a, b);
+  return u * v >= 0 && v * w >= 0 && w * u >= 0;
 }
 
 Vec3 round_point(const Ray& ray, const Root& t) {

@@ -27,6 +27,9 @@ class Implicit {
   /// Q(e).
   [[nodiscard]] Dyadic quadratic(const Vector& e) const;
 
+  /// The sign of F(o + t d).
+  [[nodiscard]] int sign_at(const Ray& ray, const Root& t) const;
+
   /// The sign of F(o + t d + s e) for all small s > 0, where F(o + t d) = 0; 0 if it stays zero.
   [[nodiscard]] int sign_behind(const Ray& ray, const Root& t, const Vec3& e) const;
 
@@ -43,6 +46,11 @@ class Implicit {
   Vector linear_;
   Dyadic constant_;
 };
+
+/// Whether a triangle has a point on the segment from q to o + t d, of whose ends not both are
+/// strictly on one side of its plane. True also for any segment within the plane.
+[[nodiscard]] bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray,
+                                 const Root& t);
 
 /// o + t d with each coordinate rounded to the nearest float32, ties to even.
 [[nodiscard]] Vec3 round_point(const Ray& ray, const Root& t);

@@ -1,0 +1,173 @@
+#include "accel/spawn_among.hpp"
+
+#include "accel/build/shape_box.hpp"
+#include "accel/departure.hpp"
+#include "accel/slow_path.hpp"
+#include "accel/touching.hpp"
+
+#include <vector>
+
+#include <glm/common.hpp>
+
+namespace microtrace {
+namespace {
+
+bool overlap(const Bounds& a, const Bounds& b) {
+  for (int k = 0; k < 3; ++k) {
+    if (a.hi[k] < b.lo[k] || b.hi[k] < a.lo[k]) return false;
+  }
+  return true;
+}
+
+bool has_area(const Triangle& t) {
+  const exact::Vector a = exact::vector(t.a);
+  return exact::nonzero_component(cross(exact::vector(t.b) - a, exact::vector(t.c) - a)) >= 0;
+}
+
+/// The other surfaces near a hit, and on which side of each the origin of the new ray must be:
+/// where the ray was just before the hit, if the new one goes back there, else where the ray gets
+/// just behind it.
+class Neighbours {
+ public:
+  Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, bool goes_back)
+      : primitives_(primitives), ray_(ray), id_(id), witness_(goes_back ? -ray.d : ray.d) {
+    const exact::Enclosure t = KnownHit(primitives, ray, id).bounds();
+    const double middle = (t.lo + t.hi) / 2;
+    const DVec3 o(ray.o), d(ray.d);
+    point_ = o + middle * d;
+    radius_ = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(middle * d)) +
+              DVec3(kUnderflow);
+  }
+
+  /// Takes primitive id into account if it has a point in the box.
+  void add(PrimitiveId id, const Bounds& box) {
+    if (id == id_) return;
+    for (const Side& side : sides_) {
+      if (side.id == id) return;
+    }
+    primitives_.visit(id, [&](const auto& shape) {
+      if (build::is_empty(shape) || !is_near(shape, box)) return;
+      if (const auto sign = side_of_witness(shape)) sides_.push_back({.id = id, .sign = *sign});
+    });
+  }
+
+  /// Whether the straight way from the hit to q meets none of them: q is strictly on the right
+  /// side, or passes beside it. A surface in which the ray runs has no right side.
+  [[nodiscard]] bool allow(const Vec3& q) const {
+    return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+      const int sign = primitives_.visit(side.id, [&](const auto& shape) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
+          if (const int s = TriangleSurface(shape).certain_sign(q, DVec3(0)); s != 0) return s;
+        }
+        return exact::Implicit(shape).value(exact::vector(q)).sign();
+      });
+      if (sign != 0 && (side.sign == 0 || sign == side.sign)) return true;
+      return primitives_.visit(side.id,
+                               [&](const auto& shape) { return !may_be_between(shape, q); });
+    });
+  }
+
+ private:
+  struct Side {
+    PrimitiveId id;
+    int sign;
+  };
+
+  static bool is_near(const Triangle& t, const Bounds& box) {
+    return overlap(
+        {.lo = glm::min(t.a, glm::min(t.b, t.c)), .hi = glm::max(t.a, glm::max(t.b, t.c))}, box);
+  }
+  template <class Other>
+  static bool is_near(const Other&, const Bounds&) {
+    return true;
+  }
+
+  // Whether the straight way from the hit to q, whose ends are not on one side of a surface, meets
+  // it.
+  bool may_be_between(const Triangle& triangle, const Vec3& q) const {
+    return exact::meets_segment(triangle, q, ray_, root());
+  }
+  template <class Other>
+  bool may_be_between(const Other&, const Vec3&) const {
+    return true;
+  }
+
+  const exact::Root& root() const {
+    if (!root_) root_ = exact_root(primitives_, id_, ray_);
+    return *root_;
+  }
+
+  // Nothing for what has no sides.
+  std::optional<int> side_of_witness(const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
+      if (const int sign = TriangleSurface(shape).certain_sign(point_, radius_); sign != 0)
+        return sign;
+      if (!has_area(shape)) return std::nullopt;
+    }
+    const exact::Implicit f(shape);
+    const int sign = f.sign_at(ray_, root());
+    return sign != 0 ? sign : f.sign_behind(ray_, root(), witness_);
+  }
+
+  const Primitives& primitives_;
+  const Ray& ray_;
+  PrimitiveId id_;
+  Vec3 witness_;
+  DVec3 point_, radius_;  // around the exact point of the hit
+  mutable std::optional<exact::Root> root_;
+  std::vector<Side> sides_;
+};
+
+Bounds around(const Vec3& a, const Vec3& b, double margin) {
+  Bounds box;
+  for (int k = 0; k < 3; ++k) {
+    box.lo[k] = outwards(std::min(a[k], b[k]) - margin, 0, 0).lo;
+    box.hi[k] = outwards(0, std::max(a[k], b[k]) + margin, 0).hi;
+  }
+  return box;
+}
+
+/// Candidates: the rounded point and its nudges, then the same from points further along the ray on
+/// the side where it goes on, which is within the right cell of all planes through the point.
+template <class Surface>
+std::optional<Vec3> search(Surface surface, const Primitives& primitives, const Tree* tree,
+                           std::span<const PrimitiveId> outside, const Ray& ray, PrimitiveId id,
+                           const Vec3& direction) {
+  const std::optional<Departure> start = departure(surface, ray, direction);
+  if (!start) return std::nullopt;
+  constexpr int kSteps = 8, kLevels = 6;
+  const DVec3 along = start->goes_back ? -DVec3(ray.d) : DVec3(ray.d);
+  const double length = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
+  const double unit = std::max({spacing(start->p.x), spacing(start->p.y), spacing(start->p.z)});
+  Neighbours neighbours(primitives, ray, id, start->goes_back);
+
+  double reach = 0;
+  for (int level = 0; level < kLevels; ++level) {
+    Vec3 q(DVec3(start->p) + along * (reach / length));
+    const Bounds box = around(start->p, q, 4 * kSteps * unit);
+    const auto add = [&](PrimitiveId other) { neighbours.add(other, box); };
+    std::for_each(outside.begin(), outside.end(), add);
+    if (tree != nullptr) for_each_touching(*tree, box, add);
+    for (int step = 0; step <= kSteps && exact::is_finite(q); ++step) {
+      if (surface.is_clear(q, direction, start->side) && neighbours.allow(q)) return q;
+      start->nudge.apply(q);
+    }
+    reach = reach == 0 ? 4 * unit : 4 * reach;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Vec3> spawn_among(const Primitives& primitives, const Tree* tree,
+                                std::span<const PrimitiveId> outside, const Ray& ray,
+                                PrimitiveId id, const Vec3& direction) {
+  return primitives.visit(id, [&](const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
+      return search(TriangleSurface(shape), primitives, tree, outside, ray, id, direction);
+    else
+      return search(ExactSurface(shape), primitives, tree, outside, ray, id, direction);
+  });
+}
+
+}  // namespace microtrace

@@ -1,0 +1,43 @@
+#pragma once
+/// The primitives of a tree near a place.
+
+#include "accel/build/tree.hpp"
+#include "accel/layout.hpp"
+
+#include <array>
+
+namespace microtrace {
+
+/// f(id) for every primitive with a point in the closed box, for some others near it, and for some
+/// more than once. All of them are in the tree's leaves.
+template <class F>
+void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
+  std::array<ChildRef, kMaxDepth*(kWidth - 1) + 1> stack;
+  std::size_t size = 0;
+  stack[size++] = tree.root;
+  while (size > 0) {
+    const ChildRef next = stack[--size];
+    const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, count = (next & 7U) + 1;
+    if ((next & child_ref::kKind) == 0) {
+      const WideNode& node = tree.nodes[next];
+      for (int i = 0; i < kWidth; ++i) {
+        const bool touches = node.lo_x[i] <= box.hi.x && box.lo.x <= node.hi_x[i] &&
+                             node.lo_y[i] <= box.hi.y && box.lo.y <= node.hi_y[i] &&
+                             node.lo_z[i] <= box.hi.z && box.lo.z <= node.hi_z[i];
+        if (touches) stack[size++] = node.child[i];
+      }
+    } else if ((next & child_ref::kKind) == child_ref::kTriangles) {
+      for (std::uint32_t b = first; b < first + count; ++b) {
+        const TriangleBlock& block = tree.blocks[b];
+        for (int i = 0; i < kWidth; ++i) {
+          const bool used = block.a_x[i] == block.a_x[i];  // not NaN
+          if (used) f(block.id[i]);
+        }
+      }
+    } else {
+      for (std::uint32_t k = first; k < first + count; ++k) f(tree.others[k]);
+    }
+  }
+}
+
+}  // namespace microtrace
