@@ -137,6 +137,15 @@ inline Lanes less(const Float<N>& a, const Float<N>& b) {
   return lanes;
 }
 
+/// Integer lanes: all bits set in the given ones.
+template <int N>
+inline auto mask_of(Lanes lanes) {
+  using Bits = typename FloatVector<N>::bits_type;
+  Bits bit{};
+  for (int i = 0; i < N; ++i) bit[i] = 1 << i;
+  return (bit & static_cast<std::int32_t>(lanes)) != 0;
+}
+
 /// a in the given lanes, b in the others.
 template <int N>
 inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
@@ -144,11 +153,7 @@ inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
   if constexpr (N == 16) return _mm512_mask_blend_ps(static_cast<__mmask16>(lanes), b, a);
   if constexpr (N == 8) return _mm256_mask_blend_ps(static_cast<__mmask8>(lanes), b, a);
 #endif
-  using Bits = typename FloatVector<N>::bits_type;
-  Bits bit{};
-  for (int i = 0; i < N; ++i) bit[i] = 1 << i;
-  const Bits set = bit & static_cast<std::int32_t>(lanes);
-  return set != 0 ? a : b;
+  return mask_of<N>(lanes) ? a : b;
 }
 
 /// Writes a number to the given lanes' places.
@@ -159,7 +164,11 @@ inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
     return _mm512_mask_storeu_epi32(p, static_cast<__mmask16>(lanes),
                                     _mm512_set1_epi32(static_cast<int>(number)));
 #endif
-  for (; lanes != 0; lanes &= lanes - 1) p[__builtin_ctz(lanes)] = number;
+  using Bits = typename FloatVector<N>::bits_type;
+  Bits v;
+  __builtin_memcpy(&v, p, sizeof v);
+  v = mask_of<N>(lanes) ? Bits{} + static_cast<std::int32_t>(number) : v;
+  __builtin_memcpy(p, &v, sizeof v);
 }
 
 /// combine of all lanes, halving the vector as often as needed. combine must not depend on order.
