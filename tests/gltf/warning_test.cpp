@@ -25,11 +25,6 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
        "/materials/0/pbrMetallicRoughness/baseColorTexture", "textures"},
       {R"({"materials": [{"emissiveFactor": [0, 0, 1]}]})", "/materials/0/emissiveFactor",
        "emission"},
-      {R"({"skins": [{"joints": [0]}], "nodes": [{"mesh": 0, "skin": 0}]})", "/nodes/0/skin",
-       "skins"},
-      {R"({"meshes": [{"primitives": [{"attributes": {"POSITION": 0},
-                                       "indices": 1, "targets": [{"POSITION": 0}]}]}]})",
-       "/meshes/0/primitives/0/targets", "morph"},
       {R"({"meshs": []})", "/meshs", "no property"},
       {R"({"cameras": []})", "/cameras", "empty"},
   };

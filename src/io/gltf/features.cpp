@@ -122,10 +122,6 @@ class FeatureSearch {
     }
   }
 
-  void primitive(const Element& at) {
-    present(at, "targets", "morph targets are not applied yet; the base shape is drawn");
-  }
-
   void present(const Element& at, const char* key, const std::string& message) {
     if (at.value->find(key) != nullptr) asset_.warn(at.member(key), message);
   }
@@ -159,16 +155,6 @@ void warn_of_ignored_features(Asset& asset) {
   FeatureSearch search(asset);
   for (std::size_t i = 0; i < asset.array("materials").size(); ++i) {
     search.material(asset.element("materials", i));
-  }
-  for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
-    const Element primitives = asset.element("meshes", i).member("primitives");
-    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
-      search.primitive(primitives.item(k));
-    }
-  }
-  for (std::size_t i = 0; i < asset.array("nodes").size(); ++i) {
-    search.present(asset.element("nodes", i), "skin",
-                   "skins are not applied yet; the mesh is drawn in its node's place");
   }
 }
 

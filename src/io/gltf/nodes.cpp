@@ -185,6 +185,25 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   return result;
 }
 
+std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset,
+                                        const PosedNodes& pose) const {
+  std::vector<DMat4> result(parents_.size());
+  std::vector<std::size_t> open = roots();
+  for (const std::size_t root : open) {
+    result[root] = world_from_asset * parent_from_node(root, pose);
+  }
+  while (!open.empty()) {
+    const std::size_t next = open.back();
+    open.pop_back();
+    for (const int index : model_.nodes[next].children) {
+      const auto child = static_cast<std::size_t>(index);
+      result[child] = result[next] * parent_from_node(child, pose);
+      open.push_back(child);
+    }
+  }
+  return result;
+}
+
 std::string NodeTree::name(std::size_t node) const {
   const std::string& given = model_.nodes[node].name;
   return given.empty() ? "node" + std::to_string(node) : head(given, longest_name);

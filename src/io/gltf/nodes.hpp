@@ -38,6 +38,10 @@ class NodeTree {
   [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
+  /// The same transforms by node, of those outside the scene too.
+  [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset,
+                                              const PosedNodes& pose) const;
+
   /// The names of the node and those above it, with slashes between; at most 256 bytes, of which
   /// the last are kept. A node without name is called node0 by its index.
   [[nodiscard]] std::string path(std::size_t node) const;

@@ -3,7 +3,6 @@
 #include "io/gltf/accessors.hpp"
 #include "io/gltf/animations.hpp"
 #include "io/gltf/asset.hpp"
-#include "io/gltf/baking.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
 #include "io/gltf/check/schema.hpp"
@@ -15,6 +14,7 @@
 #include "io/gltf/materials.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
+#include "io/gltf/posing.hpp"
 #include "io/gltf/surfaces.hpp"
 
 #include <algorithm>
@@ -40,8 +40,14 @@ bool is_finite(const Mesh& mesh) {
 class SceneMaker {
  public:
   SceneMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
-             const std::vector<std::vector<Surface>>& surfaces, const gltf::Instances& instances)
-      : asset_(asset), model_(model), tree_(tree), surfaces_(surfaces), instances_(instances) {}
+             const std::vector<std::vector<Surface>>& surfaces, const gltf::Instances& instances,
+             gltf::Poser& poser)
+      : asset_(asset),
+        model_(model),
+        tree_(tree),
+        surfaces_(surfaces),
+        instances_(instances),
+        poser_(poser) {}
 
   /// Throws Error (limit) before memory is taken for too many instances.
   void check_size(const std::vector<PlacedNode>& nodes) const {
@@ -67,6 +73,11 @@ class SceneMaker {
     if (model_.nodes[placed.node].mesh < 0 || !placed.visible) return;
     const std::string path = tree_.path(placed.node);
     const std::vector<DMat4>* instances = instances_.of(placed.node);
+    if (instances != nullptr && poser_.has_skin(placed.node)) {
+      asset_.warn(asset_.element("nodes", placed.node),
+                  "has instances of a skinned mesh, all in the place of its joints; one is drawn");
+      instances = nullptr;
+    }
     if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
     for (std::size_t i = 0; i < instances->size(); ++i) {
       add_mesh(placed.node, placed.world_from_node * (*instances)[i],
@@ -80,7 +91,7 @@ class SceneMaker {
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path) {
     const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
     for (const Surface& surface : surfaces_[index]) {
-      Mesh world = gltf::baked(surface.mesh, world_from_mesh);
+      Mesh world = poser_.posed(node, surface, world_from_mesh);
       if (!is_finite(world)) {
         asset_.warn(primitive(index, surface),
                     "has vertices that are not finite in the world; triangles with them are not "
@@ -117,6 +128,7 @@ class SceneMaker {
   const NodeTree& tree_;
   const std::vector<std::vector<Surface>>& surfaces_;
   const gltf::Instances& instances_;
+  gltf::Poser& poser_;
   std::vector<Object> objects_;
   gltf::UniqueNames names_;
 };
@@ -215,7 +227,8 @@ LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_ass
     const tinygltf::Model& model = content_->model;
     const NodeTree& tree = content_->tree;
     const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset, pose);
-    SceneMaker maker(asset, model, tree, content_->surfaces, content_->instances);
+    gltf::Poser poser(asset, model, content_->reader, tree, pose, world_from_asset);
+    SceneMaker maker(asset, model, tree, content_->surfaces, content_->instances, poser);
     maker.check_size(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;

@@ -1,0 +1,199 @@
+#include "gltf/asset_builder.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Mesh first_mesh(const LoadedScene& loaded) {
+  return std::get<Mesh>(loaded.scene.objects.at(0).shape);
+}
+
+void expect_near(const std::vector<Vec3>& values, const std::vector<Vec3>& wanted) {
+  ASSERT_EQ(values.size(), wanted.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(values[i][k], wanted[i][k], 1e-6) << i << ' ' << k;
+  }
+}
+
+const double half = std::sqrt(0.5);
+
+/// An arm along x from 0 to 2 in the plane z = 0: a shoulder (node 1) at 0 moves what is at x = 0,
+/// an elbow (node 2) at 1 what is at x = 2, both half of what is at x = 1. Node 0 has the mesh.
+template <typename Joint = std::uint8_t>
+AssetBuilder arm() {
+  AssetBuilder asset;
+  const std::size_t positions = asset.add_positions({Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1, -1, 0),
+                                                     Vec3(1, 1, 0), Vec3(2, -1, 0), Vec3(2, 1, 0)});
+  const std::size_t normals =
+      asset.add_numbers<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0});
+  const std::size_t joints = asset.add_numbers<Joint>(
+      "VEC4", {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  const std::size_t weights = asset.add_numbers<float>(
+      "VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 0.5F, 0.5F, 0, 0, 0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  asset.add_object({{"attributes",
+                     {{"POSITION", positions},
+                      {"NORMAL", normals},
+                      {"JOINTS_0", joints},
+                      {"WEIGHTS_0", weights}}},
+                    {"mode", 5}});
+  asset.json["nodes"][0]["skin"] = 0;
+  asset.add("nodes", {{"name", "shoulder"}, {"children", {2}}});
+  asset.add("nodes", {{"name", "elbow"}, {"translation", {1, 0, 0}}});
+  asset.json["scenes"][0]["nodes"].push_back(1);
+  const std::size_t inverse =
+      asset.add_numbers<float>("MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0,  0, 0, 1,  //
+                                        1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
+  asset.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", inverse}});
+  return asset;
+}
+
+const std::vector<Vec3> straight = {Vec3(0, -1, 0), Vec3(0, 1, 0),  Vec3(1, -1, 0),
+                                    Vec3(1, 1, 0),  Vec3(2, -1, 0), Vec3(2, 1, 0)};
+
+TEST(GltfSkin, TheBindPoseIsTheMesh) {
+  const LoadedScene loaded = load(arm());
+  EXPECT_EQ(first_mesh(loaded).positions, straight);
+  EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+}
+
+TEST(GltfSkin, AnElbowBendsByNinetyDegrees) {
+  AssetBuilder asset = arm();
+  asset.json["nodes"][2]["rotation"] = {0, 0, half, half};
+  const Mesh mesh = first_mesh(load(asset));
+  // At the elbow, the mean of (1, y) and of (1 - y, 0).
+  expect_near(mesh.positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -0.5F, 0),
+                               Vec3(0.5F, 0.5F, 0), Vec3(2, 1, 0), Vec3(0, 1, 0)});
+  expect_near(mesh.normals, {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1),
+                             Vec3(0, 1, 0), Vec3(0, 1, 0)});
+}
+
+TEST(GltfSkin, AnimatedJointsMoveTheMesh) {
+  AssetBuilder asset = arm();
+  const auto h = static_cast<float>(half);
+  asset.animate(0, 1, "rotation", asset.add_numbers<float>("SCALAR", {0, 1}),
+                asset.add_numbers<float>("VEC4", {0, 0, 0, 1, 0, 0, h, h}));
+  expect_near(first_mesh(load(asset, {.time = 1})).positions,
+              {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0), Vec3(1, 2, 0),
+               Vec3(-1, 2, 0)});
+}
+
+TEST(GltfSkin, TheNodesOwnTransformPlaysNoPart) {
+  AssetBuilder asset = arm();
+  asset.json["nodes"][0].update({{"translation", {5, 6, 7}}, {"scale", {-2, 2, 2}}});
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(first_mesh(loaded).positions, straight);
+  EXPECT_EQ(first_mesh(loaded).triangles, first_mesh(load(arm())).triangles);
+}
+
+TEST(GltfSkin, WithoutInverseBindMatricesTheyAreOne) {
+  AssetBuilder asset = arm();
+  asset.json["skins"][0].erase("inverseBindMatrices");
+  expect_near(first_mesh(load(asset)).positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -1, 0),
+                                                  Vec3(1.5F, 1, 0), Vec3(3, -1, 0), Vec3(3, 1, 0)});
+}
+
+TEST(GltfSkin, JointsOutsideOfTheSceneMoveItToo) {
+  AssetBuilder asset = arm();
+  asset.json["scenes"][0]["nodes"] = {0};
+  asset.json["nodes"][1]["translation"] = {0, 0, 4};
+  for (const Vec3& p : first_mesh(load(asset)).positions) EXPECT_EQ(p.z, 4);
+}
+
+TEST(GltfSkin, MirroringJointsTurnTrianglesOver) {
+  AssetBuilder asset = arm();
+  asset.json["nodes"][1]["scale"] = {1, -1, 1};
+  const LoadedScene loaded = load(asset);
+  std::vector<std::array<std::uint32_t, 3>> turned = first_mesh(load(arm())).triangles;
+  for (auto& corners : turned) std::swap(corners[1], corners[2]);
+  EXPECT_EQ(first_mesh(loaded).triangles, turned);
+  EXPECT_EQ(first_mesh(loaded).normals[0], Vec3(0, 0, 1));
+}
+
+TEST(GltfSkin, JointsAndWeightsComeInAllTheirTypesAndSets) {
+  EXPECT_EQ(first_mesh(load(arm<std::uint16_t>())).positions, straight);
+  AssetBuilder asset = arm();
+  asset.json["nodes"][2]["translation"] = {1, 0, 8};
+  nlohmann::json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  const std::vector<std::uint8_t> bytes = {255, 0,   0, 0, 255, 0, 0, 0, 51,  204, 0, 0,
+                                           51,  204, 0, 0, 255, 0, 0, 0, 255, 0,   0, 0};
+  attributes["WEIGHTS_0"] = asset.add_numbers<std::uint8_t>("VEC4", bytes, true);
+  EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
+  std::vector<std::uint16_t> shorts;
+  for (const std::uint8_t byte : bytes) shorts.push_back(static_cast<std::uint16_t>(257 * byte));
+  attributes["WEIGHTS_0"] = asset.add_numbers<std::uint16_t>("VEC4", shorts, true);
+  EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
+  // A second set, with three quarters of each weight for the elbow.
+  std::vector<float> quarter, rest;
+  for (int i = 0; i < 6; ++i) {
+    quarter.insert(quarter.end(), {0.25F, 0, 0, 0});
+    rest.insert(rest.end(), {0, 0, 0.75F, 0});
+  }
+  attributes["JOINTS_0"] = asset.add_numbers<std::uint8_t>("VEC4", std::vector<std::uint8_t>(24));
+  attributes["WEIGHTS_0"] = asset.add_numbers<float>("VEC4", quarter);
+  attributes["JOINTS_1"] =
+      asset.add_numbers<std::uint8_t>("VEC4", std::vector<std::uint8_t>(24, 1));
+  attributes["WEIGHTS_1"] = asset.add_numbers<float>("VEC4", rest);
+  const LoadedScene loaded = load(asset);
+  for (const Vec3& p : first_mesh(loaded).positions) EXPECT_EQ(p.z, 6);
+  EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+}
+
+TEST(GltfSkin, MorphsComeBeforeJoints) {
+  AssetBuilder asset = arm();
+  std::vector<Vec3> up(6, Vec3(0, 1, 0));
+  asset.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", asset.add_positions(up)}}};
+  asset.json["meshes"][0]["weights"] = {1};
+  asset.json["nodes"][1]["rotation"] = {0, 0, half, half};
+  expect_near(first_mesh(load(asset)).positions, {Vec3(0, 0, 0), Vec3(-2, 0, 0), Vec3(0, 1, 0),
+                                                  Vec3(-2, 1, 0), Vec3(0, 2, 0), Vec3(-2, 2, 0)});
+}
+
+TEST(GltfSkin, WeightsAreScaledToOneWithAWarning) {
+  AssetBuilder asset = arm();
+  std::vector<float> weights = {3,    0,    0, 0, 1, 0, 0, 0, 0, 0, 0, 0,
+                                0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  asset.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] =
+      asset.add_numbers<float>("VEC4", weights);
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(first_mesh(loaded).positions, straight);
+  EXPECT_THAT(
+      texts(loaded.warnings),
+      testing::UnorderedElementsAre(
+          AllOf(HasSubstr("/meshes/0/primitives/0/attributes/WEIGHTS_0"), HasSubstr("add up")),
+          HasSubstr("first joint")));
+}
+
+TEST(GltfSkin, AJointThatTheSkinLacksIsRefused) {
+  AssetBuilder asset = arm();
+  asset.json["skins"][0]["joints"] = {1};
+  try {
+    (void)load(asset);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+    EXPECT_EQ(error.diagnostic().pointer, "/meshes/0/primitives/0/attributes/JOINTS_0");
+    EXPECT_THAT(error.what(), HasSubstr("joint 1"));
+  }
+}
+
+TEST(GltfSkin, AMeshWithoutJointsStandsInItsNodesPlace) {
+  AssetBuilder asset = arm();
+  nlohmann::json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes.erase("JOINTS_0");
+  attributes.erase("WEIGHTS_0");
+  asset.json["nodes"][0]["translation"] = {0, 0, 3};
+  const LoadedScene loaded = load(asset);
+  EXPECT_EQ(first_mesh(loaded).positions[0], Vec3(0, -1, 3));
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("JOINTS_0")));
+}
+
+}  // namespace
+}  // namespace microtrace::tests
