@@ -63,7 +63,7 @@ void Morpher::add(const Element& at, int accessor, const std::string& name, doub
   displacements_ += surface.vertices.size();
   if (displacements_ > max_displacements) {
     asset_.fail(at,
-                "brings a pose to more than 2^31 displacements of vertices, the most that is made",
+                "brings a pose to more than 2^29 displacements of vertices, the most that is made",
                 ErrorKind::limit);
   }
   const Mesh& mesh = surface.mesh;

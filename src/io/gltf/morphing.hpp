@@ -15,7 +15,7 @@
 namespace microtrace::io::gltf {
 
 /// One pose adds at most so many displacements of vertices.
-inline constexpr std::size_t max_displacements = std::size_t{1} << 31;
+inline constexpr std::size_t max_displacements = std::size_t{1} << 29;
 
 /// What stands instead of a mesh's own; each is empty where no target moves it.
 struct Morphed {
