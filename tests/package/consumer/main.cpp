@@ -1,15 +1,19 @@
 // A program that uses the installed library: every public header, a scene from memory, a picture.
+#include <microtrace/aov.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/framing.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/integrator.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/scene.hpp>
 #include <microtrace/shape.hpp>
+#include <microtrace/sidecar.hpp>
 
 #include <cstdio>
 
@@ -23,7 +27,8 @@ int main(int argc, char** argv) {
       "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "color": [1, 0, 0]}]
     })",
                                                            "memory.json", ".");
-    const microtrace::Film film = microtrace::render(scene, scene.cameras[0].camera, {9, 9});
+    const microtrace::Camera camera = microtrace::default_camera(scene, {9, 9});
+    const microtrace::Film film = microtrace::render(scene, camera, {9, 9});
     microtrace::save_image(film, argv[1]);
     const microtrace::Vec3 middle = film.row(4)[4], corner = film.row(0)[0];
     const bool right =
