@@ -186,7 +186,7 @@ const Mutation mutations[] = {
      invalid, "/cameras/0/perspective"},
 
     // Where the data comes from.
-    {"/buffers/0/uri", "\"cube.bin\"", io},
+    {"/buffers/0/uri", "\"cube.bin\""},
     {"/buffers/0/uri", "\".\"", io},
     {"/buffers/0/uri", "\"../cube.bin\""},
     {"/buffers/0/uri", "\"/dev/zero\""},

@@ -40,7 +40,8 @@ std::string read(const Asset& asset, const Element& uri, const std::filesystem::
     asset.fail(uri,
                "buffer file " + in_quotes(path.string()) +
                    (missing ? " does not exist" : " is not a regular file"),
-               ErrorKind::io);
+               // An asset that is not whole, rather than a machine that fails.
+               missing ? ErrorKind::invalid_scene : ErrorKind::io);
   }
   try {
     return read_file(path, max_buffer_bytes);
