@@ -27,14 +27,14 @@ Examples:
   microtrace model.glb --aov id,depth,normal --background transparent -o model.exr
   microtrace scene.json -o - | other-program)";
 
-std::filesystem::path default_output(const std::string& scene) {
+std::filesystem::path default_output(const std::string& scene, bool has_frames) {
   if (scene == "-") throw CLI::RequiredError("--output, where the scene is standard input,");
-  return std::filesystem::path(scene).stem() += ".ppm";
+  return std::filesystem::path(scene).stem() += has_frames ? "_%04d.ppm" : ".ppm";
 }
 
 /// The words in which --help speaks of options' values, and the options' order.
 void name_values(CLI::App& app) {
-  constexpr std::array<std::pair<const char*, const char*>, 16> kNames{{
+  constexpr std::array<std::pair<const char*, const char*>, 18> kNames{{
       {"SCENE", "FILE"},
       {"--output", "FILE"},
       {"--size", "WxH"},
@@ -48,6 +48,8 @@ void name_values(CLI::App& app) {
       {"--sidecar", "FILE"},
       {"--time", "S"},
       {"--animation", "NAME"},
+      {"--frames", "A:B"},
+      {"--fps", "N"},
       {"--threads", "N"},
       {"--ppm", "KIND"},
       {"--progress", "KIND"},
@@ -67,7 +69,8 @@ Parsed parse_arguments(int argc, char** argv) {
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
   set_help_format(app);
-  std::string output, size, crop, view, background, integrator, aovs, sidecar, time, statistics;
+  std::string output, size, crop, view, background, integrator, aovs, sidecar, time, frames, fps,
+      statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -104,9 +107,14 @@ Parsed parse_arguments(int argc, char** argv) {
                  "materials [the picture's name with .json added, where --aov has id]");
   app.add_option("--time", time,
                  "seconds into the animation of a glTF asset [the pose that the file gives]");
-  app.add_option(
-      "--animation", a.load.animation,
-      "animation that --time is of, by name or by number from 0; all: all at once [the first]");
+  app.add_option("--animation", a.load.animation,
+                 "animation that --time and --frames are of, by name or by number from 0; all: all "
+                 "at once [the first]");
+  app.add_option("--frames", frames,
+                 "A:B: draw a picture of each frame from A to B; frame K is at K / fps seconds; "
+                 "the picture's name has the number as in out_%04d.png")
+      ->excludes("--time");
+  app.add_option("--fps", fps, "frames in a second [24]")->needs("--frames");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
       ->check(CLI::Range(1U, 1024U));
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
@@ -133,16 +141,20 @@ Parsed parse_arguments(int argc, char** argv) {
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
-    if (app.count("--time") > 0) a.load.time = parse_seconds(time);
-    if (app.count("--animation") > 0 && !a.load.time)
-      throw CLI::RequiredError("--time, where --animation is given,");
+    if (app.count("--time") > 0) a.load.time = parse_number("--time", time);
+    if (app.count("--frames") > 0) a.frames = parse_frames(frames);
+    if (app.count("--fps") > 0) a.frames->fps = parse_fps(fps);
+    if (app.count("--animation") > 0 && !a.load.time && !a.frames)
+      throw CLI::RequiredError("--time or --frames, where --animation is given,");
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;
-    if (output.empty() && !a.validate) a.output = default_output(a.scene);
+    if (output.empty() && !a.validate) a.output = default_output(a.scene, a.frames.has_value());
     a.sidecar = sidecar;
     if (sidecar.empty() && std::ranges::find(a.aovs, Aov::id) != a.aovs.end())
       (a.sidecar = a.output) += ".json";
+    if (a.frames && !a.output.empty()) check_pattern("--output", a.output.string());
+    if (a.frames && !a.sidecar.empty()) check_pattern("--sidecar", a.sidecar.string());
   } catch (const CLI::ParseError& error) {
     parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
   }

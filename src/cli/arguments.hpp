@@ -1,6 +1,7 @@
 #pragma once
 /// The command line.
 
+#include "cli/frames.hpp"
 #include "cli/option_values.hpp"
 
 #include <microtrace/framing.hpp>
@@ -22,6 +23,7 @@ struct Arguments {
   std::string scene;             ///< a file, or "-" for standard input
   std::filesystem::path output;  ///< a file, or "-" for standard output
   LoadOptions load{};
+  std::optional<FrameRange> frames{};  ///< output and sidecar are then patterns
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   std::optional<Background> background{};

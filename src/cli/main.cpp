@@ -5,6 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <string>
 #include <unistd.h>
 
 namespace {
@@ -25,7 +29,40 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
   }
 }
 
+/// The file is read once. A camera that frames the scene stands still, where the first frame put
+/// it.
+void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) {
+  using cli::frame_path;
+  cli::Stopwatch watch;
+  SceneFile file(arguments.scene, arguments.load);
+  const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
+  const auto progress = cli::progress_of(arguments, frames.count());
+  std::optional<Camera> framing;
+  std::set<std::string> reported;
+  for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
+    auto [scene, warnings] = file.at(frames.time(frame));
+    std::erase_if(warnings, [&](const Diagnostic& w) { return !reported.insert(w.text()).second; });
+    report(warnings, arguments);
+    const ImageSize size = arguments.size.value_or(scene.size);
+    const bool is_framed = arguments.view || scene.cameras.empty();
+    const Camera camera =
+        is_framed && framing ? *framing : cli::choose_camera(scene, arguments, size);
+    if (is_framed) framing = camera;
+    watch.loaded();
+    if (arguments.validate) return;
+
+    if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
+    const std::filesystem::path picture = frame_path(output, frame);
+    const std::filesystem::path beside = frame_path(sidecar, frame);
+    if (frame == frames.first) cli::check_outputs(arguments, picture, beside);
+    cli::make_picture(scene, camera, size, arguments, picture, beside, watch, [&](double share) {
+      if (progress) progress((frame - frames.first + share) / frames.count());
+    });
+  }
+}
+
 void run(const cli::Arguments& arguments) {
+  if (arguments.frames) return run_frames(arguments, *arguments.frames);
   cli::Stopwatch watch;
   auto [scene, warnings] = load_scene(arguments.scene, arguments.load);
   report(warnings, arguments);
@@ -36,7 +73,8 @@ void run(const cli::Arguments& arguments) {
 
   if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
-  cli::make_picture(scene, camera, size, arguments, arguments.output, arguments.sidecar, watch);
+  cli::make_picture(scene, camera, size, arguments, arguments.output, arguments.sidecar, watch,
+                    cli::progress_of(arguments));
 }
 
 }  // namespace

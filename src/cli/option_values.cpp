@@ -151,10 +151,10 @@ std::vector<Aov> parse_aovs(const std::string& text) {
   return aovs;
 }
 
-double parse_seconds(const std::string& text) {
+double parse_number(const char* option, const std::string& text) {
   const auto value = read<double>(text);
   if (!value || !std::isfinite(*value))
-    throw CLI::ValidationError("--time", "wants a number of seconds, not " + text);
+    throw CLI::ValidationError(option, "wants a number, not " + text);
   return *value;
 }
 

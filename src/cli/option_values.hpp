@@ -26,7 +26,7 @@ namespace microtrace::cli {
 /// A side's name, or AZIMUTH,ELEVATION in degrees
 [[nodiscard]] View parse_view(const std::string& text);
 /// A finite number
-[[nodiscard]] double parse_seconds(const std::string& text);
+[[nodiscard]] double parse_number(const char* option, const std::string& text);
 
 /// What lies behind all objects: a colour, or nothing (transparent).
 struct Background {

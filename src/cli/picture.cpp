@@ -15,12 +15,12 @@ bool is_transparent(const Arguments& arguments) {
   return arguments.background && !arguments.background->color;
 }
 
-std::function<void(double)> progress_of(const Arguments& arguments) {
-  if (arguments.progress == Progress::json) return progress_lines();
-  return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar();
-}
-
 }  // namespace
+
+std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_t pictures) {
+  if (arguments.progress == Progress::json) return progress_lines();
+  return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar(pictures);
+}
 
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& sidecar) {
@@ -31,12 +31,13 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 
 void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
                   const Arguments& arguments, const std::filesystem::path& output,
-                  const std::filesystem::path& sidecar, Stopwatch& watch) {
+                  const std::filesystem::path& sidecar, Stopwatch& watch,
+                  const std::function<void(double)>& progress) {
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
   RenderOptions options{
       .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
-      .progress = progress_of(arguments),
+      .progress = progress,
       .times = &times,
       .integrator = integrator.get(),
       .samples = arguments.samples,

@@ -5,7 +5,9 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/scene.hpp>
 
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 
 namespace microtrace::cli {
 
@@ -13,9 +15,14 @@ namespace microtrace::cli {
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& sidecar);
 
+/// What shows the progress of so many pictures, as the arguments ask for; may be empty.
+[[nodiscard]] std::function<void(double)> progress_of(const Arguments& arguments,
+                                                      std::uint32_t pictures = 1);
+
 /// Draws a picture and writes it, with its sidecar if that has a name. Tells the watch.
 void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
                   const Arguments& arguments, const std::filesystem::path& output,
-                  const std::filesystem::path& sidecar, Stopwatch& watch);
+                  const std::filesystem::path& sidecar, Stopwatch& watch,
+                  const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

@@ -17,26 +17,32 @@ bool can_draw() {
   return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
-void draw(double share, double seconds) {
+void draw(double share, double seconds, std::uint32_t pictures) {
   constexpr int kWidth = 40;
   const int filled = static_cast<int>(share * kWidth);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left\x1b[K", bar.c_str(),
-               static_cast<int>(share * 100), seconds / share * (1 - share));
+  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left", bar.c_str(), static_cast<int>(share * 100),
+               seconds / share * (1 - share));
+  if (pictures > 1) {
+    const int picture = static_cast<int>(share * pictures) + 1;
+    std::fprintf(stderr, ", picture %d of %u", picture, pictures);
+  }
+  std::fputs("\x1b[K", stderr);
 }
 
 }  // namespace
 
-std::function<void(double)> progress_bar() {
+std::function<void(double)> progress_bar(std::uint32_t pictures) {
   if (!can_draw()) return {};
-  return [start = Clock::now(), last = Clock::time_point(), drawn = false](double share) mutable {
+  return [pictures, start = Clock::now(), last = Clock::time_point(),
+          drawn = false](double share) mutable {
     using namespace std::chrono_literals;
     const Clock::time_point now = Clock::now();
     if (share >= 1) {
       if (drawn) std::fputs("\r\x1b[K", stderr);
     } else if (now - start > 500ms && now - last > 100ms) {
-      draw(share, std::chrono::duration<double>(now - start).count());
+      draw(share, std::chrono::duration<double>(now - start).count(), pictures);
       last = now;
       drawn = true;
     }

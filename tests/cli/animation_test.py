@@ -7,10 +7,12 @@ usage: animation_test.py PROGRAM [unittest arguments]
 import base64
 import json
 import os
+import signal
 import struct
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
@@ -112,6 +114,88 @@ class Animation(unittest.TestCase):
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))
             self.assertIn(fragment, result.stderr.decode(), arguments)
             self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
+
+    def frames(self, *arguments):
+        return self.run_program("move.gltf", "--size", "80x60", *arguments)
+
+    def test_frames_are_the_pictures_of_their_times(self):
+        result = self.frames("--frames", "2:5", "--fps", "4", "-o", "out_%03d.ppm")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertEqual(sorted(os.listdir(self.folder)),
+                         ["move.gltf", *(f"out_{k:03}.ppm" for k in range(2, 6))])
+        for k in range(2, 6):
+            single = self.frames("--time", k / 4, "-o", "-").stdout
+            self.assertEqual((self.folder / f"out_{k:03}.ppm").read_bytes(), single, k)
+
+    def test_frames_by_default(self):
+        self.assertEqual(self.frames("--frames", "24:24").returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["move.gltf", "move_0024.ppm"])
+        self.assertEqual((self.folder / "move_0024.ppm").read_bytes(),
+                         self.frames("--time", "1", "-o", "-").stdout)
+
+    def test_frames_to_standard_output_follow_each_other(self):
+        result = self.frames("--frames", "0:2", "--fps", "1", "--animation", "up", "-o", "-")
+        singles = [self.frames("--time", k, "--animation", "up", "-o", "-").stdout for k in range(3)]
+        self.assertEqual(result.stdout, b"".join(singles))
+
+    def test_wrong_frames_are_usage_errors(self):
+        for arguments, fragment in (
+            (["--frames", "0:1", "-o", "out.ppm"], "out_%04d.png"),
+            (["--frames", "0:1", "-o", "%d_%d.ppm"], "%d_%d.ppm"),
+            (["--frames", "0:1", "-o", "%s%d.ppm"], "%s%d.ppm"),
+            (["--frames", "0:1", "-o", "%0d.ppm"], "%0d.ppm"),
+            (["--frames", "0:1", "-o", "%4d.ppm"], "%4d.ppm"),
+            (["--frames", "0:1", "-o", "a%d.ppm%"], "a%d.ppm%"),
+            (["--frames", "0:1", "-o", "a%%d.ppm"], "a%%d.ppm"),
+            (["--frames", "0:1", "-o", "%d.ppm", "--sidecar", "a.json"], "--sidecar"),
+            (["--frames", "1:0"], "--frames"), (["--frames", "3"], "--frames"),
+            (["--frames", "-1:3"], "--frames"), (["--frames", "0:1000000"], "--frames"),
+            (["--frames", ""], "--frames"), (["--frames", "0:1", "--time", "1"], "--time"),
+            (["--frames", "0:1", "--fps", "0"], "--fps"), (["--frames", "0:1", "--fps", "nan"], "--fps"),
+            (["--fps", "24"], "--frames"),
+        ):
+            result = self.frames(*arguments)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertIn(fragment, result.stderr.decode(), arguments)
+            self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
+
+    def test_a_percent_sign_may_stand_in_names(self):
+        self.assertEqual(self.frames("--frames", "7:7", "-o", "100%%_%d.ppm").returncode, 0)
+        self.assertIn("100%_7.ppm", os.listdir(self.folder))
+
+    def test_warnings_are_shown_once(self):
+        asset = json.loads((self.folder / "move.gltf").read_text())
+        asset["extensionsUsed"] = ["VENDOR_unknown"]
+        (self.folder / "move.gltf").write_text(json.dumps(asset))
+        result = self.frames("--frames", "0:3")
+        self.assertEqual(result.stderr.count(b"VENDOR_unknown"), 2)  # with its line
+
+    def test_a_scene_without_camera_keeps_the_first_frames_framing(self):
+        asset = json.loads((self.folder / "move.gltf").read_text())
+        asset["scenes"][0]["nodes"] = [0]
+        (self.folder / "move.gltf").write_text(json.dumps(asset))
+        self.assertEqual(self.frames("--frames", "0:1", "--fps", "100", "--view", "front").returncode, 0)
+        pictures = [(self.folder / f"move_000{k}.ppm").read_bytes() for k in (0, 1)]
+        self.assertNotEqual(pictures[0], pictures[1])  # framed anew, they would be the same
+
+    def test_progress_is_that_of_all_frames(self):
+        result = self.frames("--frames", "0:9", "--progress", "json")
+        shares = [json.loads(line)["progress"] for line in result.stderr.splitlines()]
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual(shares[-1], 1)
+
+    def test_an_interrupt_leaves_whole_frames_only(self):
+        process = subprocess.Popen([PROGRAM, "move.gltf", "--size", "800x600", "--frames", "0:9999"],
+                                   cwd=self.folder, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 30
+        while not (self.folder / "move_0003.ppm").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=10)
+        self.assertEqual(process.returncode, 130, message)
+        for name in set(os.listdir(self.folder)) - {"move.gltf"}:
+            self.assertRegex(name, r"^move_\d{4}\.ppm$")
+            self.assertEqual((self.folder / name).stat().st_size, 15 + 800 * 600 * 3)
 
     def test_a_json_scenes_meshes_are_posed(self):
         camera = {"type": "orthographic", "position": [2, 2, 10], "direction": [0, 0, -1], "height": 6}

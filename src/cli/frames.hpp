@@ -1,0 +1,35 @@
+#pragma once
+/// Sequences of pictures.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace microtrace::cli {
+
+inline constexpr std::uint32_t kMaxFrame = 999999;
+
+/// Frames first to last; frame k is at k / fps seconds, whatever the first is.
+struct FrameRange {
+  std::uint32_t first = 0, last = 0;
+  double fps = 24;
+
+  [[nodiscard]] std::uint32_t count() const { return last - first + 1; }
+  [[nodiscard]] double time(std::uint32_t frame) const { return frame / fps; }
+};
+
+/// A:B, both included
+[[nodiscard]] FrameRange parse_frames(const std::string& text);
+/// A number above 0
+[[nodiscard]] double parse_fps(const std::string& text);
+
+// Both throw CLI::ValidationError, as does the next.
+
+/// Throws unless a file's name has its frame's number once, as %d or %04d; %% stands for %.
+/// `option` is the one that gave it. Standard output, "-", takes all frames one after another.
+void check_pattern(const char* option, const std::string& pattern);
+
+/// The name of one frame's file.
+[[nodiscard]] std::filesystem::path frame_path(const std::string& pattern, std::uint32_t frame);
+
+}  // namespace microtrace::cli
