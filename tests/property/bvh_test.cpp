@@ -117,6 +117,20 @@ TEST(Bvh, ManyRaysAtOnceGetTheAnswersOfEach) {
   }
 }
 
+// A tree without a block of triangles.
+TEST(Bvh, SpheresAloneAreHitByATile) {
+  Scene scene;
+  for (int i = 0; i < 100; ++i) add(scene, Sphere{Vec3(i % 10, i / 10, -5), 0.5F});
+  const Bvh bvh(scene);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 64; ++i)
+    rays.push_back({.o = Vec3(4, 4, 5), .d = {i % 8 - 4, i / 8 - 4, -10}});
+  std::vector<std::optional<Hit>> hits(rays.size());
+  bvh.intersect(rays, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    ASSERT_TRUE(equal(hits[i], by_definition(scene, rays[i]))) << i;
+}
+
 TEST(Bvh, EmptySceneAndEmptyMeshHitNothing) {
   Scene scene;
   EXPECT_FALSE(Bvh(scene).intersect(Ray{}).has_value());

@@ -91,10 +91,14 @@ class TileWalk {
   // Inlined by force: GCC takes a function of prefetches alone for one without effect.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const bool is_node = (child & child_ref::kKind) == 0;
-    const char* p = is_node ? reinterpret_cast<const char*>(tree_.nodes + child)
-                            : reinterpret_cast<const char*>(tree_.blocks + first_entry(child));
-    const int lines = is_node ? 4 : 5;
-    for (int i = 0; i < lines; ++i) __builtin_prefetch(p + 64 * i);
+    // As numbers: where there are other primitives alone, blocks is null.
+    const auto p = is_node
+                       ? reinterpret_cast<std::uintptr_t>(tree_.nodes) + child * sizeof(WideNode)
+                       : reinterpret_cast<std::uintptr_t>(tree_.blocks) +
+                             first_entry(child) * sizeof(TriangleBlock);
+    const std::uintptr_t lines = is_node ? 4 : 5;
+    for (std::uintptr_t i = 0; i < lines; ++i)
+      __builtin_prefetch(reinterpret_cast<const void*>(p + 64 * i));
   }
 
   [[nodiscard]] bool some_ray_enters(const WideNode& node, int lane) const {
