@@ -48,7 +48,7 @@ void name_values(CLI::App& app) {
       {"--sidecar", "FILE"},
       {"--time", "S"},
       {"--animation", "NAME"},
-      {"--frames", "A:B"},
+      {"--frames", "RANGE"},
       {"--fps", "N"},
       {"--threads", "N"},
       {"--ppm", "KIND"},

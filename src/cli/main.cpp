@@ -2,6 +2,8 @@
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
 
+#include <microtrace/framing.hpp>
+
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -29,8 +31,22 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
   }
 }
 
-/// The file is read once. A camera that frames the scene stands still, where the first frame put
-/// it.
+/// The camera that frames the poses of all frames, where one is to frame the scene.
+std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& arguments,
+                                 const cli::FrameRange& frames) {
+  LoadedScene posed = file.at(frames.time(frames.first));
+  const bool has_own = !posed.scene.cameras.empty() || !arguments.camera.empty();
+  if (!arguments.view && has_own) return std::nullopt;
+  Framing framing(arguments.view.value_or(View{}), arguments.size.value_or(posed.scene.size));
+  framing.add(posed.scene);
+  for (std::uint32_t frame = frames.first + 1; frame <= frames.last; ++frame) {
+    posed = file.at(frames.time(frame));
+    framing.add(posed.scene);
+  }
+  return framing.camera();
+}
+
+/// The file is read once.
 void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) {
   using cli::frame_path;
   cli::Stopwatch watch;
@@ -38,23 +54,24 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
   std::optional<Camera> framing;
+  if (!arguments.validate) {
+    cli::check_outputs(arguments, frame_path(output, frames.first),
+                       frame_path(sidecar, frames.first));
+    framing = framing_of(file, arguments, frames);
+  }
   std::set<std::string> reported;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
     auto [scene, warnings] = file.at(frames.time(frame));
     std::erase_if(warnings, [&](const Diagnostic& w) { return !reported.insert(w.text()).second; });
     report(warnings, arguments);
     const ImageSize size = arguments.size.value_or(scene.size);
-    const bool is_framed = arguments.view || scene.cameras.empty();
-    const Camera camera =
-        is_framed && framing ? *framing : cli::choose_camera(scene, arguments, size);
-    if (is_framed) framing = camera;
+    const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments, size);
     watch.loaded();
     if (arguments.validate) return;
 
     if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
     const std::filesystem::path picture = frame_path(output, frame);
     const std::filesystem::path beside = frame_path(sidecar, frame);
-    if (frame == frames.first) cli::check_outputs(arguments, picture, beside);
     cli::make_picture(scene, camera, size, arguments, picture, beside, watch, [&](double share) {
       if (progress) progress((frame - frames.first + share) / frames.count());
     });
