@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include <glm/common.hpp>
+
 namespace microtrace::tests {
 namespace {
 
@@ -38,12 +40,17 @@ std::size_t AssetBuilder::add_view(std::string_view bytes, std::size_t stride) {
 
 std::size_t AssetBuilder::add_positions(const std::vector<Vec3>& positions) {
   const std::size_t view = add_view(bytes_of(positions));
+  Vec3 least(positions.at(0)), greatest(positions.at(0));
+  for (const Vec3& p : positions) {
+    least = glm::min(least, p);
+    greatest = glm::max(greatest, p);
+  }
   return add("accessors", {{"bufferView", view},
                            {"componentType", f32},
                            {"count", positions.size()},
                            {"type", "VEC3"},
-                           {"min", {-1e9, -1e9, -1e9}},
-                           {"max", {1e9, 1e9, 1e9}}});
+                           {"min", {least.x, least.y, least.z}},
+                           {"max", {greatest.x, greatest.y, greatest.z}}});
 }
 
 std::size_t AssetBuilder::add_indices(const std::vector<std::uint32_t>& indices,

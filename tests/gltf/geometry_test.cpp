@@ -185,7 +185,7 @@ TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
     const char* warning;
   };
   const std::vector<Case> cases = {
-      {{{"attributes", {{"NORMAL", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
+      {{{"attributes", {{"_OWN", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
       {{{"attributes", nlohmann::json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
       {{{"attributes", {{"POSITION", 1}}}}, "vertices that make no whole triangle"},
       {{{"attributes", {{"POSITION", 2}}}, {"mode", 1}}, "vertices that make no whole triangle"},
@@ -203,14 +203,15 @@ TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   }
 }
 
-TEST(GltfGeometry, PositionsThatAreNotFiniteStayAndAreWarnedOf) {
+TEST(GltfGeometry, PositionsThatAreNotFiniteInTheWorldStayAndAreWarnedOf) {
   AssetBuilder asset;
   asset.add_object(
       {{"attributes",
-        {{"POSITION", asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, NAN, 0)})}}}});
+        {{"POSITION", asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1e30, 0)})}}}});
+  asset.json["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
   const LoadedScene scene = load(asset);
   ASSERT_EQ(scene.scene.objects.size(), 1U);
-  EXPECT_TRUE(std::isnan(triangles_of(scene.scene.objects[0])[0][2].y));
+  EXPECT_TRUE(std::isinf(triangles_of(scene.scene.objects[0])[0][2].y));
   EXPECT_THAT(texts(scene.warnings),
               ElementsAre(HasSubstr("/meshes/0/primitives/0: has vertices that are not finite")));
 }

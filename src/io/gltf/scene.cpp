@@ -5,6 +5,7 @@
 #include "io/gltf/asset.hpp"
 #include "io/gltf/buffers.hpp"
 #include "io/gltf/cameras.hpp"
+#include "io/gltf/check/data.hpp"
 #include "io/gltf/check/schema.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/container.hpp"
@@ -162,7 +163,7 @@ struct GltfFile::Content {
         tree(asset, model),
         buffers(gltf::load_buffers(asset, container.bin, folder)),
         views(asset, model, buffers),
-        reader(asset, model, views),
+        reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
         instances(asset, model, reader),
@@ -194,6 +195,11 @@ struct GltfFile::Content {
       player.emplace(asset, model, reader, animations);
     }
     return player->at(time);
+  }
+
+  const gltf::BufferViews& checked_views() {
+    gltf::check_data(asset, model, views);
+    return views;
   }
 
   std::string name;

@@ -1,0 +1,128 @@
+#include "gltf/rig.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// A change to the numbers of the rig, and the complaint.
+struct Poke {
+  std::function<void(AssetBuilder&)> change;
+  const char* pointer;
+  const char* message;
+};
+
+template <typename Number>
+std::function<void(AssetBuilder&)> set(RigAccessor accessor, std::size_t number, Number value) {
+  return [=](AssetBuilder& asset) { poke(asset, accessor, number, value); };
+}
+
+/// Replaces one element of an accessor by a sparse part.
+std::function<void(AssetBuilder&)> sparse(RigAccessor accessor, std::uint16_t first,
+                                          std::uint16_t second, float value) {
+  return [=](AssetBuilder& asset) {
+    const std::size_t indices = asset.add_view(bytes_of<std::uint16_t>({first, second}));
+    const std::size_t values = asset.add_view(bytes_of<float>(std::vector<float>(8, value)));
+    asset.json["accessors"][accessor]["sparse"] = {
+        {"count", 2},
+        {"indices", {{"bufferView", indices}, {"componentType", u16}}},
+        {"values", {{"bufferView", values}}}};
+  };
+}
+
+const Poke refused[] = {
+    {set(rig_positions, 4, NAN), "/accessors/0", "element 1 is not finite"},
+    {set(rig_normals, 8, infinity), "/accessors/1", "element 2 is not finite"},
+    {set(rig_weights, 0, -infinity), "/accessors/6", "element 0 is not finite"},
+    {set(rig_matrices, 31, NAN), "/accessors/9", "element 1 is not finite"},
+    {set(rig_translations, 5, NAN), "/accessors/11", "element 1 is not finite"},
+    {set(rig_times, 1, 0.0F), "/accessors/10", "element 1 is not greater"},
+    {set(rig_times, 0, 2.0F), "/accessors/10", "element 1 is not greater"},
+    {set<std::uint8_t>(rig_joints, 5, 2), "/meshes/0/primitives/0/attributes/JOINTS_0",
+     "vertex 1 is moved by joint 2 of a skin of only 2"},
+    {sparse(rig_texcoords, 1, 1, 0), "/accessors/3/sparse/indices", "number 1 is 1"},
+    {sparse(rig_texcoords, 1, 3, 0), "/accessors/3/sparse/indices", "number 1 is 3"},
+    {sparse(rig_texcoords, 1, 2, NAN), "/accessors/3", "element 1 is not finite"},
+    {[](AssetBuilder& asset) {
+       asset.json["meshes"][0]["primitives"][0]["attributes"].erase("POSITION");
+       asset.json["meshes"][0]["primitives"][0].erase("targets");
+       asset.json["animations"][0]["channels"].erase(2);
+       poke<std::uint16_t>(asset, rig_indices, 2, 3);
+     },
+     "/accessors/8", "names vertices beyond the 3"},
+};
+
+const Poke survived[] = {
+    {[](AssetBuilder& asset) {
+       asset.json["accessors"][rig_positions]["min"] = {0, 0, 0.5};
+     },
+     "/accessors/0/min", "is not the least"},
+    {[](AssetBuilder& asset) { asset.json["accessors"][rig_indices]["max"] = {7}; },
+     "/accessors/8/max", "is not the greatest"},
+    {set(rig_normals, 2, 2.0F), "/accessors/1", "1 of its elements are no unit vectors"},
+    {set(rig_tangents, 0, 0.5F), "/accessors/2", "1 of its elements are no unit vectors"},
+    {set(rig_tangents, 3, 0.0F), "/accessors/2", "1 of its tangents have a w"},
+    {set(rig_colors, 4, 1.5F), "/accessors/4", "1 of its colours are not within"},
+    {set(rig_weights, 0, -0.5F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "negative"},
+    {set(rig_weights, 0, 0.25F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "sum up to 1"},
+    {set<std::uint8_t>(rig_joints, 1, 0), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "twice"},
+    {set(rig_matrices, 15, 2.0F), "/accessors/9", "1 of its matrices do not end in"},
+    {set(rig_times, 0, -1.0F), "/accessors/10", "1 of its times are negative"},
+    {set(rig_rotations, 3, 0.5F), "/accessors/12", "1 of its rotations are no unit"},
+};
+
+TEST(GltfData, WrongNumbersAreRefusedAtTheirAccessor) {
+  for (const Poke& poke : refused) {
+    SCOPED_TRACE(poke.message);
+    AssetBuilder asset = rig();
+    poke.change(asset);
+    try {
+      (void)load(asset);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene) << error.what();
+      EXPECT_EQ(error.diagnostic().pointer, poke.pointer) << error.what();
+      EXPECT_THAT(error.diagnostic().message, HasSubstr(poke.message));
+    }
+  }
+}
+
+TEST(GltfData, OddNumbersAreWarnedOfAtTheirAccessor) {
+  for (const Poke& poke : survived) {
+    SCOPED_TRACE(poke.message);
+    AssetBuilder asset = rig();
+    poke.change(asset);
+    EXPECT_THAT(
+        texts(load(asset).warnings),
+        Contains(AllOf(HasSubstr(std::string(poke.pointer) + ": "), HasSubstr(poke.message))));
+  }
+}
+
+TEST(GltfData, AManifoldReadingOfOneViewIsALimit) {
+  AssetBuilder asset = cube();
+  const std::size_t view = asset.add_view(std::string(1 << 16, '\0'));
+  for (int i = 0; i <= 1 << 16; ++i) {
+    asset.add(
+        "accessors",
+        {{"bufferView", view}, {"componentType", u32}, {"count", 1 << 14}, {"type", "SCALAR"}});
+  }
+  try {
+    (void)load(asset);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::tests
