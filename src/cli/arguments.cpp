@@ -129,7 +129,7 @@ Parsed parse_arguments(int argc, char** argv) {
       ->transform(CLI::Transformer(std::map<std::string, Progress>{
           {"none", Progress::none}, {"bar", Progress::bar}, {"json", Progress::json}}));
   app.add_flag("--strict", a.strict, "warnings are errors: exit 3, no picture");
-  app.add_flag("--validate", a.validate, "check the scene, draw nothing");
+  app.add_flag("--validate", a.validate, "check the scene, print the verdict, draw nothing");
   app.add_flag("-q,--quiet", a.quiet, "no warnings and no progress bar");
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
   name_values(app);

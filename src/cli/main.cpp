@@ -1,6 +1,7 @@
 #include "cli/arguments.hpp"
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
+#include "cli/verdict.hpp"
 
 #include <microtrace/framing.hpp>
 
@@ -86,7 +87,7 @@ void run(const cli::Arguments& arguments) {
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);
   watch.loaded();
-  if (arguments.validate) return;
+  if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 
   if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
@@ -108,6 +109,7 @@ int main(int argc, char** argv) {
     run(arguments);
     return 0;
   } catch (const Error& error) {
+    if (arguments.validate) cli::print_refused(arguments.scene, error.kind());
     std::fprintf(stderr, "error: %s\n", error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {

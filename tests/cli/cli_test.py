@@ -241,9 +241,23 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=none").stderr, b"")
         self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=dots").returncode, 2)
 
-    def test_validate_draws_nothing(self):
-        self.assertEqual(self.run_program(SCENE, "--validate").returncode, 0)
+    def test_validate_prints_the_verdict_and_draws_nothing(self):
+        result = self.run_program(SCENE, "--validate")
+        self.assertEqual(result.returncode, 0)
+        self.assertEqual(result.stdout.decode(), f"{SCENE}: valid\n")
         self.assertEqual(os.listdir(self.folder), [])
+        asset = {"asset": {"version": "2.1"}, "scenes": []}
+        for change, code, verdict in (({}, 0, "valid, 3 warnings"), ({"scene": 0}, 3, "invalid"),
+                                      ({"asset": {"version": "3.0"}}, 4, "unsupported"),
+                                      ({"scene": "x" * 10}, 3, "invalid")):
+            self.write("asset.gltf", json.dumps({**asset, **change}))
+            result = self.run_program("asset.gltf", "--validate")
+            self.assertEqual(result.returncode, code)
+            self.assertEqual(result.stdout.decode(), f"asset.gltf: {verdict}\n")
+        self.write("asset.gltf", json.dumps(asset))
+        result = self.run_program("asset.gltf", "--validate", "--strict")
+        self.assertEqual((result.returncode, result.stdout), (3, b"asset.gltf: invalid\n"))
+        self.assertEqual(os.listdir(self.folder), ["asset.gltf"])
 
     # Usage
 
