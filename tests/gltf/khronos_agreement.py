@@ -3,9 +3,9 @@
 
 usage: khronos_agreement.py PROGRAM FOLDER [--list]
 
-Takes every asset below FOLDER that has the validator's report beside it, as NAME.gltf.report.json. An asset in whose report
-there are errors is expected to be refused or to be warned of at one of their places; one without, to be accepted. Required
-extensions that microtrace lacks (exit code 4) are counted apart. --list names the assets on which the two differ.
+Takes every asset below FOLDER that has the validator's report beside it, as NAME.gltf.report.json. The two agree where an
+asset in whose report there are errors is refused, or drawn with a warning at the place of one of them; and where one without
+errors is drawn, or refused for a required extension alone (exit code 4). --list names the assets on which they differ.
 """
 
 import json
@@ -39,34 +39,33 @@ def main():
     program, folder = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     listing = "--list" in sys.argv[3:]
     counts = Counter()
+    placed = differ = 0
     for report_file in sorted(folder.rglob("*.report.json")):
         asset = Path(str(report_file).removesuffix(".report.json"))
         if not asset.exists():
             continue
         report = json.loads(report_file.read_text())
-        pointers = error_pointers(report)
         code, complaints = verdict(program, asset)
         wrong = report["issues"]["numErrors"] > 0
-        kind = ("errors" if wrong else "no errors",
-                "unsupported" if code == UNSUPPORTED else "refused" if code else
-                "warned of" if "warning:" in complaints else "accepted")
-        counts[kind] += 1
-        if wrong and code != UNSUPPORTED:
-            counts["placed"] += names_one_of(complaints, pointers)
-        differs = (wrong and kind[1] == "accepted") or (not wrong and kind[1] == "refused")
-        counts["differ"] += differs
-        if listing and (differs or code == 1):
-            print(f"{asset}: report has {kind[0]}, microtrace: {kind[1]} {complaints.splitlines()[:1]}")
-    judged = sum(n for kind, n in counts.items() if isinstance(kind, tuple))
+        ours = "unsupported" if code == UNSUPPORTED else "refused" if code else "drawn"
+        at_place = wrong and names_one_of(complaints, error_pointers(report))
+        if wrong and ours == "drawn":
+            ours = "warned of, there" if at_place else "drawn"
+        counts["errors" if wrong else "no errors", ours] += 1
+        placed += at_place
+        differs = ours == "drawn" if wrong else ours == "refused"
+        differ += differs
+        if listing and differs:
+            print(f"{asset}: the report has {'errors' if wrong else 'no errors'}, microtrace: {ours}; {complaints[:200]}")
+    judged = counts.total()
     if not judged:
         sys.exit("no asset has a report beside it")
-    for kind in sorted(k for k in counts if isinstance(k, tuple)):
-        print(f"{counts[kind]:6}  report: {kind[0]:10} microtrace: {kind[1]}")
-    complained = sum(n for kind, n in counts.items() if isinstance(kind, tuple) and kind[0] == "errors" and
-                     kind[1] in ("refused", "warned of"))
-    print(f"agreement on {judged - counts['differ']} of {judged} assets; "
-          f"{counts['placed']} of {complained} complaints at a place that the report names")
-    sys.exit(1 if counts["differ"] else 0)
+    for (theirs, ours), number in sorted(counts.items()):
+        print(f"{number:6}  report: {theirs:10} microtrace: {ours}")
+    wrong = sum(number for (theirs, _), number in counts.items() if theirs == "errors")
+    print(f"agreement on {judged - differ} of {judged} assets; of {wrong} with errors {placed} have a complaint at a place that "
+          "the report names")
+    sys.exit(1 if differ else 0)
 
 
 main()

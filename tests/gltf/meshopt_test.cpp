@@ -126,6 +126,7 @@ CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& sp
   const std::size_t index_view =
       result.add_view(indices, triangles ? "TRIANGLES" : "INDICES", corners.size(), 2);
   const std::size_t position = result.add_accessor(vertex_view, 5122, "VEC3", side * side);
+  result.asset.json["accessors"][position]["max"] = {1100, 1100, 36};
   const std::size_t index = result.add_accessor(index_view, u16, "SCALAR", corners.size());
   result.asset.add_object(
       {{"attributes", {{"POSITION", position}}}, {"indices", index}, {"mode", triangles ? 4 : 3}});
