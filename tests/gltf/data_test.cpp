@@ -74,7 +74,7 @@ const Poke survived[] = {
     {set(rig_tangents, 3, 0.0F), "/accessors/2", "1 of its tangents have a w"},
     {set(rig_colors, 4, 1.5F), "/accessors/4", "1 of its colours are not within"},
     {set(rig_weights, 0, -0.5F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "negative"},
-    {set(rig_weights, 0, 0.25F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "sum up to 1"},
+    {set(rig_weights, 0, 0.25F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "add up to 1"},
     {set<std::uint8_t>(rig_joints, 1, 0), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "twice"},
     {set(rig_matrices, 15, 2.0F), "/accessors/9", "1 of its matrices do not end in"},
     {set(rig_times, 0, -1.0F), "/accessors/10", "1 of its times are negative"},

@@ -3,7 +3,6 @@
 #include "io/gltf/check/elements.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -85,24 +84,20 @@ class InfluenceCheck {
   }
 
   void check_weights(const Element& at) const {
-    bool negative = false, unequal = false, twice = false;
+    bool negative = false, twice = false;
     for (std::size_t i = 0; i < sets_[0].first.count(); ++i) {
-      float sum = 0;
       for (const auto& [joints, weights] : sets_) {
         for (std::size_t k = 0; k < 4; ++k) {
           const float w = weight(weights, i, k);
           negative = negative || w < 0;
-          sum += w;
           for (std::size_t other = 0; other < k && w != 0; ++other) {
             twice = twice || (joint(joints, i, other) == joint(joints, i, k) &&
                               weight(weights, i, other) != 0);
           }
         }
       }
-      unequal = unequal || !(std::abs(sum - 1) <= 1e-3F);
     }
     if (negative) asset_.warn(at, "has negative weights");
-    if (unequal) asset_.warn(at, "has weights that do not sum up to 1 for every vertex");
     if (twice) asset_.warn(at, "has vertices that one joint moves twice");
   }
 
