@@ -155,14 +155,38 @@ TEST(GltfAnimation, AFileIsReadOnceAndPosedOften) {
 TEST(GltfAnimation, ChannelsThatCannotBePlayedAreWarnedOf) {
   AssetBuilder asset = turning_cube();
   nlohmann::json& channels = asset.json["animations"][0]["channels"];
-  channels[0]["target"]["path"] = "pointer";
+  channels[0]["target"]["path"] = "colour";
   EXPECT_THAT(texts(load(asset, {.time = 3}).warnings),
-              ElementsAre(AllOf(HasSubstr("/animations/0/channels/0/target/path"),
-                                HasSubstr("\"pointer\" is not supported"))));
+              testing::Contains(AllOf(HasSubstr("/animations/0/channels/0/target/path"),
+                                      HasSubstr("\"colour\" is not supported"))));
   channels[0]["target"]["path"] = "rotation";
   channels[0]["target"].erase("node");  // as the specification says: ignored
   EXPECT_THAT(texts(load(asset, {.time = 3}).warnings), IsEmpty());
   EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
+}
+
+TEST(GltfAnimation, PointersToNodesAreFollowed) {
+  AssetBuilder asset = turning_cube();
+  asset.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  asset.json["extensionsRequired"] = {"KHR_animation_pointer"};
+  nlohmann::json& target = asset.json["animations"][0]["channels"][1]["target"];
+  const auto point_to = [&](const char* pointer) {
+    target = {{"path", "pointer"},
+              {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+  };
+  point_to("/nodes/0/translation");
+  EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
+  EXPECT_THAT(texts(load(asset, {.time = 3}).warnings), IsEmpty());
+  for (const char* other :
+       {"/materials/0/alphaCutoff", "/nodes/1/translation", "/nodes/0", "/nodes/-1/scale",
+        "/nodes//scale", "/nodes/0/extensions/KHR_node_visibility/visible", "", "/"}) {
+    point_to(other);
+    const LoadedScene loaded = load(asset, {.time = 3});
+    EXPECT_EQ(corner(loaded), Vec3(1, 1, 1)) << other;
+    EXPECT_THAT(texts(loaded.warnings),
+                ElementsAre(HasSubstr("/target/extensions/KHR_animation_pointer/pointer: ")))
+        << other;
+  }
 }
 
 TEST(GltfAnimation, WhatIsWrongWithASamplerIsRefused) {

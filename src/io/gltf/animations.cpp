@@ -1,10 +1,11 @@
 #include "io/gltf/animations.hpp"
 
+#include "io/gltf/extension.hpp"
+#include "io/gltf/index_text.hpp"
 #include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -15,27 +16,6 @@ namespace microtrace::io::gltf {
 namespace {
 
 using Numbers = std::shared_ptr<const std::vector<float>>;
-
-std::optional<std::size_t> whole_number(std::string_view text) {
-  std::size_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::string list_of_animations(const Asset& asset) {
-  constexpr std::size_t shown = 20;
-  const std::vector<JsonValue>& animations = asset.array("animations");
-  if (animations.empty()) return "the asset has no animations";
-  std::string result = "the asset has";
-  for (std::size_t i = 0; i < std::min(animations.size(), shown); ++i) {
-    result += (i == 0 ? " " : ", ") + std::to_string(i);
-    const JsonValue* name = animations[i].find("name");
-    if (name != nullptr) result += " (" + printable(name->string.substr(0, 64)) + ")";
-  }
-  if (animations.size() > shown) result += ", ... " + std::to_string(animations.size() - 1);
-  return result;
-}
 
 template <typename Vector>
 std::vector<float> flattened(const std::vector<Vector>& vectors) {
@@ -73,24 +53,6 @@ DVec3 vector_of(const std::vector<double>& v) {
 
 }  // namespace
 
-std::vector<std::size_t> choose_animations(const Asset& asset, const std::string& wanted) {
-  const std::vector<JsonValue>& animations = asset.array("animations");
-  if (wanted.empty())
-    return animations.empty() ? std::vector<std::size_t>{} : std::vector<std::size_t>{0};
-  for (std::size_t i = 0; i < animations.size(); ++i) {
-    const JsonValue* name = animations[i].find("name");
-    if (name != nullptr && name->string == wanted) return {i};
-  }
-  if (const auto index = whole_number(wanted); index && *index < animations.size()) return {*index};
-  std::vector<std::size_t> all;
-  if (wanted == "all") {
-    for (std::size_t i = 0; i < animations.size(); ++i) all.push_back(i);
-    return all;
-  }
-  throw Error(ErrorKind::usage, asset.file(),
-              "there is no animation " + in_quotes(wanted) + "; " + list_of_animations(asset));
-}
-
 /// Reads channels, and each accessor once.
 class AnimationPlayer::Reader {
  public:
@@ -98,12 +60,10 @@ class AnimationPlayer::Reader {
       : asset_(asset), model_(model), reader_(reader) {}
 
   std::optional<Channel> read(const Element& animation, const Element& channel) {
-    const Element target = channel.member("target");
-    const JsonValue* node = target.value->find("node");
-    const std::optional<Path> path = path_of(target.member("path"));
-    if (node == nullptr || !path) return std::nullopt;
-    const auto index = static_cast<std::size_t>(node->number);
-    const std::optional<std::size_t> width = width_of(target, index, *path);
+    const std::optional<Target> target = target_of(channel.member("target"));
+    if (!target) return std::nullopt;
+    const auto [at, node, path] = *target;
+    const std::optional<std::size_t> width = width_of(at, node, path);
     if (!width) return std::nullopt;
     const Element number = channel.member("sampler");
     const Element sampler =
@@ -112,35 +72,72 @@ class AnimationPlayer::Reader {
       asset_.warn(channel, "needs a buffer without data; it is ignored");
       return std::nullopt;
     }
-    return Channel{.node = index, .path = *path, .keys = keyframes(sampler, *path, *width)};
+    return Channel{.node = node, .path = path, .keys = keyframes(sampler, path, *width)};
   }
 
  private:
-  std::optional<Path> path_of(const Element& at) {
+  struct Target {
+    Element at;
+    std::size_t node;
+    Path path;
+  };
+
+  /// A node and its property; or a pointer to it, /nodes/0/rotation, by KHR_animation_pointer.
+  std::optional<Target> target_of(const Element& at) {
+    const Element name = at.member("path");
+    if (name.value->string == "pointer") {
+      const std::optional<Element> pointer = extension(at, "KHR_animation_pointer");
+      return pointer ? pointed_at(pointer->member("pointer")) : std::nullopt;
+    }
+    const JsonValue* node = at.value->find("node");
+    if (node == nullptr) return std::nullopt;
+    const std::optional<Path> path = path_of(name.value->string);
+    if (!path) warn_of(name);
+    if (!path) return std::nullopt;
+    return Target{at.member("node"), static_cast<std::size_t>(node->number), *path};
+  }
+
+  std::optional<Target> pointed_at(const Element& pointer) {
+    constexpr std::string_view nodes = "/nodes/";
+    const std::string_view text = pointer.value->string;
+    const std::size_t slash = text.rfind('/');
+    if (text.starts_with(nodes) && slash >= nodes.size()) {
+      const auto node = index_in(text.substr(nodes.size(), slash - nodes.size()));
+      const std::optional<Path> path = path_of(text.substr(slash + 1));
+      if (node && *node < model_.nodes.size() && path) return Target{pointer, *node, *path};
+    }
+    warn_of(pointer);
+    return std::nullopt;
+  }
+
+  void warn_of(const Element& at) {
+    asset_.warn(at,
+                "animation of " + in_quotes(at.value->string) + " is not supported; it is ignored");
+  }
+
+  static std::optional<Path> path_of(std::string_view text) {
     constexpr std::array<std::pair<std::string_view, Path>, 4> paths = {
         {{"translation", Path::translation},
          {"rotation", Path::rotation},
          {"scale", Path::scale},
          {"weights", Path::weights}}};
     for (const auto& [name, path] : paths) {
-      if (at.value->string == name) return path;
+      if (text == name) return path;
     }
-    asset_.warn(at,
-                "animation of " + in_quotes(at.value->string) + " is not supported; it is ignored");
     return std::nullopt;
   }
 
   /// The numbers in one value; nothing where there is nothing to animate.
-  std::optional<std::size_t> width_of(const Element& target, std::size_t node, Path path) {
+  std::optional<std::size_t> width_of(const Element& at, std::size_t node, Path path) {
     const tinygltf::Node& animated = model_.nodes[node];
     if (path == Path::weights) {
       const std::size_t targets = target_count(model_, animated.mesh);
       if (targets != 0) return targets;
-      asset_.warn(target, "animates the weights of a node without morph targets; it is ignored");
+      asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
       return std::nullopt;
     }
     if (!animated.matrix.empty()) {
-      asset_.fail(target.member("node"),
+      asset_.fail(at,
                   "is animated, but has a matrix; give translation, rotation and scale instead");
     }
     return path == Path::rotation ? 4 : 3;

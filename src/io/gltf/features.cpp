@@ -11,7 +11,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 7> honoured = {
+constexpr std::array<std::string_view, 8> honoured = {
+    "KHR_animation_pointer",  // of nodes; other pointers are warned of where they are played
     "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
     "KHR_lights_punctual",  // read; light has no influence on flat pictures
     "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
@@ -20,8 +21,7 @@ constexpr std::array<std::string_view, 7> honoured = {
 
 /// Without these the picture has every surface in its place and its material's basic look, so that
 /// an asset that requires one is drawn, with the warning that the extension is ignored.
-constexpr std::array<std::string_view, 19> without_harm = {"KHR_animation_pointer",
-                                                           "KHR_lights_punctual",
+constexpr std::array<std::string_view, 18> without_harm = {"KHR_lights_punctual",
                                                            "KHR_materials_anisotropy",
                                                            "KHR_materials_clearcoat",
                                                            "KHR_materials_diffuse_transmission",
