@@ -74,6 +74,12 @@ struct CameraModel {
   DepthRange depth{};
 };
 
+/// How a camera's ray changes from one pixel to the next, to the right and down.
+struct RayDifferential {
+  DVec3 o_dx{0}, o_dy{0};
+  DVec3 d_dx{0}, d_dy{0};
+};
+
 /// The rays of one camera for one picture. Directions have unit length, computed in float64 and
 /// rounded once.
 class RayGenerator {
@@ -89,6 +95,10 @@ class RayGenerator {
   [[nodiscard]] double depth(const DVec3& point) const;
 
   [[nodiscard]] CameraModel model() const;
+
+  /// Of one of its rays; per pixel, in the limit of small steps. An environment camera's may have
+  /// the opposite sign.
+  [[nodiscard]] RayDifferential differential(const Ray& ray) const;
 
  private:
   friend class SegmentWidener;  // goes the other way, from points to pixels

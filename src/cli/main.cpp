@@ -32,6 +32,14 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
   }
 }
 
+// A flat picture takes only the colours of surfaces.
+LoadOptions load_options(const cli::Arguments& arguments) {
+  LoadOptions options = arguments.load;
+  const bool flat = !arguments.integrator && arguments.aovs.empty();
+  options.detail = flat ? SurfaceDetail::color : SurfaceDetail::all;
+  return options;
+}
+
 /// The camera that frames the poses of all frames, where one is to frame the scene.
 std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& arguments,
                                  const cli::FrameRange& frames) {
@@ -51,7 +59,7 @@ std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& argument
 void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) {
   using cli::frame_path;
   cli::Stopwatch watch;
-  SceneFile file(arguments.scene, arguments.load);
+  SceneFile file(arguments.scene, load_options(arguments));
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
   std::optional<Camera> framing;
@@ -82,7 +90,7 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
 void run(const cli::Arguments& arguments) {
   if (arguments.frames) return run_frames(arguments, *arguments.frames);
   cli::Stopwatch watch;
-  auto [scene, warnings] = load_scene(arguments.scene, arguments.load);
+  auto [scene, warnings] = load_scene(arguments.scene, load_options(arguments));
   report(warnings, arguments);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);

@@ -77,8 +77,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const auto start = Clock::now();
   const Bvh bvh(scene, {.threads = threads});
   const auto built = Clock::now();
-  const Surfaces surfaces(scene, bvh.primitives());
   const RayGenerator rays(camera, size);
+  const Surfaces surfaces(scene, bvh.primitives(), rays, options.samples);
   const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays};
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;

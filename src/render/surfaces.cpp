@@ -3,15 +3,24 @@
 #include "scene/surface_interaction.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
 
 namespace microtrace {
 
-Surfaces::Surfaces(const Scene& scene, const Primitives& primitives)
-    : scene_(scene), primitives_(primitives) {
+Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
+                   std::uint32_t samples)
+    : scene_(scene),
+      primitives_(primitives),
+      camera_(camera),
+      sample_width_(1 / std::sqrt(static_cast<double>(samples))),
+      colors_(scene.textures.size()) {
   entries_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
     const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (material.base_color_texture) make_map(material.base_color_texture->texture);
     Entry entry{.color = Vec3(material.base_color), .kind = Kind::plain};
     if (material.alpha_mode != AlphaMode::opaque || material.base_color_texture ||
         (mesh != nullptr && !mesh->colors.empty())) {
@@ -33,15 +42,41 @@ bool Surfaces::is_front(const Ray& ray, const Hit& hit) const {
   });
 }
 
-Vec4 Surfaces::base_color(const Material& material, const SurfaceInteraction& at) const {
-  return Vec4(DVec4(material.base_color) * at.color());
+void Surfaces::make_map(std::uint32_t index) {
+  const Texture& texture = scene_.textures[index];
+  if (colors_[index] || !texture.image || !scene_.images[*texture.image]) return;
+  colors_[index].emplace(*scene_.images[*texture.image], texture.sampler, ColorEncoding::srgb);
+}
+
+DVec4 Surfaces::texel(const TextureUse& use, const Ray& ray, const SurfaceInteraction& at) const {
+  const std::optional<TextureMap>& map = colors_[use.texture];
+  if (!map) return DVec4(1);
+  const DVec2 uv = at.uv(use.uv_set).value_or(DVec2(0));
+  const auto& m = use.texture_from_uv;
+  const auto linear = [&m](const DVec2& v) { return DVec2(m[0]) * v.x + DVec2(m[1]) * v.y; };
+
+  // Where the rays of the next samples meet the plane of the surface (H. Igehy, Tracing ray
+  // differentials, 1999).
+  const RayDifferential step = camera_.differential(ray);
+  const DVec3 d(ray.d);
+  const double t = glm::dot(at.p - DVec3(ray.o), d) / glm::dot(d, d);
+  const double slant = glm::dot(d, at.n);
+  const auto uv_step = [&](const DVec3& o_step, const DVec3& d_step) {
+    const DVec3 moved = o_step + t * d_step;
+    return linear(at.uv_step(use.uv_set, moved - d * (glm::dot(moved, at.n) / slant))) *
+           sample_width_;
+  };
+  return map->look_up(linear(uv) + DVec2(m[2]),
+                      {.dx = uv_step(step.o_dx, step.d_dx), .dy = uv_step(step.o_dy, step.d_dy)});
 }
 
 Vec4 Surfaces::look(const Ray& ray, const Hit& hit) const {
   const Material& material = material_of(scene_, primitives_.object(hit.id));
   const SurfaceInteraction at = interact(primitives_, ray, hit);
   if (!at.front && !material.double_sided) return Vec4(0);
-  Vec4 color = base_color(material, at);
+  DVec4 product = DVec4(material.base_color) * at.color();
+  if (material.base_color_texture) product *= texel(*material.base_color_texture, ray, at);
+  Vec4 color(product);
   switch (material.alpha_mode) {
     case AlphaMode::opaque:
       color.w = 1;

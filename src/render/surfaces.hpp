@@ -1,7 +1,10 @@
 #pragma once
 /// What the surfaces of a scene look like to a ray, before any light.
 
+#include "render/texture_map.hpp"
+
 #include <microtrace/bvh.hpp>
+#include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/primitives.hpp>
@@ -20,8 +23,10 @@ struct SurfaceInteraction;
 /// Made once for a picture; any number of threads may ask it.
 class Surfaces {
  public:
-  /// Both must outlive this.
-  Surfaces(const Scene& scene, const Primitives& primitives);
+  /// All must outlive this. Images are filtered for rays of that camera, of which each pixel has
+  /// so many.
+  Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
+           std::uint32_t samples);
 
   /// The base colour of what the ray hits, linear Rec. 709, and how much of it is there: alpha 0
   /// where the surface is seen from a side that it lacks or lies under its material's cutoff, 1
@@ -52,12 +57,17 @@ class Surfaces {
     Kind kind;
   };
 
+  void make_map(std::uint32_t index);
   [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
-  [[nodiscard]] Vec4 base_color(const Material& material, const SurfaceInteraction& at) const;
+  [[nodiscard]] DVec4 texel(const TextureUse& use, const Ray& ray,
+                            const SurfaceInteraction& at) const;
 
   const Scene& scene_;
   const Primitives& primitives_;
-  std::vector<Entry> entries_;  // by object
+  const RayGenerator& camera_;
+  double sample_width_;                            // of a pixel
+  std::vector<Entry> entries_;                     // by object
+  std::vector<std::optional<TextureMap>> colors_;  // by texture; nothing: white, or not needed
 };
 
 }  // namespace microtrace

@@ -111,4 +111,26 @@ CameraModel RayGenerator::model() const {
           .depth = depth_};
 }
 
+RayDifferential RayGenerator::differential(const Ray& ray) const {
+  const DVec3 d(ray.d);
+  switch (kind_) {
+    case Kind::perspective: {
+      // d = toward / |toward|, and toward reaches depth 1.
+      const double depth = glm::dot(forward_, d);
+      return {.d_dx = depth * (right_ - d * glm::dot(d, right_)),
+              .d_dy = depth * (down_ - d * glm::dot(d, down_))};
+    }
+    case Kind::orthographic:
+      return {.o_dx = right_, .o_dy = down_};
+    case Kind::environment: {
+      const DVec3 east = glm::cross(down_, d);  // as long as the circle of latitude is wide
+      const double width = std::sqrt(glm::dot(east, east));
+      const DVec3 south = width > 0 ? glm::cross(d, east) / width : right_;
+      return {.d_dx = east * (2 * std::numbers::pi / size_.width),
+              .d_dy = south * (std::numbers::pi / size_.height)};
+    }
+  }
+  return {};
+}
+
 }  // namespace microtrace

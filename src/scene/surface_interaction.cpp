@@ -165,6 +165,23 @@ std::optional<DVec2> SurfaceInteraction::uv(std::size_t set) const {
   return set < sets.size() ? interpolate<DVec2>(*triangle, sets[set]) : std::nullopt;
 }
 
+DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
+  if (!uv(set)) return DVec2(0);
+  const Mesh& mesh = *triangle->mesh;
+  const auto& [i, j, k] = triangle->corners;
+  // dp = s (b - a) + t (c - a).
+  const DVec3 a(mesh.positions[i]);
+  const DVec3 ab = DVec3(mesh.positions[j]) - a, ac = DVec3(mesh.positions[k]) - a;
+  const DVec3 cross = glm::cross(ab, ac);
+  const double square = glm::dot(cross, cross);
+  if (!(square > 0)) return DVec2(0);
+  const double s = glm::dot(cross, glm::cross(dp, ac)) / square;
+  const double t = glm::dot(cross, glm::cross(ab, dp)) / square;
+  const auto& values = mesh.uv_sets[set];
+  const DVec2 at_a(values[i]);
+  return s * (DVec2(values[j]) - at_a) + t * (DVec2(values[k]) - at_a);
+}
+
 DVec4 SurfaceInteraction::color() const {
   if (!triangle || triangle->mesh == nullptr) return DVec4(1);
   return interpolate<DVec4>(*triangle, triangle->mesh->colors).value_or(DVec4(1));

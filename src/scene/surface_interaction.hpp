@@ -34,6 +34,8 @@ struct SurfaceInteraction {
 
   /// Texture coordinates; nothing where the surface lacks that set.
   [[nodiscard]] std::optional<DVec2> uv(std::size_t set) const;
+  /// How they change where the point moves by dp in the surface's plane; 0 where they are lacking.
+  [[nodiscard]] DVec2 uv_step(std::size_t set, const DVec3& dp) const;
   /// The vertices' colours, linear Rec. 709 with alpha; white where they have none.
   [[nodiscard]] DVec4 color() const;
 };

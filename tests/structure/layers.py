@@ -35,6 +35,7 @@ LIBRARIES = {
     r"tiny_gltf|nlohmann/": ["src/io", "tests"],
     r"OpenImageIO/": ["src/modules", "tests/image"],
     r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],
+    r"png\.h|jpeglib\.h|webp/": ["src/modules/codecs"],
     r"CLI/": ["src/cli"],
     r"embree|benchmark/": ["bench"],
     r"\w*mmintrin\.h": ["src/accel/kernels/simd.hpp"],

@@ -114,5 +114,28 @@ TEST(EnvironmentCamera, LongitudeAcrossLatitudeDown) {
   expect_near(ray(180, 45).d, {0, std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, 1e-7);
 }
 
+TEST(RayGenerator, DifferentialsAreTheStepsToNeighbouringPixels) {
+  const Pose pose{.position = {1, 2, 3}, .direction = {3, -1, 2}, .up = {0.2, 1, 0}};
+  const Camera cameras[] = {PerspectiveCamera{.pose = pose, .vertical_fov = 1.2},
+                            OrthographicCamera{.pose = pose, .height = 7},
+                            EnvironmentCamera{.pose = pose}};
+  for (const Camera& camera : cameras) {
+    const RayGenerator ray(camera, kSize);
+    const Ray here = ray(100, 400);
+    const RayDifferential step = ray.differential(here);
+    // Float32 rays: a step of ten pixels each way, compared to a part in a thousand.
+    const Ray left = ray(90, 400), right = ray(110, 400), above = ray(100, 390),
+              below = ray(100, 410);
+    const auto compare = [&](const DVec3& a, const DVec3& b) {
+      const double tolerance = 2e-3 * glm::length(a) + 1e-6;
+      EXPECT_LT(std::min(glm::length(a - b), glm::length(a + b)), tolerance);
+    };
+    compare(step.o_dx, DVec3(right.o - left.o) / 20.0);
+    compare(step.o_dy, DVec3(below.o - above.o) / 20.0);
+    compare(step.d_dx, DVec3(right.d - left.d) / 20.0);
+    compare(step.d_dy, DVec3(below.d - above.d) / 20.0);
+  }
+}
+
 }  // namespace
 }  // namespace microtrace

@@ -1,54 +1,19 @@
 #include "io/gltf/buffers.hpp"
 
-#include "io/file.hpp"
 #include "io/gltf/extension.hpp"
+#include "io/gltf/resource.hpp"
 #include "io/gltf/uri.hpp"
-#include "io/json/excerpt.hpp"
-
-#include <system_error>
-#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
 
 std::string decode(Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
-  if (!data) asset.fail(uri, "is no data URI of the form data:TYPE;base64,DATA");
-  if (data->media_type != "application/octet-stream" &&
+  if (data && data->media_type != "application/octet-stream" &&
       data->media_type != "application/gltf-buffer") {
     asset.warn(uri, "has a media type that is not for buffers; application/octet-stream is");
   }
-  std::optional<std::string> bytes =
-      data->is_base64 ? decode_base64(data->data) : decode_percent(data->data);
-  if (!bytes && data->is_base64) {
-    asset.fail(uri, "is not base64: groups of four of A-Z a-z 0-9 + /, padded with =");
-  }
-  if (!bytes) asset.fail(uri, "has a % without two hexadecimal digits; write %25 for %");
-  return std::move(*bytes);
-}
-
-std::string read(const Asset& asset, const Element& uri, const std::filesystem::path& folder) {
-  const RelativePath relative = relative_path(uri.value->string);
-  if (!relative.refusal.empty()) {
-    asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal);
-  }
-  const std::filesystem::path path = folder / relative.path;
-  std::error_code code;
-  // A pipe or a device could keep its reader waiting for ever.
-  if (!std::filesystem::is_regular_file(path, code)) {
-    const bool missing = !std::filesystem::exists(path, code);
-    asset.fail(uri,
-               "buffer file " + in_quotes(path.string()) +
-                   (missing ? " does not exist" : " is not a regular file"),
-               // An asset that is not whole, rather than a machine that fails.
-               missing ? ErrorKind::invalid_scene : ErrorKind::io);
-  }
-  try {
-    return read_file(path, max_buffer_bytes);
-  } catch (const Error& error) {
-    asset.fail(uri, "buffer file " + in_quotes(path.string()) + " " + error.diagnostic().message,
-               error.kind());
-  }
+  return decode_data_uri(asset, uri);
 }
 
 /// Whether buffer 0 is the BIN chunk: a GLB file's first buffer without a URI.
@@ -94,8 +59,9 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     } else if (is_fallback(at)) {
       continue;
     } else if (buffers[i].find("uri") != nullptr) {
-      buffer.storage =
-          is_data_uri(uri.value->string) ? decode(asset, uri) : read(asset, uri, folder);
+      buffer.storage = is_data_uri(uri.value->string)
+                           ? decode(asset, uri)
+                           : read_resource(asset, uri, folder, "buffer", max_buffer_bytes);
       buffer.bytes = buffer.storage;
     } else {
       continue;

@@ -11,17 +11,18 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 8> honoured = {
+constexpr std::array<std::string_view, 10> honoured = {
     "KHR_animation_pointer",  // of nodes; other pointers are warned of where they are played
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression", "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",  // read; light has no influence on flat pictures
     "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
-    "KHR_mesh_quantization",   "KHR_node_visibility",
+    "KHR_mesh_quantization",      "KHR_node_visibility",     "KHR_texture_transform",
 };
 
 /// Without these the picture has every surface in its place and its material's basic look, so that
 /// an asset that requires one is drawn, with the warning that the extension is ignored.
-constexpr std::array<std::string_view, 18> without_harm = {"KHR_lights_punctual",
+constexpr std::array<std::string_view, 16> without_harm = {"KHR_lights_punctual",
                                                            "KHR_materials_anisotropy",
                                                            "KHR_materials_clearcoat",
                                                            "KHR_materials_diffuse_transmission",
@@ -35,8 +36,6 @@ constexpr std::array<std::string_view, 18> without_harm = {"KHR_lights_punctual"
                                                            "KHR_materials_transmission",
                                                            "KHR_materials_variants",
                                                            "KHR_materials_volume",
-                                                           "KHR_texture_transform",
-                                                           "EXT_texture_webp",
                                                            "KHR_xmp",
                                                            "KHR_xmp_json_ld"};
 
@@ -109,10 +108,6 @@ class FeatureSearch {
   explicit FeatureSearch(Asset& asset) : asset_(asset) {}
 
   void material(const Element& at) {
-    const Element pbr = at.member("pbrMetallicRoughness");
-    if (at.value->find("pbrMetallicRoughness") != nullptr) {
-      present(pbr, "baseColorTexture", "textures are not drawn yet; the base colour factor is");
-    }
     present(at, "emissiveTexture", emission);
     if (const JsonValue* factor = at.value->find("emissiveFactor")) {
       const auto shines = [](const JsonValue& item) { return item.number != 0; };

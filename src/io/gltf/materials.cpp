@@ -1,5 +1,9 @@
 #include "io/gltf/materials.hpp"
 
+#include "scene/trigonometry.hpp"
+
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -34,22 +38,37 @@ std::string name_of(const JsonValue& object) {
   return name != nullptr ? name->string : std::string();
 }
 
+const JsonValue* extension(const JsonValue& object, std::string_view name) {
+  const JsonValue* extensions = object.find("extensions");
+  return extensions != nullptr ? extensions->find(name) : nullptr;
+}
+
+/// KHR_texture_transform: scaled, turned anticlockwise as seen with v going down, moved.
+Mat3x2 texture_transform(const JsonValue& json) {
+  const Vec2 offset = vector(json, "offset", Vec2(0)), scale = vector(json, "scale", Vec2(1));
+  const JsonValue* rotation = json.find("rotation");
+  // The trigonometry ends at 2^20; that so large an angle turns by is anyone's guess.
+  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
+  const double sine = sin_radians(angle), cosine = cos_radians(angle);
+  return {Vec2(cosine * scale.x, -sine * scale.x), Vec2(sine * scale.y, cosine * scale.y), offset};
+}
+
 /// The textureInfo of that name, if the object has one.
 std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key) {
   const JsonValue* info = object.find(key);
   if (info == nullptr) return std::nullopt;
-  return TextureUse{.texture = index(*info, "index"), .uv_set = index(*info, "texCoord")};
+  TextureUse use{.texture = index(*info, "index"), .uv_set = index(*info, "texCoord")};
+  if (const JsonValue* transform = extension(*info, "KHR_texture_transform")) {
+    use.texture_from_uv = texture_transform(*transform);
+    if (transform->find("texCoord") != nullptr) use.uv_set = index(*transform, "texCoord");
+  }
+  return use;
 }
 
 AlphaMode alpha_mode(const JsonValue& material) {
   const JsonValue* mode = material.find("alphaMode");
   if (mode == nullptr || mode->string == "OPAQUE") return AlphaMode::opaque;
   return mode->string == "MASK" ? AlphaMode::mask : AlphaMode::blend;
-}
-
-bool has_extension(const JsonValue& object, std::string_view name) {
-  const JsonValue* extensions = object.find("extensions");
-  return extensions != nullptr && extensions->find(name) != nullptr;
 }
 
 Material standard_material() {
@@ -77,7 +96,7 @@ Material make_material(const JsonValue& json) {
   material.alpha_cutoff = number(json, "alphaCutoff", 0.5F);
   const JsonValue* double_sided = json.find("doubleSided");
   material.double_sided = double_sided != nullptr && double_sided->boolean;
-  material.unlit = has_extension(json, "KHR_materials_unlit");
+  material.unlit = extension(json, "KHR_materials_unlit") != nullptr;
   material.normal_texture = texture_use(json, "normalTexture");
   if (material.normal_texture)
     material.normal_scale = number(*json.find("normalTexture"), "scale", 1);
@@ -119,11 +138,19 @@ std::vector<Material> make_materials(const Asset& asset) {
   return materials;
 }
 
-std::vector<Texture> make_textures(const Asset& asset) {
+std::vector<Texture> make_textures(Asset& asset) {
   std::vector<Texture> textures;
   for (const JsonValue& json : asset.array("textures")) {
     Texture texture{.name = name_of(json)};
-    if (json.find("source") != nullptr) texture.image = index(json, "source");
+    const JsonValue* webp = extension(json, "EXT_texture_webp");
+    if (webp != nullptr && webp->find("source") != nullptr) {
+      texture.image = index(*webp, "source");
+    } else if (json.find("source") != nullptr) {
+      texture.image = index(json, "source");
+    } else {
+      asset.warn(asset.element("textures", textures.size()),
+                 "has no image in PNG, JPEG or WebP; it is white");
+    }
     if (const JsonValue* sampler = json.find("sampler")) {
       texture.sampler =
           make_sampler(asset.array("samplers")[static_cast<std::size_t>(sampler->number)]);

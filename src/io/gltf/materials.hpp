@@ -15,7 +15,8 @@ namespace microtrace::io::gltf {
 /// section 3.9.7).
 [[nodiscard]] std::vector<Material> make_materials(const Asset& asset);
 
-/// All textures in file order.
-[[nodiscard]] std::vector<Texture> make_textures(const Asset& asset);
+/// All textures in file order; of the images that one offers the one in WebP (EXT_texture_webp)
+/// before PNG and JPEG. Warns of those that offer none of these.
+[[nodiscard]] std::vector<Texture> make_textures(Asset& asset);
 
 }  // namespace microtrace::io::gltf

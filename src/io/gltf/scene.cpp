@@ -10,6 +10,7 @@
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/features.hpp"
+#include "io/gltf/images.hpp"
 #include "io/gltf/instances.hpp"
 #include "io/gltf/lights.hpp"
 #include "io/gltf/materials.hpp"
@@ -165,7 +166,9 @@ struct GltfFile::Content {
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
+        textures(gltf::make_textures(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
+        images(gltf::load_images(asset, views, folder, wanted_images(options.detail))),
         instances(asset, model, reader),
         animations(gltf::choose_animations(asset, options.animation)) {
     gltf::warn_of_ignored_features(asset);
@@ -202,6 +205,19 @@ struct GltfFile::Content {
     return views;
   }
 
+  [[nodiscard]] std::vector<bool> wanted_images(SurfaceDetail detail) const {
+    std::vector<bool> drawn(materials.size());
+    for (const auto& mesh : surfaces) {
+      for (const Surface& surface : mesh) drawn[material_index(surface)] = true;
+    }
+    return gltf::wanted_images(materials, drawn, textures, asset.array("images").size(), detail);
+  }
+
+  /// make_materials puts the one of surfaces without material last.
+  [[nodiscard]] std::size_t material_index(const Surface& surface) const {
+    return surface.material < 0 ? materials.size() - 1 : static_cast<std::size_t>(surface.material);
+  }
+
   std::string name;
   gltf::Container container;
   JsonDocument json;
@@ -212,7 +228,9 @@ struct GltfFile::Content {
   gltf::BufferViews views;
   gltf::AccessorReader reader;
   std::vector<Material> materials;
+  std::vector<Texture> textures;
   std::vector<std::vector<Surface>> surfaces;
+  std::vector<std::shared_ptr<const Image>> images;
   gltf::Instances instances;
   std::vector<std::size_t> animations;          // chosen
   std::optional<gltf::AnimationPlayer> player;  // of them, once a time was asked for
@@ -240,7 +258,8 @@ LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_ass
     LoadedScene result;
     result.scene.objects = maker.take();
     result.scene.materials = content_->materials;
-    result.scene.textures = gltf::make_textures(asset);
+    result.scene.textures = content_->textures;
+    result.scene.images = content_->images;
     result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
     result.scene.lights = gltf::make_lights(asset, model, tree, nodes);
     if (result.scene.objects.empty())

@@ -8,7 +8,6 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 namespace microtrace::io {
 namespace {

@@ -1,0 +1,137 @@
+#include "io/gltf/images.hpp"
+
+#include "io/gltf/resource.hpp"
+#include "io/gltf/uri.hpp"
+#include "io/image/decode_image.hpp"
+#include "io/image/image_header.hpp"
+#include "io/json/excerpt.hpp"
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// No image file holds more bytes.
+constexpr std::size_t max_image_bytes = std::size_t{1} << 30U;
+
+std::string_view media_type(ImageFormat format) {
+  constexpr std::array<std::string_view, 4> types = {"", "image/png", "image/jpeg", "image/webp"};
+  return types[static_cast<std::size_t>(format)];
+}
+
+/// What the asset says that the image is; empty where it says nothing.
+std::string_view declared_type(const Element& at) {
+  if (const JsonValue* type = at.value->find("mimeType")) return type->string;
+  const JsonValue* uri = at.value->find("uri");
+  if (uri == nullptr) return {};
+  const std::optional<DataUri> data = split_data_uri(uri->string);
+  return data ? data->media_type : std::string_view();
+}
+
+class ImageLoader {
+ public:
+  ImageLoader(Asset& asset, const BufferViews& views, const std::filesystem::path& folder)
+      : asset_(asset), views_(views), folder_(folder) {}
+
+  std::shared_ptr<const Image> load(const Element& at, bool wanted) {
+    std::string storage;
+    const std::optional<std::string_view> bytes = bytes_of(at, storage);
+    if (!bytes) {
+      asset_.warn(at, "lies in a buffer without data; textures of it are white");
+      return nullptr;
+    }
+    const ImageHeader header = read_image_header(*bytes);
+    if (header.format == ImageFormat::unknown) {
+      asset_.warn(at, "is neither PNG, JPEG nor WebP; textures of it are white");
+      return nullptr;
+    }
+    if (header.damaged) asset_.fail(at, "holds a damaged image: its header says no size");
+    const std::string_view type = declared_type(at);
+    if (!type.empty() && type != media_type(header.format)) {
+      asset_.warn(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
+                          std::string(media_type(header.format)));
+    }
+    return wanted ? decode(at, header, *bytes) : nullptr;
+  }
+
+ private:
+  std::optional<std::string_view> bytes_of(const Element& at, std::string& storage) const {
+    if (const JsonValue* view = at.value->find("bufferView")) {
+      return views_.bytes(static_cast<int>(view->number));
+    }
+    const Element uri = at.member("uri");
+    storage = is_data_uri(uri.value->string)
+                  ? decode_data_uri(asset_, uri)
+                  : read_resource(asset_, uri, folder_, "image", max_image_bytes);
+    return storage;
+  }
+
+  std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
+                                      std::string_view bytes) {
+    pixels_ += std::uint64_t{header.width} * header.height;
+    if (pixels_ > max_texture_pixels) {
+      asset_.fail(at, "brings the images to more than 2^28 pixels, the most that is read",
+                  ErrorKind::limit);
+    }
+    DecodedImage decoded = decode_image(bytes);
+    if (decoded.no_module) {
+      asset_.warn(at, "can't be decoded, textures of it are white: " + decoded.complaint);
+      return nullptr;
+    }
+    if (decoded.too_large) {
+      asset_.fail(at, "has more pixels than its header says, or than there is memory for",
+                  ErrorKind::limit);
+    }
+    if (!decoded.image) asset_.fail(at, "holds a damaged image: " + decoded.complaint);
+    if (!decoded.complaint.empty()) {
+      asset_.warn(at, "holds an image that is not whole: " + decoded.complaint);
+    }
+    if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string;
+    return std::make_shared<const Image>(std::move(*decoded.image));
+  }
+
+  Asset& asset_;
+  const BufferViews& views_;
+  const std::filesystem::path& folder_;
+  std::uint64_t pixels_ = 0;
+};
+
+}  // namespace
+
+std::vector<bool> wanted_images(std::span<const Material> materials, const std::vector<bool>& drawn,
+                                std::span<const Texture> textures, std::size_t images,
+                                SurfaceDetail detail) {
+  std::vector<bool> wanted(images);
+  const auto want = [&](const std::optional<TextureUse>& use) {
+    if (use && textures[use->texture].image) wanted[*textures[use->texture].image] = true;
+  };
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const Material& material = materials[i];
+    if (!drawn[i]) continue;
+    want(material.base_color_texture);
+    if (detail == SurfaceDetail::color) continue;
+    want(material.metallic_roughness_texture);
+    want(material.normal_texture);
+    want(material.occlusion_texture);
+    want(material.emissive_texture);
+  }
+  return wanted;
+}
+
+std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const BufferViews& views,
+                                                      const std::filesystem::path& folder,
+                                                      const std::vector<bool>& wanted) {
+  ImageLoader loader(asset, views, folder);
+  std::vector<std::shared_ptr<const Image>> images;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    images.push_back(loader.load(asset.element("images", i), wanted[i]));
+  }
+  return images;
+}
+
+}  // namespace microtrace::io::gltf

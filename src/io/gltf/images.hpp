@@ -1,0 +1,33 @@
+#pragma once
+/// The images of an asset.
+
+#include "io/gltf/asset.hpp"
+#include "io/gltf/buffer_views.hpp"
+
+#include <microtrace/io.hpp>
+#include <microtrace/material.hpp>
+#include <microtrace/texture.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+/// Which of so many images those materials show that are drawn.
+[[nodiscard]] std::vector<bool> wanted_images(std::span<const Material> materials,
+                                              const std::vector<bool>& drawn,
+                                              std::span<const Texture> textures, std::size_t images,
+                                              SurfaceDetail detail);
+
+/// By index: the pixels of those that are wanted and can be decoded, null for the others. All are
+/// looked at. Kinds of files that are not read give a warning; a header or, where it is wanted,
+/// data that is damaged throws Error (invalid_scene); as read_resource, and (limit) where the
+/// wanted ones have more than max_texture_pixels together.
+[[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
+    Asset& asset, const BufferViews& views, const std::filesystem::path& folder,
+    const std::vector<bool>& wanted);
+
+}  // namespace microtrace::io::gltf

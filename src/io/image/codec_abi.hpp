@@ -1,0 +1,36 @@
+#pragma once
+/// The C interface between the library and its module of image decoders. A change of anything here
+/// takes a new number in the function's name, so that an old module is refused instead of misread.
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+
+struct MicrotraceImageHeader {
+  std::uint32_t width, height;
+  std::uint32_t channels;  ///< 1: grey, 2: grey and alpha, 3: rgb, 4: rgb and alpha
+  std::uint32_t depth;     ///< bits of a sample, 8 or 16; these lie in the machine's byte order
+};
+
+struct MicrotraceImageSink {
+  void* context;  ///< the caller's
+  /// Where the samples go, row by row from the upper left; null ends the decoding. Called once.
+  void* (*begin)(void* context, const MicrotraceImageHeader* header);
+  /// Takes the reason of a failure, or what is wrong with the file of an image that was decoded
+  /// nevertheless. Neither function throws.
+  void (*complain)(void* context, const char* text);
+};
+
+/// Decodes a PNG, JPEG or WebP file: 1 if there is an image now, else 0. ICC profiles and gamma
+/// are ignored.
+using MicrotraceDecode = int (*)(const void* bytes, std::size_t size,
+                                 const MicrotraceImageSink* sink);
+}
+
+namespace microtrace::io {
+
+inline constexpr char codec_module_file_name[] = "microtrace_codecs.so";
+inline constexpr char decode_name[] = "microtrace_decode_v1";
+
+}  // namespace microtrace::io

@@ -1,0 +1,20 @@
+#pragma once
+/// What the first bytes of an image file say, without decoding it.
+
+#include <cstdint>
+#include <string_view>
+
+namespace microtrace::io {
+
+enum class ImageFormat { unknown, png, jpeg, webp };
+
+struct ImageHeader {
+  ImageFormat format = ImageFormat::unknown;
+  bool damaged = false;  ///< the header breaks off or is none; then there is no size
+  std::uint32_t width = 0, height = 0;
+};
+
+/// Of a whole file.
+[[nodiscard]] ImageHeader read_image_header(std::string_view bytes);
+
+}  // namespace microtrace::io

@@ -1,0 +1,10 @@
+#pragma once
+/// One decoder for each kind of file. 1 if there is an image now, else 0.
+
+#include "io/image/codec_abi.hpp"
+
+#include <cstddef>
+
+int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
+int decode_jpeg(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
+int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);

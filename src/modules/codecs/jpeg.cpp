@@ -1,0 +1,119 @@
+#include "modules/codecs/decoders.hpp"
+
+#include <csetjmp>
+#include <cstdio>
+#include <jpeglib.h>
+
+// The same samples on every machine: libjpeg-turbo's slow integer transform (JDCT_ISLOW), its
+// triangular upsampling and its colour conversion are integer arithmetic, which its SIMD code
+// repeats bit for bit. The fast and the floating-point transforms are not, and not used.
+
+namespace {
+
+/// No object with a destructor lives where the jump after an error passes.
+struct ErrorManager {
+  jpeg_error_mgr base;  ///< first, so that libjpeg's pointer is one to this
+  std::jmp_buf jump;
+  const MicrotraceImageSink* sink;
+};
+
+void complain(j_common_ptr info) {
+  char text[JMSG_LENGTH_MAX];
+  info->err->format_message(info, text);
+  const auto* sink = reinterpret_cast<const ErrorManager*>(info->err)->sink;
+  sink->complain(sink->context, text);
+}
+
+void fail(j_common_ptr info) {
+  complain(info);
+  std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
+}
+
+/// Level -1 is damaged data, told once.
+void take_message(j_common_ptr info, int level) {
+  if (level < 0 && info->err->num_warnings++ == 0) complain(info);
+}
+
+/// A small file can hold very many scans of a large image.
+void limit_scans(j_common_ptr info) {
+  constexpr int max_scans = 500;
+  auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
+  if (jpeg->input_scan_number <= max_scans) return;
+  const auto* manager = reinterpret_cast<const ErrorManager*>(info->err);
+  manager->sink->complain(manager->sink->context, "has more than 500 scans");
+  std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
+}
+
+/// Four inks to three lights. Adobe's programs store them inverted, and those with a marker are
+/// theirs.
+void rgb_from_cmyk(const unsigned char* cmyk, unsigned char* rgb, std::size_t pixels,
+                   bool inverted) {
+  for (std::size_t i = 0; i < pixels; ++i, cmyk += 4, rgb += 3) {
+    const int k = inverted ? cmyk[3] : 255 - cmyk[3];
+    for (int c = 0; c < 3; ++c) {
+      const int light = inverted ? cmyk[c] : 255 - cmyk[c];
+      rgb[c] = static_cast<unsigned char>((light * k + 127) / 255);
+    }
+  }
+}
+
+void set_up(jpeg_decompress_struct& jpeg) {
+  if (jpeg.jpeg_color_space == JCS_GRAYSCALE) {
+    jpeg.out_color_space = JCS_GRAYSCALE;
+  } else {
+    jpeg.out_color_space = jpeg.num_components == 4 ? JCS_CMYK : JCS_RGB;
+  }
+  jpeg.dct_method = JDCT_ISLOW;
+  jpeg.do_fancy_upsampling = TRUE;
+  jpeg.do_block_smoothing = FALSE;
+}
+
+void read_rows(jpeg_decompress_struct& jpeg, unsigned char* samples, std::size_t channels) {
+  const std::size_t stride = channels * jpeg.output_width;
+  if (jpeg.out_color_space != JCS_CMYK) {
+    while (jpeg.output_scanline < jpeg.output_height) {
+      JSAMPROW row = samples + jpeg.output_scanline * stride;
+      jpeg_read_scanlines(&jpeg, &row, 1);
+    }
+    return;
+  }
+  // The library's own memory, freed with the rest.
+  JSAMPARRAY row = jpeg.mem->alloc_sarray(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
+                                          jpeg.output_width * 4, 1);
+  for (; jpeg.output_scanline < jpeg.output_height; samples += stride) {
+    jpeg_read_scanlines(&jpeg, row, 1);
+    rgb_from_cmyk(row[0], samples, jpeg.output_width, jpeg.saw_Adobe_marker != 0);
+  }
+}
+
+}  // namespace
+
+int decode_jpeg(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink) {
+  jpeg_decompress_struct jpeg{};
+  jpeg_progress_mgr progress{};
+  ErrorManager manager{};
+  manager.sink = &sink;
+  jpeg.err = jpeg_std_error(&manager.base);
+  manager.base.error_exit = fail;
+  manager.base.emit_message = take_message;
+  volatile int done = 0;
+  if (setjmp(manager.jump) == 0) {
+    jpeg_create_decompress(&jpeg);
+    progress.progress_monitor = limit_scans;
+    jpeg.progress = &progress;
+    jpeg_mem_src(&jpeg, bytes, size);
+    jpeg_read_header(&jpeg, TRUE);
+    set_up(jpeg);
+    const unsigned channels = jpeg.out_color_space == JCS_GRAYSCALE ? 1 : 3;
+    const MicrotraceImageHeader header{jpeg.image_width, jpeg.image_height, channels, 8};
+    auto* samples = static_cast<unsigned char*>(sink.begin(sink.context, &header));
+    if (samples != nullptr) {
+      jpeg_start_decompress(&jpeg);
+      read_rows(jpeg, samples, channels);
+      jpeg_finish_decompress(&jpeg);
+      done = 1;
+    }
+  }
+  jpeg_destroy_decompress(&jpeg);
+  return done;
+}

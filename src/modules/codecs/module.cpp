@@ -1,0 +1,27 @@
+/// Decodes PNG, JPEG and WebP behind the C interface of io/image/codec_abi.hpp. Loaded when a scene
+/// has images; small libraries, for OpenImageIO would cost a quarter of a second and 130 MB.
+
+#include "modules/codecs/decoders.hpp"
+
+#include <cstring>
+
+namespace {
+
+bool begins(const unsigned char* bytes, std::size_t size, std::size_t at, const char* text) {
+  const std::size_t length = std::strlen(text);
+  return size >= at + length && std::memcmp(bytes + at, text, length) == 0;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) int microtrace_decode_v1(
+    const void* data, std::size_t size, const MicrotraceImageSink* sink) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
+  if (begins(bytes, size, 0, "\x89PNG\r\n\x1a\n")) return decode_png(bytes, size, *sink);
+  if (begins(bytes, size, 0, "\xff\xd8\xff")) return decode_jpeg(bytes, size, *sink);
+  if (begins(bytes, size, 0, "RIFF") && begins(bytes, size, 8, "WEBP")) {
+    return decode_webp(bytes, size, *sink);
+  }
+  sink->complain(sink->context, "is neither PNG, JPEG nor WebP");
+  return 0;
+}

@@ -1,0 +1,88 @@
+#include "modules/codecs/decoders.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <csetjmp>
+#include <cstdlib>
+#include <cstring>
+#include <png.h>
+
+namespace {
+
+/// What libpng reads from, and where it returns to after an error. No object with a destructor
+/// lives where that jump passes.
+struct Source {
+  const unsigned char* bytes;
+  std::size_t left;
+  const MicrotraceImageSink& sink;
+};
+
+void fail(png_structp png, png_const_charp message) {
+  const auto* source = static_cast<const Source*>(png_get_error_ptr(png));
+  source->sink.complain(source->sink.context, message);
+  png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
+void read(png_structp png, png_bytep to, std::size_t size) {
+  auto* source = static_cast<Source*>(png_get_io_ptr(png));
+  if (size > source->left) png_error(png, "the file is cut off");
+  std::memcpy(to, source->bytes, size);
+  source->bytes += size;
+  source->left -= size;
+}
+
+/// Chunks that say nothing about the samples are skipped unread: profiles, gamma, texts.
+void skip_ancillary_chunks(png_structp png) {
+  constexpr png_byte names[] =
+      "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0"
+      "sTER\0tEXt\0tIME\0zTXt";
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, names, sizeof names / 5);
+}
+
+/// Whole rows of 8 or 16 bits: palettes, bits and transparent colours are expanded.
+void set_transformations(png_structp png, png_infop info) {
+  png_set_expand(png);
+  if (std::endian::native == std::endian::little) png_set_swap(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+}
+
+}  // namespace
+
+int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink) {
+  Source source{bytes, size, sink};
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, fail, ignore);
+  if (png == nullptr) {
+    sink.complain(sink.context, "libpng does not start");
+    return 0;
+  }
+  png_infop info = png_create_info_struct(png);
+  // Volatile: changed after setjmp, read after the jump.
+  png_bytep* volatile rows = nullptr;
+  volatile int done = 0;
+  if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {
+    png_set_read_fn(png, &source, read);
+    png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);  // begin() has the say
+    skip_ancillary_chunks(png);
+    png_read_info(png, info);
+    set_transformations(png, info);
+    const MicrotraceImageHeader header{png_get_image_width(png, info),
+                                       png_get_image_height(png, info), png_get_channels(png, info),
+                                       png_get_bit_depth(png, info)};
+    auto* samples = static_cast<png_bytep>(sink.begin(sink.context, &header));
+    if (samples != nullptr) {
+      const std::size_t stride = png_get_rowbytes(png, info);
+      rows = static_cast<png_bytep*>(std::calloc(header.height, sizeof(png_bytep)));
+      if (rows == nullptr) png_error(png, "no memory");
+      for (std::size_t y = 0; y < header.height; ++y) rows[y] = samples + y * stride;
+      png_read_image(png, rows);
+      done = 1;
+    }
+  }
+  std::free(rows);
+  png_destroy_read_struct(&png, &info, nullptr);
+  return done;
+}

@@ -1,0 +1,202 @@
+#include "render/texture_map.hpp"
+
+#include "scene/srgb.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <variant>
+
+namespace microtrace {
+namespace {
+
+/// The linear light of all numbers of so many bits.
+template <std::size_t Count>
+std::array<float, Count> make_table(ColorEncoding encoding) {
+  std::array<float, Count> table;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const double value = static_cast<double>(i) / (Count - 1);
+    table[i] =
+        static_cast<float>(encoding == ColorEncoding::srgb ? linear_from_srgb(value) : value);
+  }
+  return table;
+}
+
+std::span<const float> table(bool is_wide, ColorEncoding encoding) {
+  static const auto srgb8 = make_table<256>(ColorEncoding::srgb);
+  static const auto linear8 = make_table<256>(ColorEncoding::linear);
+  if (!is_wide) return encoding == ColorEncoding::srgb ? srgb8 : linear8;
+  static const auto srgb16 = make_table<65536>(ColorEncoding::srgb);
+  static const auto linear16 = make_table<65536>(ColorEncoding::linear);
+  return encoding == ColorEncoding::srgb ? srgb16 : linear16;
+}
+
+/// The coordinate brought near [0, 1], where the image or its mirror image lies: so that no pixel
+/// number overflows.
+double wrapped(double u, Wrap wrap) {
+  if (!std::isfinite(u)) return 0;
+  switch (wrap) {
+    case Wrap::repeat:
+      return u - std::floor(u);
+    case Wrap::mirrored_repeat:
+      return u - 2 * std::floor(u / 2);
+    case Wrap::clamp_to_edge:
+      break;
+  }
+  return std::clamp(u, 0.0, 1.0);
+}
+
+/// The pixel of the image that stands at that number; numbers are at most a little beyond it.
+std::uint32_t wrapped_pixel(std::int64_t i, std::int64_t size, Wrap wrap) {
+  if (wrap == Wrap::repeat) {
+    i %= size;
+    if (i < 0) i += size;
+  } else if (wrap == Wrap::mirrored_repeat) {
+    i %= 2 * size;
+    if (i < 0) i += 2 * size;
+    if (i >= size) i = 2 * size - 1 - i;
+  }
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(i, 0, size - 1));
+}
+
+/// What one pixel of a mip map covers along one axis of the finer image: up to three of its pixels.
+struct Cover {
+  std::uint32_t first = 0, count = 0;
+  std::array<double, 3> weights{};
+};
+
+/// Pixel i of n / 2 covers [i n / m, (i + 1) n / m) of n.
+Cover cover(std::uint32_t i, std::uint32_t n) {
+  const std::uint32_t m = std::max(n / 2, 1U);
+  const double begin = double{1} * i * n / m, end = double{1} * (i + 1) * n / m;
+  Cover result{.first = static_cast<std::uint32_t>(begin)};
+  for (std::uint32_t x = result.first; x < end && x < n && result.count < 3; ++x) {
+    const double part = std::min(end, x + 1.0) - std::max(begin, double{1} * x);
+    result.weights[result.count++] = part / (end - begin);
+  }
+  return result;
+}
+
+}  // namespace
+
+TextureMap::TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding)
+    : image_(image), sampler_(sampler) {
+  const bool is_wide = std::holds_alternative<std::vector<std::uint16_t>>(image.samples);
+  color_table_ = table(is_wide, encoding);
+  alpha_table_ = table(is_wide, ColorEncoding::linear);
+  if (sampler.mip != MipFilter::none) make_levels();
+}
+
+void TextureMap::make_levels() {
+  DVec2 size = level_size(0);
+  while (size.x > 1 || size.y > 1) {
+    const auto width = static_cast<std::uint32_t>(size.x);
+    const auto height = static_cast<std::uint32_t>(size.y);
+    const std::size_t finer = levels_.size();
+    Level level{.width = std::max(width / 2, 1U), .height = std::max(height / 2, 1U)};
+    level.samples.reserve(std::size_t{level.width} * level.height * 4);
+    std::vector<Cover> columns;
+    for (std::uint32_t x = 0; x < level.width; ++x) columns.push_back(cover(x, width));
+    for (std::uint32_t y = 0; y < level.height; ++y) {
+      const Cover rows = cover(y, height);
+      for (const Cover& column : columns) {
+        DVec4 sum(0.5);  // rounds to the nearest
+        for (std::uint32_t j = 0; j < rows.count; ++j) {
+          for (std::uint32_t i = 0; i < column.count; ++i) {
+            sum += rows.weights[j] * column.weights[i] * 65535.0 *
+                   pixel(finer, column.first + i, rows.first + j);
+          }
+        }
+        for (glm::length_t c = 0; c < 4; ++c) {
+          level.samples.push_back(static_cast<std::uint16_t>(std::min(sum[c], 65535.0)));
+        }
+      }
+    }
+    levels_.push_back(std::move(level));
+    size = level_size(levels_.size());
+  }
+}
+
+DVec2 TextureMap::level_size(std::size_t level) const {
+  if (level == 0) return {image_.width, image_.height};
+  return {levels_[level - 1].width, levels_[level - 1].height};
+}
+
+DVec4 TextureMap::image_pixel(std::uint32_t x, std::uint32_t y) const {
+  return std::visit(
+      [&](const auto& samples) -> DVec4 {
+        const std::size_t channels = image_.channels;
+        const auto* s = &samples[(std::size_t{y} * image_.width + x) * channels];
+        const double alpha = channels % 2 == 0 ? alpha_table_[s[channels - 1]] : 1;
+        if (channels < 3) return {DVec3(color_table_[s[0]]), alpha};
+        return {color_table_[s[0]], color_table_[s[1]], color_table_[s[2]], alpha};
+      },
+      image_.samples);
+}
+
+DVec4 TextureMap::pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const {
+  if (level == 0) return image_pixel(x, y);
+  const Level& mip = levels_[level - 1];
+  const std::uint16_t* s = &mip.samples[(std::size_t{y} * mip.width + x) * 4];
+  return DVec4(s[0], s[1], s[2], s[3]) * (1 / 65535.0);
+}
+
+DVec4 TextureMap::filtered(std::size_t level, Filter filter, const DVec2& uv) const {
+  const DVec2 size = level_size(level);
+  const auto width = static_cast<std::int64_t>(size.x), height = static_cast<std::int64_t>(size.y);
+  const DVec2 position(wrapped(uv.x, sampler_.wrap_s) * size.x,
+                       wrapped(uv.y, sampler_.wrap_t) * size.y);
+  const auto at = [&](std::int64_t x, std::int64_t y) {
+    return pixel(level, wrapped_pixel(x, width, sampler_.wrap_s),
+                 wrapped_pixel(y, height, sampler_.wrap_t));
+  };
+  if (filter == Filter::nearest) {
+    return at(static_cast<std::int64_t>(position.x), static_cast<std::int64_t>(position.y));
+  }
+  const double left = std::floor(position.x - 0.5), top = std::floor(position.y - 0.5);
+  const double right = position.x - 0.5 - left, down = position.y - 0.5 - top;
+  const auto x = static_cast<std::int64_t>(left), y = static_cast<std::int64_t>(top);
+  return (1 - down) * ((1 - right) * at(x, y) + right * at(x + 1, y)) +
+         down * ((1 - right) * at(x, y + 1) + right * at(x + 1, y + 1));
+}
+
+DVec4 TextureMap::minified(const DVec2& uv, double width) const {
+  if (sampler_.mip == MipFilter::none) return filtered(0, sampler_.minification, uv);
+  // Level k is for widths of 2^k; between two levels the blend is linear in the width.
+  int exponent = 0;
+  const double mantissa = std::frexp(width, &exponent);  // in [1/2, 1)
+  const std::size_t last = level_count() - 1;
+  const auto level = static_cast<std::size_t>(exponent - 1);
+  if (level >= last) return filtered(last, sampler_.minification, uv);
+  const double coarser = 2 * mantissa - 1;
+  if (sampler_.mip == MipFilter::nearest) {
+    return filtered(level + (coarser >= 0.5 ? 1 : 0), sampler_.minification, uv);
+  }
+  return (1 - coarser) * filtered(level, sampler_.minification, uv) +
+         coarser * filtered(level + 1, sampler_.minification, uv);
+}
+
+DVec4 TextureMap::look_up(const DVec2& uv, const TextureFootprint& footprint) const {
+  const DVec2 size = level_size(0);
+  const auto length = [&](const DVec2& step) {
+    const DVec2 pixels = step * size;
+    return std::sqrt(pixels.x * pixels.x + pixels.y * pixels.y);
+  };
+  const double across = length(footprint.dx), down = length(footprint.dy);
+  const double longer = std::max(across, down), shorter = std::min(across, down);
+  if (!(longer > 1)) return filtered(0, sampler_.magnification, uv);
+  if (!std::isfinite(longer)) return filtered(level_count() - 1, sampler_.minification, uv);
+  const bool one = sampler_.mip == MipFilter::none || sampler_.minification == Filter::nearest;
+  const double wished = std::ceil(longer / std::max(shorter, 1.0));
+  const int probes = one ? 1 : static_cast<int>(std::min<double>(wished, kMaxProbes));
+  const double width = one ? longer : longer / probes;
+  const DVec2 step = (across > down ? footprint.dx : footprint.dy) / static_cast<double>(probes);
+  DVec4 sum(0);
+  for (int i = 0; i < probes; ++i) {
+    const DVec2 place = uv + (i - (probes - 1) / 2.0) * step;
+    sum += width > 1 ? minified(place, width) : filtered(0, sampler_.magnification, place);
+  }
+  return sum / static_cast<double>(probes);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,60 @@
+#pragma once
+/// Looking up images.
+
+#include <microtrace/math.hpp>
+#include <microtrace/texture.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace microtrace {
+
+/// What the numbers of an image mean. Alpha is linear in both.
+enum class ColorEncoding { srgb, linear };
+
+/// How far texture coordinates go from one sample of the picture to the next, across and down.
+struct TextureFootprint {
+  DVec2 dx{0}, dy{0};
+};
+
+/// An image with a sampler, ready for look-ups. Everything is filtered in linear light, alpha apart
+/// from colour.
+class TextureMap {
+ public:
+  /// The image must outlive this. Makes mip maps if the sampler asks for them: each pixel the mean
+  /// of the part of the finer image that it covers, stored in 16 bits.
+  TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding);
+
+  /// The colour at uv, of which (0, 0) is the upper left corner of the image and (1, 1) the lower
+  /// right one. Where the image's pixels look larger than the samples, by the magnification filter;
+  /// else by the others, from up to kMaxProbes places along the longer side of the footprint, so
+  /// that surfaces seen at a slant are not blurred more than they must.
+  [[nodiscard]] DVec4 look_up(const DVec2& uv, const TextureFootprint& footprint) const;
+
+  static constexpr int kMaxProbes = 8;
+
+ private:
+  /// A mip map: linear light, four channels.
+  struct Level {
+    std::uint32_t width, height;
+    std::vector<std::uint16_t> samples{};
+  };
+
+  [[nodiscard]] std::size_t level_count() const { return levels_.size() + 1; }
+  [[nodiscard]] DVec2 level_size(std::size_t level) const;
+  [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
+  [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
+  [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
+  /// At a footprint of so many pixels of the image, above 1.
+  [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
+  void make_levels();
+
+  const Image& image_;
+  Sampler sampler_;
+  std::span<const float> color_table_, alpha_table_;  // linear light of the image's numbers
+  std::vector<Level> levels_;                         // from the second on
+};
+
+}  // namespace microtrace

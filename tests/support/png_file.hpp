@@ -1,0 +1,36 @@
+#pragma once
+/// PNG files made in memory, uncompressed, so that tests know every pixel.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace microtrace::tests {
+
+enum class PngColor : std::uint8_t {
+  grey = 0,
+  rgb = 2,
+  palette = 3,
+  grey_alpha = 4,
+  rgb_alpha = 6
+};
+
+struct PngChunk {
+  std::string name, data;
+};
+
+struct PngPicture {
+  std::uint32_t width = 1, height = 1;
+  std::uint8_t depth = 8;  ///< bits of a sample
+  PngColor color = PngColor::rgb_alpha;
+  std::vector<std::string> rows{};        ///< the bytes of each, samples of 16 bits big-endian
+  std::vector<PngChunk> before_pixels{};  ///< PLTE, tRNS, gAMA and their like
+};
+
+[[nodiscard]] std::string png_file(const PngPicture& picture);
+
+/// Eight bits for each of four channels.
+[[nodiscard]] std::string png_of(std::uint32_t width, std::uint32_t height,
+                                 const std::vector<std::uint8_t>& rgba);
+
+}  // namespace microtrace::tests
