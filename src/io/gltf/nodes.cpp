@@ -35,63 +35,12 @@ bool is_shown(const Asset& asset, std::size_t node) {
 
 }  // namespace
 
-NodeTree::NodeTree(Asset& asset, const tinygltf::Model& model)
-    : asset_(asset), model_(model), parents_(model.nodes.size(), -1) {
-  if (model.nodes.size() > max_nodes) {
-    asset.fail(asset.root().member("nodes"), "has more than 2^20 nodes, the most that is read",
-               ErrorKind::limit);
-  }
-  find_parents();
-  check_reachable();
-  check_scenes();
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) parent_from_node_.push_back(local(i));
-}
-
-void NodeTree::find_parents() {
-  for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-    const std::vector<int>& children = model_.nodes[i].children;
-    for (std::size_t k = 0; k < children.size(); ++k) {
-      const auto child = static_cast<std::size_t>(children[k]);
-      const auto at = [&] { return asset_.element("nodes", i).member("children").item(k); };
-      if (child == i) asset_.fail(at(), "makes the node its own child");
-      if (parents_[child] >= 0) {
-        asset_.fail(at(), "gives node " + std::to_string(child) + " a second parent, after node " +
-                              std::to_string(parents_[child]) + "; copy the node instead");
-      }
-      parents_[child] = static_cast<int>(i);
+NodeTree::NodeTree(const tinygltf::Model& model) : model_(model), parents_(model.nodes.size(), -1) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    for (const int child : model.nodes[i].children) {
+      parents_[static_cast<std::size_t>(child)] = static_cast<int>(i);
     }
-  }
-}
-
-void NodeTree::check_reachable() const {
-  std::vector<bool> reached(parents_.size());
-  for (const std::size_t node : roots()) {
-    std::vector<std::size_t> open = {node};
-    while (!open.empty()) {
-      const std::size_t next = open.back();
-      open.pop_back();
-      reached[next] = true;
-      for (const int child : model_.nodes[next].children) {
-        open.push_back(static_cast<std::size_t>(child));
-      }
-    }
-  }
-  for (std::size_t i = 0; i < reached.size(); ++i) {
-    if (!reached[i]) {
-      asset_.fail(asset_.element("nodes", i), "is part of a cycle: no root leads to this node");
-    }
-  }
-}
-
-void NodeTree::check_scenes() const {
-  for (std::size_t i = 0; i < model_.scenes.size(); ++i) {
-    const std::vector<int>& nodes = model_.scenes[i].nodes;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (const int parent = parents_[static_cast<std::size_t>(nodes[k])]; parent >= 0) {
-        asset_.warn(asset_.element("scenes", i).member("nodes").item(k),
-                    "is a child of node " + std::to_string(parent) + "; scenes name roots only");
-      }
-    }
+    parent_from_node_.push_back(local(i));
   }
 }
 
@@ -103,36 +52,18 @@ std::vector<std::size_t> NodeTree::roots() const {
   return result;
 }
 
-DMat4 NodeTree::local(std::size_t index) {
+DMat4 NodeTree::local(std::size_t index) const {
   const tinygltf::Node& node = model_.nodes[index];
-  const Element at = asset_.element("nodes", index);
-  if (!node.matrix.empty()) {
-    for (const char* other : {"translation", "rotation", "scale"}) {
-      if (at.value->find(other) != nullptr) {
-        asset_.fail(at.member(other), "stands beside a matrix; give one or the other");
-      }
-    }
-    DMat4 result;
-    for (std::size_t i = 0; i < 16; ++i) {
-      result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
-    }
-    if (result[0][3] != 0 || result[1][3] != 0 || result[2][3] != 0 || result[3][3] != 1) {
-      asset_.warn(at.member("matrix"),
-                  "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
-      for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;
-    }
-    return result;
+  if (node.matrix.empty()) {
+    return composed(vector_of(node.translation, DVec3(0)), normalised(quaternion_of(node.rotation)),
+                    vector_of(node.scale, DVec3(1)));
   }
-  const Quaternion rotation = quaternion_of(node.rotation);
-  const double square = glm::dot(rotation, rotation);
-  if (rotation == Quaternion(0)) {
-    asset_.fail(at.member("rotation"), "is zero, must be a unit quaternion");
+  DMat4 result;
+  for (std::size_t i = 0; i < 16; ++i) {
+    result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
   }
-  if (std::abs(square - 1) > 1e-3) {
-    asset_.warn(at.member("rotation"), "is no unit quaternion; it is normalised");
-  }
-  return composed(vector_of(node.translation, DVec3(0)), normalised(rotation),
-                  vector_of(node.scale, DVec3(1)));
+  for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of another row
+  return result;
 }
 
 DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {

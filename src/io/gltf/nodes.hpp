@@ -29,9 +29,8 @@ struct PlacedNode {
 
 class NodeTree {
  public:
-  /// Checks that the nodes make disjoint trees and that scenes name their roots (glTF 2.0, section
-  /// 3.5.2), and that each transform is given in one way. Throws Error: invalid_scene, limit.
-  NodeTree(Asset& asset, const tinygltf::Model& model);
+  /// Of nodes that check_nodes has accepted.
+  explicit NodeTree(const tinygltf::Model& model);
 
   /// The nodes of the default scene, else of the first one, else all: parents before children,
   /// children in their order.
@@ -48,14 +47,10 @@ class NodeTree {
   [[nodiscard]] std::string name(std::size_t node) const;
 
  private:
-  void find_parents();
-  void check_reachable() const;
-  void check_scenes() const;
   [[nodiscard]] std::vector<std::size_t> roots() const;
-  [[nodiscard]] DMat4 local(std::size_t node);
+  [[nodiscard]] DMat4 local(std::size_t node) const;
   [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
-  Asset& asset_;
   const tinygltf::Model& model_;
   std::vector<int> parents_;  // -1 for roots
   std::vector<DMat4> parent_from_node_;

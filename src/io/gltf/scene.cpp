@@ -161,7 +161,7 @@ struct GltfFile::Content {
              RepeatedKeys::last_counts),
         asset(json),
         model(checked_model()),
-        tree(asset, model),
+        tree(model),
         buffers(gltf::load_buffers(asset, container.bin, folder)),
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
