@@ -77,6 +77,12 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   }
 }
 
+std::size_t count_hits(const Bvh& bvh, const Ray& ray) {
+  std::size_t count = 0;
+  for (auto hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) ++count;
+  return count;
+}
+
 // Paths of many reflections, each begun at a corner, an edge or next to one: what is spawned is
 // within again.
 TEST_P(Leak, NoPathFromWithinLeaves) {
@@ -110,6 +116,14 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       }
       for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(bvh.occluded({.o = *q, .t_min = 0, .d = random.in_cube(1)}))
+            << "path " << path << ", bounce " << bounce;
+      }
+      // And through the face: outside, where a ray that meets no edge crosses an even number of
+      // faces.
+      if (bounce > 0 && side * there != 0) {
+        const auto outside = bvh.spawn_origin(ray, *hit, -d);
+        ASSERT_TRUE(outside.has_value());
+        ASSERT_EQ(count_hits(bvh, {.o = *outside, .t_min = 0, .d = random.in_cube(1)}) % 2, 0U)
             << "path " << path << ", bounce " << bounce;
       }
       ray = {.o = *q, .t_min = 0, .d = d};
