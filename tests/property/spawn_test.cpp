@@ -4,6 +4,7 @@
 #include "exact/intersect.hpp"
 #include "exact/range.hpp"
 #include "support/adversarial_rays.hpp"
+#include "support/effort.hpp"
 #include "support/reproduction.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -19,7 +20,8 @@ namespace {
 
 using namespace adversarial;
 
-constexpr int kCasesPerKind = 20000;
+// Fewer under sanitizers.
+const int kCasesPerKind = static_cast<int>(traversal::kUsualRays / 50);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 template <class S>
@@ -141,7 +143,7 @@ TEST(Spawn, Triangle) {
   for (const TriangleKind kind : triangle_kinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
-    EXPECT_GT(count.hits, 100);
+    EXPECT_GT(count.hits, kCasesPerKind / 200);
   }
 }
 
@@ -149,7 +151,7 @@ TEST(Spawn, Triangle) {
 // numbers.
 TEST(Spawn, EveryTriangleWithAreaIsLeft) {
   Random random(32);
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < 5 * kCasesPerKind; ++i) {
     const auto [ray, triangle] =
         triangle_case(random, triangle_kinds[static_cast<std::size_t>(i) % triangle_kinds.size()]);
     if (!exact::first_hit(triangle, ray) || !has_area(triangle)) continue;
@@ -166,7 +168,7 @@ void check_all_kinds(double least_share, MakeCase make_case) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
-    EXPECT_GT(count.hits, 900);
+    EXPECT_GT(count.hits, kCasesPerKind / 25);
   }
 }
 
@@ -187,7 +189,7 @@ TEST(Spawn, Quadric) {
 TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
   Random random(34);
   int leaves = 0;
-  for (int round = 0; round < 20000; ++round) {
+  for (int round = 0; round < kCasesPerKind; ++round) {
     // Tetrahedra are convex as they stand.
     const float size = random.power_of_two(-30, 30);
     const Vec3 centre = random.in_cube(1) * (size * random.power_of_two(0, 22));
@@ -220,7 +222,7 @@ TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
       ++leaves;
     }
   }
-  EXPECT_GT(leaves, 10000);
+  EXPECT_GT(leaves, kCasesPerKind / 2);
 }
 
 }  // namespace
