@@ -88,7 +88,10 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   film.x0 = window.x0;
   film.y0 = window.y0;
   const TilePainter colors(world, integrator, options.samples, window, film);
-  const AovPainter channels(world, options.aovs, window, film);
+  // What is exact has nothing to do with samples.
+  const Surfaces exact_surfaces(surfaces, 1);
+  const World exact_world{.scene = scene, .bvh = bvh, .surfaces = exact_surfaces, .camera = rays};
+  const AovPainter channels(exact_world, options.aovs, window, film);
   const auto draw = [&](const PixelRect& tile) {
     colors.paint(tile);
     if (!options.aovs.empty()) channels.paint(tile);

@@ -9,13 +9,26 @@
 
 namespace microtrace {
 
+namespace {
+
+/// Of what a sample stands for, in pixels.
+double width_of(std::uint32_t samples) {
+  return 1 / std::sqrt(static_cast<double>(samples));
+}
+
+}  // namespace
+
+Surfaces::Surfaces(const Surfaces& other, std::uint32_t samples) : Surfaces(other) {
+  sample_width_ = width_of(samples);
+}
+
 Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
                    std::uint32_t samples)
     : scene_(scene),
       primitives_(primitives),
       camera_(camera),
-      sample_width_(1 / std::sqrt(static_cast<double>(samples))),
-      colors_(scene.textures.size()) {
+      sample_width_(width_of(samples)),
+      colors_(std::make_shared<std::vector<std::optional<TextureMap>>>(scene.textures.size())) {
   entries_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
@@ -44,12 +57,13 @@ bool Surfaces::is_front(const Ray& ray, const Hit& hit) const {
 
 void Surfaces::make_map(std::uint32_t index) {
   const Texture& texture = scene_.textures[index];
-  if (colors_[index] || !texture.image || !scene_.images[*texture.image]) return;
-  colors_[index].emplace(*scene_.images[*texture.image], texture.sampler, ColorEncoding::srgb);
+  std::optional<TextureMap>& map = (*colors_)[index];
+  if (map || !texture.image || !scene_.images[*texture.image]) return;
+  map.emplace(*scene_.images[*texture.image], texture.sampler, ColorEncoding::srgb);
 }
 
 DVec4 Surfaces::texel(const TextureUse& use, const Ray& ray, const SurfaceInteraction& at) const {
-  const std::optional<TextureMap>& map = colors_[use.texture];
+  const std::optional<TextureMap>& map = (*colors_)[use.texture];
   if (!map) return DVec4(1);
   const DVec2 uv = at.uv(use.uv_set).value_or(DVec2(0));
   const auto& m = use.texture_from_uv;

@@ -13,6 +13,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,9 @@ class Surfaces {
   /// so many.
   Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
            std::uint32_t samples);
+
+  /// The same for another number of samples.
+  Surfaces(const Surfaces& other, std::uint32_t samples);
 
   /// The base colour of what the ray hits, linear Rec. 709, and how much of it is there: alpha 0
   /// where the surface is seen from a side that it lacks or lies under its material's cutoff, 1
@@ -65,9 +69,10 @@ class Surfaces {
   const Scene& scene_;
   const Primitives& primitives_;
   const RayGenerator& camera_;
-  double sample_width_;                            // of a pixel
-  std::vector<Entry> entries_;                     // by object
-  std::vector<std::optional<TextureMap>> colors_;  // by texture; nothing: white, or not needed
+  double sample_width_;         // of a pixel
+  std::vector<Entry> entries_;  // by object
+  // By texture; nothing: white, or not needed.
+  std::shared_ptr<std::vector<std::optional<TextureMap>>> colors_;
 };
 
 }  // namespace microtrace

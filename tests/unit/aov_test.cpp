@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -221,6 +223,30 @@ TEST(Aov, NeitherSamplesNorThreadsNorCropChangeThem) {
         },
         one.channels[c].values);
   }
+}
+
+// Samples shrink the part of an image that each sees, and so move the edges of what a mask cuts
+// out; not for exact quantities.
+TEST(Aov, SamplesDoNotChangeCutOuts) {
+  Image image{.width = 64, .height = 64, .channels = 4};
+  std::vector<std::uint8_t> pixels;
+  for (std::uint32_t i = 0; i < 64 * 64; ++i) {
+    const std::uint32_t mixed = i * 2654435761U;
+    for (int shift : {8, 16, 20, 24}) pixels.push_back(static_cast<std::uint8_t>(mixed >> shift));
+  }
+  image.samples = pixels;
+  Scene scene = patchwork();
+  scene.images.push_back(std::make_shared<const Image>(image));
+  scene.textures.push_back({.image = 0});
+  scene.materials[1] = {.base_color_texture = TextureUse{.texture = 0},
+                        .alpha_mode = AlphaMode::mask};
+  const Film one = drawn(scene, PerspectiveCamera{}, {.threads = 1});
+  const Film many = drawn(scene, PerspectiveCamera{}, {.threads = 1, .samples = 16});
+  const auto& instances = ids(one, "instance");
+  for (const std::uint32_t id : {0U, 1U, 2U}) EXPECT_GT(std::ranges::count(instances, id), 20);
+  for (std::size_t c = 0; c < one.channels.size(); ++c)
+    EXPECT_EQ(one.channels[c].values, many.channels[c].values) << one.channels[c].name;
+  EXPECT_NE(one.row(11)[18], many.row(11)[18]);
 }
 
 TEST(AovIntegrator, DrawsTheSameNumbers) {
