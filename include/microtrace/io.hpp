@@ -28,6 +28,9 @@ enum class SurfaceDetail {
 /// How a scene file is read.
 struct LoadOptions {
   SurfaceDetail detail = SurfaceDetail::all;
+  /// The variant of a glTF asset's materials (KHR_materials_variants): its name, else its index
+  /// from 0; empty: the materials that primitives name themselves.
+  std::string variant{};
   /// Seconds since the start of an animation of a glTF asset, clamped to where it is defined;
   /// nothing: the pose that the file gives without any animation.
   std::optional<double> time{};

@@ -34,25 +34,12 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
 
 /// The words in which --help speaks of options' values, and the options' order.
 void name_values(CLI::App& app) {
-  constexpr std::array<std::pair<const char*, const char*>, 18> kNames{{
-      {"SCENE", "FILE"},
-      {"--output", "FILE"},
-      {"--size", "WxH"},
-      {"--crop", "RECT"},
-      {"--background", "COLOUR"},
-      {"--spp", "N"},
-      {"--camera", "NAME"},
-      {"--view", "VIEW"},
-      {"--integrator", "NAME"},
-      {"--aov", "LIST"},
-      {"--sidecar", "FILE"},
-      {"--time", "S"},
-      {"--animation", "NAME"},
-      {"--frames", "RANGE"},
-      {"--fps", "N"},
-      {"--threads", "N"},
-      {"--ppm", "KIND"},
-      {"--progress", "KIND"},
+  constexpr std::array<std::pair<const char*, const char*>, 19> kNames{{
+      {"SCENE", "FILE"},          {"--output", "FILE"},  {"--size", "WxH"},      {"--crop", "RECT"},
+      {"--background", "COLOUR"}, {"--spp", "N"},        {"--camera", "NAME"},   {"--view", "VIEW"},
+      {"--integrator", "NAME"},   {"--aov", "LIST"},     {"--sidecar", "FILE"},  {"--time", "S"},
+      {"--animation", "NAME"},    {"--variant", "NAME"}, {"--frames", "RANGE"},  {"--fps", "N"},
+      {"--threads", "N"},         {"--ppm", "KIND"},     {"--progress", "KIND"},
   }};
   for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
   for (const char* option :
@@ -107,6 +94,8 @@ Parsed parse_arguments(int argc, char** argv) {
                  "materials [the picture's name with .json added, where --aov has id]");
   app.add_option("--time", time,
                  "seconds into the animation of a glTF asset [the pose that the file gives]");
+  app.add_option("--variant", a.load.variant,
+                 "variant of a glTF asset's materials, by name or by number from 0");
   app.add_option("--animation", a.load.animation,
                  "animation that --time and --frames are of, by name or by number from 0; all: all "
                  "at once [the first]");

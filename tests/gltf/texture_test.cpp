@@ -216,5 +216,42 @@ TEST(GltfTexture, MaterialsKeepWhatLightWillAskFor) {
   EXPECT_EQ(scene.materials[1].metallic, 1) << "of primitives without material";
 }
 
+TEST(GltfMaterial, SpecularGlossinessGivesItsDiffuseColour) {
+  AssetBuilder asset = textured();
+  asset.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
+  asset.json["materials"][0] = nlohmann::json::parse(R"({"extensions": {
+    "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 0.5, 1, 0.25],
+                                            "diffuseTexture": {"index": 0}}}})");
+  const Material material = load(asset).scene.materials.at(0);
+  EXPECT_EQ(material.base_color, Vec4(0, 0.5F, 1, 0.25F));
+  EXPECT_TRUE(material.base_color_texture);
+  EXPECT_EQ(material.metallic, 0);
+}
+
+TEST(GltfMaterial, VariantsAreChosenByNameOrNumber) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {"KHR_materials_variants"};
+  asset.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "plain"}},
+                                                                    {{"name", "green"}}};
+  const auto green =
+      asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 1}}}}});
+  asset.json["meshes"][0]["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+      {{"material", green}, {"variants", {1}}}};
+  const auto color = [&](const std::string& variant) {
+    return color_of(parse_scene(asset.embedded(), "test.gltf", "", {.variant = variant}), 0);
+  };
+  EXPECT_EQ(color(""), Vec4(1, 0.25F, 0.125F, 1));
+  EXPECT_EQ(color("plain"), Vec4(1, 0.25F, 0.125F, 1));
+  EXPECT_EQ(color("green"), Vec4(0, 1, 0, 1));
+  EXPECT_EQ(color("1"), Vec4(0, 1, 0, 1));
+  try {
+    (void)color("blue");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::usage);
+    EXPECT_THAT(error.what(), HasSubstr("0 (plain), 1 (green)"));
+  }
+}
+
 }  // namespace
 }  // namespace microtrace::tests

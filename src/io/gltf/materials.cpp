@@ -86,11 +86,21 @@ void read_metallic_roughness(const JsonValue& pbr, Material& material) {
   material.metallic_roughness_texture = texture_use(pbr, "metallicRoughnessTexture");
 }
 
+/// What the metallic model can take of it: the diffuse part.
+void read_specular_glossiness(const JsonValue& json, Material& material) {
+  material.base_color = vector(json, "diffuseFactor", material.base_color);
+  material.base_color_texture = texture_use(json, "diffuseTexture");
+  material.metallic = 0;
+  material.roughness = 1 - number(json, "glossinessFactor", 1);
+}
+
 Material make_material(const JsonValue& json) {
   Material material = standard_material();
   material.name = name_of(json);
   if (const JsonValue* pbr = json.find("pbrMetallicRoughness")) {
     read_metallic_roughness(*pbr, material);
+  } else if (const JsonValue* archived = extension(json, "KHR_materials_pbrSpecularGlossiness")) {
+    read_specular_glossiness(*archived, material);
   }
   material.alpha_mode = alpha_mode(json);
   material.alpha_cutoff = number(json, "alphaCutoff", 0.5F);

@@ -18,6 +18,7 @@
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/posing.hpp"
 #include "io/gltf/surfaces.hpp"
+#include "io/gltf/variants.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +161,7 @@ struct GltfFile::Content {
         json(container.json, container.is_glb ? name + " (JSON chunk)" : name, max_json_values,
              RepeatedKeys::last_counts),
         asset(json),
-        model(checked_model()),
+        model(checked_model(options.variant)),
         tree(model),
         buffers(gltf::load_buffers(asset, container.bin, folder)),
         views(asset, model, buffers),
@@ -181,12 +182,13 @@ struct GltfFile::Content {
     }
   }
 
-  tinygltf::Model checked_model() {
+  tinygltf::Model checked_model(const std::string& variant) {
     gltf::check_requirements(asset);
     gltf::check_schema(asset);
     gltf::check_semantics(asset);
     tinygltf::Model result = gltf::parse_model(asset);
     gltf::check_accessors(asset, result);
+    gltf::choose_variant(asset, variant, result);
     return result;
   }
 
