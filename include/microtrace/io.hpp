@@ -25,6 +25,13 @@ enum class SurfaceDetail {
   all,    ///< normals, tangents, all images and texture coordinates too
 };
 
+/// Where the time of loading went, in seconds.
+struct LoadTimes {
+  double read = 0;      ///< the scene file, buffers beside it or in data URIs
+  double validate = 0;  ///< from bytes to JSON that is known to be right
+  double bake = 0;      ///< vertices, images and all else, placed in the world
+};
+
 /// How a scene file is read.
 struct LoadOptions {
   SurfaceDetail detail = SurfaceDetail::all;
@@ -37,6 +44,7 @@ struct LoadOptions {
   /// The animation that `time` is of: its name, else its index from 0; "all": all together, where
   /// none has that name; empty: the first.
   std::string animation{};
+  LoadTimes* times = nullptr;  ///< if given, added to
 };
 
 /// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for

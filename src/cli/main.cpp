@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 #include <unistd.h>
+#include <utility>
 
 namespace {
 
@@ -59,7 +60,10 @@ std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& argument
 void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) {
   using cli::frame_path;
   cli::Stopwatch watch;
-  SceneFile file(arguments.scene, load_options(arguments));
+  LoadTimes times;
+  LoadOptions options = load_options(arguments);
+  options.times = &times;
+  SceneFile file(arguments.scene, options);
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
   std::optional<Camera> framing;
@@ -75,7 +79,7 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
     report(warnings, arguments);
     const ImageSize size = arguments.size.value_or(scene.size);
     const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments, size);
-    watch.loaded();
+    watch.loaded(std::exchange(times, {}));
     if (arguments.validate) return;
 
     if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
@@ -90,11 +94,14 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
 void run(const cli::Arguments& arguments) {
   if (arguments.frames) return run_frames(arguments, *arguments.frames);
   cli::Stopwatch watch;
-  auto [scene, warnings] = load_scene(arguments.scene, load_options(arguments));
+  LoadTimes times;
+  LoadOptions options = load_options(arguments);
+  options.times = &times;
+  auto [scene, warnings] = load_scene(arguments.scene, options);
   report(warnings, arguments);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);
-  watch.loaded();
+  watch.loaded(times);
   if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 
   if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));

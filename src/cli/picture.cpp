@@ -3,6 +3,7 @@
 #include "cli/progress_bar.hpp"
 
 #include <microtrace/render.hpp>
+#include <microtrace/segments.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/threads.hpp>
 
@@ -33,6 +34,11 @@ void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
                   const Arguments& arguments, const std::filesystem::path& output,
                   const std::filesystem::path& sidecar, Stopwatch& watch,
                   const std::function<void(double)>& progress) {
+  if (has_segments(scene)) {  // for the sidecar too, that its ids are the picture's
+    Scene widened = scene;
+    widen_segments(widened, camera, size);
+    return make_picture(widened, camera, size, arguments, output, sidecar, watch, progress);
+  }
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
   RenderOptions options{

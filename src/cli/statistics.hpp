@@ -1,6 +1,7 @@
 #pragma once
 #include "cli/arguments.hpp"
 
+#include <microtrace/io.hpp>
 #include <microtrace/render.hpp>
 
 #include <chrono>
@@ -13,7 +14,10 @@ class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;
 
-  void loaded() { load_ = lap(); }
+  void loaded(const LoadTimes& times) {
+    load_ = lap();
+    load_times_ = times;
+  }
   void rendered(const RenderTimes& times) {
     render_ = lap();
     times_ = times;
@@ -29,6 +33,7 @@ class Stopwatch {
 
   Clock::time_point last_ = Clock::now();
   double load_ = 0, render_ = 0, write_ = 0;
+  LoadTimes load_times_{};
   RenderTimes times_{};
 };
 

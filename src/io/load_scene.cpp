@@ -2,6 +2,7 @@
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
 #include "io/json/document.hpp"
+#include "io/load_clock.hpp"
 #include "io/scene_json/scene.hpp"
 
 #include <microtrace/io.hpp>
@@ -42,7 +43,9 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
   if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(glb_magic)) {
     return io::GltfFile(bytes, name, folder, options);
   }
+  io::LoadClock clock(options.times);
   io::JsonDocument document(bytes, name);
+  clock.lap(&LoadTimes::validate);
   // Every glTF asset has the member "asset", and no scene of our own has.
   if (ending != ".json" && document.root().find("asset") != nullptr) {
     return io::GltfFile(bytes, name, folder, options);
@@ -52,7 +55,10 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
 
 LoadedScene read(Reader& reader, const std::filesystem::path& folder, const LoadOptions& options) {
   if (auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
-  return io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
+  io::LoadClock clock(options.times);
+  LoadedScene result = io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
+  clock.lap(&LoadTimes::bake);
+  return result;
 }
 
 }  // namespace
@@ -79,9 +85,11 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const auto inspect = [&](std::string_view first) {
     if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
   };
+  io::LoadClock clock(options.times);
   std::string bytes = standard_input
                           ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
                           : io::read_file(path, io::max_file_size, inspect);
+  clock.lap(&LoadTimes::read);
   content_ = std::make_unique<Content>(std::move(bytes), path, name, std::move(options));
 }
 SceneFile::~SceneFile() = default;

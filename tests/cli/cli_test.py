@@ -227,8 +227,10 @@ class CommandLine(unittest.TestCase):
     def test_times_of_stages(self):
         result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "-o", "a.ppm", "--stats=json")
         numbers = json.loads(result.stderr)
-        for stage in ("load_s", "build_s", "trace_s", "write_s"):
+        for stage in ("read_s", "validate_s", "bake_s", "build_s", "trace_s", "write_s"):
             self.assertGreater(numbers[stage], 0, stage)
+        loading = numbers["read_s"] + numbers["validate_s"] + numbers["bake_s"]
+        self.assertLessEqual(loading, numbers["load_s"])
         self.assertLessEqual(numbers["build_s"] + numbers["trace_s"], numbers["render_s"])
 
     def test_progress_for_programs(self):

@@ -19,6 +19,7 @@
 #include "io/gltf/posing.hpp"
 #include "io/gltf/surfaces.hpp"
 #include "io/gltf/variants.hpp"
+#include "io/load_clock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -156,14 +157,16 @@ auto guarded(const std::string& name, Part&& part) {
 struct GltfFile::Content {
   Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
-      : name(file_name),
+      : times(options.times),
+        clock(times),
+        name(file_name),
         container(gltf::open_container(bytes, name)),
         json(container.json, container.is_glb ? name + " (JSON chunk)" : name, max_json_values,
              RepeatedKeys::last_counts),
         asset(json),
         model(checked_model(options.variant)),
         tree(model),
-        buffers(gltf::load_buffers(asset, container.bin, folder)),
+        buffers(loaded_buffers(folder)),
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
@@ -180,6 +183,14 @@ struct GltfFile::Content {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
                                    " bytes after the end of the GLB file are ignored");
     }
+    clock.lap(&LoadTimes::bake);
+  }
+
+  std::vector<gltf::Buffer> loaded_buffers(const std::filesystem::path& folder) {
+    clock.lap(&LoadTimes::validate);
+    std::vector<gltf::Buffer> result = gltf::load_buffers(asset, container.bin, folder);
+    clock.lap(&LoadTimes::read);
+    return result;
   }
 
   tinygltf::Model checked_model(const std::string& variant) {
@@ -203,7 +214,9 @@ struct GltfFile::Content {
   }
 
   const gltf::BufferViews& checked_views() {
+    clock.lap(&LoadTimes::bake);
     gltf::check_data(asset, model, views);
+    clock.lap(&LoadTimes::validate);
     return views;
   }
 
@@ -220,6 +233,8 @@ struct GltfFile::Content {
     return surface.material < 0 ? materials.size() - 1 : static_cast<std::size_t>(surface.material);
   }
 
+  LoadTimes* times;
+  LoadClock clock;
   std::string name;
   gltf::Container container;
   JsonDocument json;
@@ -249,6 +264,7 @@ GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
 LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_asset) {
   return guarded(content_->name, [&] {
     const gltf::PosedNodes pose = time ? content_->pose_at(*time) : gltf::PosedNodes{};
+    LoadClock clock(content_->times);
     Asset asset = content_->asset;  // each pose adds warnings of its own
     const tinygltf::Model& model = content_->model;
     const NodeTree& tree = content_->tree;
@@ -267,6 +283,7 @@ LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_ass
     if (result.scene.objects.empty())
       asset.warn(asset.root(), "nothing to draw: no triangles, lines or points");
     result.warnings = asset.warnings();
+    clock.lap(&LoadTimes::bake);
     return result;
   });
 }
