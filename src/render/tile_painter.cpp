@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <span>
 
 namespace microtrace {
@@ -31,8 +32,10 @@ class Batch {
  public:
   [[nodiscard]] bool is_full() const { return count_ == kMaxBatch; }
 
-  void add(const Ray& ray, std::size_t pixel) {
-    rays_[count_] = ray;
+  /// make_ray() makes the ray in its place: copying what was just written in parts is slow.
+  template <class MakeRay>
+  void add(std::size_t pixel, const MakeRay& make_ray) {
+    ::new (&rays_[count_]) Ray(make_ray());
     pixels_[count_++] = pixel;
   }
 
@@ -96,7 +99,7 @@ void TilePainter::paint_block(const PixelRect& block) const {
       for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
         for (const PixelOffset& offset : pattern_) {
           before_each();
-          batch.add(ray_(x + offset.x, y + offset.y), pixel);
+          batch.add(pixel, [&] { return ray_(x + offset.x, y + offset.y); });
         }
       }
     }

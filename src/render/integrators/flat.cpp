@@ -35,9 +35,10 @@ class Depth {
   std::size_t count_ = 0;
 };
 
-/// Surfaces from `hit` on, each over those behind it (T. Porter and T. Duff, Compositing digital
+/// Surfaces from `first` on, each over those behind it (T. Porter and T. Duff, Compositing digital
 /// images, 1984).
-Sample composite(const World& world, const Ray& ray, std::optional<Hit> hit) {
+Sample composite(const World& world, const Ray& ray, const Hit& first) {
+  std::optional<Hit> hit = first;
   DVec3 color(0);
   double through = 1;  // of the light behind
   Depth depth(world, ray);
@@ -63,10 +64,10 @@ void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i] = Sample{};
     if (!hits[i]) continue;
-    if (const std::optional<Vec3> color = world.surfaces.plain_look(rays[i], *hits[i])) {
+    if (const Vec3* color = world.surfaces.plain_look(rays[i], *hits[i])) {
       samples[i] = {.color = *color, .alpha = 1};
     } else {
-      samples[i] = composite(world, rays[i], hits[i]);
+      samples[i] = composite(world, rays[i], *hits[i]);
     }
   }
 }
