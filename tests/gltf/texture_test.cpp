@@ -83,8 +83,18 @@ TEST(GltfTexture, DamagedImagesAreErrorsWithTheirPlace) {
   EXPECT_EQ(error_of(asset).kind(), ErrorKind::invalid_scene);
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0");
   EXPECT_THAT(error_of(asset).what(), HasSubstr("cut off"));
-  asset.json["images"][0]["bufferView"] = asset.add_view(png.substr(0, 20));
+  asset.json["images"][0]["bufferView"] = asset.add_view(png.substr(0, 8) + png);
   EXPECT_THAT(error_of(asset).what(), HasSubstr("header"));
+}
+
+TEST(GltfTexture, ImagesThatEndBeforeTheirSizeAreWhiteWithAWarning) {
+  AssetBuilder asset = textured();
+  const std::string png = png_of(1, 1, {9, 8, 7, 6});
+  asset.json["images"][0]["bufferView"] = asset.add_view(png.substr(0, 20));
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(texts(loaded.warnings),
+              ElementsAre(HasSubstr("/images/0: holds an image that ends")));
+  EXPECT_EQ(loaded.scene.images.at(0), nullptr);
 }
 
 TEST(GltfTexture, OversizedImagesAreRefusedBeforeMemoryIsTaken) {

@@ -155,11 +155,16 @@ TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
                                 std::uint32_t height) {
     const ImageHeader header = read_image_header(bytes);
     EXPECT_EQ(header.format, format);
-    EXPECT_FALSE(header.damaged);
+    EXPECT_EQ(header.state, ImageHeader::State::whole);
     EXPECT_EQ(header.width, width);
     EXPECT_EQ(header.height, height);
     for (std::size_t size = 0; size < 30; ++size) {
-      EXPECT_EQ(read_image_header(bytes.substr(0, size)).width, 0U) << size;
+      const ImageHeader part = read_image_header(bytes.substr(0, size));
+      EXPECT_EQ(part.width, 0U) << size;
+      EXPECT_NE(part.state, ImageHeader::State::damaged) << size;
+      if (part.format != ImageFormat::unknown) {
+        EXPECT_EQ(part.state, ImageHeader::State::cut_off) << size;
+      }
     }
   };
   expect_header(tests::png_file({.width = 70000, .height = 2}), ImageFormat::png, 70000, 2);
@@ -167,7 +172,11 @@ TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
   expect_header(kLosslessWebp, ImageFormat::webp, 2, 2);
   expect_header(kLossyWebp, ImageFormat::webp, 4, 3);
   EXPECT_EQ(read_image_header("BM").format, ImageFormat::unknown);
-  EXPECT_TRUE(read_image_header("\xFF\xD8\xFF\xD9").damaged);
+  using std::string_view_literals::operator""sv;
+  for (const std::string_view nonsense :
+       {"\xFF\xD8\xFF\xD9\0\0"sv, "\xFF\xD8\xFF\0\0\0"sv, "\x89PNG\r\n\x1a\n\0\0\0\x0dIDAT"sv}) {
+    EXPECT_EQ(read_image_header(nonsense).state, ImageHeader::State::damaged);
+  }
 }
 
 }  // namespace

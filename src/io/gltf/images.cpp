@@ -50,7 +50,13 @@ class ImageLoader {
       asset_.warn(at, "is neither PNG, JPEG nor WebP; textures of it are white");
       return nullptr;
     }
-    if (header.damaged) asset_.fail(at, "holds a damaged image: its header says no size");
+    if (header.state == ImageHeader::State::damaged) {
+      asset_.fail(at, "holds a damaged image: its header says no size");
+    }
+    if (header.state == ImageHeader::State::cut_off) {
+      asset_.warn(at, "holds an image that ends before its size; textures of it are white");
+      return nullptr;
+    }
     const std::string_view type = declared_type(at);
     if (!type.empty() && type != media_type(header.format)) {
       asset_.warn(at, "is called " + in_quotes(std::string(type)) + ", but it is " +

@@ -27,19 +27,22 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t 
 struct Size {
   std::uint32_t width, height;
 };
+// 0 x 0 stands for nonsense, nothing for a file that ends too early.
+constexpr Size no_size{0, 0};
 
 /// PNG (ISO/IEC 15948), section 11.2.2: the chunk IHDR comes first.
 std::optional<Size> png_size(std::string_view bytes) {
-  if (bytes.size() < 33 || bytes.substr(8, 8) != "\0\0\0\x0dIHDR"sv) return std::nullopt;
+  constexpr std::string_view first_chunk = "\0\0\0\x0dIHDR"sv;
+  if (!bytes.substr(8, 8).starts_with(first_chunk.substr(0, bytes.size() - 8))) return no_size;
+  if (bytes.size() < 33) return std::nullopt;
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
 /// JPEG (ITU-T T.81), annex B: segments follow each other up to the frame header, SOFn.
 std::optional<Size> jpeg_size(std::string_view bytes) {
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
-    if (byte(bytes, at) != 0xFF) return std::nullopt;
     const std::uint32_t marker = byte(bytes, at + 1);
-    if (marker == 0xFF) {  // fill
+    if (byte(bytes, at) != 0xFF || marker == 0xFF) {  // fill, or bytes that decoders pass over
       ++at;
       continue;
     }
@@ -49,7 +52,7 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
       if (at + 9 > bytes.size()) return std::nullopt;
       return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
-    if (marker == 0xD9 || marker == 0xDA) return std::nullopt;
+    if (marker == 0 || marker == 0xD9 || marker == 0xDA) return no_size;
     const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
     at += alone ? 2 : 2 + big_endian(bytes, at + 2, 2);
   }
@@ -68,11 +71,13 @@ std::optional<Size> webp_size(std::string_view bytes) {
     return Size{(bits & 0x3FFFU) + 1, (bits >> 14U & 0x3FFFU) + 1};
   }
   if (kind == "VP8X") return Size{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
-  return std::nullopt;
+  return no_size;
 }
 
 ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
-  if (!size || size->width == 0 || size->height == 0) return {.format = format, .damaged = true};
+  using State = ImageHeader::State;
+  if (!size) return {.format = format, .state = State::cut_off};
+  if (size->width == 0 || size->height == 0) return {.format = format, .state = State::damaged};
   return {.format = format, .width = size->width, .height = size->height};
 }
 

@@ -10,7 +10,9 @@ enum class ImageFormat { unknown, png, jpeg, webp };
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::unknown;
-  bool damaged = false;  ///< the header breaks off or is none; then there is no size
+  /// The header is whole, the file ends within it, or it says nonsense; only a whole one has a
+  /// size.
+  enum class State { whole, cut_off, damaged } state = State::whole;
   std::uint32_t width = 0, height = 0;
 };
 
