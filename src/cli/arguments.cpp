@@ -96,6 +96,14 @@ Parsed parse_arguments(int argc, char** argv) {
                  "seconds into the animation of a glTF asset [the pose that the file gives]");
   app.add_option("--variant", a.load.variant,
                  "variant of a glTF asset's materials, by name or by number from 0");
+  app.add_option(
+         "--allow-path", a.load.allowed_folders,
+         "folder in which a glTF asset's files may lie beside the asset's own; may be given "
+         "more than once")
+      ->check(CLI::ExistingDirectory)
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("FOLDER");
   app.add_option("--animation", a.load.animation,
                  "animation that --time and --frames are of, by name or by number from 0; all: all "
                  "at once [the first]");

@@ -1,6 +1,13 @@
 #include "io/gltf/uri.hpp"
 
 #include "gltf/asset_builder.hpp"
+#include "image/folder.hpp"
+
+#include <microtrace/io.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <utility>
 
 #include <gmock/gmock.h>
 
@@ -81,7 +88,38 @@ TEST(GltfUri, PathsOutOfTheFolderAreRefused) {
   };
   for (const auto& [uri, reason] : cases) {
     EXPECT_THAT(relative_path(uri).refusal, HasSubstr(reason)) << uri;
-    EXPECT_EQ(relative_path(uri).path, "") << uri;
+    EXPECT_EQ(relative_path(uri).leads_out,
+              std::string(reason) == ".." || std::string(reason) == "absolute")
+        << uri;
+  }
+}
+
+TEST(GltfUri, AllowedFoldersMayHoldFiles) {
+  const Folder folder;
+  namespace fs = std::filesystem;
+  for (const char* name : {"asset", "shared", "shared too"}) fs::create_directory(folder / name);
+  tests::AssetBuilder asset;
+  asset.add_object(
+      {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), Vec3(1), Vec3(2)})}}}});
+  std::ofstream(folder / "shared/a.bin", std::ios::binary) << asset.buffer;
+  const auto load_from = [&](const std::string& uri, std::vector<fs::path> allowed) {
+    return parse_scene(asset.with_buffer(uri.c_str()).dump(), "test.gltf", folder / "asset",
+                       {.allowed_folders = std::move(allowed)})
+        .scene.objects.size();
+  };
+  EXPECT_EQ(load_from("../shared/a.bin", {folder / "shared"}), 1U);
+  EXPECT_EQ(load_from("../asset/../shared/a.bin", {folder / "asset", folder / "shared"}), 1U);
+  EXPECT_EQ(load_from((folder / "shared/a.bin").string(), {folder / "."}), 1U);
+  for (const std::vector<fs::path>& allowed :
+       {std::vector<fs::path>{}, {folder / "shared too"}, {folder / "asset"}, {folder / "none"}}) {
+    try {
+      (void)load_from("../shared/a.bin", allowed);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      EXPECT_EQ(error.diagnostic().pointer, "/buffers/0/uri");
+      EXPECT_THAT(error.what(), HasSubstr("--allow-path"));
+    }
   }
 }
 

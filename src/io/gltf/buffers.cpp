@@ -43,7 +43,7 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
 }  // namespace
 
 std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
-                                 const std::filesystem::path& folder) {
+                                 const ResourceFolders& folders) {
   const std::vector<JsonValue>& buffers = asset.array("buffers");
   check_total(asset, buffers);
   if (bin && (buffers.empty() || !is_bin(0, buffers[0]))) {
@@ -61,7 +61,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     } else if (buffers[i].find("uri") != nullptr) {
       buffer.storage = is_data_uri(uri.value->string)
                            ? decode(asset, uri)
-                           : read_resource(asset, uri, folder, "buffer", max_buffer_bytes);
+                           : read_resource(asset, uri, folders, "buffer", max_buffer_bytes);
       buffer.bytes = buffer.storage;
     } else {
       continue;

@@ -2,9 +2,9 @@
 /// The bytes of an asset's buffers.
 
 #include "io/gltf/asset.hpp"
+#include "io/gltf/resource.hpp"
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,6 +25,6 @@ struct Buffer {
 /// `folder`. Throws Error with the buffer's pointer: invalid_scene for a bad URI or too few bytes,
 /// io for a file, limit.
 [[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
-                                               const std::filesystem::path& folder);
+                                               const ResourceFolders& folders);
 
 }  // namespace microtrace::io::gltf

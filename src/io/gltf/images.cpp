@@ -35,8 +35,8 @@ std::string_view declared_type(const Element& at) {
 
 class ImageLoader {
  public:
-  ImageLoader(Asset& asset, const BufferViews& views, const std::filesystem::path& folder)
-      : asset_(asset), views_(views), folder_(folder) {}
+  ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
+      : asset_(asset), views_(views), folders_(folders) {}
 
   std::shared_ptr<const Image> load(const Element& at, bool wanted) {
     std::string storage;
@@ -73,7 +73,7 @@ class ImageLoader {
     const Element uri = at.member("uri");
     storage = is_data_uri(uri.value->string)
                   ? decode_data_uri(asset_, uri)
-                  : read_resource(asset_, uri, folder_, "image", max_image_bytes);
+                  : read_resource(asset_, uri, folders_, "image", max_image_bytes);
     return storage;
   }
 
@@ -103,7 +103,7 @@ class ImageLoader {
 
   Asset& asset_;
   const BufferViews& views_;
-  const std::filesystem::path& folder_;
+  const ResourceFolders& folders_;
   std::uint64_t pixels_ = 0;
 };
 
@@ -130,9 +130,9 @@ std::vector<bool> wanted_images(std::span<const Material> materials, const std::
 }
 
 std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const BufferViews& views,
-                                                      const std::filesystem::path& folder,
+                                                      const ResourceFolders& folders,
                                                       const std::vector<bool>& wanted) {
-  ImageLoader loader(asset, views, folder);
+  ImageLoader loader(asset, views, folders);
   std::vector<std::shared_ptr<const Image>> images;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     images.push_back(loader.load(asset.element("images", i), wanted[i]));

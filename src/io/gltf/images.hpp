@@ -3,13 +3,13 @@
 
 #include "io/gltf/asset.hpp"
 #include "io/gltf/buffer_views.hpp"
+#include "io/gltf/resource.hpp"
 
 #include <microtrace/io.hpp>
 #include <microtrace/material.hpp>
 #include <microtrace/texture.hpp>
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,7 +27,7 @@ namespace microtrace::io::gltf {
 /// data that is damaged throws Error (invalid_scene); as read_resource, and (limit) where the
 /// wanted ones have more than max_texture_pixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
-    Asset& asset, const BufferViews& views, const std::filesystem::path& folder,
+    Asset& asset, const BufferViews& views, const ResourceFolders& folders,
     const std::vector<bool>& wanted);
 
 }  // namespace microtrace::io::gltf

@@ -4,10 +4,28 @@
 #include "io/gltf/uri.hpp"
 #include "io/json/excerpt.hpp"
 
+#include <algorithm>
 #include <system_error>
 #include <utility>
 
 namespace microtrace::io::gltf {
+namespace {
+
+/// By names with ".." and symbolic links resolved, as far as there are such files.
+bool lies_in_one_of(const std::vector<std::filesystem::path>& folders,
+                    const std::filesystem::path& path) {
+  std::error_code code;
+  const std::filesystem::path place = std::filesystem::weakly_canonical(path, code);
+  if (code) return false;
+  return std::ranges::any_of(folders, [&](const std::filesystem::path& allowed) {
+    const std::filesystem::path folder = std::filesystem::canonical(allowed, code);
+    if (code) return false;
+    return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first ==
+           folder.end();
+  });
+}
+
+}  // namespace
 
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
@@ -21,14 +39,16 @@ std::string decode_data_uri(const Asset& asset, const Element& uri) {
   return std::move(*bytes);
 }
 
-std::string read_resource(const Asset& asset, const Element& uri,
-                          const std::filesystem::path& folder, const char* what,
-                          std::size_t max_bytes) {
+std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
+                          const char* what, std::size_t max_bytes) {
   const RelativePath relative = relative_path(uri.value->string);
-  if (!relative.refusal.empty()) {
-    asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal);
+  const std::filesystem::path path = folders.own / relative.path;
+  const bool is_allowed =
+      relative.refusal.empty() || (relative.leads_out && lies_in_one_of(folders.allowed, path));
+  if (!is_allowed) {
+    asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal +
+                        (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
   }
-  const std::filesystem::path path = folder / relative.path;
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
   std::error_code code;
   // A pipe or a device could keep its reader waiting for ever.

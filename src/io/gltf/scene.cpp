@@ -166,13 +166,14 @@ struct GltfFile::Content {
         asset(json),
         model(checked_model(options.variant)),
         tree(model),
-        buffers(loaded_buffers(folder)),
+        buffers(loaded_buffers({.own = folder, .allowed = options.allowed_folders})),
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
         textures(gltf::make_textures(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
-        images(gltf::load_images(asset, views, folder, wanted_images(options.detail))),
+        images(gltf::load_images(asset, views, {.own = folder, .allowed = options.allowed_folders},
+                                 wanted_images(options.detail))),
         instances(asset, model, reader),
         animations(gltf::choose_animations(asset, options.animation)) {
     gltf::warn_of_ignored_features(asset);
@@ -186,9 +187,9 @@ struct GltfFile::Content {
     clock.lap(&LoadTimes::bake);
   }
 
-  std::vector<gltf::Buffer> loaded_buffers(const std::filesystem::path& folder) {
+  std::vector<gltf::Buffer> loaded_buffers(const gltf::ResourceFolders& folders) {
     clock.lap(&LoadTimes::validate);
-    std::vector<gltf::Buffer> result = gltf::load_buffers(asset, container.bin, folder);
+    std::vector<gltf::Buffer> result = gltf::load_buffers(asset, container.bin, folders);
     clock.lap(&LoadTimes::read);
     return result;
   }

@@ -108,8 +108,12 @@ RelativePath relative_path(std::string_view uri) {
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (std::ranges::any_of(*path, is_control)) return {.refusal = "has a control character"};
   if (path->find('\\') != std::string::npos) return {.refusal = "has a backslash; separate by /"};
-  if (path->starts_with('/')) return {.refusal = "is absolute; use a path relative to the asset"};
-  if (has_parent_segment(*path)) return {.refusal = "leads out of the asset's folder by \"..\""};
+  if (path->starts_with('/')) {
+    return {*path, "is absolute; use a path relative to the asset", true};
+  }
+  if (has_parent_segment(*path)) {
+    return {*path, "leads out of the asset's folder by \"..\"", true};
+  }
   return {.path = *path};
 }
 

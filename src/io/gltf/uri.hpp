@@ -27,8 +27,9 @@ struct DataUri {
 
 /// A file URI made into a path, or the reason why it is refused.
 struct RelativePath {
-  std::string path{};     ///< percent-decoded, never leads out of the asset's folder by itself
-  std::string refusal{};  ///< empty where the path is good
+  std::string path{};      ///< percent-decoded
+  std::string refusal{};   ///< empty where the path is good
+  bool leads_out = false;  ///< refused only because it leads, or may lead, out of the folder
 };
 
 /// Accepts relative paths only (RFC 3986, section 4.2, path-noscheme), without "..", backslash and

@@ -12,7 +12,8 @@ void check_uri(const Asset& asset, const Element& at) {
   const std::string& uri = at.value->string;
   if (is_data_uri(uri)) {
     if (!split_data_uri(uri)) asset.fail(at, "is no data URI of the form data:TYPE;base64,DATA");
-  } else if (const RelativePath path = relative_path(uri); !path.refusal.empty()) {
+  } else if (const RelativePath path = relative_path(uri);
+             !path.refusal.empty() && !path.leads_out) {  // that is for read_resource to judge
     asset.fail(at, path.refusal);
   }
 }
