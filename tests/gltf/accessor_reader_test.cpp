@@ -3,6 +3,7 @@
 #include "io/json/document.hpp"
 
 #include <memory>
+#include <string>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -17,7 +18,8 @@ using ::testing::ElementsAre;
 class Reading {
  public:
   explicit Reading(const AssetBuilder& asset)
-      : document_(asset.with_buffer(nullptr).dump(), "test.gltf"),
+      : text_(asset.with_buffer(nullptr).dump()),
+        document_(text_, "test.gltf"),
         asset_(document_),
         model_(io::gltf::parse_model(asset_)),
         buffers_{{.storage = {}, .bytes = asset.buffer}},
@@ -27,6 +29,7 @@ class Reading {
   }
 
  private:
+  std::string text_;
   io::JsonDocument document_;
   io::gltf::Asset asset_;
   tinygltf::Model model_;
