@@ -47,7 +47,7 @@ class AovIntegrator final : public Integrator {
  public:
   explicit AovIntegrator(Aov aov) : aov_(aov) {}
 
-  void trace(const World& world, std::span<const Ray> rays,
+  void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
   [[nodiscard]] bool is_data() const override { return true; }
   [[nodiscard]] Display display(const Film& film) const override;

@@ -10,6 +10,7 @@
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace microtrace {
@@ -22,6 +23,13 @@ struct World {
   const Bvh& bvh;            ///< of that scene
   const Surfaces& surfaces;  ///< of that scene: src/render/surfaces.hpp
   const RayGenerator& camera;
+  std::uint32_t seed = 0;  ///< of all that is random
+};
+
+/// Which of a picture's samples a ray is. With the seed it settles all that is random about it.
+struct SampleId {
+  std::uint32_t x = 0, y = 0;  ///< pixel of the whole picture
+  std::uint32_t index = 0;     ///< in the pixel, from 0
 };
 
 /// The light of one ray without the scene's background.
@@ -30,22 +38,27 @@ struct Sample {
   float alpha = 0;  ///< the part of the background that is hidden: 0 none of it, 1 all
 };
 
-/// The most rays that an integrator is asked about at once.
-inline constexpr std::size_t kMaxBatch = 64;
+/// The most rays that an integrator is asked about at once, if its answers are random and if not.
+inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
 
 class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// samples[i] answers rays[i]; both have one length, at most kMaxBatch. The rays are neighbours:
-  /// they make one bundle for Bvh::intersect. Each answer depends on its own ray alone. Any number
-  /// of threads call it at a time.
-  virtual void trace(const World& world, std::span<const Ray> rays,
+  /// samples[i] answers rays[i], which is ids[i]; all have one length, at most kMaxBatch, or
+  /// kRandomBatch if is_random(). Runs of rays are neighbours, such that they make bundles for
+  /// Bvh::intersect. Each answer depends on its own ray and id alone. Any number of threads call it
+  /// at a time.
+  virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 
   /// Whether the samples are numbers of any kind rather than light: then they are not filtered, and
   /// not put over the background.
   [[nodiscard]] virtual bool is_data() const { return false; }
+
+  /// Whether answers are random: then rays go through random places of their pixels too, and as
+  /// many come at a time as can.
+  [[nodiscard]] virtual bool is_random() const { return false; }
 
   /// How 8-bit formats should show the finished film.
   [[nodiscard]] virtual Display display(const Film& /*film*/) const { return {}; }
@@ -59,7 +72,7 @@ class Integrator {
 /// The colour of what the ray hits first, without light.
 class FlatIntegrator final : public Integrator {
  public:
-  void trace(const World& world, std::span<const Ray> rays,
+  void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
 };
 

@@ -32,8 +32,10 @@ struct RenderOptions {
   /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
   /// square, in the same places in each pixel, and weigh the same (a box filter): sample k of n
   /// lies at x = (k + 1/2) / n, y = (r(k) + 1/2) / n, where r puts the numbers 0 to n - 1 in the
-  /// order of van der Corput's sequence.
+  /// order of van der Corput's sequence. Integrators whose answers are random get rays through
+  /// random places, even if there is one.
   std::uint32_t samples = 1;
+  std::uint32_t seed = 0;  ///< of all that is random; another one gives other noise
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};

@@ -79,7 +79,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const auto built = Clock::now();
   const RayGenerator rays(camera, size);
   const Surfaces surfaces(scene, bvh.primitives(), rays, options.samples);
-  const World world{.scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays};
+  const World world{
+      .scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays, .seed = options.seed};
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
   Film film = make_film(window.size(),

@@ -1,5 +1,7 @@
 #include "render/tile_painter.hpp"
 
+#include "render/sampling/dimensions.hpp"
+#include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
 
 #include <algorithm>
@@ -28,30 +30,34 @@ struct Sum {
 };
 
 /// Rays on their way to the integrator, and the pixel of the block that each belongs to.
+template <std::size_t Size>
 class Batch {
  public:
-  [[nodiscard]] bool is_full() const { return count_ == kMaxBatch; }
+  [[nodiscard]] bool is_full() const { return count_ == Size; }
 
   /// make_ray() makes the ray in its place: copying what was just written in parts is slow.
   template <class MakeRay>
-  void add(std::size_t pixel, const MakeRay& make_ray) {
+  void add(std::size_t pixel, const SampleId& id, const MakeRay& make_ray) {
     ::new (&rays_[count_]) Ray(make_ray());
+    ids_[count_] = id;
     pixels_[count_++] = pixel;
   }
 
   /// f(pixel, sample) in the order of the rays; leaves the batch empty.
   template <class F>
   void trace(const Integrator& integrator, const World& world, F&& f) {
-    integrator.trace(world, std::span(rays_).first(count_), std::span(samples_).first(count_));
+    integrator.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
+                     std::span(samples_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) f(pixels_[i], samples_[i]);
     count_ = 0;
   }
 
  private:
   std::size_t count_ = 0;
-  std::array<Ray, kMaxBatch> rays_;
-  std::array<std::size_t, kMaxBatch> pixels_;
-  std::array<Sample, kMaxBatch> samples_;
+  std::array<Ray, Size> rays_;
+  std::array<SampleId, Size> ids_;
+  std::array<std::size_t, Size> pixels_;
+  std::array<Sample, Size> samples_;
 };
 
 }  // namespace
@@ -63,6 +69,7 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator, std::
       ray_(world.camera, world.scene),
       window_(window),
       film_(film),
+      samples_(samples),
       pattern_(sample_pattern(samples)),
       background_(integrator.is_data() ? Vec3(0) : world.scene.background),
       block_width_(kTileEdge),
@@ -92,14 +99,15 @@ void TilePainter::paint_block(const PixelRect& block) const {
     const auto index = static_cast<std::uint32_t>(pixel);
     set(block.x0 + index % width, block.y0 + index / width, sample);
   };
-  Batch batch;
+  Batch<kMaxBatch> batch;
   const auto gather = [&](auto&& before_each) {
     std::size_t pixel = 0;
     for (std::uint32_t y = block.y0; y < block.y1; ++y) {
       for (std::uint32_t x = block.x0; x < block.x1; ++x, ++pixel) {
-        for (const PixelOffset& offset : pattern_) {
+        for (std::uint32_t k = 0; k < pattern_.size(); ++k) {
           before_each();
-          batch.add(pixel, [&] { return ray_(x + offset.x, y + offset.y); });
+          batch.add(pixel, {.x = x, .y = y, .index = k},
+                    [&] { return ray_(x + pattern_[k].x, y + pattern_[k].y); });
         }
       }
     }
@@ -121,7 +129,36 @@ void TilePainter::paint_block(const PixelRect& block) const {
   }
 }
 
+void TilePainter::paint_at_random(const PixelRect& tile) const {
+  const std::uint32_t width = tile.size().width;
+  Batch<kRandomBatch> batch;
+  std::array<Sum, kTilePixels> sums{};
+  const auto trace = [&] {
+    batch.trace(integrator_, world_,
+                [&](std::size_t pixel, const Sample& sample) { sums[pixel].add(sample); });
+  };
+  // Sample by sample, so that the rays of neighbouring pixels make bundles.
+  for (std::uint32_t k = 0; k < samples_; ++k) {
+    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+      for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+        if (batch.is_full()) trace();
+        const SampleId id{.x = x, .y = y, .index = k};
+        const Vec2 offset = sampling::Sobol(world_.seed, id).pair(sampling::kPixelPair);
+        batch.add(std::size_t{y - tile.y0} * width + (x - tile.x0), id,
+                  [&] { return ray_(x + double{offset.x}, y + double{offset.y}); });
+      }
+    }
+  }
+  trace();
+  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+    for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+      set(x, y, sums[std::size_t{y - tile.y0} * width + (x - tile.x0)].over(samples_));
+    }
+  }
+}
+
 void TilePainter::paint(const PixelRect& tile) const {
+  if (integrator_.is_random()) return paint_at_random(tile);
   for (std::uint32_t y = tile.y0; y < tile.y1; y += block_height_) {
     for (std::uint32_t x = tile.x0; x < tile.x1; x += block_width_) {
       paint_block({.x0 = x,

@@ -23,6 +23,7 @@ class TilePainter {
 
  private:
   void paint_block(const PixelRect& block) const;
+  void paint_at_random(const PixelRect& tile) const;
   void set(std::uint32_t x, std::uint32_t y, const Sample& sample) const;
 
   const World& world_;
@@ -30,6 +31,7 @@ class TilePainter {
   CameraRays ray_;
   const PixelRect& window_;
   Film& film_;
+  std::uint32_t samples_;
   std::vector<PixelOffset> pattern_;
   Vec3 background_;
   std::uint32_t block_width_, block_height_;

@@ -133,7 +133,8 @@ TEST(RenderOptions, OutOfRangeAreUsageErrors) {
 /// Answers by the ray alone, with half coverage.
 class DirectionIntegrator final : public Integrator {
  public:
-  void trace(const World&, std::span<const Ray> rays, std::span<Sample> samples) const override {
+  void trace(const World&, std::span<const Ray> rays, std::span<const SampleId>,
+             std::span<Sample> samples) const override {
     for (std::size_t i = 0; i < rays.size(); ++i) samples[i] = {.color = rays[i].o, .alpha = 0.5F};
   }
 };

@@ -70,7 +70,7 @@ Display of_positions(const Film& film) {
 }  // namespace
 
 void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
-                          std::span<Sample> samples) const {
+                          std::span<const SampleId> /*ids*/, std::span<Sample> samples) const {
   std::array<std::optional<Hit>, kMaxBatch> hits;
   find_seen(world, rays, std::span(hits).first(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {

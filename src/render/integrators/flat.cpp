@@ -58,7 +58,7 @@ Sample composite(const World& world, const Ray& ray, const Hit& first) {
 }  // namespace
 
 void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
-                           std::span<Sample> samples) const {
+                           std::span<const SampleId> /*ids*/, std::span<Sample> samples) const {
   std::array<std::optional<Hit>, kMaxBatch> hits;
   world.bvh.intersect(rays, std::span(hits).first(rays.size()));
   for (std::size_t i = 0; i < rays.size(); ++i) {
