@@ -18,9 +18,13 @@ Element required(const Asset& asset, const Element& object, std::string_view key
 }  // namespace
 
 std::optional<Element> extension(const Element& object, std::string_view name) {
-  const JsonValue* extensions = object.value->find("extensions");
-  if (extensions == nullptr || extensions->find(name) == nullptr) return std::nullopt;
+  if (extension(*object.value, name) == nullptr) return std::nullopt;
   return object.member("extensions").member(name);
+}
+
+const JsonValue* extension(const JsonValue& object, std::string_view name) {
+  const JsonValue* extensions = object.find("extensions");
+  return extensions != nullptr ? extensions->find(name) : nullptr;
 }
 
 double number(const Asset& asset, const Element& object, std::string_view key, double standard,

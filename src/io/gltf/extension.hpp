@@ -12,6 +12,8 @@ namespace microtrace::io::gltf {
 
 /// What the extension of that name adds to an object, if it adds anything.
 [[nodiscard]] std::optional<Element> extension(const Element& object, std::string_view name);
+/// The same without a place; null if there is none.
+[[nodiscard]] const JsonValue* extension(const JsonValue& object, std::string_view name);
 
 /// A number that must lie in [least, most], or `standard` where the object has none.
 /// Throws Error (invalid_scene), as do all below.

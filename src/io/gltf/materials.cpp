@@ -1,5 +1,6 @@
 #include "io/gltf/materials.hpp"
 
+#include "io/gltf/extension.hpp"
 #include "scene/trigonometry.hpp"
 
 #include <cmath>
@@ -36,11 +37,6 @@ std::uint32_t index(const JsonValue& object, std::string_view key) {
 std::string name_of(const JsonValue& object) {
   const JsonValue* name = object.find("name");
   return name != nullptr ? name->string : std::string();
-}
-
-const JsonValue* extension(const JsonValue& object, std::string_view name) {
-  const JsonValue* extensions = object.find("extensions");
-  return extensions != nullptr ? extensions->find(name) : nullptr;
 }
 
 /// KHR_texture_transform: scaled, turned anticlockwise as seen with v going down, moved.

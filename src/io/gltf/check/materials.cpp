@@ -1,16 +1,13 @@
 #include "io/gltf/check/semantics.hpp"
+#include "io/gltf/extension.hpp"
 
 #include <numbers>
+#include <optional>
 #include <string>
 #include <unordered_set>
 
 namespace microtrace::io::gltf {
 namespace {
-
-bool has_extension(const Element& at, std::string_view name) {
-  const JsonValue* extensions = at.value->find("extensions");
-  return extensions != nullptr && extensions->find(name) != nullptr;
-}
 
 double number_or(const JsonValue& object, std::string_view key, double standard) {
   const JsonValue* value = object.find(key);
@@ -48,28 +45,26 @@ void check_mappings(Asset& asset, const Element& at) {
 void check_materials(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("materials").size(); ++i) {
     const Element at = asset.element("materials", i);
-    if (!has_extension(at, "KHR_materials_ior")) continue;
-    const Element extension = at.member("extensions").member("KHR_materials_ior");
-    const double ior = number_or(*extension.value, "ior", 1.5);
+    const std::optional<Element> extra = extension(at, "KHR_materials_ior");
+    if (!extra) continue;
+    const double ior = number_or(*extra->value, "ior", 1.5);
     if (ior > 0 && ior < 1) {
-      asset.fail(extension.member("ior"), "must be 0 or at least 1, is " + std::to_string(ior));
+      asset.fail(extra->member("ior"), "must be 0 or at least 1, is " + std::to_string(ior));
     }
   }
   for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");
     for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
-      const Element at = primitives.item(k);
-      if (!has_extension(at, "KHR_materials_variants")) continue;
-      check_mappings(asset,
-                     at.member("extensions").member("KHR_materials_variants").member("mappings"));
+      const auto variants = extension(primitives.item(k), "KHR_materials_variants");
+      if (variants) check_mappings(asset, variants->member("mappings"));
     }
   }
 }
 
 void check_lights(Asset& asset) {
-  if (!has_extension(asset.root(), "KHR_lights_punctual")) return;
-  const Element lights =
-      asset.root().member("extensions").member("KHR_lights_punctual").member("lights");
+  const std::optional<Element> punctual = extension(asset.root(), "KHR_lights_punctual");
+  if (!punctual) return;
+  const Element lights = punctual->member("lights");
   for (std::size_t i = 0; i < lights.value->items.size(); ++i) check_light(asset, lights.item(i));
 }
 

@@ -1,13 +1,13 @@
 #include "io/gltf/check/texture_infos.hpp"
 
+#include "io/gltf/extension.hpp"
+
 namespace microtrace::io::gltf {
 namespace {
 
 /// KHR_texture_transform may choose another set than the texture info itself.
 double set_of(const JsonValue& info) {
-  const JsonValue* extensions = info.find("extensions");
-  const JsonValue* transform =
-      extensions != nullptr ? extensions->find("KHR_texture_transform") : nullptr;
+  const JsonValue* transform = extension(info, "KHR_texture_transform");
   const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;
   if (set == nullptr) set = info.find("texCoord");
   return set != nullptr ? set->number : 0;
@@ -27,10 +27,9 @@ void collect(const JsonValue& object, std::vector<std::pair<std::string, double>
 }
 
 bool needs_tangents(const JsonValue& material) {
-  const JsonValue* extensions = material.find("extensions");
-  if (extensions == nullptr || material.find("normalTexture") != nullptr) return false;
-  const JsonValue* clearcoat = extensions->find("KHR_materials_clearcoat");
-  return extensions->find("KHR_materials_anisotropy") != nullptr ||
+  if (material.find("normalTexture") != nullptr) return false;
+  const JsonValue* clearcoat = extension(material, "KHR_materials_clearcoat");
+  return extension(material, "KHR_materials_anisotropy") != nullptr ||
          (clearcoat != nullptr && clearcoat->find("clearcoatNormalTexture") != nullptr);
 }
 
