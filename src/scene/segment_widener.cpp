@@ -1,5 +1,7 @@
 #include "scene/segment_widener.hpp"
 
+#include "scene/support.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,10 +19,6 @@ constexpr double kHalfWidth = 0.5 + 1.0 / 64;
 constexpr double kBias = 1.0 / 32;
 /// Lines are cut so many pixels outside the picture.
 constexpr double kMargin = 2;
-
-bool is_finite(const Vec3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
 
 /// The part [start, end] of a segment, cut by half spaces (Liang and Barsky 1984).
 struct Part {

@@ -23,25 +23,25 @@ std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
   return EllipsoidSupport{.center = center, .inverse = inverse * square};
 }
 
-std::optional<Bounds> bounds_of(const Shape& shape) {
+std::optional<Extent> extent_of(const Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Bounds bounds{.low = DVec3(infinity), .high = DVec3(-infinity)};
+  Extent extent{.low = DVec3(infinity), .high = DVec3(-infinity)};
   visit_extent(
       shape,
       [&](const DVec3& p) {
-        bounds.low = glm::min(bounds.low, p);
-        bounds.high = glm::max(bounds.high, p);
+        extent.low = glm::min(extent.low, p);
+        extent.high = glm::max(extent.high, p);
       },
       [&](const auto& support) {
         for (glm::length_t axis = 0; axis < 3; ++axis) {
           DVec3 unit(0);
           unit[axis] = 1;
-          bounds.high[axis] = support(unit);
-          bounds.low[axis] = -support(-unit);
+          extent.high[axis] = support(unit);
+          extent.low[axis] = -support(-unit);
         }
       });
-  if (!(bounds.low.x <= bounds.high.x)) return std::nullopt;
-  return bounds;
+  if (!(extent.low.x <= extent.high.x)) return std::nullopt;
+  return extent;
 }
 
 }  // namespace microtrace

@@ -84,9 +84,9 @@ void visit_extent(const Shape& shape, Point&& point, Support&& support) {
 }
 
 /// The axis-aligned box of a shape; nothing where it is empty or has no bounds.
-struct Bounds {
+struct Extent {
   DVec3 low, high;
 };
-[[nodiscard]] std::optional<Bounds> bounds_of(const Shape& shape);
+[[nodiscard]] std::optional<Extent> extent_of(const Shape& shape);
 
 }  // namespace microtrace

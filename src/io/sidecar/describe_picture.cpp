@@ -98,9 +98,9 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
     text.append(seen->count > 0 ? array({box.x0, box.y0, box.x1, box.y1}) : "null");
   }
   text.append(", \"world_box\": ");
-  if (const auto bounds = bounds_of(object.shape)) {
-    text.append("{\"min\": ").append(array(bounds->low));
-    text.append(", \"max\": ").append(array(bounds->high)).append("}");
+  if (const auto extent = extent_of(object.shape)) {
+    text.append("{\"min\": ").append(array(extent->low));
+    text.append(", \"max\": ").append(array(extent->high)).append("}");
   } else {
     text.append("null");
   }
