@@ -1,40 +1,30 @@
 #include "io/image/module.hpp"
 
-#include "io/image/module_folders.hpp"
 #include "io/image/module_picture.hpp"
+#include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <dlfcn.h>
-#include <filesystem>
 #include <utility>
 
 namespace microtrace::io {
 namespace {
 
-namespace fs = std::filesystem;
-
 void* load_module(const std::string& file) {
-  std::string sought;
-  for (const fs::path& folder : module_folders()) {
-    const fs::path path = folder / module_file_name;
-    sought += sought.empty() ? "" : ", ";
-    sought += folder.string();
-    std::error_code error;
-    if (!fs::exists(path, error)) continue;
-    if (void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) return handle;
-    const char* reason = ::dlerror();
-    std::string message = "can't load the OpenImageIO module: ";
-    message += reason == nullptr ? path.c_str() : reason;
-    message += "; install libopenimageio2.4, or write .ppm";
-    throw Error(ErrorKind::unsupported, file, message);
+  const Module module = open_module(module_file_name);
+  if (module.handle != nullptr) return module.handle;
+  if (!module.path.empty()) {
+    throw Error(ErrorKind::unsupported, file,
+                "can't load the OpenImageIO module: " + module.complaint +
+                    "; install libopenimageio2.4, or write .ppm");
   }
   std::string message =
       "only .ppm can be written without the OpenImageIO module; install libopenimageio-dev and "
       "build the target microtrace_openimageio, or set MICROTRACE_MODULE_PATH to the folder of ";
   message += module_file_name;
   message += " (sought in ";
-  message += sought;
+  message += module.sought;
   message += ")";
   throw Error(ErrorKind::unsupported, file, message);
 }
