@@ -1,6 +1,5 @@
 #include "io/gltf/cameras.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -9,13 +8,6 @@
 
 namespace microtrace::io::gltf {
 namespace {
-
-/// The direction of a vector of any finite length but zero.
-std::optional<DVec3> normalized(const DVec3& v) {
-  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
-  return glm::normalize(v / largest);
-}
 
 /// Only position and orientation of the node: scale does not distort what a camera sees.
 std::optional<Pose> pose_of(const DMat4& world_from_node) {

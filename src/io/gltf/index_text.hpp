@@ -17,4 +17,9 @@ namespace microtrace::io::gltf {
   return value;
 }
 
+/// The number of a set of vertex attributes, 1 for TEXCOORD_1.
+[[nodiscard]] inline std::optional<std::size_t> set_in(std::string_view attribute) {
+  return index_in(attribute.substr(attribute.find('_') + 1));
+}
+
 }  // namespace microtrace::io::gltf

@@ -3,13 +3,10 @@
 #include "io/gltf/extension.hpp"
 #include "io/json/excerpt.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <utility>
-
-#include <glm/geometric.hpp>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -59,21 +56,13 @@ Cone cone_of(const Asset& asset, const Element& light) {
   asset.fail(spot, "must have an outerConeAngle that is greater than innerConeAngle");
 }
 
-/// The -z axis of a node in the world.
-std::optional<DVec3> direction_of(const DMat4& world_from_node) {
-  const DVec3 axis = -DVec3(world_from_node[2]);
-  const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
-  return glm::normalize(axis / largest);
-}
-
 /// Nothing if the light has no place in the world.
 std::optional<Light> placed(const Asset& asset, const Element& light,
                             const DMat4& world_from_node) {
   const std::string& type = string(asset, light, "type");
   const auto [color, intensity, range] = common_of(asset, light);
   const DVec3 position(world_from_node[3]);
-  const std::optional<DVec3> direction = direction_of(world_from_node);
+  const std::optional<DVec3> direction = normalized(-DVec3(world_from_node[2]));
   const bool is_somewhere = std::isfinite(position.x + position.y + position.z);
   if (type == "directional") {
     if (!direction) return std::nullopt;

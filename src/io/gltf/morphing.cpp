@@ -1,8 +1,8 @@
 #include "io/gltf/morphing.hpp"
 
+#include "io/gltf/index_text.hpp"
+
 #include <algorithm>
-#include <charconv>
-#include <string_view>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -24,14 +24,6 @@ void add_weighted(std::vector<Sum>& sum, const std::vector<Base>& base, double w
       sum[i][k] += static_cast<Number>(weight * deltas[i][k]);
     }
   }
-}
-
-/// The number of a set in a name such as TEXCOORD_1.
-std::size_t set_of(std::string_view name) {
-  std::size_t set = 0;
-  name.remove_prefix(name.find('_') + 1);
-  std::from_chars(name.data(), name.data() + name.size(), set);
-  return set;
 }
 
 }  // namespace
@@ -79,7 +71,7 @@ void Morpher::add(const Element& at, int accessor, const std::string& name, doub
       add_weighted(result.tangents, mesh.tangents, weight, deltas(Vec3()));
     }
   } else if (name.starts_with("TEXCOORD_")) {
-    const std::size_t set = set_of(name);
+    const std::size_t set = set_in(name).value_or(0);
     if (set >= mesh.uv_sets.size() || mesh.uv_sets[set].empty()) return;
     if (result.uv_sets.empty()) result.uv_sets = mesh.uv_sets;
     add_weighted(result.uv_sets[set], mesh.uv_sets[set], weight, deltas(Vec2()));

@@ -35,6 +35,12 @@ bool is_shown(const Asset& asset, std::size_t node) {
 
 }  // namespace
 
+std::optional<DVec3> normalized(const DVec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
+  return glm::normalize(v / largest);
+}
+
 NodeTree::NodeTree(const tinygltf::Model& model) : model_(model), parents_(model.nodes.size(), -1) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     for (const int child : model.nodes[i].children) {

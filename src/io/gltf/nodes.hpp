@@ -9,6 +9,7 @@
 #include <microtrace/math.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -26,6 +27,9 @@ struct PlacedNode {
 /// translation * rotation * scale, the rotation a quaternion (x, y, z, w) of unit length.
 [[nodiscard]] DMat4 composed(const DVec3& translation, const glm::dvec4& rotation,
                              const DVec3& scale);
+
+/// The direction of a vector; nothing if its length is zero or not finite.
+[[nodiscard]] std::optional<DVec3> normalized(const DVec3& v);
 
 class NodeTree {
  public:

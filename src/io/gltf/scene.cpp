@@ -20,9 +20,9 @@
 #include "io/gltf/surfaces.hpp"
 #include "io/gltf/variants.hpp"
 #include "io/load_clock.hpp"
+#include "scene/support.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -35,10 +35,8 @@ namespace {
 using gltf::Asset, gltf::Element, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
 
 bool is_finite(const Mesh& mesh) {
-  for (const Vec3& p : mesh.positions) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return false;
-  }
-  return true;
+  return std::ranges::all_of(mesh.positions,
+                             [](const Vec3& p) { return microtrace::is_finite(p); });
 }
 
 class SceneMaker {
@@ -103,15 +101,8 @@ class SceneMaker {
       }
       objects_.push_back({.name = names_.make(name(path, index, surface)),
                           .shape = std::move(world),
-                          .material = material(surface)});
+                          .material = surface.material});
     }
-  }
-
-  /// make_materials puts the one of surfaces without material last.
-  [[nodiscard]] std::uint32_t material(const Surface& surface) const {
-    const std::size_t none = model_.materials.size();
-    return surface.material < 0 ? static_cast<std::uint32_t>(none)
-                                : static_cast<std::uint32_t>(surface.material);
   }
 
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const {
@@ -166,14 +157,14 @@ struct GltfFile::Content {
         asset(json),
         model(checked_model(options.variant)),
         tree(model),
-        buffers(loaded_buffers({.own = folder, .allowed = options.allowed_folders})),
+        folders{.own = folder, .allowed = options.allowed_folders},
+        buffers(loaded_buffers()),
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
         textures(gltf::make_textures(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
-        images(gltf::load_images(asset, views, {.own = folder, .allowed = options.allowed_folders},
-                                 wanted_images(options.detail))),
+        images(gltf::load_images(asset, views, folders, wanted_images(options.detail))),
         instances(asset, model, reader),
         animations(gltf::choose_animations(asset, options.animation)) {
     gltf::warn_of_ignored_features(asset);
@@ -187,7 +178,7 @@ struct GltfFile::Content {
     clock.lap(&LoadTimes::bake);
   }
 
-  std::vector<gltf::Buffer> loaded_buffers(const gltf::ResourceFolders& folders) {
+  std::vector<gltf::Buffer> loaded_buffers() {
     clock.lap(&LoadTimes::validate);
     std::vector<gltf::Buffer> result = gltf::load_buffers(asset, container.bin, folders);
     clock.lap(&LoadTimes::read);
@@ -224,14 +215,9 @@ struct GltfFile::Content {
   [[nodiscard]] std::vector<bool> wanted_images(SurfaceDetail detail) const {
     std::vector<bool> drawn(materials.size());
     for (const auto& mesh : surfaces) {
-      for (const Surface& surface : mesh) drawn[material_index(surface)] = true;
+      for (const Surface& surface : mesh) drawn[surface.material] = true;
     }
     return gltf::wanted_images(materials, drawn, textures, asset.array("images").size(), detail);
-  }
-
-  /// make_materials puts the one of surfaces without material last.
-  [[nodiscard]] std::size_t material_index(const Surface& surface) const {
-    return surface.material < 0 ? materials.size() - 1 : static_cast<std::size_t>(surface.material);
   }
 
   LoadTimes* times;
@@ -242,6 +228,7 @@ struct GltfFile::Content {
   Asset asset;
   tinygltf::Model model;
   NodeTree tree;
+  gltf::ResourceFolders folders;
   std::vector<gltf::Buffer> buffers;
   gltf::BufferViews views;
   gltf::AccessorReader reader;

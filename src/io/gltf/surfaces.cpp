@@ -41,7 +41,7 @@ class SurfaceMaker {
       return std::nullopt;
     }
     const std::vector<std::uint32_t> vertices = vertices_of(at, primitive, position->second);
-    Surface result{.material = primitive.material};
+    Surface result{.material = material_of(primitive)};
     const int mode = is_draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (add_primitives(mode, vertices, result.mesh)) {
       asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
@@ -50,7 +50,7 @@ class SurfaceMaker {
     result.vertices = number_vertices(result.mesh, accessor(position->second).count);
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
-                    {.material = material(primitive), .detail = detail_}, result.mesh);
+                    {.material = materials_[result.material], .detail = detail_}, result.mesh);
     return result;
   }
 
@@ -60,9 +60,9 @@ class SurfaceMaker {
   }
 
   /// make_materials puts the one of primitives without material last.
-  const Material& material(const tinygltf::Primitive& primitive) const {
-    if (primitive.material < 0) return materials_.back();
-    return materials_[static_cast<std::size_t>(primitive.material)];
+  std::uint32_t material_of(const tinygltf::Primitive& primitive) const {
+    if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
+    return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
   void check_count(const Element& at, std::size_t count) {

@@ -23,8 +23,8 @@ struct Surface {
   /// Which of the primitive's vertices each of the mesh is, ascending: AccessorReader::read takes
   /// them to read other attributes.
   std::vector<std::uint32_t> vertices{};
-  int material = -1;
-  std::size_t number = 0;  ///< among the mesh's primitives
+  std::uint32_t material = 0;  ///< of make_materials
+  std::size_t number = 0;      ///< among the mesh's primitives
 };
 
 /// The surfaces of each mesh, by its index. Primitives without POSITION or without data make
