@@ -1,4 +1,4 @@
-# What `cmake --install` puts where, and the package that find_package(microtrace) finds.
+# What `cmake --install` puts where, beside the modules, and the package that find_package(microtrace) finds.
 include(CMakePackageConfigHelpers)
 set(microtrace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microtrace)
 
@@ -6,18 +6,6 @@ install(TARGETS microtrace)
 install(TARGETS microtrace_library EXPORT microtraceTargets)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
 install(DIRECTORY docs/ TYPE DOC FILES_MATCHING PATTERN *.md PATTERN *.json)
-if(MICROTRACE_WITH_MESHOPT)
-  install(TARGETS microtrace_meshopt LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
-endif()
-if(MICROTRACE_WITH_DRACO)
-  install(TARGETS microtrace_draco LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
-endif()
-if(MICROTRACE_WITH_CODECS)
-  install(TARGETS microtrace_codecs LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
-endif()
-if(MICROTRACE_WITH_OPENIMAGEIO)
-  install(TARGETS microtrace_openimageio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
-endif()
 
 install(EXPORT microtraceTargets NAMESPACE microtrace:: DESTINATION ${microtrace_package_dir})
 configure_package_config_file(cmake/microtraceConfig.cmake.in
