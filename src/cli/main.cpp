@@ -80,15 +80,16 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
     const ImageSize size = arguments.size.value_or(scene.size);
     const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments, size);
     watch.loaded(std::exchange(times, {}));
-    if (arguments.validate) return;
+    if (arguments.validate) continue;
 
-    if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
     const std::filesystem::path picture = frame_path(output, frame);
     const std::filesystem::path beside = frame_path(sidecar, frame);
-    cli::make_picture(scene, camera, size, arguments, picture, beside, watch, [&](double share) {
-      if (progress) progress((frame - frames.first + share) / frames.count());
-    });
+    cli::make_picture(std::move(scene), camera, size, arguments, picture, beside, watch,
+                      [&](double share) {
+                        if (progress) progress((frame - frames.first + share) / frames.count());
+                      });
   }
+  if (arguments.validate) cli::print_valid(arguments.scene, reported.size());
 }
 
 void run(const cli::Arguments& arguments) {
@@ -104,10 +105,9 @@ void run(const cli::Arguments& arguments) {
   watch.loaded(times);
   if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 
-  if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
-  cli::make_picture(scene, camera, size, arguments, arguments.output, arguments.sidecar, watch,
-                    cli::progress_of(arguments));
+  cli::make_picture(std::move(scene), camera, size, arguments, arguments.output, arguments.sidecar,
+                    watch, cli::progress_of(arguments));
 }
 
 }  // namespace

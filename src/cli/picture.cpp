@@ -30,15 +30,11 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
 
-void make_picture(const Scene& scene, const Camera& camera, ImageSize size,
-                  const Arguments& arguments, const std::filesystem::path& output,
-                  const std::filesystem::path& sidecar, Stopwatch& watch,
-                  const std::function<void(double)>& progress) {
-  if (has_segments(scene)) {  // for the sidecar too, that its ids are the picture's
-    Scene widened = scene;
-    widen_segments(widened, camera, size);
-    return make_picture(widened, camera, size, arguments, output, sidecar, watch, progress);
-  }
+void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
+                  const std::filesystem::path& output, const std::filesystem::path& sidecar,
+                  Stopwatch& watch, const std::function<void(double)>& progress) {
+  if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
+  widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
   RenderOptions options{

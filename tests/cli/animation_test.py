@@ -11,12 +11,11 @@ import signal
 import struct
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
-from pathlib import Path
 
-PROGRAM = os.path.abspath(sys.argv[1])
+sys.dont_write_bytecode = True
+from program import PROGRAM, ProgramTest
 
 
 def moving_square():
@@ -69,19 +68,10 @@ def lower_left(picture):
     return min(lit) if lit else None
 
 
-class Animation(unittest.TestCase):
+class Animation(ProgramTest):
     def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = Path(self.scratch.name)
+        super().setUp()
         (self.folder / "move.gltf").write_text(moving_square())
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def run_program(self, *arguments):
-        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
-                              cwd=self.folder, timeout=60)
 
     def square_at(self, *arguments):
         # Ten pixels are one unit; the picture's lower left corner is (-2, -1).
@@ -137,6 +127,18 @@ class Animation(unittest.TestCase):
         result = self.frames("--frames", "0:2", "--fps", "1", "--animation", "up", "-o", "-")
         singles = [self.frames("--time", k, "--animation", "up", "-o", "-").stdout for k in range(3)]
         self.assertEqual(result.stdout, b"".join(singles))
+
+    def test_frames_are_validated(self):
+        asset = json.loads((self.folder / "move.gltf").read_text())
+        asset["extensionsUsed"] = ["VENDOR_unknown"]
+        (self.folder / "warned.gltf").write_text(json.dumps(asset))
+        asset["accessors"][2]["componentType"] = 5123  # of the times
+        (self.folder / "wrong.gltf").write_text(json.dumps(asset))
+        for name, code, verdict in (("move.gltf", 0, "valid"), ("warned.gltf", 0, "valid, 1 warning"),
+                                    ("wrong.gltf", 3, "invalid")):
+            result = self.run_program(name, "--frames", "0:3", "--validate")
+            self.assertEqual((result.returncode, result.stdout.decode()), (code, f"{name}: {verdict}\n"))
+        self.assertEqual(len(os.listdir(self.folder)), 3)
 
     def test_wrong_frames_are_usage_errors(self):
         for arguments, fragment in (

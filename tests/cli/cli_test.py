@@ -10,12 +10,13 @@ import resource
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
 
-PROGRAM = os.path.abspath(sys.argv[1])
+sys.dont_write_bytecode = True
+from program import PROGRAM, ProgramTest, environment
+
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
 
@@ -32,21 +33,7 @@ def minimal(**changes):
     return json.dumps(scene)
 
 
-class CommandLine(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = Path(self.scratch.name)
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def run_program(self, *arguments, **options):
-        options.setdefault("cwd", self.folder)
-        options.setdefault("timeout", 60)
-        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
-                              **options)
-
+class CommandLine(ProgramTest):
     def run_and_weigh(self, *arguments):
         """The exit code, standard error, and peak memory in KiB."""
         with open(self.folder.parent / f"{self.folder.name}.err", "w+b") as errors:
@@ -291,13 +278,10 @@ class CommandLine(unittest.TestCase):
                  asset["bufferViews"][0], meshopt)]:
             holder["extensions"] = {name: value}
             asset["extensionsUsed"] = [name]
-            environment = dict(os.environ, MICROTRACE_MODULE_PATH="/nowhere",
-                               ASAN_OPTIONS="detect_leaks=0")
             for required, code in [([name], 4), ([], 0)]:
                 asset["extensionsRequired"] = required
                 (self.folder / "a.gltf").write_text(json.dumps(asset))
-                result = subprocess.run([PROGRAM, self.folder / "a.gltf", "-o", "-"],
-                                        capture_output=True, env=environment)
+                result = self.run_program("a.gltf", "-o", "-", env=environment(MICROTRACE_MODULE_PATH="/nowhere"))
                 self.assertEqual(result.returncode, code, result.stderr)
                 self.assertIn(package.encode(), result.stderr)
             del holder["extensions"]

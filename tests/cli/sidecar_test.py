@@ -7,16 +7,14 @@ usage: sidecar_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 import json
 import math
 import os
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
 from exr import Exr
+from program import ProgramTest
 
-PROGRAM = os.path.abspath(sys.argv[1])
 SOURCE = Path(sys.argv[2]).resolve()
 ALL = "depth,distance,position,normal,face_normal,uv,barycentric,albedo,id"
 
@@ -25,19 +23,7 @@ def transformed(rows, point):
     return [sum(r[k] * point[k] for k in range(3)) + r[3] for r in rows[:3]]
 
 
-class Sidecar(unittest.TestCase):
-    def setUp(self):
-        self.scratch = tempfile.TemporaryDirectory()
-        self.folder = Path(self.scratch.name)
-
-    def tearDown(self):
-        self.scratch.cleanup()
-
-    def run_program(self, *arguments):
-        environment = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, env=environment,
-                              cwd=self.folder, timeout=60)
-
+class Sidecar(ProgramTest):
     def draw(self, scene, *options):
         """The sidecar and the picture, after the checks that hold for every scene."""
         result = self.run_program(SOURCE / "scenes" / scene, "--aov", ALL, "-o", "a.exr", "--size", "60x45", *options)
