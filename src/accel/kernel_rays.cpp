@@ -21,14 +21,15 @@ float begin_at(float t) {
   return t < kLeastBegin ? 0 : std::min(t, kFarthestCoordinate);
 }
 
-}  // namespace
-
+// Whether a ray is valid and keeps KernelRay's limits.
 bool suits_kernels(const Ray& ray) {
   return within(ray.o, kFarthestCoordinate) && within(ray.d, kLongestDirection) &&
          (std::abs(ray.d.x) >= kShortestDirection || std::abs(ray.d.y) >= kShortestDirection ||
           std::abs(ray.d.z) >= kShortestDirection) &&
          ray.t_min >= 0 && ray.t_min <= kFarthestCoordinate && ray.t_min <= ray.t_max;
 }
+
+}  // namespace
 
 double kernel_t_scale(const Ray& ray) {
   if (suits_kernels(ray)) return 1;

@@ -10,9 +10,6 @@
 
 namespace microtrace {
 
-/// Whether a ray is valid and keeps KernelRay's limits.
-[[nodiscard]] bool suits_kernels(const Ray& ray);
-
 /// The power of two 2^k for which o + t d, written as o + (2^k t) (d / 2^k), keeps KernelRay's
 /// limits: 1 for a ray that suits kernels. 0 if there is none, or if a component of d / 2^k would
 /// be rounded, or if the ray is not valid.
