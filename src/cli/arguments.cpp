@@ -1,5 +1,6 @@
 #include "cli/arguments.hpp"
 
+#include "cli/arguments_sampling.hpp"
 #include "cli/help.hpp"
 #include "cli/option_values.hpp"
 
@@ -34,12 +35,25 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
 
 /// The words in which --help speaks of options' values, and the options' order.
 void name_values(CLI::App& app) {
-  constexpr std::array<std::pair<const char*, const char*>, 19> kNames{{
-      {"SCENE", "FILE"},          {"--output", "FILE"},  {"--size", "WxH"},      {"--crop", "RECT"},
-      {"--background", "COLOUR"}, {"--spp", "N"},        {"--camera", "NAME"},   {"--view", "VIEW"},
-      {"--integrator", "NAME"},   {"--aov", "LIST"},     {"--sidecar", "FILE"},  {"--time", "S"},
-      {"--animation", "NAME"},    {"--variant", "NAME"}, {"--frames", "RANGE"},  {"--fps", "N"},
-      {"--threads", "N"},         {"--ppm", "KIND"},     {"--progress", "KIND"},
+  constexpr std::array<std::pair<const char*, const char*>, 18> kNames{{
+      {"SCENE", "FILE"},
+      {"--output", "FILE"},
+      {"--size", "WxH"},
+      {"--crop", "RECT"},
+      {"--background", "COLOUR"},
+      {"--camera", "NAME"},
+      {"--view", "VIEW"},
+      {"--integrator", "NAME"},
+      {"--aov", "LIST"},
+      {"--sidecar", "FILE"},
+      {"--time", "S"},
+      {"--animation", "NAME"},
+      {"--variant", "NAME"},
+      {"--frames", "RANGE"},
+      {"--fps", "N"},
+      {"--threads", "N"},
+      {"--ppm", "KIND"},
+      {"--progress", "KIND"},
   }};
   for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
   for (const char* option :
@@ -72,9 +86,7 @@ Parsed parse_arguments(int argc, char** argv) {
       "--background", background,
       "what is seen behind all objects: #rrggbb in sRGB, r,g,b in linear light from 0 to "
       "1, or transparent: an alpha channel [as the scene says, or black]");
-  app.add_option("--spp,--samples", a.samples,
-                 "rays for each pixel, spread over it [1, through its centre]")
-      ->check(CLI::Range(1U, kMaxSamples));
+  add_sampling_options(app, a.sampling);
   app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
   app.add_option("--view", view,
                  "look at the whole scene from front, back, left, right, top, bottom, iso or "

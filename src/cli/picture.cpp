@@ -42,7 +42,8 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .progress = progress,
       .times = &times,
       .integrator = integrator.get(),
-      .samples = arguments.samples,
+      .samples = arguments.sampling.samples,
+      .seed = arguments.sampling.seed,
       .crop = arguments.crop,
       .aovs = arguments.aovs,
       .transparent = is_transparent(arguments),
@@ -61,7 +62,8 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
     std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
   save_image(film, output, arguments.ppm, sidecar.empty() ? nullptr : &beside);
   watch.written();
-  watch.report(arguments.statistics, scene, film.size(), arguments.samples, options.threads);
+  watch.report(arguments.statistics, scene, film.size(), arguments.sampling.samples,
+               options.threads);
 }
 
 }  // namespace microtrace::cli
