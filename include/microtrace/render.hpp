@@ -22,6 +22,13 @@ struct RenderTimes {
   double trace = 0;  ///< drawing
 };
 
+/// How the samples around a pixel's centre weigh in its colour. They lie as dense as the filter is
+/// high, so that all weigh the same and no pixel depends on another's samples.
+enum class PixelFilter {
+  box,              ///< the pixel's square, evenly
+  blackman_harris,  ///< a bell, 3 pixels wide in x and in y (radius 1.5)
+};
+
 struct RenderOptions {
   unsigned threads = 0;  ///< 0: default_threads()
   /// Told the share of the picture that is done, in (0, 1]; by one thread at a time, not always the
@@ -30,12 +37,13 @@ struct RenderOptions {
   RenderTimes* times = nullptr;            ///< if given, set at the end
   const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
   /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
-  /// square, in the same places in each pixel, and weigh the same (a box filter): sample k of n
-  /// lies at x = (k + 1/2) / n, y = (r(k) + 1/2) / n, where r puts the numbers 0 to n - 1 in the
-  /// order of van der Corput's sequence. Integrators whose answers are random get rays through
-  /// random places, even if there is one.
+  /// square, in the same places in each pixel, and weigh the same: sample k of n lies at x = (k +
+  /// 1/2) / n, y = (r(k) + 1/2) / n, where r puts the numbers 0 to n - 1 in the order of van der
+  /// Corput's sequence. Integrators whose answers are random get rays through random places, even
+  /// if there is one.
   std::uint32_t samples = 1;
-  std::uint32_t seed = 0;  ///< of all that is random; another one gives other noise
+  PixelFilter filter = PixelFilter::box;  ///< another moves samples from where they lie for a box
+  std::uint32_t seed = 0;                 ///< of all that is random; another one gives other noise
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};

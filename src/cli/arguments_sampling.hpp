@@ -1,6 +1,8 @@
 #pragma once
 /// Options for the samples that pixels are made of.
 
+#include <microtrace/render.hpp>
+
 #include <cstdint>
 
 namespace CLI {
@@ -11,6 +13,7 @@ namespace microtrace::cli {
 
 struct Sampling {
   std::uint32_t samples = 1;  ///< per pixel
+  PixelFilter filter = PixelFilter::box;
   std::uint32_t seed = 0;
 };
 

@@ -43,6 +43,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .times = &times,
       .integrator = integrator.get(),
       .samples = arguments.sampling.samples,
+      .filter = arguments.sampling.filter,
       .seed = arguments.sampling.seed,
       .crop = arguments.crop,
       .aovs = arguments.aovs,

@@ -88,7 +88,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   film.whole = size;
   film.x0 = window.x0;
   film.y0 = window.y0;
-  const TilePainter colors(world, integrator, options.samples, window, film);
+  const TilePainter colors(world, integrator, options, window, film);
   // What is exact has nothing to do with samples.
   const Surfaces exact_surfaces(surfaces, 1);
   const World exact_world{.scene = scene, .bvh = bvh, .surfaces = exact_surfaces, .camera = rays};

@@ -8,6 +8,7 @@
 #include <array>
 #include <new>
 #include <span>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -60,17 +61,24 @@ class Batch {
   std::array<Sample, Size> samples_;
 };
 
+std::vector<PixelOffset> filtered_pattern(std::uint32_t samples, const FilterSampler& filter) {
+  std::vector<PixelOffset> pattern = sample_pattern(samples);
+  for (PixelOffset& place : pattern) place = filter(place.x, place.y);
+  return pattern;
+}
+
 }  // namespace
 
-TilePainter::TilePainter(const World& world, const Integrator& integrator, std::uint32_t samples,
-                         const PixelRect& window, Film& film)
+TilePainter::TilePainter(const World& world, const Integrator& integrator,
+                         const RenderOptions& options, const PixelRect& window, Film& film)
     : world_(world),
       integrator_(integrator),
       ray_(world.camera, world.scene),
       window_(window),
       film_(film),
-      samples_(samples),
-      pattern_(sample_pattern(samples)),
+      samples_(options.samples),
+      filter_(options.filter),
+      pattern_(filtered_pattern(options.samples, filter_)),
       background_(integrator.is_data() ? Vec3(0) : world.scene.background),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
@@ -143,9 +151,10 @@ void TilePainter::paint_at_random(const PixelRect& tile) const {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
         if (batch.is_full()) trace();
         const SampleId id{.x = x, .y = y, .index = k};
-        const Vec2 offset = sampling::Sobol(world_.seed, id).pair(sampling::kPixelPair);
+        const Vec2 uv = sampling::Sobol(world_.seed, id).pair(sampling::kPixelPair);
+        const PixelOffset offset = filter_(uv.x, uv.y);
         batch.add(std::size_t{y - tile.y0} * width + (x - tile.x0), id,
-                  [&] { return ray_(x + double{offset.x}, y + double{offset.y}); });
+                  [&] { return ray_(x + offset.x, y + offset.y); });
       }
     }
   }

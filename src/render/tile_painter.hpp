@@ -2,6 +2,7 @@
 /// Fills the film tile by tile.
 
 #include "render/camera_rays.hpp"
+#include "render/pixel_filter.hpp"
 #include "render/sample_pattern.hpp"
 
 #include <microtrace/film.hpp>
@@ -15,7 +16,7 @@ namespace microtrace {
 class TilePainter {
  public:
   /// All of these must outlive it; the film holds the pixels of `window`.
-  TilePainter(const World& world, const Integrator& integrator, std::uint32_t samples,
+  TilePainter(const World& world, const Integrator& integrator, const RenderOptions& options,
               const PixelRect& window, Film& film);
 
   /// A tile of the window, at most kTileEdge pixels a side.
@@ -32,6 +33,7 @@ class TilePainter {
   const PixelRect& window_;
   Film& film_;
   std::uint32_t samples_;
+  FilterSampler filter_;
   std::vector<PixelOffset> pattern_;
   Vec3 background_;
   std::uint32_t block_width_, block_height_;

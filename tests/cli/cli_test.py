@@ -292,7 +292,7 @@ class CommandLine(ProgramTest):
                           [SCENE, "--size", "-3x4"], [SCENE, "--threads", "0"],
                           [SCENE, "--threads", "many"], [SCENE, "--ppm", "p7"], [SCENE, "--size", ""],
                           [SCENE, "--spp", "0"], [SCENE, "--spp", "65537"],
-                          [SCENE, "--seed", "-1"], [SCENE, "--seed", "4294967296"], [SCENE, "--crop", "1,2,3"],
+                          [SCENE, "--filter", "gauss"], [SCENE, "--seed", "-1"], [SCENE, "--seed", "4294967296"], [SCENE, "--crop", "1,2,3"],
                           [SCENE, "--crop", "1,2,3,4,5"], [SCENE, "--crop", "0,0,-1,4"],
                           [SCENE, "--stats=xml"], [SCENE, "-o", "picture.xyz"], [SCENE, SCENE], ["-"]):
             result = self.run_program(*arguments, stdin=subprocess.DEVNULL)

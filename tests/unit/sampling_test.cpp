@@ -74,6 +74,19 @@ TEST(Antialiasing, AnEdgeCoversItsShareOfAPixel) {
   }
 }
 
+// The filter's weight left of an edge, for an edge in the middle of a pixel and half a pixel beside
+// it.
+TEST(Antialiasing, FilterSoftensAnEdgeByItsWeight) {
+  Film film = drawn(half_plane(0.35F), {.samples = 256, .filter = PixelFilter::blackman_harris});
+  EXPECT_NEAR(film.at(13, 5).x, 0.5, 0.01);
+  // At one pixel: 1/2 + t + (a1 sin(2 pi t) + a2/2 sin(4 pi t) + a3/3 sin(6 pi t)) / (2 pi a0),
+  // t = 1/3.
+  EXPECT_NEAR(film.at(12, 5).x, 0.9934, 0.004);
+  EXPECT_NEAR(film.at(14, 5).x, 0.0066, 0.004);
+  EXPECT_EQ(film.at(11, 5), kWhite);
+  EXPECT_EQ(film.at(15, 5), kBlue);
+}
+
 TEST(Antialiasing, AlphaIsTheShareAndColourIsMultipliedWithIt) {
   Film film = drawn(half_plane(0.33F), {.threads = 1, .samples = 16, .transparent = true});
   ASSERT_TRUE(film.has_alpha());

@@ -1,0 +1,54 @@
+#include "render/pixel_filter.hpp"
+
+#include "scene/trigonometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace microtrace {
+namespace {
+
+constexpr double kRadius = 1.5;  // pixels
+
+/// The part of the window's weight within t of its middle, where it is 1 wide: 0 at 0, 1 at 1/2.
+/// Its coefficients are those of F. J. Harris, On the use of windows for harmonic analysis with the
+/// discrete Fourier transform, 1978: "4-term, -92 dB".
+double weight_within(double t) {
+  constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
+  constexpr double pi = std::numbers::pi;
+  const double waves = a1 * sin_radians(2 * pi * t) + a2 / 2 * sin_radians(4 * pi * t) +
+                       a3 / 3 * sin_radians(6 * pi * t);
+  return 2 * t + waves / (pi * a0);
+}
+
+/// The t of that weight; weight_within rises, as the window is nowhere negative.
+double reach_of(double weight) {
+  double low = 0, high = 0.5;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = (low + high) / 2;
+    (weight_within(middle) < weight ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+FilterSampler::FilterSampler(PixelFilter filter) : filter_(filter) {
+  if (filter == PixelFilter::box) return;
+  for (std::size_t i = 1; i < kSteps; ++i) {
+    const double outside = 1 - static_cast<double>(i) / kSteps;
+    reach_[i] = 2 * kRadius * reach_of(1 - outside * outside);
+  }
+  reach_[kSteps] = kRadius;
+}
+
+double FilterSampler::place(double u) const {
+  const double at = (1 - std::sqrt(1 - std::abs(2 * u - 1))) * kSteps;
+  const std::size_t step = std::min(static_cast<std::size_t>(at), kSteps - 1);
+  const double share = at - static_cast<double>(step);
+  const double reach = reach_[step] + share * (reach_[step + 1] - reach_[step]);
+  return u < 0.5 ? 0.5 - reach : 0.5 + reach;
+}
+
+}  // namespace microtrace
