@@ -2,6 +2,7 @@
 /// A scene as the loaders make it: plain data, checked by `validate`.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/environment.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/light.hpp>
 #include <microtrace/material.hpp>
@@ -40,9 +41,10 @@ struct Scene {
   std::vector<std::shared_ptr<const Image>> images;  ///< null where one was not decoded
   std::vector<NamedCamera> cameras;                  ///< none: see default_camera
   std::vector<NamedLight> lights{};
-  ImageSize size;      ///< of the picture, unless the caller wants another
-  Vec3 background{0};  ///< linear Rec. 709
-  float epsilon = 0;   ///< primary rays hit only in the open interval (epsilon, infinity)
+  std::optional<Environment> environment{};  ///< has no influence on flat pictures
+  ImageSize size;                            ///< of the picture, unless the caller wants another
+  Vec3 background{0};                        ///< linear Rec. 709
+  float epsilon = 0;  ///< primary rays hit only in the open interval (epsilon, infinity)
 };
 
 /// The object's material, which lives as long as the scene.

@@ -1,0 +1,275 @@
+#include "render/lights/environment_light.hpp"
+
+#include "render/lights/studio.hpp"
+#include "render/sampling/sobol.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+std::shared_ptr<const RadianceMap> map_of(
+    std::uint32_t width, std::uint32_t height,
+    const std::function<Vec3(std::uint32_t, std::uint32_t)>& f) {
+  RadianceMap map{.width = width, .height = height};
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) map.pixels.push_back(f(x, y));
+  }
+  return std::make_shared<const RadianceMap>(std::move(map));
+}
+
+/// Dim, with a sun of one pixel.
+std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t height) {
+  return map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
+    if (x == width / 3 && y == height / 4) return Vec3(20000, 18000, 15000);
+    return Vec3(0.1F + 0.3F * static_cast<float>(x % 5), 0.2F, 0.05F * static_cast<float>(y % 7));
+  });
+}
+
+/// Directions and their weights, the sum of which is 4 pi: the midpoints of a fine grid.
+template <class F>
+void for_sphere(std::uint32_t rows, F&& f) {
+  for (std::uint32_t j = 0; j < rows; ++j) {
+    const double y = 1 - (2 * j + 1.0) / rows;
+    const double r = std::sqrt(1 - y * y);
+    for (std::uint32_t i = 0; i < 2 * rows; ++i) {
+      const double phi = (i + 0.5) / rows * kPi;
+      f(Vec3(DVec3(r * std::cos(phi), y, r * std::sin(phi))), 2 * kPi / rows / rows);
+    }
+  }
+}
+
+Vec2 sobol(std::uint32_t i) {
+  return sampling::Sobol(7, {.x = 1, .y = 2, .index = i}).pair(0);
+}
+
+TEST(EnvironmentLight, AUniformOneIsTheSameFromEverywhere) {
+  const EnvironmentLight light({.content = Vec3(1, 2, 3), .rotation = 1, .intensity = 0.5F});
+  EXPECT_TRUE(light.is_uniform());
+  DVec3 sum(0);
+  for (std::uint32_t i = 0; i < 4096; ++i) {
+    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    EXPECT_EQ(sample.radiance, Vec3(0.5F, 1, 1.5F));
+    EXPECT_EQ(light.radiance(sample.wi), sample.radiance);
+    EXPECT_NEAR(sample.pdf, 1 / (4 * kPi), 1e-8);
+    EXPECT_NEAR(glm::length(sample.wi), 1, 1e-6);
+    sum += DVec3(sample.wi) / 4096.0;
+  }
+  EXPECT_NEAR(glm::length(sum), 0, 1e-3);
+}
+
+// The mapping as the header states it, for directions through the centres of pixels.
+TEST(EnvironmentLight, LooksUpByTheStatedMapping) {
+  const std::uint32_t width = 64, height = 32;
+  const auto map = map_of(width, height, [](std::uint32_t x, std::uint32_t y) {
+    return Vec3(static_cast<float>(x), static_cast<float>(y), 1);
+  });
+  const EnvironmentLight light({.content = map});
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      const double phi = ((x + 0.5) / width - 0.5) * 2 * kPi, theta = (y + 0.5) / height * kPi;
+      const Vec3 direction(
+          DVec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
+      const Vec3 radiance = light.radiance(direction);
+      ASSERT_NEAR(radiance.x, x, 1e-3);
+      ASSERT_NEAR(radiance.y, y, 1e-3);
+      ASSERT_NEAR(radiance.z, 1, 1e-6);
+    }
+  }
+}
+
+TEST(EnvironmentLight, IsBilinearAcrossTheSeam) {
+  const auto map = map_of(4, 2, [](std::uint32_t x, std::uint32_t) {
+    return Vec3(x == 0 ? 1.0F : x == 3 ? 3.0F : 0.0F);
+  });
+  const EnvironmentLight light({.content = map});
+  EXPECT_NEAR(light.radiance({-1, 0, 0}).x, 2, 1e-5);
+  EXPECT_NEAR(light.radiance({-1, 0, -1e-6F}).x, 2, 1e-5);
+  EXPECT_NEAR(light.radiance({0, 1, 0}).x, 0, 1e-5);  // atan2(0, 0) = 0: the map's middle
+  EXPECT_NEAR(light.radiance({-1, 0, -1}).x, 1, 1e-5);
+}
+
+TEST(EnvironmentLight, TurnsAnticlockwiseAsSeenFromAbove) {
+  const auto map = sunny_map(32, 16);
+  const double angle = 1.25;
+  const EnvironmentLight still({.content = map}), turned({.content = map, .rotation = angle});
+  for_sphere(20, [&](const Vec3& d, double) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    const Vec3 image(
+        DVec3(c * double{d.x} + s * double{d.z}, d.y, c * double{d.z} - s * double{d.x}));
+    const Vec3 a = still.radiance(d), b = turned.radiance(image);
+    ASSERT_NEAR(a.x, b.x, 1e-2 + 1e-3 * double{a.x});
+    ASSERT_NEAR(still.pdf(d), turned.pdf(image), 2e-2 * double{still.pdf(d)} + 1e-6);
+  });
+}
+
+TEST(EnvironmentLight, SurvivesDirectionsThatAreNone) {
+  const EnvironmentLight light({.content = sunny_map(16, 8)});
+  for (const float x : {0.0F, NAN, HUGE_VALF, -HUGE_VALF, 1e-45F, 3e38F}) {
+    for (const float y : {0.0F, NAN, HUGE_VALF, 1e-45F}) {
+      EXPECT_TRUE(std::isfinite(light.radiance({x, y, x}).x));
+      EXPECT_TRUE(std::isfinite(light.pdf({x, y, x})));
+    }
+  }
+}
+
+class Maps : public testing::TestWithParam<int> {
+ protected:
+  static constexpr double kRotation = 0.7;
+
+  static std::shared_ptr<const RadianceMap> make_map() {
+    switch (GetParam()) {
+      case 0:
+        return sunny_map(64, 32);
+      case 1:
+        return sunny_map(31, 17);
+      case 2:
+        return map_of(1, 1, [](auto, auto) { return Vec3(2); });
+      case 3:
+        return map_of(32, 16, [](auto, auto) { return Vec3(0); });
+      case 4:
+        return map_of(40, 20, [](std::uint32_t x, std::uint32_t y) {
+          return Vec3(y < 3 && x > 10 ? 100.0F : 0.0F);
+        });
+      default:
+        return std::make_shared<const RadianceMap>(make_studio());
+    }
+  }
+  const std::shared_ptr<const RadianceMap> map = make_map();
+  const EnvironmentLight light{{.content = map, .rotation = kRotation, .intensity = 1.5F}};
+};
+
+// The density is constant in each pixel, so this sum is the integral.
+TEST_P(Maps, DensityIntegratesToOne) {
+  double integral = 0;
+  for (std::uint32_t y = 0; y < map->height; ++y) {
+    const double top = kPi * y / map->height, bottom = kPi * (y + 1) / map->height;
+    const double theta = (top + bottom) / 2;
+    const double solid_angle = (std::cos(top) - std::cos(bottom)) * 2 * kPi / map->width;
+    for (std::uint32_t x = 0; x < map->width; ++x) {
+      const double phi = ((x + 0.5) / map->width - 0.5) * 2 * kPi - kRotation;
+      const double pdf = light.pdf(
+          DVec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)));
+      ASSERT_GT(pdf, 0);
+      integral += pdf * solid_angle;
+    }
+  }
+  EXPECT_NEAR(integral, 1, 1e-6);
+}
+
+// But for rounding, which may move a direction over the edge of a pixel.
+TEST_P(Maps, SamplesSayWhatTheirDirectionSays) {
+  constexpr std::uint32_t kSamples = 20000;
+  float brightest = 0;
+  for (const Vec3& pixel : map->pixels) brightest = std::max(brightest, 1.5F * pixel.x);
+  std::uint32_t moved = 0;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    ASSERT_NEAR(glm::length(sample.wi), 1, 2e-6);
+    ASSERT_GT(sample.pdf, 0);
+    ASSERT_NEAR(sample.radiance.x, light.radiance(sample.wi).x, 5e-5F * brightest);
+    moved += sample.pdf != light.pdf(sample.wi) ? 1 : 0;
+  }
+  EXPECT_LE(moved, kSamples / 1000);
+}
+
+// Pearson's test: how often directions fall into cells of equal solid angle, against the integral
+// of the density over them.
+TEST_P(Maps, SamplesFollowTheDensity) {
+  constexpr std::uint32_t kRows = 8, kColumns = 16, kSamples = 100000;
+  const auto cell = [](const Vec3& d) {
+    const double h = std::clamp((1 - double{d.y}) / 2, 0.0, 1 - 1e-9);
+    const double u = std::atan2(double{d.z}, double{d.x}) / (2 * kPi) + 0.5;
+    return static_cast<std::size_t>(h * kRows) * kColumns +
+           static_cast<std::size_t>(std::min(u, 1 - 1e-9) * kColumns);
+  };
+  std::vector<double> expected(kRows * kColumns), seen(kRows * kColumns);
+  for_sphere(2048,
+             [&](const Vec3& d, double weight) { expected[cell(d)] += light.pdf(d) * weight; });
+  std::mt19937 random(5);
+  std::uniform_int_distribution<std::uint32_t> number(0, (1U << 24U) - 1);
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    const auto a = static_cast<float>(number(random)), b = static_cast<float>(number(random));
+    seen[cell(light.sample({a * 0x1p-24F, b * 0x1p-24F}).wi)] += 1;
+  }
+  double chi2 = 0;
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double mean = expected[i] * kSamples;
+    if (mean < 5) continue;
+    chi2 += (seen[i] - mean) * (seen[i] - mean) / mean;
+    ++cells;
+  }
+  const auto freedom = static_cast<double>(cells);
+  EXPECT_LT(chi2, freedom + 5 * std::sqrt(2 * freedom));
+}
+
+// E[radiance / pdf] is the integral of radiance.
+TEST_P(Maps, EstimatesTheIntegral) {
+  DVec3 integral(0);
+  for_sphere(2048,
+             [&](const Vec3& d, double weight) { integral += DVec3(light.radiance(d)) * weight; });
+  constexpr std::uint32_t kSamples = 65536;
+  DVec3 sum(0), squares(0);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> number(0, 0x0.ffffffp0F);
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    const float a = number(random), b = number(random);
+    const EnvironmentLight::Sample sample = light.sample({a, b});
+    const DVec3 value = DVec3(sample.radiance) / double{sample.pdf};
+    sum += value;
+    squares += value * value;
+  }
+  const DVec3 mean = sum / double{kSamples};
+  for (glm::length_t i = 0; i < 3; ++i) {
+    const double deviation = std::sqrt(std::max(squares[i] / kSamples - mean[i] * mean[i], 0.0));
+    EXPECT_NEAR(mean[i], integral[i],
+                4.5 * deviation / std::sqrt(double{kSamples}) + 2e-3 * integral[i] + 1e-9);
+  }
+  const DVec3 weights(0.2126, 0.7152, 0.0722);
+  EXPECT_NEAR(light.mean_luminance(), glm::dot(weights, integral) / (4 * kPi),
+              2e-2 * light.mean_luminance() + 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Maps, testing::Range(0, 6));
+
+// With one pixel that has nearly all light, one number in 2^24 must not miss what the rest gives.
+TEST(EnvironmentLight, KeepsDimLightBesideASun) {
+  const std::uint32_t width = 512, height = 256;
+  const auto map = map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
+    return Vec3(x == 100 && y == 60 ? 1e9F : 0.01F);
+  });
+  const EnvironmentLight light({.content = map});
+  double dim = 0;
+  constexpr std::uint32_t kSamples = 1U << 20U;
+  for (std::uint32_t i = 0; i < kSamples; ++i) {
+    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    ASSERT_GT(sample.pdf, 0);
+    if (sample.radiance.x < 0.02F) dim += double{sample.radiance.x} / double{sample.pdf} / kSamples;
+  }
+  EXPECT_NEAR(dim, 0.01 * 4 * kPi, 0.001 * 4 * kPi * 0.3);
+}
+
+TEST(Studio, IsGreyAndTheSameOnBothSides) {
+  const EnvironmentLight light({.content = Studio{}});
+  for_sphere(64, [&](const Vec3& d, double) {
+    const Vec3 here = light.radiance(d), there = light.radiance({-d.x, d.y, d.z});
+    ASSERT_NEAR(here.x, there.x, 1e-4 * double{here.x});
+    ASSERT_EQ(here.x, here.y);
+    ASSERT_EQ(here.x, here.z);
+    ASSERT_GT(here.x, 0.05);
+  });
+}
+
+}  // namespace
+}  // namespace microtrace
