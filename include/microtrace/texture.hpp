@@ -40,6 +40,9 @@ struct Texture {
   Sampler sampler{};
 };
 
+/// What the numbers of an image mean. Alpha is linear in both.
+enum class ColorEncoding { srgb, linear };
+
 /// A texture where a material uses it.
 struct TextureUse {
   std::uint32_t texture = 0;  ///< index into Scene::textures

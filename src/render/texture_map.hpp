@@ -11,9 +11,6 @@
 
 namespace microtrace {
 
-/// What the numbers of an image mean. Alpha is linear in both.
-enum class ColorEncoding { srgb, linear };
-
 /// How far texture coordinates go from one sample of the picture to the next, across and down.
 struct TextureFootprint {
   DVec2 dx{0}, dy{0};

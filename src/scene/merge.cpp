@@ -1,5 +1,7 @@
 #include "scene/merge.hpp"
 
+#include "scene/material_textures.hpp"
+
 #include <cstdint>
 #include <iterator>
 #include <utility>
@@ -23,11 +25,8 @@ void merge(Scene& whole, Scene&& part) {
   }
   const std::uint32_t first_texture = append(whole.textures, part.textures);
   for (Material& material : part.materials) {
-    for (std::optional<TextureUse>* use :
-         {&material.base_color_texture, &material.metallic_roughness_texture,
-          &material.normal_texture, &material.occlusion_texture, &material.emissive_texture}) {
-      if (*use) (*use)->texture += first_texture;
-    }
+    for_each_texture(material,
+                     [&](TextureUse& use, ColorEncoding) { use.texture += first_texture; });
   }
   const std::uint32_t first_material = append(whole.materials, part.materials);
   for (Object& object : part.objects) {

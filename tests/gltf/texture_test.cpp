@@ -226,18 +226,6 @@ TEST(GltfTexture, MaterialsKeepWhatLightWillAskFor) {
   EXPECT_EQ(scene.materials[1].metallic, 1) << "of primitives without material";
 }
 
-TEST(GltfMaterial, SpecularGlossinessGivesItsDiffuseColour) {
-  AssetBuilder asset = textured();
-  asset.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
-  asset.json["materials"][0] = nlohmann::json::parse(R"({"extensions": {
-    "KHR_materials_pbrSpecularGlossiness": {"diffuseFactor": [0, 0.5, 1, 0.25],
-                                            "diffuseTexture": {"index": 0}}}})");
-  const Material material = load(asset).scene.materials.at(0);
-  EXPECT_EQ(material.base_color, Vec4(0, 0.5F, 1, 0.25F));
-  EXPECT_TRUE(material.base_color_texture);
-  EXPECT_EQ(material.metallic, 0);
-}
-
 TEST(GltfMaterial, VariantsAreChosenByNameOrNumber) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"KHR_materials_variants"};

@@ -11,37 +11,36 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 12> honoured = {
+/// Light has no influence on flat pictures; what it needs is read all the same.
+constexpr std::array<std::string_view, 23> honoured = {
     "KHR_animation_pointer",  // of nodes; other pointers are warned of where they are played
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
     "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",  // read; light has no influence on flat pictures
-    "KHR_materials_unlit",  // pictures are flat: each material already looks unlit
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "KHR_texture_transform",
-    "KHR_materials_pbrSpecularGlossiness",  // its diffuse part
-    "KHR_materials_variants",
 };
 
-/// Without these the picture has every surface in its place and its material's basic look, so that
-/// an asset that requires one is drawn, with the warning that the extension is ignored.
-constexpr std::array<std::string_view, 14> without_harm = {"KHR_lights_punctual",
-                                                           "KHR_materials_anisotropy",
-                                                           "KHR_materials_clearcoat",
-                                                           "KHR_materials_diffuse_transmission",
-                                                           "KHR_materials_dispersion",
-                                                           "KHR_materials_emissive_strength",
-                                                           "KHR_materials_ior",
-                                                           "KHR_materials_iridescence",
-                                                           "KHR_materials_sheen",
-                                                           "KHR_materials_specular",
-                                                           "KHR_materials_transmission",
-                                                           "KHR_materials_volume",
-                                                           "KHR_xmp",
-                                                           "KHR_xmp_json_ld"};
+/// Without these the picture is the same, so that an asset that requires one is drawn, with the
+/// warning that the extension is ignored.
+constexpr std::array<std::string_view, 2> without_harm = {"KHR_xmp", "KHR_xmp_json_ld"};
 
 using Version = std::pair<unsigned, unsigned>;
 

@@ -5,6 +5,7 @@
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
 #include "io/json/excerpt.hpp"
+#include "scene/material_textures.hpp"
 
 #include <array>
 #include <cstddef>
@@ -113,18 +114,16 @@ std::vector<bool> wanted_images(std::span<const Material> materials, const std::
                                 std::span<const Texture> textures, std::size_t images,
                                 SurfaceDetail detail) {
   std::vector<bool> wanted(images);
-  const auto want = [&](const std::optional<TextureUse>& use) {
-    if (use && textures[use->texture].image) wanted[*textures[use->texture].image] = true;
+  const auto want = [&](const TextureUse& use, ColorEncoding) {
+    if (textures[use.texture].image) wanted[*textures[use.texture].image] = true;
   };
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const Material& material = materials[i];
     if (!drawn[i]) continue;
-    want(material.base_color_texture);
-    if (detail == SurfaceDetail::color) continue;
-    want(material.metallic_roughness_texture);
-    want(material.normal_texture);
-    want(material.occlusion_texture);
-    want(material.emissive_texture);
+    if (detail == SurfaceDetail::all) {
+      for_each_texture(materials[i], want);
+    } else if (const auto& use = materials[i].base_color_texture) {
+      want(*use, ColorEncoding::srgb);
+    }
   }
   return wanted;
 }

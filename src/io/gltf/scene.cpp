@@ -18,6 +18,7 @@
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/posing.hpp"
 #include "io/gltf/surfaces.hpp"
+#include "io/gltf/textures.hpp"
 #include "io/gltf/variants.hpp"
 #include "io/load_clock.hpp"
 #include "scene/support.hpp"

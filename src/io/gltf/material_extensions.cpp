@@ -1,0 +1,145 @@
+#include "io/gltf/material_extensions.hpp"
+
+#include "io/gltf/extension.hpp"
+#include "io/gltf/properties.hpp"
+#include "io/gltf/textures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace microtrace::io::gltf {
+namespace {
+
+Specular specular(const JsonValue& json) {
+  return {.factor = number(json, "specularFactor", 1),
+          .texture = texture_use(json, "specularTexture"),
+          .color = vector(json, "specularColorFactor", Vec3(1)),
+          .color_texture = texture_use(json, "specularColorTexture")};
+}
+
+Transmission transmission(const JsonValue& json) {
+  return {.factor = number(json, "transmissionFactor", 0),
+          .texture = texture_use(json, "transmissionTexture")};
+}
+
+Volume volume(const JsonValue& json) {
+  Volume result{.thickness = number(json, "thicknessFactor", 0),
+                .texture = texture_use(json, "thicknessTexture"),
+                .attenuation_color = vector(json, "attenuationColor", Vec3(1))};
+  // Positive as a number of the file, and so it stays.
+  result.attenuation_distance =
+      std::max(number(json, "attenuationDistance", result.attenuation_distance),
+               std::numeric_limits<float>::min());
+  return result;
+}
+
+Clearcoat clearcoat(const JsonValue& json) {
+  Clearcoat result{.factor = number(json, "clearcoatFactor", 0),
+                   .roughness = number(json, "clearcoatRoughnessFactor", 0),
+                   .texture = texture_use(json, "clearcoatTexture"),
+                   .roughness_texture = texture_use(json, "clearcoatRoughnessTexture"),
+                   .normal_texture = texture_use(json, "clearcoatNormalTexture")};
+  if (const JsonValue* normal = json.find("clearcoatNormalTexture")) {
+    result.normal_scale = number(*normal, "scale", 1);
+  }
+  return result;
+}
+
+Sheen sheen(const JsonValue& json) {
+  return {.color = vector(json, "sheenColorFactor", Vec3(0)),
+          .roughness = number(json, "sheenRoughnessFactor", 0),
+          .color_texture = texture_use(json, "sheenColorTexture"),
+          .roughness_texture = texture_use(json, "sheenRoughnessTexture")};
+}
+
+Anisotropy anisotropy(const JsonValue& json) {
+  const JsonValue* rotation = json.find("anisotropyRotation");
+  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
+  return {.strength = number(json, "anisotropyStrength", 0),
+          .rotation = finite_float(angle),
+          .texture = texture_use(json, "anisotropyTexture")};
+}
+
+Iridescence iridescence(const JsonValue& json) {
+  const Iridescence standard;
+  return {
+      .factor = number(json, "iridescenceFactor", 0),
+      .ior = number(json, "iridescenceIor", standard.ior),
+      .thickness_minimum = number(json, "iridescenceThicknessMinimum", standard.thickness_minimum),
+      .thickness_maximum = number(json, "iridescenceThicknessMaximum", standard.thickness_maximum),
+      .texture = texture_use(json, "iridescenceTexture"),
+      .thickness_texture = texture_use(json, "iridescenceThicknessTexture")};
+}
+
+DiffuseTransmission diffuse_transmission(const JsonValue& json) {
+  return {.factor = number(json, "diffuseTransmissionFactor", 0),
+          .texture = texture_use(json, "diffuseTransmissionTexture"),
+          .color = vector(json, "diffuseTransmissionColorFactor", Vec3(1)),
+          .color_texture = texture_use(json, "diffuseTransmissionColorTexture")};
+}
+
+void read_specular_glossiness(const JsonValue& json, Material& material) {
+  material.base_color = vector(json, "diffuseFactor", material.base_color);
+  material.base_color_texture = texture_use(json, "diffuseTexture");
+  material.specular_glossiness =
+      SpecularGlossiness{.specular = vector(json, "specularFactor", Vec3(1)),
+                         .glossiness = number(json, "glossinessFactor", 1),
+                         .texture = texture_use(json, "specularGlossinessTexture")};
+  // The nearest without it.
+  material.metallic = 0;
+  material.roughness = 1 - material.specular_glossiness->glossiness;
+}
+
+}  // namespace
+
+void read_material_extensions(const JsonValue& json, Material& material) {
+  const auto of = [&](std::string_view name) { return extension(json, name); };
+  material.unlit = of("KHR_materials_unlit") != nullptr;
+  if (const JsonValue* strength = of("KHR_materials_emissive_strength")) {
+    material.emissive *= number(*strength, "emissiveStrength", 1);
+  }
+  if (const JsonValue* ior = of("KHR_materials_ior")) {
+    material.ior = number(*ior, "ior", material.ior);
+  }
+  if (const JsonValue* dispersion = of("KHR_materials_dispersion")) {
+    material.dispersion = number(*dispersion, "dispersion", 0);
+  }
+  // What makes a factor of 0 is left out, with its textures.
+  if (const JsonValue* own = of("KHR_materials_specular")) material.specular = specular(*own);
+  if (const JsonValue* own = of("KHR_materials_transmission")) {
+    material.transmission = transmission(*own);
+    if (material.transmission->factor == 0) material.transmission.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_volume")) {
+    material.volume = volume(*own);
+    if (material.volume->thickness == 0) material.volume.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_clearcoat")) {
+    material.clearcoat = clearcoat(*own);
+    if (material.clearcoat->factor == 0) material.clearcoat.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_sheen")) {
+    material.sheen = sheen(*own);
+    if (material.sheen->color == Vec3(0)) material.sheen.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_anisotropy")) {
+    material.anisotropy = anisotropy(*own);
+    if (material.anisotropy->strength == 0) material.anisotropy.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_iridescence")) {
+    material.iridescence = iridescence(*own);
+    if (material.iridescence->factor == 0) material.iridescence.reset();
+  }
+  if (const JsonValue* own = of("KHR_materials_diffuse_transmission")) {
+    material.diffuse_transmission = diffuse_transmission(*own);
+    if (material.diffuse_transmission->factor == 0) material.diffuse_transmission.reset();
+  }
+  const JsonValue* archived = of("KHR_materials_pbrSpecularGlossiness");
+  if (archived != nullptr && json.find("pbrMetallicRoughness") == nullptr) {
+    read_specular_glossiness(*archived, material);
+  }
+}
+
+}  // namespace microtrace::io::gltf
