@@ -15,9 +15,12 @@ namespace microtrace {
 /// upper left corner and (1, 1) the lower right one. Between the pixels' centres it is bilinear.
 struct RadianceMap {
   std::uint32_t width = 0, height = 0;  ///< at least 1, at most 65536
-  /// Linear Rec. 709, finite, not negative; row by row from the upper left.
+  /// Linear Rec. 709, from 0 to kMaxRadiance; row by row from the upper left.
   std::vector<Vec3> pixels{};
 };
+
+/// No pixel of a map is brighter, so that sums and products of light stay finite.
+inline constexpr float kMaxRadiance = 1e9F;
 
 /// The built-in environment: a grey room with large soft lamps, the same on the left and the right.
 struct Studio {};

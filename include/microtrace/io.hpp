@@ -79,6 +79,18 @@ class SceneFile {
   std::unique_ptr<Content> content_;
 };
 
+struct LoadedRadianceMap {
+  std::shared_ptr<const RadianceMap> map;
+  std::vector<Diagnostic> warnings;
+};
+
+/// Reads a latitude-longitude map by OpenImageIO, whose module is loaded then. Numbers of 8 and 16
+/// bits are taken for sRGB, floating-point ones (.hdr, .exr) for linear; both for Rec. 709. One
+/// channel is grey; alpha is left out. Numbers that are negative or none become 0 and those above
+/// kMaxRadiance that, with a warning. Throws Error: io where the file can't be read or decoded,
+/// limit for one with a side above 65536 or more than 2^27 pixels, unsupported without the module.
+[[nodiscard]] LoadedRadianceMap load_radiance_map(const std::filesystem::path& path);
+
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
 /// A text to be written beside a picture.

@@ -35,12 +35,11 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
 
 /// The words in which --help speaks of options' values, and the options' order.
 void name_values(CLI::App& app) {
-  constexpr std::array<std::pair<const char*, const char*>, 18> kNames{{
+  constexpr std::array<std::pair<const char*, const char*>, 17> kNames{{
       {"SCENE", "FILE"},
       {"--output", "FILE"},
       {"--size", "WxH"},
       {"--crop", "RECT"},
-      {"--background", "COLOUR"},
       {"--camera", "NAME"},
       {"--view", "VIEW"},
       {"--integrator", "NAME"},
@@ -70,8 +69,7 @@ Parsed parse_arguments(int argc, char** argv) {
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
   set_help_format(app);
-  std::string output, size, crop, view, background, integrator, aovs, sidecar, time, frames, fps,
-      statistics;
+  std::string output, size, crop, view, integrator, aovs, sidecar, time, frames, fps, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -82,10 +80,7 @@ Parsed parse_arguments(int argc, char** argv) {
       "--crop", crop,
       "x0,y0,x1,y1: draw only the pixels from x0 to x1 - 1, y0 to y1 - 1, as they are in "
       "the whole picture; 0,0 is its upper left corner");
-  app.add_option(
-      "--background", background,
-      "what is seen behind all objects: #rrggbb in sRGB, r,g,b in linear light from 0 to "
-      "1, or transparent: an alpha channel [as the scene says, or black]");
+  add_light_options(app, a.surroundings);
   add_sampling_options(app, a.sampling);
   app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
   app.add_option("--view", view,
@@ -145,7 +140,6 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (app.count("--size") > 0) a.size = parse_size(size);
-    if (app.count("--background") > 0) a.background = parse_background(background);
     if (app.count("--integrator") > 0) a.integrator = parse_integrator(integrator);
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);

@@ -1,6 +1,7 @@
 #pragma once
 /// The command line.
 
+#include "cli/arguments_light.hpp"
 #include "cli/arguments_sampling.hpp"
 #include "cli/frames.hpp"
 #include "cli/option_values.hpp"
@@ -27,7 +28,7 @@ struct Arguments {
   std::optional<FrameRange> frames{};  ///< output and sidecar are then patterns
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
-  std::optional<Background> background{};
+  Surroundings surroundings{};
   Sampling sampling{};
   std::optional<Aov> integrator{};  ///< nothing: flat
   std::vector<Aov> aovs{};

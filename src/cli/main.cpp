@@ -72,11 +72,15 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
                        frame_path(sidecar, frames.first));
     framing = framing_of(file, arguments, frames);
   }
+  std::vector<Diagnostic> light_warnings;
+  const auto environment = cli::load_environment(arguments.surroundings, light_warnings);
+  report(light_warnings, arguments);
   std::set<std::string> reported;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
     auto [scene, warnings] = file.at(frames.time(frame));
     std::erase_if(warnings, [&](const Diagnostic& w) { return !reported.insert(w.text()).second; });
     report(warnings, arguments);
+    cli::surround(scene, environment, arguments.surroundings);
     const ImageSize size = arguments.size.value_or(scene.size);
     const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments, size);
     watch.loaded(std::exchange(times, {}));
@@ -89,7 +93,8 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
                         if (progress) progress((frame - frames.first + share) / frames.count());
                       });
   }
-  if (arguments.validate) cli::print_valid(arguments.scene, reported.size());
+  if (arguments.validate)
+    cli::print_valid(arguments.scene, reported.size() + light_warnings.size());
 }
 
 void run(const cli::Arguments& arguments) {
@@ -99,7 +104,9 @@ void run(const cli::Arguments& arguments) {
   LoadOptions options = load_options(arguments);
   options.times = &times;
   auto [scene, warnings] = load_scene(arguments.scene, options);
+  const auto environment = cli::load_environment(arguments.surroundings, warnings);
   report(warnings, arguments);
+  cli::surround(scene, environment, arguments.surroundings);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments, size);
   watch.loaded(times);

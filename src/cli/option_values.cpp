@@ -3,6 +3,8 @@
 #include "scene/srgb.hpp"
 #include "scene/validate.hpp"
 
+#include <microtrace/environment.hpp>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -39,6 +41,30 @@ std::string aov_names() {
   std::string names;
   for (const Aov aov : kAovs) names.append(names.empty() ? "" : ", ").append(name_of(aov));
   return names;
+}
+
+/// #rrggbb in sRGB, or three numbers in [0, greatest].
+std::optional<Vec3> parse_color(const std::string& text, float greatest) {
+  const std::vector<std::string_view> parts = split(text);
+  Vec3 color(0);
+  bool good = false;
+  if (text.size() == 7 && text[0] == '#') {
+    const std::string_view digits = std::string_view(text).substr(1);
+    good = digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
+    for (glm::length_t i = 0; good && i < 3; ++i) {
+      const auto code =
+          read<std::uint8_t>(digits.substr(2 * static_cast<std::size_t>(i), 2), 16).value_or(0);
+      color[i] = static_cast<float>(linear_from_srgb(code / 255.0));
+    }
+  } else if (parts.size() == 3) {
+    good = true;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      const auto value = read<float>(parts[static_cast<std::size_t>(i)]);
+      good = good && value && *value >= 0 && *value <= greatest;
+      color[i] = value.value_or(0);
+    }
+  }
+  return good ? std::optional(color) : std::nullopt;
 }
 
 constexpr std::array<std::pair<std::string_view, View>, 7> kViews{{
@@ -103,31 +129,17 @@ View parse_view(const std::string& text) {
 }
 
 Background parse_background(const std::string& text) {
-  if (text == "transparent") return {};
-  const std::vector<std::string_view> parts = split(text);
-  Vec3 color(0);
-  bool good = false;
-  if (text.size() == 7 && text[0] == '#') {
-    const std::string_view digits = std::string_view(text).substr(1);
-    good = digits.find_first_not_of("0123456789abcdefABCDEF") == std::string_view::npos;
-    for (glm::length_t i = 0; good && i < 3; ++i) {
-      const auto code =
-          read<std::uint8_t>(digits.substr(2 * static_cast<std::size_t>(i), 2), 16).value_or(0);
-      color[i] = static_cast<float>(linear_from_srgb(code / 255.0));
-    }
-  } else if (parts.size() == 3) {
-    good = true;
-    for (glm::length_t i = 0; i < 3; ++i) {
-      const auto value = read<float>(parts[static_cast<std::size_t>(i)]);
-      good = good && value && *value >= 0 && *value <= 1;
-      color[i] = value.value_or(0);
-    }
-  }
-  if (good) return {.color = color};
+  if (text == "transparent") return {.kind = Background::Kind::transparent};
+  if (text == "env") return {.kind = Background::Kind::environment};
+  if (const auto color = parse_color(text, 1)) return {.color = *color};
   throw CLI::ValidationError("--background",
-                             "wants transparent, #rrggbb (sRGB), or three numbers from 0 to 1 "
+                             "wants transparent, env, #rrggbb (sRGB), or three numbers from 0 to 1 "
                              "(linear light) as 0.2,0.4,1, not " +
                                  text);
+}
+
+std::optional<Vec3> parse_radiance(const std::string& text) {
+  return parse_color(text, kMaxRadiance);
 }
 
 std::optional<Aov> parse_integrator(const std::string& text) {

@@ -28,13 +28,16 @@ namespace microtrace::cli {
 /// A finite number
 [[nodiscard]] double parse_number(const char* option, const std::string& text);
 
-/// What lies behind all objects: a colour, or nothing (transparent).
+/// What lies behind all objects.
 struct Background {
-  std::optional<Vec3> color;  ///< linear Rec. 709
+  enum class Kind { color, transparent, environment } kind = Kind::color;
+  Vec3 color{0};  ///< linear Rec. 709; black unless it is of that kind
 };
 
-/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent"
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent" or "env"
 [[nodiscard]] Background parse_background(const std::string& text);
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; else nothing
+[[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
 
 /// flat: nothing; else a quantity's name
 [[nodiscard]] std::optional<Aov> parse_integrator(const std::string& text);

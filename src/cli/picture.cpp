@@ -10,14 +10,6 @@
 #include <algorithm>
 
 namespace microtrace::cli {
-namespace {
-
-bool is_transparent(const Arguments& arguments) {
-  return arguments.background && !arguments.background->color;
-}
-
-}  // namespace
-
 std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_t pictures) {
   if (arguments.progress == Progress::json) return progress_lines();
   return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar(pictures);
@@ -25,15 +17,14 @@ std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_
 
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& sidecar) {
-  check_image_path(output,
-                   {.alpha = is_transparent(arguments), .channels = !arguments.aovs.empty()});
+  check_image_path(output, {.alpha = arguments.surroundings.is_transparent(),
+                            .channels = !arguments.aovs.empty()});
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
 
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                   const std::filesystem::path& output, const std::filesystem::path& sidecar,
                   Stopwatch& watch, const std::function<void(double)>& progress) {
-  if (arguments.background) scene.background = arguments.background->color.value_or(Vec3(0));
   widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
@@ -47,7 +38,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .seed = arguments.sampling.seed,
       .crop = arguments.crop,
       .aovs = arguments.aovs,
-      .transparent = is_transparent(arguments),
+      .transparent = arguments.surroundings.is_transparent(),
   };
   // The sidecar counts pixels by their ids, whether the picture keeps these or not.
   const bool ids_for_sidecar_alone =

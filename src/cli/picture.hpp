@@ -19,8 +19,8 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 [[nodiscard]] std::function<void(double)> progress_of(const Arguments& arguments,
                                                       std::uint32_t pictures = 1);
 
-/// Draws a picture before the background that the arguments ask for and writes it, with its sidecar
-/// if that has a name. Tells the watch.
+/// Draws a picture of a scene with the surroundings that the arguments ask for and writes it, with
+/// its sidecar if that has a name. Tells the watch.
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                   const std::filesystem::path& output, const std::filesystem::path& sidecar,
                   Stopwatch& watch, const std::function<void(double)>& progress);

@@ -14,7 +14,12 @@ struct MicrotraceFormat {
   std::int32_t has_channels;  ///< any number of them by any name, each of any MicrotraceNumber
 };
 
-enum MicrotraceNumber : std::int32_t { kMicrotraceU8, kMicrotraceU32, kMicrotraceF32 };
+enum MicrotraceNumber : std::int32_t {
+  kMicrotraceU8,
+  kMicrotraceU32,
+  kMicrotraceF32,
+  kMicrotraceU16,  ///< only decoded
+};
 
 struct MicrotraceChannel {
   const char* name;    ///< R, G, B, then A if there is alpha, then others
@@ -44,6 +49,26 @@ using MicrotraceFindFormat = int (*)(const char* ending, MicrotraceFormat* forma
 /// returns 1. The channels are such as the format has.
 using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* ending,
                                  MicrotraceSink out, MicrotraceSink error, void* context);
+
+/// The colours of a decoded picture.
+struct MicrotraceColors {
+  std::uint32_t width, height;
+  std::uint32_t channels;   ///< 1: grey, 3: rgb
+  MicrotraceNumber number;  ///< U8, U16 or F32
+};
+
+struct MicrotraceColorSink {
+  void* context;  ///< the caller's
+  /// Where the samples go, row by row from the upper left; null ends the decoding. Called once.
+  void* (*begin)(void* context, const MicrotraceColors* colors);
+  /// Takes the reason of a failure. Neither function throws.
+  void (*complain)(void* context, const char* text);
+};
+
+/// Decodes the first picture of a file of this ending (small letters, no dot) without its alpha:
+/// returns 1, or complains and returns 0.
+using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* ending,
+                                       const MicrotraceColorSink* sink);
 }
 
 namespace microtrace::io {
@@ -51,5 +76,6 @@ namespace microtrace::io {
 inline constexpr char module_file_name[] = "microtrace_openimageio.so";
 inline constexpr char find_format_name[] = "microtrace_find_format_v2";
 inline constexpr char encode_name[] = "microtrace_encode_v2";
+inline constexpr char decode_colors_name[] = "microtrace_decode_colors_v1";
 
 }  // namespace microtrace::io

@@ -1,0 +1,48 @@
+#pragma once
+/// Options for the light around the scene and what lies behind it.
+
+#include "cli/option_values.hpp"
+
+#include <microtrace/environment.hpp>
+#include <microtrace/error.hpp>
+#include <microtrace/scene.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace microtrace::cli {
+
+/// Light of one colour, the studio, or a map's file.
+using EnvironmentSource = std::variant<Vec3, Studio, std::filesystem::path>;
+
+struct Surroundings {
+  std::optional<EnvironmentSource> environment{};
+  std::optional<double> rotation{};  ///< degrees
+  std::optional<float> intensity{};
+  std::optional<Background> background{};
+
+  [[nodiscard]] bool is_transparent() const {
+    return background && background->kind == Background::Kind::transparent;
+  }
+};
+
+/// Adds the options, which are written to `surroundings` when the app parses.
+void add_light_options(CLI::App& app, Surroundings& surroundings);
+
+/// The environment that the options name, if they do; reads its file and adds to the warnings.
+/// Throws Error.
+[[nodiscard]] std::optional<Environment> load_environment(const Surroundings& surroundings,
+                                                          std::vector<Diagnostic>& warnings);
+
+/// Gives the scene that environment, if there is one, and all else that the options ask for. Throws
+/// Error (usage) where they speak of an environment that is not there.
+void surround(Scene& scene, const std::optional<Environment>& environment,
+              const Surroundings& surroundings);
+
+}  // namespace microtrace::cli

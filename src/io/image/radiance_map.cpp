@@ -1,0 +1,178 @@
+#include "io/file.hpp"
+#include "io/image/module_abi.hpp"
+#include "io/module_function.hpp"
+#include "scene/srgb.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/io.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <new>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+constexpr std::uint32_t kMaxSide = 65536;
+constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 27U;
+
+/// A file's samples. An exception may not pass the module's frames: what goes wrong is kept here.
+struct Decoded {
+  std::optional<MicrotraceColors> colors{};
+  std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
+  std::string complaint{};
+  bool is_too_large = false;
+};
+
+void* begin(void* context, const MicrotraceColors* colors) {
+  auto& decoded = *static_cast<Decoded*>(context);
+  const std::uint64_t pixels = std::uint64_t{colors->width} * colors->height;
+  decoded.colors = *colors;
+  decoded.is_too_large =
+      colors->width > kMaxSide || colors->height > kMaxSide || pixels > kMaxPixels;
+  if (decoded.is_too_large) return nullptr;
+  try {
+    const std::size_t count = pixels * colors->channels;
+    if (colors->number == kMicrotraceU8)
+      return decoded.samples.emplace<std::vector<std::uint8_t>>(count).data();
+    if (colors->number == kMicrotraceU16)
+      return decoded.samples.emplace<std::vector<std::uint16_t>>(count).data();
+    return decoded.samples.emplace<std::vector<float>>(count).data();
+  } catch (const std::bad_alloc&) {
+    decoded.is_too_large = true;
+    return nullptr;
+  }
+}
+
+void complain(void* context, const char* text) {
+  try {
+    static_cast<Decoded*>(context)->complaint = text;
+  } catch (const std::bad_alloc&) {
+    static_cast<Decoded*>(context)->is_too_large = true;
+  }
+}
+
+std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return ending.empty() ? ending : ending.substr(1);
+}
+
+Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
+  const io::ModuleFunction function =
+      io::find_module_function(io::module_file_name, io::decode_colors_name);
+  if (function.address == nullptr) {
+    throw Error(ErrorKind::unsupported, path.string(),
+                function.complaint +
+                    "; install libopenimageio-dev and build the target microtrace_openimageio, "
+                    "or use an environment without a file");
+  }
+  Decoded decoded;
+  const MicrotraceColorSink sink{&decoded, begin, complain};
+  const auto decode = reinterpret_cast<MicrotraceDecodeColors>(function.address);
+  const bool is_decoded = decode(bytes.data(), bytes.size(), ending_of(path).c_str(), &sink) != 0;
+  if (decoded.is_too_large) {
+    std::string message = "is too large for an environment";
+    if (decoded.colors) {
+      message += ", " + std::to_string(decoded.colors->width) + " x " +
+                 std::to_string(decoded.colors->height) + " pixels";
+    }
+    throw Error(ErrorKind::limit, path.string(),
+                message + "; at most 65536 a side and 2^27 together, as memory allows");
+  }
+  if (!is_decoded) {
+    throw Error(ErrorKind::io, path.string(),
+                "can't be decoded: " + decoded.complaint +
+                    "; an environment is a latitude-longitude picture, as .hdr or .exr");
+  }
+  return decoded;
+}
+
+/// The linear light of all numbers of so many bits.
+template <class Number>
+std::vector<float> srgb_table() {
+  constexpr std::size_t count = std::size_t{std::numeric_limits<Number>::max()} + 1;
+  std::vector<float> table(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    table[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / double{count - 1}));
+  }
+  return table;
+}
+
+/// value(i) is the linear light of sample i.
+template <class Value>
+void fill(const MicrotraceColors& colors, Value&& value, std::vector<Vec3>& pixels) {
+  const std::size_t channels = colors.channels;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::size_t first = i * channels, step = channels == 1 ? 0 : 1;
+    pixels[i] = Vec3(value(first), value(first + step), value(first + 2 * step));
+  }
+}
+
+/// Returns how many pixels had to be changed.
+std::size_t clamp_pixels(std::vector<Vec3>& pixels) {
+  std::size_t changed = 0;
+  for (Vec3& pixel : pixels) {
+    bool is_good = true;
+    for (glm::length_t i = 0; i < 3; ++i) {
+      if (pixel[i] >= 0 && pixel[i] <= kMaxRadiance) continue;
+      is_good = false;
+      pixel[i] = pixel[i] > 0 ? kMaxRadiance : 0;
+    }
+    changed += is_good ? 0 : 1;
+  }
+  return changed;
+}
+
+}  // namespace
+
+LoadedRadianceMap load_radiance_map(const std::filesystem::path& path) {
+  const Decoded decoded = decode(io::read_file(path, io::max_file_size), path);
+  const MicrotraceColors& colors = *decoded.colors;
+  RadianceMap map{.width = colors.width, .height = colors.height};
+  try {
+    map.pixels.resize(std::size_t{colors.width} * colors.height);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::limit, path.string(), "is too large for the memory there is");
+  }
+  if (const auto* floats = std::get_if<std::vector<float>>(&decoded.samples)) {
+    fill(
+        colors, [&](std::size_t i) { return (*floats)[i]; }, map.pixels);
+  } else if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&decoded.samples)) {
+    const std::vector<float> table = srgb_table<std::uint8_t>();
+    fill(
+        colors, [&](std::size_t i) { return table[(*bytes)[i]]; }, map.pixels);
+  } else {
+    const auto& words = std::get<std::vector<std::uint16_t>>(decoded.samples);
+    const std::vector<float> table = srgb_table<std::uint16_t>();
+    fill(
+        colors, [&](std::size_t i) { return table[words[i]]; }, map.pixels);
+  }
+  LoadedRadianceMap out;
+  const auto warn = [&](std::string&& message) {
+    Diagnostic& warning = out.warnings.emplace_back();
+    warning.file = path.string();
+    warning.message = std::move(message);
+  };
+  if (const std::size_t changed = clamp_pixels(map.pixels); changed > 0) {
+    warn(std::to_string(changed) +
+         " pixels of the environment are negative, too bright or not numbers; they are clamped to "
+         "0 and 1e9");
+  }
+  if (colors.width != 2 * colors.height) {
+    warn("an environment is a latitude-longitude map, twice as wide as high; this one of " +
+         std::to_string(colors.width) + " x " + std::to_string(colors.height) +
+         " pixels is stretched to that");
+  }
+  out.map = std::make_shared<const RadianceMap>(std::move(map));
+  return out;
+}
+
+}  // namespace microtrace

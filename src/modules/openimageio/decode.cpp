@@ -1,0 +1,94 @@
+/// Decodes pictures by OpenImageIO, behind the C interface of io/image/module_abi.hpp. It reads
+/// from memory: the library alone touches the disk.
+
+#include "io/image/module_abi.hpp"
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+
+/// Takes OpenImageIO's message, which it would print at exit if nobody asked for it.
+std::runtime_error complaint(const std::string& otherwise) {
+  const std::string message = OIIO::geterror();
+  return std::runtime_error(message.empty() ? otherwise : message);
+}
+
+/// The first of the three channels red, green, blue, or of one that is grey.
+int first_color(const ImageSpec& spec) {
+  for (int i = 0; i + 2 < spec.nchannels; ++i) {
+    if (spec.channel_name(i) == "R" && spec.channel_name(i + 1) == "G" &&
+        spec.channel_name(i + 2) == "B")
+      return i;
+  }
+  return 0;
+}
+
+/// How the samples are handed on: bytes and words as they are, all numbers with an exponent as
+/// float32, to which halves are converted without loss.
+MicrotraceNumber number_of(const ImageSpec& spec) {
+  if (spec.format == TypeDesc::UINT8) return kMicrotraceU8;
+  if (spec.format == TypeDesc::UINT16) return kMicrotraceU16;
+  if (spec.format.is_floating_point()) return kMicrotraceF32;
+  throw std::runtime_error("its samples are neither floating-point nor of 8 or 16 bits");
+}
+
+TypeDesc type_of(MicrotraceNumber number) {
+  if (number == kMicrotraceU8) return TypeDesc::UINT8;
+  return number == kMicrotraceU16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
+}
+
+void decode(const void* bytes, std::size_t size, const std::string& ending,
+            const MicrotraceColorSink& sink) {
+  OIIO::attribute("threads", 1);
+  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // which only reads
+  const std::string name = "picture." + ending;
+  ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+  const std::unique_ptr<ImageInput> reader = ImageInput::create(ending, false, &config, &memory);
+  if (!reader || !reader->supports("ioproxy") || std::string(reader->format_name()) == "null") {
+    static_cast<void>(OIIO::geterror());
+    throw std::runtime_error("OpenImageIO reads no format of this ending");
+  }
+  ImageSpec spec;
+  reader->set_ioproxy(&memory);
+  if (!reader->open(name, spec, config)) throw complaint(reader->geterror());
+  if (spec.deep || spec.depth != 1 || spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+    throw std::runtime_error("it is no plain picture of two dimensions");
+  const int first = first_color(spec), count = spec.nchannels - first < 3 ? 1 : 3;
+  const MicrotraceColors colors{.width = static_cast<std::uint32_t>(spec.width),
+                                .height = static_cast<std::uint32_t>(spec.height),
+                                .channels = static_cast<std::uint32_t>(count),
+                                .number = number_of(spec)};
+  void* samples = sink.begin(sink.context, &colors);
+  if (samples == nullptr) throw std::runtime_error("it is too large");
+  if (!reader->read_image(0, 0, first, first + count, type_of(colors.number), samples))
+    throw std::runtime_error(reader->geterror());
+  reader->close();
+}
+
+}  // namespace
+
+extern "C" {
+
+__attribute__((visibility("default"))) int microtrace_decode_colors_v1(
+    const void* bytes, std::size_t size, const char* ending, const MicrotraceColorSink* sink) {
+  try {
+    decode(bytes, size, ending, *sink);
+    return 1;
+  } catch (const std::exception& e) {
+    sink->complain(sink->context, e.what());
+    return 0;
+  }
+}
+}

@@ -1,0 +1,162 @@
+#include "folder.hpp"
+#include "scene/srgb.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/io.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include <gmock/gmock.h>
+
+namespace microtrace {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// Twice as wide as high, each pixel another colour with exactly representable halves.
+Film panorama() {
+  Film film({.width = 8, .height = 4});
+  for (std::uint32_t y = 0; y < 4; ++y) {
+    for (std::uint32_t x = 0; x < 8; ++x)
+      film.at(x, y) = Vec3(static_cast<float>(x), static_cast<float>(y) / 8, 100);
+  }
+  return film;
+}
+
+/// Runs oiiotool, quietly.
+void convert(const std::string& arguments) {
+  ASSERT_EQ(std::system(("oiiotool " + arguments + " >/dev/null 2>&1").c_str()), 0) << arguments;
+}
+
+void expect_equal(const RadianceMap& map, const Film& film, double relative) {
+  ASSERT_EQ(map.width, film.size().width);
+  ASSERT_EQ(map.height, film.size().height);
+  for (std::uint32_t y = 0; y < map.height; ++y) {
+    for (std::uint32_t x = 0; x < map.width; ++x) {
+      const Vec3 is = map.pixels[y * map.width + x], was = film.row(y)[x];
+      for (glm::length_t i = 0; i < 3; ++i)
+        ASSERT_NEAR(is[i], was[i], relative * double{std::max({was.x, was.y, was.z})});
+    }
+  }
+}
+
+ErrorKind kind_of(const fs::path& path, const std::string& word) {
+  try {
+    static_cast<void>(load_radiance_map(path));
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(word));
+    EXPECT_THAT(error.what(), HasSubstr(path.string()));
+    return error.kind();
+  }
+  ADD_FAILURE() << path;
+  return ErrorKind::internal;
+}
+
+TEST(RadianceMapFile, ExrHoldsTheNumbersThemselves) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "a.exr");
+  EXPECT_TRUE(loaded.warnings.empty());
+  expect_equal(*loaded.map, panorama(), 0);
+  convert((folder / "a.exr").string() + " -d half --tile 16 16 -o " +
+          (folder / "half.EXR").string());
+  expect_equal(*load_radiance_map(folder / "half.EXR").map, panorama(), 0);
+}
+
+TEST(RadianceMapFile, HdrIsTrueToItsEightBits) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.hdr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "a.hdr");
+  EXPECT_TRUE(loaded.warnings.empty());
+  expect_equal(*loaded.map, panorama(), 1.0 / 128);
+}
+
+TEST(RadianceMapFile, BytesAndWordsAreSrgb) {
+  const Folder folder;
+  const std::string samples("\x80\x01\xff\x02\x00\x7f", 6);
+  write_bytes(folder / "a.ppm", "P6\n2 1\n255\n" + samples);
+  const LoadedRadianceMap bytes = load_radiance_map(folder / "a.ppm");
+  const auto linear = [](int code) { return static_cast<float>(linear_from_srgb(code / 255.0)); };
+  EXPECT_EQ(bytes.map->pixels[0], Vec3(linear(0x80), linear(1), 1));
+  EXPECT_EQ(bytes.map->pixels[1], Vec3(linear(2), 0, linear(0x7f)));
+  convert((folder / "a.ppm").string() + " -d uint16 -o " + (folder / "a.png").string());
+  const LoadedRadianceMap words = load_radiance_map(folder / "a.png");
+  EXPECT_EQ(words.map->pixels[0], bytes.map->pixels[0]);  // 257 c / 65535 = c / 255
+  EXPECT_EQ(words.map->pixels[1], bytes.map->pixels[1]);
+}
+
+TEST(RadianceMapFile, GreyIsTakenForAllAndAlphaLeftOut) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  const std::string in = (folder / "a.exr").string();
+  convert(in + " --ch B -o " + (folder / "grey.exr").string());
+  EXPECT_EQ(load_radiance_map(folder / "grey.exr").map->pixels[3], Vec3(100));
+  convert(in + " --ch Z=0.5,R,G,B,A=0.25 -o " + (folder / "more.exr").string());
+  expect_equal(*load_radiance_map(folder / "more.exr").map, panorama(), 0);
+}
+
+TEST(RadianceMapFile, NumbersThatAreNoLightAreClampedWithAWarning) {
+  const Folder folder;
+  Film film = panorama();
+  film.at(0, 0) = Vec3(-1, 2, 3);
+  film.at(1, 0) = Vec3(std::numeric_limits<float>::infinity(), 0, 0);
+  film.at(2, 0) = Vec3(0, std::nanf(""), 5);
+  film.at(3, 0) = Vec3(0, 0, 1e20F);
+  save_image(film, folder / "a.exr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "a.exr");
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_THAT(loaded.warnings[0].text(), HasSubstr("4 pixels"));
+  const std::vector<Vec3>& pixels = loaded.map->pixels;
+  EXPECT_EQ(pixels[0], Vec3(0, 2, 3));
+  EXPECT_EQ(pixels[1], Vec3(kMaxRadiance, 0, 0));
+  EXPECT_EQ(pixels[2], Vec3(0, 0, 5));
+  EXPECT_EQ(pixels[3], Vec3(0, 0, kMaxRadiance));
+}
+
+TEST(RadianceMapFile, AnotherShapeIsWarnedOf) {
+  const Folder folder;
+  save_image(Film({.width = 3, .height = 3}), folder / "a.exr");
+  const LoadedRadianceMap loaded = load_radiance_map(folder / "a.exr");
+  ASSERT_EQ(loaded.warnings.size(), 1U);
+  EXPECT_THAT(loaded.warnings[0].text(), HasSubstr("twice as wide as high"));
+}
+
+TEST(RadianceMapFile, RefusesWhatItCannotRead) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  EXPECT_EQ(kind_of(folder / "missing.exr", "missing.exr"), ErrorKind::io);
+  write_bytes(folder / "cut.exr", read_bytes(folder / "a.exr").substr(0, 200));
+  EXPECT_EQ(kind_of(folder / "cut.exr", "can't be decoded"), ErrorKind::io);
+  write_bytes(folder / "text.hdr", "no picture");
+  EXPECT_EQ(kind_of(folder / "text.hdr", "can't be decoded"), ErrorKind::io);
+  write_bytes(folder / "empty.png", "");
+  EXPECT_EQ(kind_of(folder / "empty.png", "can't be decoded"), ErrorKind::io);
+  for (const char* name : {"a.null", "a"}) {
+    write_bytes(folder / name, read_bytes(folder / "a.exr"));
+    EXPECT_EQ(kind_of(folder / name, "can't be decoded"), ErrorKind::io) << name;
+  }
+}
+
+TEST(RadianceMapFile, RefusesSizesBeforeMemoryIsTaken) {
+  const Folder folder;
+  write_bytes(folder / "large.ppm", "P6\n65536 65536\n255\n");
+  EXPECT_EQ(kind_of(folder / "large.ppm", "65536 x 65536"), ErrorKind::limit);
+  write_bytes(folder / "wide.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 70000\n");
+  EXPECT_EQ(kind_of(folder / "wide.hdr", "70000 x 1"), ErrorKind::limit);
+}
+
+TEST(RadianceMapFile, NamesTheMissingModule) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  ::setenv("MICROTRACE_MODULE_PATH", (folder / "nowhere").c_str(), 1);
+  EXPECT_EQ(kind_of(folder / "a.exr", "microtrace_openimageio"), ErrorKind::unsupported);
+  ::unsetenv("MICROTRACE_MODULE_PATH");
+}
+
+}  // namespace
+}  // namespace microtrace
