@@ -53,6 +53,17 @@ class Bvh {
   [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
                                                  const Vec3& direction) const;
 
+  /// A ray that leaves a hit.
+  struct Spawn {
+    const Ray* ray;  ///< that hit
+    Hit hit;
+    Vec3 direction;  ///< of the new ray
+  };
+
+  /// origins[i] is spawn_origin's answer to spawns[i]; both have one length. Much sooner than
+  /// asking one by one, most so where those of one hit follow each other.
+  void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
+
   /// Whether intersect(ray) would find something; sooner.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 

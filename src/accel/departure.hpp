@@ -10,7 +10,9 @@
 #include <microtrace/shape.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -21,17 +23,26 @@ namespace microtrace {
 /// The distance from |x| to the next larger number: x, rounded to nearest, errs by at most half of
 /// it.
 inline double spacing(float x) {
-  const float size = std::abs(x);
-  const float next = std::nextafter(size, std::numeric_limits<float>::infinity());
-  return next == std::numeric_limits<float>::infinity() ? 0x1p104 : double{next} - size;
+  const std::uint32_t exponent = std::bit_cast<std::uint32_t>(x) >> 23U & 255U;
+  // 2^(exponent - 150), which is below float64's least by far.
+  return std::bit_cast<double>(std::uint64_t{std::max(exponent, 1U) + 1023 - 150} << 52U);
+}
+
+/// The next representable number above x (`up`) or below it; x finite.
+inline float neighbour(float x, bool up) {
+  if (x == 0)
+    return up ? std::numeric_limits<float>::denorm_min()
+              : -std::numeric_limits<float>::denorm_min();
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  return std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1);
 }
 
 /// How an origin is moved off a surface: one coordinate, number by number.
 struct Nudge {
   int axis;
-  float towards;  ///< infinity or its negative
+  bool up;
 
-  void apply(Vec3& p) const { p[axis] = std::nextafter(p[axis], towards); }
+  void apply(Vec3& p) const { p[axis] = neighbour(p[axis], up); }
 };
 
 /// Along the axis of which one step gains most, v being the surface's gradient or what stands for
@@ -41,9 +52,7 @@ struct Nudge {
   for (int k = 1; k < 3; ++k) {
     if (std::abs(v[k]) * spacing(p[k]) > std::abs(v[best]) * spacing(p[best])) best = k;
   }
-  return {.axis = best,
-          .towards = v[best] < 0 ? -std::numeric_limits<float>::infinity()
-                                 : std::numeric_limits<float>::infinity()};
+  return {.axis = best, .up = !(v[best] < 0)};
 }
 
 inline double to_double(const exact::Dyadic& x) {
@@ -95,6 +104,37 @@ class ExactSurface {
   std::optional<exact::Root> t_;
 };
 
+/// On which side of the plane through a with that normal all of the box x +- radius lies, -1 or 1;
+/// 0 if that is not known. The normal is the cross product of two edges from a, a of float32.
+[[nodiscard]] inline int certain_side(const Vec3& a, const CrossProduct& normal, const DVec3& x,
+                                      const DVec3& radius) {
+  const DVec3 from_a = x - DVec3(a);
+  // As in TrianglePlaneFilter.
+  const Approximate value{.value = glm::dot(from_a, normal.value),
+                          .error = gamma(9) * glm::dot(glm::abs(from_a), normal.permanent) +
+                                   2 * glm::dot(radius, normal.permanent) + kUnderflow};
+  return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
+}
+
+/// The triangle's point at a parameter, rounded to float32, where its bounds leave no doubt.
+[[nodiscard]] inline std::optional<Vec3> rounded_point(const Triangle& triangle, const Ray& ray,
+                                                       const Verdict& t) {
+  Vec3 p{0};
+  for (int k = 0; k < 3; ++k) {
+    if (triangle.a[k] == triangle.b[k] && triangle.a[k] == triangle.c[k]) {
+      p[k] = triangle.a[k];  // floors and walls, of which many lie at 0
+      continue;
+    }
+    const double o = ray.o[k], d = ray.d[k], middle = (t.lo + t.hi) / 2;
+    const double x = o + middle * d;
+    const double error =
+        (t.hi - t.lo) * std::abs(d) + gamma(8) * (std::abs(o) + std::abs(middle * d)) + kUnderflow;
+    p[k] = static_cast<float>(x - error);
+    if (p[k] != static_cast<float>(x + error)) return std::nullopt;
+  }
+  return p;
+}
+
 /// A triangle asked in float64 first.
 class TriangleSurface {
  public:
@@ -108,7 +148,7 @@ class TriangleSurface {
           seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
       if (verdict.certainty == Certainty::miss) return std::nullopt;
       if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded(ray, verdict)) return p;
+        if (const auto p = rounded_point(triangle_, ray, verdict)) return p;
       }
     }
     return ExactSurface(triangle_).point(ray);
@@ -134,29 +174,10 @@ class TriangleSurface {
 
   /// The sign of the plane's function in all of the box x +- radius; 0 if that is not known.
   [[nodiscard]] int certain_sign(const DVec3& x, const DVec3& radius) const {
-    const DVec3 from_a = x - DVec3(triangle_.a);
-    // As in TrianglePlaneFilter.
-    const Approximate value{.value = glm::dot(from_a, normal_.value),
-                            .error = gamma(9) * glm::dot(glm::abs(from_a), normal_.permanent) +
-                                     2 * glm::dot(radius, normal_.permanent) + kUnderflow};
-    return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
+    return certain_side(triangle_.a, normal_, x, radius);
   }
 
  private:
-  // Where bounds on each coordinate round to the same number.
-  static std::optional<Vec3> rounded(const Ray& ray, const Verdict& t) {
-    Vec3 p{0};
-    for (int k = 0; k < 3; ++k) {
-      const double o = ray.o[k], d = ray.d[k], middle = (t.lo + t.hi) / 2;
-      const double x = o + middle * d;
-      const double error = (t.hi - t.lo) * std::abs(d) +
-                           gamma(8) * (std::abs(o) + std::abs(middle * d)) + kUnderflow;
-      p[k] = static_cast<float>(x - error);
-      if (p[k] != static_cast<float>(x + error)) return std::nullopt;
-    }
-    return p;
-  }
-
   const Triangle& triangle_;
   CrossProduct normal_;
 };

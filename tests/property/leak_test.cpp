@@ -110,6 +110,14 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       if (side * there < 0) d = -d;
       if (d == Vec3(0)) break;
       const auto q = bvh.spawn_origin(ray, *hit, d);
+      // Asked together they are answered by other means, with the same origins.
+      const std::array<Bvh::Spawn, 3> spawns{{{.ray = &ray, .hit = *hit, .direction = d},
+                                              {.ray = &ray, .hit = *hit, .direction = -d},
+                                              {.ray = &ray, .hit = *hit, .direction = ray.d}}};
+      std::array<std::optional<Vec3>, 3> origins;
+      bvh.spawn_origins(spawns, origins);
+      for (std::size_t i = 0; i < 3; ++i)
+        ASSERT_EQ(origins[i], bvh.spawn_origin(ray, *hit, spawns[i].direction)) << path;
       if (!q) {
         ++ends;
         break;

@@ -2,6 +2,7 @@
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/tile.hpp"
 #include "accel/kernels/tile_rays.hpp"
+#include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kAvx2Kernels{"avx2",
@@ -14,5 +15,6 @@ const Kernels kAvx2Kernels{"avx2",
                            any_of_stream<8, 8>,
                            round_t<4>,
                            round_t_of_tile<4>,
+                           touching<8>,
                            edge_tests};
 }

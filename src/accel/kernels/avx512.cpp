@@ -2,6 +2,7 @@
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/tile.hpp"
 #include "accel/kernels/tile_rays.hpp"
+#include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kAvx512Kernels{"avx512",
@@ -14,5 +15,6 @@ const Kernels kAvx512Kernels{"avx512",
                              any_of_stream<8, 16>,
                              round_t<8>,
                              round_t_of_tile<8>,
+                             touching<8>,
                              edge_tests};
 }

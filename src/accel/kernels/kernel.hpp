@@ -131,6 +131,11 @@ struct alignas(64) HitBatch {
   float t[kHitBatch];                                       ///< the answers
 };
 
+/// A small box, closed.
+struct PlaceBox {
+  float lo[3], hi[3];
+};
+
 /// One instruction set's code.
 struct Kernels {
   const char* name;
@@ -155,6 +160,10 @@ struct Kernels {
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a tile that have a place.
   std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
+  /// Writes the places (as KernelTile::best_place) of all triangles whose own boxes have a point in
+  /// the box, some maybe twice; returns their number. -1 if there are more than `capacity` or other
+  /// primitives may be there.
+  int (*touching)(const TreeView& tree, const PlaceBox& box, std::uint32_t* places, int capacity);
   /// How many triangles' edges this thread has looked at by float64.
   std::uint64_t (*edge_tests)();
 };

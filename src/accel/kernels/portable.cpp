@@ -2,10 +2,11 @@
 #include "accel/kernels/stream.hpp"
 #include "accel/kernels/tile.hpp"
 #include "accel/kernels/tile_rays.hpp"
+#include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kPortableKernels{"portable",           closest<4>,          any<4>,
                                fill_tile<4>,         closest_of_tile<4>,  prepare_stream<4>,
                                closest_of_stream<4>, any_of_stream<4, 4>, round_t<4>,
-                               round_t_of_tile<4>,   edge_tests};
+                               round_t_of_tile<4>,   touching<4>,         edge_tests};
 }
