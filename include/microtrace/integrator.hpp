@@ -15,6 +15,8 @@
 
 namespace microtrace {
 
+class Lighting;
+class Shading;
 class Surfaces;
 
 /// What integrators ask.
@@ -23,7 +25,11 @@ struct World {
   const Bvh& bvh;            ///< of that scene
   const Surfaces& surfaces;  ///< of that scene: src/render/surfaces.hpp
   const RayGenerator& camera;
-  std::uint32_t seed = 0;  ///< of all that is random
+  // For random integrators:
+  std::uint32_t seed = 0;              ///< of all that is random
+  std::uint32_t samples = 1;           ///< the most for each pixel
+  const Shading* shading = nullptr;    ///< src/render/shading/shading.hpp
+  const Lighting* lighting = nullptr;  ///< src/render/lights/lighting.hpp
 };
 
 /// Which of a picture's samples a ray is. With the seed it settles all that is random about it.

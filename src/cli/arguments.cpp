@@ -89,8 +89,12 @@ Parsed parse_arguments(int argc, char** argv) {
                  "scene has no camera]")
       ->excludes("--camera");
   app.add_option("--integrator", integrator,
-                 "what the picture shows: flat (colours without light), or a quantity as --aov has "
-                 "them [flat]");
+                 "what the picture shows: flat (colours without light), path (with light, by path "
+                 "tracing), or a quantity as --aov has them [flat]");
+  app.add_option("--max-depth", a.max_depth,
+                 "the most straight parts of a path of light, 2: direct light alone [8]")
+      ->check(CLI::Range(1U, 65536U))
+      ->type_name("N");
   app.add_option(
       "--aov", aovs,
       "exact quantities at pixel centres as further channels of an .exr file: depth, "
@@ -183,7 +187,10 @@ Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize s
 }
 
 std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {
-  if (arguments.integrator) return std::make_unique<AovIntegrator>(*arguments.integrator);
+  if (const auto* aov = std::get_if<Aov>(&arguments.integrator))
+    return std::make_unique<AovIntegrator>(*aov);
+  if (std::get<Technique>(arguments.integrator) == Technique::path)
+    return std::make_unique<PathIntegrator>(PathOptions{.max_depth = arguments.max_depth});
   return std::make_unique<FlatIntegrator>();
 }
 

@@ -8,6 +8,7 @@
 
 #include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
+#include <microtrace/path.hpp>
 
 #include <cstdint>
 #include <filesystem>
@@ -30,7 +31,8 @@ struct Arguments {
   std::optional<PixelRect> crop{};
   Surroundings surroundings{};
   Sampling sampling{};
-  std::optional<Aov> integrator{};  ///< nothing: flat
+  Subject integrator = Technique::flat;
+  std::uint32_t max_depth = PathOptions{}.max_depth;
   std::vector<Aov> aovs{};
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   std::string camera;             ///< a name or an index; empty: the default

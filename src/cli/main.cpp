@@ -36,7 +36,8 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
 // A flat picture takes only the colours of surfaces.
 LoadOptions load_options(const cli::Arguments& arguments) {
   LoadOptions options = arguments.load;
-  const bool flat = !arguments.integrator && arguments.aovs.empty();
+  const bool flat =
+      arguments.integrator == cli::Subject(cli::Technique::flat) && arguments.aovs.empty();
   options.detail = flat ? SurfaceDetail::color : SurfaceDetail::all;
   return options;
 }

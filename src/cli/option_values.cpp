@@ -142,10 +142,11 @@ std::optional<Vec3> parse_radiance(const std::string& text) {
   return parse_color(text, kMaxRadiance);
 }
 
-std::optional<Aov> parse_integrator(const std::string& text) {
-  if (text == "flat") return std::nullopt;
-  if (const auto aov = aov_named(text)) return aov;
-  throw CLI::ValidationError("--integrator", "wants flat, " + aov_names() + ", not " + text);
+Subject parse_integrator(const std::string& text) {
+  if (text == "flat") return Technique::flat;
+  if (text == "path") return Technique::path;
+  if (const auto aov = aov_named(text)) return *aov;
+  throw CLI::ValidationError("--integrator", "wants flat, path, " + aov_names() + ", not " + text);
 }
 
 std::vector<Aov> parse_aovs(const std::string& text) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace microtrace::cli {
@@ -39,8 +40,13 @@ struct Background {
 /// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; else nothing
 [[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
 
-/// flat: nothing; else a quantity's name
-[[nodiscard]] std::optional<Aov> parse_integrator(const std::string& text);
+/// How colours come about.
+enum class Technique { flat, path };
+/// What a picture shows: colours, or a quantity.
+using Subject = std::variant<Technique, Aov>;
+
+/// A technique's or a quantity's name
+[[nodiscard]] Subject parse_integrator(const std::string& text);
 /// Names of quantities with commas between them, each once
 [[nodiscard]] std::vector<Aov> parse_aovs(const std::string& text);
 

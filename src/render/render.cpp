@@ -1,5 +1,7 @@
 #include "float_environment.hpp"
 #include "render/aov_painter.hpp"
+#include "render/lights/lighting.hpp"
+#include "render/shading/shading.hpp"
 #include "render/surfaces.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
@@ -79,10 +81,20 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const auto built = Clock::now();
   const RayGenerator rays(camera, size);
   const Surfaces surfaces(scene, bvh.primitives(), rays, options.samples);
-  const World world{
-      .scene = scene, .bvh = bvh, .surfaces = surfaces, .camera = rays, .seed = options.seed};
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
+  World world{.scene = scene,
+              .bvh = bvh,
+              .surfaces = surfaces,
+              .camera = rays,
+              .seed = options.seed,
+              .samples = options.samples};
+  std::optional<Shading> shading;
+  std::optional<Lighting> lighting;
+  if (integrator.is_random()) {
+    world.shading = &shading.emplace(scene, bvh.primitives());
+    world.lighting = &lighting.emplace(scene, bvh.primitives(), *shading);
+  }
   Film film = make_film(window.size(),
                         options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.whole = size;

@@ -81,9 +81,11 @@ Cover cover(std::uint32_t i, std::uint32_t n) {
 
 TextureMap::TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding)
     : image_(image), sampler_(sampler) {
-  const bool is_wide = std::holds_alternative<std::vector<std::uint16_t>>(image.samples);
-  color_table_ = table(is_wide, encoding);
-  alpha_table_ = table(is_wide, ColorEncoding::linear);
+  is_wide_ = std::holds_alternative<std::vector<std::uint16_t>>(image.samples);
+  image_samples_ =
+      std::visit([](const auto& samples) -> const void* { return samples.data(); }, image.samples);
+  color_table_ = table(is_wide_, encoding);
+  alpha_table_ = table(is_wide_, ColorEncoding::linear);
   if (sampler.mip != MipFilter::none) make_levels();
 }
 

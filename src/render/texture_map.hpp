@@ -30,6 +30,11 @@ class TextureMap {
   /// that surfaces seen at a slant are not blurred more than they must.
   [[nodiscard]] DVec4 look_up(const DVec2& uv, const TextureFootprint& footprint) const;
 
+  /// The same in float32 by one bilinear look-up in the level whose pixels are nearest below
+  /// `width` in size, which is a part of the image's width and height: for random samples, which
+  /// together are the filter.
+  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const;
+
   static constexpr int kMaxProbes = 8;
 
  private:
@@ -43,6 +48,8 @@ class TextureMap {
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
   [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
+  /// Pixel number `index`, row by row.
+  [[nodiscard]] Vec4 texel(std::size_t level, std::size_t index) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
   /// At a footprint of so many pixels of the image, above 1.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
@@ -52,6 +59,8 @@ class TextureMap {
   Sampler sampler_;
   std::span<const float> color_table_, alpha_table_;  // linear light of the image's numbers
   std::vector<Level> levels_;                         // from the second on
+  const void* image_samples_;                         // of the image, 8 or 16 bits each
+  bool is_wide_;
 };
 
 }  // namespace microtrace

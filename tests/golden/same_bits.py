@@ -20,6 +20,7 @@ QUESTIONS = [[scene, "-o", "-"] for scene in SCENES] + [
     ["perspective2.json", "--spp", "7", "-o", "-"],
     ["gltf/cube.glb", "--view", "-71,33", "--integrator", "normal", "-o", "-"],
     ["gltf/knot.glb", "--integrator", "barycentric", "-o", "-"],
+    ["gltf/knot.glb", "--integrator", "path", "--spp", "3", "--size", "160x120", "-o", "-"],
     ["framed.json", "--integrator", "depth", "-o", "-"],
     # The framed camera's numbers and the boxes to their last digit.
     ["perspective1.json", "--view", "12.5,-61", "-o", "/dev/null", "--sidecar", "-"],

@@ -1,0 +1,31 @@
+#pragma once
+/// Pictures with light.
+
+#include <microtrace/integrator.hpp>
+
+#include <cstdint>
+
+namespace microtrace {
+
+struct PathOptions {
+  /// The most straight parts of a path: with 1 only what shines itself is seen, with 2 what it
+  /// lights directly. At least 1.
+  std::uint32_t max_depth = 8;
+};
+
+/// Light by path tracing (J. Kajiya, The rendering equation, 1986): the scene's lights, its
+/// environment, and what shines, scattered by the surfaces' materials as glTF 2.0's appendix B has
+/// them. The mean over the samples is the radiance but for what paths longer than max_depth bring.
+class PathIntegrator final : public Integrator {
+ public:
+  explicit PathIntegrator(const PathOptions& options = {}) : options_(options) {}
+
+  void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
+             std::span<Sample> samples) const override;
+  [[nodiscard]] bool is_random() const override { return true; }
+
+ private:
+  PathOptions options_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,114 @@
+#pragma once
+/// The microfacet distribution of B. Walter et al. (Microfacet models for refraction, 2007; "GGX")
+/// with the masking of E. Heitz (Understanding the masking-shadowing function, 2014). Local
+/// coordinates: z is the normal; directions are unit vectors above the surface.
+
+#include "render/bsdf/ggx_albedo_table.hpp"
+#include "render/sampling/warps.hpp"
+
+#include <microtrace/math.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace microtrace::bsdf {
+
+inline constexpr float kInversePi = static_cast<float>(std::numbers::inv_pi);
+
+/// Smoother surfaces are taken to have this alpha: sharper reflections than a twentieth of a degree
+/// are all the same to a picture, and float32 holds out.
+inline constexpr float kLeastAlpha = 0.001F;
+
+/// Isotropic. With z = cos(theta): root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) occurs in all of
+/// masking: G1(z) = 2 z / (z + root(z)).
+class Ggx {
+ public:
+  explicit Ggx(float roughness)
+      : alpha_(std::max(roughness * roughness, kLeastAlpha)), square_(alpha_ * alpha_) {}
+
+  [[nodiscard]] float alpha() const { return alpha_; }
+
+  [[nodiscard]] float root(float z) const { return std::sqrt(square_ + (1 - square_) * z * z); }
+
+  /// Normals per solid angle.
+  [[nodiscard]] float distribution(const Vec3& h) const {
+    const float q = (h.x * h.x + h.y * h.y) / square_ + h.z * h.z;
+    return kInversePi / (square_ * q * q);
+  }
+
+  /// G2 / (4 z_o z_i), the directions' heights correlated.
+  [[nodiscard]] float visibility(float z_o, float z_i) const {
+    return 0.5F / (z_i * root(z_o) + z_o * root(z_i));
+  }
+
+  /// The density of wi where its half vector comes from visible_normal(wo): G1 D / (4 z_o).
+  [[nodiscard]] float reflected_density(float z_o, float distribution) const {
+    return distribution / (2 * (z_o + root(z_o)));
+  }
+
+  /// A normal that wo sees (J. Dupuy and A. Benyoub, Sampling visible GGX normals with spherical
+  /// caps, 2023).
+  [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {
+    Vec3 v(alpha_ * wo.x, alpha_ * wo.y, wo.z);
+    v /= std::sqrt(glm::dot(v, v));
+    const auto [cosine, sine] = sampling::unit_pair(u.x);
+    const float z = (1 - u.y) * (1 + v.z) - v.z;
+    const float r = std::sqrt(std::max(1 - z * z, 0.0F));
+    const Vec3 h(alpha_ * (r * cosine + v.x), alpha_ * (r * sine + v.y), z + v.z);
+    return h / std::sqrt(glm::dot(h, h));
+  }
+
+ private:
+  float alpha_, square_;
+};
+
+/// What single reflections return of light from all around: where F = 1, and where
+/// F = (1 - cos)^5, the rest of Schlick's Fresnel term. With F0: F0 white + (1 - F0) edge.
+struct Albedo {
+  float white, edge;
+};
+
+/// Directional albedos for one roughness.
+class GgxAlbedo {
+ public:
+  explicit GgxAlbedo(const Ggx& ggx) : alpha_(ggx.alpha()), row_(std::sqrt(alpha_)) {}
+
+  /// Of light to or from z = cos(theta), in [0, 1].
+  [[nodiscard]] Albedo at(float z) const {
+    const Place white(z * (1 + alpha_) / (z + alpha_)), edge(std::sqrt(z));
+    return {.white = row_.mixed(white.mixed(kWhiteAlbedo[row_.first]),
+                                white.mixed(kWhiteAlbedo[row_.first + 1])),
+            .edge = row_.mixed(edge.mixed(kEdgeAlbedo[row_.first]),
+                               edge.mixed(kEdgeAlbedo[row_.first + 1]))};
+  }
+
+  /// The cosine-weighted mean of all directions.
+  [[nodiscard]] Albedo mean() const {
+    return {.white = row_.mixed(kMeanWhiteAlbedo), .edge = row_.mixed(kMeanEdgeAlbedo)};
+  }
+
+ private:
+  /// Between two steps of a table.
+  struct Place {
+    std::size_t first;
+    float share;
+
+    explicit Place(float s) {
+      const float step = s * (kAlbedoSteps - 1);
+      const int i = std::min(static_cast<int>(step), kAlbedoSteps - 2);
+      first = static_cast<std::size_t>(i);
+      share = step - static_cast<float>(i);
+    }
+    [[nodiscard]] float mixed(float a, float b) const { return a + share * (b - a); }
+    [[nodiscard]] float mixed(const std::array<float, kAlbedoSteps>& steps) const {
+      return mixed(steps[first], steps[first + 1]);
+    }
+  };
+
+  float alpha_;
+  Place row_;
+};
+
+}  // namespace microtrace::bsdf

@@ -1,0 +1,165 @@
+#include "render/integrators/wave.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+/// Paths at least this long end at random if they carry little.
+constexpr std::uint32_t kFirstRoulette = 4;
+
+/// E. Veach, Robust Monte Carlo methods for light transport simulation, 1997, section 9.2.2.
+float power_heuristic(float density, float other) {
+  const float square = density * density;
+  return square / (square + other * other);
+}
+
+/// Whether light from wi comes to the side of the surface that the ray sees.
+bool is_above(const ShadingPoint& point, const Vec3& wi) {
+  const float cosine = glm::dot(wi, point.at.n);
+  return point.at.front ? cosine > 0 : cosine < 0;
+}
+
+}  // namespace
+
+Wave::Wave(const World& world, const PathOptions& options, std::span<const Ray> rays,
+           std::span<const SampleId> ids)
+    : world_(world),
+      shading_(*world.shading),
+      lighting_(*world.lighting),
+      options_(options),
+      sample_width_(1 / std::sqrt(static_cast<float>(world.samples))),
+      shadow_rays_(world.bvh, *world.shading),
+      count_(rays.size()) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    rays_[i] = rays[i];
+    const RayDifferential step = world.camera.differential(rays[i]);
+    const DVec3 d(rays[i].d);
+    const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
+    const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
+    paths_[i] = {.sobol = sampling::Sobol(world.seed, ids[i]),
+                 .slot = i,
+                 .begin = static_cast<float>(begin) * sample_width_,
+                 .spread = static_cast<float>(spread) * sample_width_};
+    colors_[i] = Vec3(0);
+    alphas_[i] = 0;
+  }
+}
+
+void Wave::trace(std::span<Sample> samples) {
+  for (; count_ > 0; ++depth_) {
+    world_.bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) step(i);
+    set_off();
+    shadow_rays_.arrive(colors_);
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
+}
+
+void Wave::set_off() {
+  world_.bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
+                           std::span(origins_).first(spawn_count_));
+  // Without an origin there is no room between two walls.
+  for (const Shadow& shadow : std::span(shadows_).first(shadow_count_)) {
+    if (const auto& origin = origins_[shadow.spawn])
+      shadow_rays_.add(*origin, shadow.light, shadow.color, shadow.slot);
+  }
+  count_ = 0;
+  for (const Onward& onward : std::span(onwards_).first(onward_count_)) {
+    const auto& origin = origins_[onward.spawn];
+    if (!origin) continue;
+    rays_[count_] = {.o = *origin, .t_min = 0, .d = spawns_[onward.spawn].direction};
+    paths_[count_++] = onward.path;
+  }
+  shadow_count_ = onward_count_ = spawn_count_ = 0;
+}
+
+void Wave::escape(const Ray& ray, const PathState& path) {
+  const Vec3 wi = bsdf::unit(ray.d);
+  if (path.density > 0) {
+    const float weight = power_heuristic(path.density, lighting_.environment_density(wi));
+    colors_[path.slot] += path.throughput * lighting_.environment(wi) * weight;
+  } else if (lighting_.is_seen()) {  // else the background is the picture's business
+    colors_[path.slot] += path.throughput * lighting_.environment(wi);
+    alphas_[path.slot] = 1;
+  }
+}
+
+void Wave::step(std::size_t i) {
+  const Ray& ray = rays_[i];
+  const PathState& path = paths_[i];
+  std::optional<Hit> hit = hits_[i];
+  ShadingPoint point;
+  for (std::uint32_t layer = 0;; ++layer) {
+    if (!hit) return escape(ray, path);
+    point = shading_.point(ray, *hit, path.begin, path.spread);
+    const float coverage = shading_.coverage(point);
+    if (coverage == 1) break;
+    const std::uint32_t number = pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
+    if (coverage > 0 && path.sobol.one(number) < coverage) break;
+    hit = world_.bvh.next(ray, *hit);
+  }
+  const bool from_camera = path.density == 0;
+  if (from_camera) alphas_[path.slot] = 1;
+  const Vec3 d = bsdf::unit(ray.d);
+  if (const Vec3 emission = shading_.emission(point); emission != Vec3(0)) {
+    const float cosine = std::abs(glm::dot(d, point.at.n));
+    const float other = lighting_.emitter_density(hit->id, point.at.distance, cosine);
+    const float weight = from_camera ? 1 : power_heuristic(path.density, other);
+    colors_[path.slot] += path.throughput * emission * weight;
+  }
+  if (depth_ >= options_.max_depth || point.look->material->unlit) return;
+
+  const bsdf::Frame frame = shading_.frame(point, -d);
+  const bsdf::Bsdf bsdf(shading_.parameters(point), frame.to_local(-d));
+  const Vertex vertex{.ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf};
+  if (lighting_.can_sample()) ask_light(vertex, path);
+  scatter(vertex, path);
+}
+
+std::size_t Wave::spawn(const Vertex& vertex, const Vec3& direction) {
+  spawns_[spawn_count_] = {.ray = &vertex.ray, .hit = vertex.hit, .direction = direction};
+  return spawn_count_++;
+}
+
+void Wave::ask_light(const Vertex& vertex, const PathState& path) {
+  const std::optional<LightSample> light =
+      lighting_.sample(vertex.point.at.p, path.sobol.pair(pair(sampling::kLightPair)),
+                       path.sobol.one(pair(sampling::kLightChoicePair)));
+  if (!light || !is_above(vertex.point, light->wi)) return;
+  const bsdf::Evaluation f = vertex.bsdf.evaluate(vertex.frame.to_local(light->wi));
+  if (f.value == Vec3(0)) return;
+  const float weight = light->density > 0 ? power_heuristic(light->density, f.density) : 1;
+  shadows_[shadow_count_++] = {.light = *light,
+                               .color = path.throughput * f.value * light->light * weight,
+                               .slot = path.slot,
+                               .spawn = spawn(vertex, light->way)};
+}
+
+void Wave::scatter(const Vertex& vertex, const PathState& path) {
+  const Vec2 chances = path.sobol.pair(pair(sampling::kLobePair));
+  const auto sample =
+      vertex.bsdf.sample(path.sobol.pair(pair(sampling::kDirectionPair)), chances.x);
+  if (!sample) return;
+  const Vec3 wi = vertex.frame.to_world(sample->wi);
+  if (!is_above(vertex.point, wi)) return;
+  PathState next = path;
+  next.throughput *= sample->weight;
+  if (depth_ >= kFirstRoulette) {
+    const Vec3& t = next.throughput;
+    const float survival = std::min(std::max({t.x, t.y, t.z}), 0.95F);
+    if (!(chances.y < survival)) return;
+    next.throughput /= survival;
+  }
+  next.density = sample->density;
+  next.begin = vertex.point.width;
+  // Samples of such a density are about so far apart, and a quarter blurs nothing that is seen.
+  next.spread += sample_width_ * 0.25F / std::sqrt(sample->density);
+  onwards_[onward_count_++] = {.path = next, .spawn = spawn(vertex, wi)};
+}
+
+}  // namespace microtrace

@@ -1,0 +1,96 @@
+#pragma once
+/// Many paths that go on together, a straight part of each at a time, so that their rays make
+/// batches.
+
+#include "render/bsdf/bsdf.hpp"
+#include "render/bsdf/frame.hpp"
+#include "render/integrators/shadow_rays.hpp"
+#include "render/lights/lighting.hpp"
+#include "render/sampling/dimensions.hpp"
+#include "render/sampling/sobol.hpp"
+#include "render/shading/shading.hpp"
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/path.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace microtrace {
+
+/// One path on its way.
+struct PathState {
+  sampling::Sobol sobol{0, {}};
+  std::size_t slot = 0;  ///< in the batch
+  Vec3 throughput{1};
+  float density = 0;            ///< with which its last direction was chosen; 0: by the camera
+  float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
+};
+
+class Wave {
+ public:
+  /// One path for each ray; at most kRandomBatch. World and options must outlive it.
+  Wave(const World& world, const PathOptions& options, std::span<const Ray> rays,
+       std::span<const SampleId> ids);
+
+  /// Follows all paths to their ends. Once.
+  void trace(std::span<Sample> samples);
+
+ private:
+  /// Where a path stands.
+  struct Vertex {
+    const Ray& ray;
+    Hit hit;
+    ShadingPoint point;
+    bsdf::Frame frame;
+    const bsdf::Bsdf& bsdf;
+  };
+  /// A ray to a light or on along the path, without origin yet.
+  struct Shadow {
+    LightSample light;
+    Vec3 color;
+    std::size_t slot, spawn;
+  };
+  struct Onward {
+    PathState path;
+    std::size_t spawn;
+  };
+
+  /// What ray i meets, and what becomes of its path.
+  void step(std::size_t i);
+  void escape(const Ray& ray, const PathState& path);
+  void ask_light(const Vertex& vertex, const PathState& path);
+  void scatter(const Vertex& vertex, const PathState& path);
+  std::size_t spawn(const Vertex& vertex, const Vec3& direction);
+  /// Makes the rays of the next step.
+  void set_off();
+
+  /// The number of that pair of random numbers at the present vertex.
+  [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {
+    return sampling::kFirstVertexPair + (depth_ - 1) * sampling::kVertexPairs + which;
+  }
+
+  const World& world_;
+  const Shading& shading_;
+  const Lighting& lighting_;
+  const PathOptions& options_;
+  std::uint32_t depth_ = 1;  // straight parts so far, the one under way among them
+  float sample_width_;       // of a pixel
+  ShadowRays shadow_rays_;
+  std::size_t count_;
+  std::array<Ray, kRandomBatch> rays_;
+  std::array<PathState, kRandomBatch> paths_;
+  std::array<std::optional<Hit>, kRandomBatch> hits_;
+  std::size_t shadow_count_ = 0, onward_count_ = 0, spawn_count_ = 0;
+  std::array<Shadow, kRandomBatch> shadows_;
+  std::array<Onward, kRandomBatch> onwards_;
+  std::array<Bvh::Spawn, 2 * kRandomBatch> spawns_;
+  std::array<std::optional<Vec3>, 2 * kRandomBatch> origins_;
+  std::array<Vec3, kRandomBatch> colors_;
+  std::array<float, kRandomBatch> alphas_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,32 @@
+#pragma once
+/// Pearson's test of counts against expectations.
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace microtrace {
+
+/// The number of standard deviations by which the statistic exceeds its mean, by E. Wilson and
+/// M. Hilferty's cube root (The distribution of chi-square, 1931). Cells with fewer than 5 expected
+/// are pooled.
+inline double chi_square_excess(std::span<const double> counts, std::span<const double> expected) {
+  double statistic = 0, pooled_count = 0, pooled = 0, cells = 0;
+  const auto add = [&](double count, double mean) {
+    statistic += (count - mean) * (count - mean) / mean;
+    ++cells;
+  };
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (expected[i] >= 5) {
+      add(counts[i], expected[i]);
+    } else {
+      pooled_count += counts[i];
+      pooled += expected[i];
+    }
+  }
+  if (pooled >= 5) add(pooled_count, pooled);
+  const double k = cells - 1, variance = 2 / (9 * k);
+  return (std::cbrt(statistic / k) - (1 - variance)) / std::sqrt(variance);
+}
+
+}  // namespace microtrace
