@@ -4,7 +4,9 @@ target_compile_features(microtrace_flags INTERFACE cxx_std_20)
 target_compile_options(microtrace_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
   # a*b+c must round twice on every machine: fused, the bits would depend on compiler and instruction set.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # Neither changes a result; without them square roots branch and conditions can't become selections.
+  -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105651: a false alarm on "text" + std::string.
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict)

@@ -48,8 +48,6 @@ class TextureMap {
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
   [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
-  /// Pixel number `index`, row by row.
-  [[nodiscard]] Vec4 texel(std::size_t level, std::size_t index) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
   /// At a footprint of so many pixels of the image, above 1.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;

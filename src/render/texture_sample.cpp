@@ -2,90 +2,91 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace microtrace {
 namespace {
 
 /// The two pixels between which a coordinate lies, and how far it is from the first to the second.
 struct Between {
-  std::uint32_t first, second;
+  std::int32_t first, second;
   float share;
 };
 
-std::int32_t mirrored(std::int32_t i, std::int32_t size) {
-  return i < 0 ? -1 - i : i >= size ? 2 * size - 1 - i : i;
+/// The largest whole number up to x; |x| < 2^31.
+std::int32_t floor_of(float x) {
+  const auto whole = static_cast<std::int32_t>(x);
+  return whole - (static_cast<float>(whole) > x ? 1 : 0);
 }
 
-/// u as the texture's coordinate, `size` pixels.
-Between between(float u, Wrap wrap, std::uint32_t pixels, Filter filter) {
-  const auto size = static_cast<std::int32_t>(pixels);
-  if (!(std::abs(u) < 0x1p22F)) u = 0;  // beyond, float32 has no room for a fraction
-  float position = 0;
+/// The coordinate in [0, 1]: of the image, or of its mirror image.
+float wrapped(float u, Wrap wrap) {
+  if (!(u > -0x1p22F && u < 0x1p22F)) return 0;  // beyond, float32 has no room for a fraction
   switch (wrap) {
     case Wrap::repeat:
-      position = u - std::floor(u);
-      break;
+      return u - static_cast<float>(floor_of(u));
     case Wrap::mirrored_repeat: {
-      const float turn = u - 2 * std::floor(u * 0.5F);
-      position = turn > 1 ? 2 - turn : turn;
-      break;
+      const float turn = u - 2 * static_cast<float>(floor_of(u * 0.5F));
+      return turn > 1 ? 2 - turn : turn;
     }
     case Wrap::clamp_to_edge:
-      position = std::clamp(u, 0.0F, 1.0F);
       break;
   }
-  position *= static_cast<float>(size);
-  if (filter == Filter::nearest) {
-    const auto pixel =
-        static_cast<std::uint32_t>(std::min(static_cast<std::int32_t>(position), size - 1));
-    return {.first = pixel, .second = pixel, .share = 0};
-  }
-  const float left = std::floor(position - 0.5F);
-  auto first = static_cast<std::int32_t>(left), second = first + 1;
-  if (wrap == Wrap::repeat) {
-    if (first < 0) first += size;
-    if (second >= size) second -= size;
-  } else {
-    // At both ends of a mirrored image its own pixels come again.
-    first = std::clamp(mirrored(first, size), 0, size - 1);
-    second = std::clamp(mirrored(second, size), 0, size - 1);
-  }
-  return {.first = static_cast<std::uint32_t>(std::clamp(first, 0, size - 1)),
-          .second = static_cast<std::uint32_t>(std::clamp(second, 0, size - 1)),
-          .share = position - 0.5F - left};
+  return std::clamp(u, 0.0F, 1.0F);
 }
 
+Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
+  const float position = wrapped(u, wrap) * static_cast<float>(size);
+  if (filter == Filter::nearest) {
+    const std::int32_t pixel = std::min(static_cast<std::int32_t>(position), size - 1);
+    return {.first = pixel, .second = pixel, .share = 0};
+  }
+  const std::int32_t left = floor_of(position - 0.5F);
+  const float share = position - 0.5F - static_cast<float>(left);
+  std::int32_t first = left, second = left + 1;
+  // At the ends of a mirrored image its own pixels come again, as clamping has it.
+  if (first < 0) first = wrap == Wrap::repeat ? size - 1 : 0;
+  if (second >= size) second = wrap == Wrap::repeat ? 0 : size - 1;
+  return {.first = std::min(first, size - 1), .second = second, .share = share};
+}
+
+/// The four pixels around a place, weighed. fetch(index) is a pixel, row by row.
+template <class Fetch>
+Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fetch& fetch) {
+  const std::size_t top = static_cast<std::size_t>(y.first) * columns;
+  const std::size_t bottom = static_cast<std::size_t>(y.second) * columns;
+  const auto left = static_cast<std::size_t>(x.first), right = static_cast<std::size_t>(x.second);
+  const Vec4 upper = fetch(top + left) * (1 - x.share) + fetch(top + right) * x.share;
+  const Vec4 lower = fetch(bottom + left) * (1 - x.share) + fetch(bottom + right) * x.share;
+  return upper * (1 - y.share) + lower * y.share;
+}
+
+/// From an image's own pixels; `color` and `alpha` are the linear light of its numbers.
 template <typename Number>
-Vec4 decoded(const Number* s, std::uint32_t channels, std::span<const float> color,
-             std::span<const float> alpha) {
+Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color, const float* alpha,
+              const Between& x, const Between& y, std::size_t columns) {
   switch (channels) {
     case 1:
-      return {Vec3(color[s[0]]), 1};
+      return bilinear(x, y, columns,
+                      [=](std::size_t i) { return Vec4(Vec3(color[samples[i]]), 1); });
     case 2:
-      return {Vec3(color[s[0]]), alpha[s[1]]};
+      return bilinear(x, y, columns, [=](std::size_t i) {
+        const Number* s = samples + 2 * i;
+        return Vec4(Vec3(color[s[0]]), alpha[s[1]]);
+      });
     case 3:
-      return {color[s[0]], color[s[1]], color[s[2]], 1};
+      return bilinear(x, y, columns, [=](std::size_t i) {
+        const Number* s = samples + 3 * i;
+        return Vec4(color[s[0]], color[s[1]], color[s[2]], 1);
+      });
     default:
-      return {color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]};
+      return bilinear(x, y, columns, [=](std::size_t i) {
+        const Number* s = samples + 4 * i;
+        return Vec4(color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]);
+      });
   }
 }
 
 }  // namespace
-
-Vec4 TextureMap::texel(std::size_t level, std::size_t index) const {
-  if (level > 0) {
-    const std::uint16_t* s = &levels_[level - 1].samples[index * 4];
-    return Vec4(s[0], s[1], s[2], s[3]) * (1 / 65535.0F);
-  }
-  const std::size_t at = index * image_.channels;
-  if (is_wide_) {
-    return decoded(static_cast<const std::uint16_t*>(image_samples_) + at, image_.channels,
-                   color_table_, alpha_table_);
-  }
-  return decoded(static_cast<const std::uint8_t*>(image_samples_) + at, image_.channels,
-                 color_table_, alpha_table_);
-}
 
 Vec4 TextureMap::sample(const Vec2& uv, float width) const {
   std::size_t level = 0;
@@ -98,14 +99,24 @@ Vec4 TextureMap::sample(const Vec2& uv, float width) const {
   const Filter filter = pixels > 1 ? sampler_.minification : sampler_.magnification;
   const std::uint32_t columns = level == 0 ? image_.width : levels_[level - 1].width;
   const std::uint32_t rows = level == 0 ? image_.height : levels_[level - 1].height;
-  const Between x = between(uv.x, sampler_.wrap_s, columns, filter);
-  const Between y = between(uv.y, sampler_.wrap_t, rows, filter);
-  const std::size_t top = std::size_t{y.first} * columns, bottom = std::size_t{y.second} * columns;
-  const Vec4 upper =
-      (1 - x.share) * texel(level, top + x.first) + x.share * texel(level, top + x.second);
-  const Vec4 lower =
-      (1 - x.share) * texel(level, bottom + x.first) + x.share * texel(level, bottom + x.second);
-  return (1 - y.share) * upper + y.share * lower;
+  const Between x = between(uv.x, sampler_.wrap_s, static_cast<std::int32_t>(columns), filter);
+  const Between y = between(uv.y, sampler_.wrap_t, static_cast<std::int32_t>(rows), filter);
+  if (level > 0) {
+    const std::uint16_t* samples = levels_[level - 1].samples.data();
+    return bilinear(x, y, columns,
+                    [=](std::size_t i) {
+                      const std::uint16_t* s = samples + 4 * i;
+                      return Vec4(s[0], s[1], s[2], s[3]);
+                    }) *
+           (1 / 65535.0F);
+  }
+  const float *color = color_table_.data(), *alpha = alpha_table_.data();
+  if (is_wide_) {
+    return of_image(static_cast<const std::uint16_t*>(image_samples_), image_.channels, color,
+                    alpha, x, y, columns);
+  }
+  return of_image(static_cast<const std::uint8_t*>(image_samples_), image_.channels, color, alpha,
+                  x, y, columns);
 }
 
 }  // namespace microtrace

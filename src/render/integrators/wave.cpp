@@ -36,14 +36,7 @@ Wave::Wave(const World& world, const PathOptions& options, std::span<const Ray> 
       count_(rays.size()) {
   for (std::size_t i = 0; i < count_; ++i) {
     rays_[i] = rays[i];
-    const RayDifferential step = world.camera.differential(rays[i]);
-    const DVec3 d(rays[i].d);
-    const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
-    const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
-    paths_[i] = {.sobol = sampling::Sobol(world.seed, ids[i]),
-                 .slot = i,
-                 .begin = static_cast<float>(begin) * sample_width_,
-                 .spread = static_cast<float>(spread) * sample_width_};
+    paths_[i] = {.sobol = sampling::Sobol(world.seed, ids[i]), .slot = i};
     colors_[i] = Vec3(0);
     alphas_[i] = 0;
   }
@@ -89,10 +82,20 @@ void Wave::escape(const Ray& ray, const PathState& path) {
   }
 }
 
+void Wave::widen(const Ray& ray, PathState& path) const {
+  const RayDifferential step = world_.camera.differential(ray);
+  const DVec3 d(ray.d);
+  const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
+  const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
+  path.begin = static_cast<float>(begin) * sample_width_;
+  path.spread = static_cast<float>(spread) * sample_width_;
+}
+
 void Wave::step(std::size_t i) {
   const Ray& ray = rays_[i];
-  const PathState& path = paths_[i];
+  PathState& path = paths_[i];
   std::optional<Hit> hit = hits_[i];
+  if (hit && depth_ == 1) widen(ray, path);
   ShadingPoint point;
   for (std::uint32_t layer = 0;; ++layer) {
     if (!hit) return escape(ray, path);

@@ -61,6 +61,8 @@ class Wave {
 
   /// What ray i meets, and what becomes of its path.
   void step(std::size_t i);
+  /// Gives a path from the camera its width.
+  void widen(const Ray& ray, PathState& path) const;
   void escape(const Ray& ray, const PathState& path);
   void ask_light(const Vertex& vertex, const PathState& path);
   void scatter(const Vertex& vertex, const PathState& path);

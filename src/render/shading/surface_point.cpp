@@ -33,8 +33,10 @@ void add_attributes(const DVec3& n, double area, SurfacePoint& at) {
     const float square = glm::dot(ns, ns);
     if (square > 0) at.ns = ns / std::sqrt(square);
   }
-  if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty())
+  if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty()) {
+    at.first_uv = weighed(at, mesh.uv_sets[0]);
     at.uv_scale = std::sqrt(uv_area(mesh.uv_sets[0], at.corners) / static_cast<float>(area));
+  }
 }
 
 SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit) {
@@ -47,7 +49,7 @@ SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hi
 
 }  // namespace
 
-Vec2 SurfacePoint::uv(std::uint32_t set) const {
+Vec2 SurfacePoint::further_uv(std::uint32_t set) const {
   if (mesh == nullptr || set >= mesh->uv_sets.size() || mesh->uv_sets[set].empty()) return Vec2(0);
   return weighed(*this, mesh->uv_sets[set]);
 }

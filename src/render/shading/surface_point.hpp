@@ -22,15 +22,19 @@ struct SurfacePoint {
   const Mesh* mesh = nullptr;              ///< that it lies on; null: on a shape of its own
   std::array<std::uint32_t, 3> corners{};  ///< the triangle's vertices there
   Vec3 barycentrics{1, 0, 0};              ///< their weights
+  Vec2 first_uv{0};    ///< texture coordinates of set 0; (0, 0) where the mesh lacks it
   float uv_scale = 0;  ///< sqrt(area in texture coordinates of set 0 / area in the world)
 
   /// Texture coordinates; (0, 0) where the mesh lacks the set.
-  [[nodiscard]] Vec2 uv(std::uint32_t set) const;
+  [[nodiscard]] Vec2 uv(std::uint32_t set) const { return set == 0 ? first_uv : further_uv(set); }
   /// The vertices' colours, white where they have none.
   [[nodiscard]] Vec4 color() const;
   /// The vertices' tangents, on the plane of ns, and the sign of the bitangent in w; zero if there
   /// are none.
   [[nodiscard]] Vec4 tangent() const;
+
+ private:
+  [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
 };
 
 /// `hit` is one of `ray`. `mesh` is null if the primitive is none of a mesh, else `triangle` is its
