@@ -18,6 +18,7 @@ struct PixelRect {
   std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
   [[nodiscard]] ImageSize size() const { return {.width = x1 - x0, .height = y1 - y0}; }
+  [[nodiscard]] bool operator==(const PixelRect&) const = default;
 };
 
 /// How 8-bit formats show a film's numbers; float formats hold the numbers themselves.

@@ -27,7 +27,7 @@ struct World {
   const RayGenerator& camera;
   // For random integrators:
   std::uint32_t seed = 0;              ///< of all that is random
-  std::uint32_t samples = 1;           ///< the most for each pixel
+  std::uint32_t samples = 1;           ///< of each pixel, for which textures are filtered
   const Shading* shading = nullptr;    ///< src/render/shading/shading.hpp
   const Lighting* lighting = nullptr;  ///< src/render/lights/lighting.hpp
 };

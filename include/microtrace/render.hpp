@@ -5,10 +5,12 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/sample_sums.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,11 +24,32 @@ struct RenderTimes {
   double trace = 0;  ///< drawing
 };
 
+/// What was done, by an integrator whose answers are random.
+struct RenderCounts {
+  std::uint64_t samples = 0;            ///< taken, of all pixels
+  std::uint64_t invalid_samples = 0;    ///< of these, no numbers: counted as black
+  std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
+};
+
 /// How the samples around a pixel's centre weigh in its colour. They lie as dense as the filter is
 /// high, so that all weigh the same and no pixel depends on another's samples.
 enum class PixelFilter {
   box,              ///< the pixel's square, evenly
   blackman_harris,  ///< a bell, 3 pixels wide in x and in y (radius 1.5)
+};
+
+/// Samples of a random integrator taken a few at a time over the whole picture, so that it may be
+/// looked at, stopped and gone on with. How passes are cut has no influence on the picture.
+struct Passes {
+  /// Goes on from these, which may have any samples of this window of this picture, and leaves all
+  /// there; null: from none. Of no use where render throws.
+  SampleSums* sums = nullptr;
+  /// Takes only these of the samples; nothing: all.
+  std::optional<SampleRange> part{};
+  /// No pass begins so many seconds after the call, but the first does.
+  double time_limit = std::numeric_limits<double>::infinity();
+  /// Told what there is after each pass, on the caller's thread.
+  std::function<void(const SampleSums&)> after_each{};
 };
 
 struct RenderOptions {
@@ -44,6 +67,10 @@ struct RenderOptions {
   std::uint32_t samples = 1;
   PixelFilter filter = PixelFilter::box;  ///< another moves samples from where they lie for a box
   std::uint32_t seed = 0;                 ///< of all that is random; another one gives other noise
+  /// Takes passes over the picture. They need 88 bytes a pixel; nothing: tiles are finished one by
+  /// one.
+  std::optional<Passes> passes{};
+  RenderCounts* counts = nullptr;  ///< if given, set at the end
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};
@@ -54,8 +81,9 @@ struct RenderOptions {
 
 /// Colours by the integrator, over scene.background where it leaves some; rays hit only in
 /// (scene.epsilon, infinity). Threads, progress and times have no influence on the picture. Throws
-/// Error: usage where samples, crop or aovs are not as above or an integrator of data is asked for
-/// more than one sample, limit where memory or primitive numbers run out.
+/// Error: usage where samples, passes, crop or aovs are not as above, an integrator of data is
+/// asked for more than one sample, or one that is not random for passes; limit where memory or
+/// primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});
 

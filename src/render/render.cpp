@@ -1,5 +1,6 @@
 #include "float_environment.hpp"
 #include "render/aov_painter.hpp"
+#include "render/draw_at_random.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/shading/shading.hpp"
 #include "render/surfaces.hpp"
@@ -23,13 +24,22 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Where samples are random their number is open: textures are filtered for the part of a pixel
+/// that one of so many stands for.
+constexpr std::uint32_t kSamplesOfRandomTextures = 16;
+
 double seconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-Film make_film(ImageSize size, Film::Alpha alpha) {
+Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha) {
+  const ImageSize size = window.size();
   try {
-    return Film(size, alpha);
+    Film film(size, alpha);
+    film.whole = whole;
+    film.x0 = window.x0;
+    film.y0 = window.y0;
+    return film;
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::limit, "",
                 "no memory for a picture of " + std::to_string(size.width) + " x " +
@@ -47,6 +57,13 @@ void check(const RenderOptions& options) {
   }
   if (options.samples > 1 && options.integrator != nullptr && options.integrator->is_data())
     refuse("this integrator's picture is of numbers that are never mixed: one sample per pixel");
+  if (options.passes) {
+    if (options.integrator == nullptr || !options.integrator->is_random())
+      refuse("this integrator's answers are not random: its picture is not made in passes");
+    const SampleRange part = options.passes->part.value_or(SampleRange{0, options.samples});
+    if (part.first >= part.last || part.last > options.samples)
+      refuse("the part must hold samples of the picture, 0 to " + std::to_string(options.samples));
+  }
   std::vector<Aov> aovs = options.aovs;
   std::ranges::sort(aovs);
   if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
@@ -80,36 +97,47 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const Bvh bvh(scene, {.threads = threads});
   const auto built = Clock::now();
   const RayGenerator rays(camera, size);
-  const Surfaces surfaces(scene, bvh.primitives(), rays, options.samples);
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
+  const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
+  const Surfaces surfaces(scene, bvh.primitives(), rays, samples);
   World world{.scene = scene,
               .bvh = bvh,
               .surfaces = surfaces,
               .camera = rays,
               .seed = options.seed,
-              .samples = options.samples};
+              .samples = samples};
   std::optional<Shading> shading;
   std::optional<Lighting> lighting;
   if (integrator.is_random()) {
     world.shading = &shading.emplace(scene, bvh.primitives());
     world.lighting = &lighting.emplace(scene, bvh.primitives(), *shading);
   }
-  Film film = make_film(window.size(),
-                        options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
-  film.whole = size;
-  film.x0 = window.x0;
-  film.y0 = window.y0;
-  const TilePainter colors(world, integrator, options, window, film);
+  Film film =
+      make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
   // What is exact has nothing to do with samples.
   const Surfaces exact_surfaces(surfaces, 1);
   const World exact_world{.scene = scene, .bvh = bvh, .surfaces = exact_surfaces, .camera = rays};
   const AovPainter channels(exact_world, options.aovs, window, film);
-  const auto draw = [&](const PixelRect& tile) {
-    colors.paint(tile);
+  const auto paint_channels = [&](const PixelRect& tile) {
     if (!options.aovs.empty()) channels.paint(tile);
   };
-  for_each_tile(window, threads, draw, options.progress);
+  if (integrator.is_random()) {
+    draw_at_random({.world = world,
+                    .integrator = integrator,
+                    .options = options,
+                    .window = window,
+                    .threads = threads,
+                    .start = start},
+                   film, paint_channels);
+  } else {
+    const TilePainter colors(world, integrator, options, window, film);
+    const auto draw = [&](const PixelRect& tile) {
+      colors.paint(tile);
+      paint_channels(tile);
+    };
+    for_each_tile(window, threads, draw, options.progress);
+  }
   film.display = integrator.display(film);
   if (options.times != nullptr)
     *options.times = {.build = seconds(start, built), .trace = seconds(built, Clock::now())};

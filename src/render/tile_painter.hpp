@@ -1,5 +1,5 @@
 #pragma once
-/// Fills the film tile by tile.
+/// Fills the film tile by tile with samples in fixed places.
 
 #include "render/camera_rays.hpp"
 #include "render/pixel_filter.hpp"
@@ -24,16 +24,12 @@ class TilePainter {
 
  private:
   void paint_block(const PixelRect& block) const;
-  void paint_at_random(const PixelRect& tile) const;
-  void set(std::uint32_t x, std::uint32_t y, const Sample& sample) const;
 
   const World& world_;
   const Integrator& integrator_;
   CameraRays ray_;
   const PixelRect& window_;
   Film& film_;
-  std::uint32_t samples_;
-  FilterSampler filter_;
   std::vector<PixelOffset> pattern_;
   Vec3 background_;
   std::uint32_t block_width_, block_height_;

@@ -3,6 +3,7 @@
 
 #include <microtrace/film.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 
@@ -10,6 +11,7 @@ namespace microtrace {
 
 /// Small enough that its rays make one bundle and go the same way.
 inline constexpr std::uint32_t kTileEdge = 8;
+inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
 /// Calls draw once for every tile of the window, on that many threads, the caller's among them;
 /// then progress with the share done. The first exception that draw throws stops the work and is

@@ -1,0 +1,77 @@
+#pragma once
+/// Sums of floating-point numbers that do not depend on the order of the terms.
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace {
+
+/// A sum of multiples of 2^-FractionBits, exact while it is below 2^(64 Words - 1 - FractionBits)
+/// in magnitude: two's complement, the lowest word first. Integers add up to the same in any order
+/// and grouping, which floating-point numbers don't.
+template <std::size_t Words, int FractionBits>
+struct FixedSum {
+  std::array<std::uint64_t, Words> words{};
+
+  /// x, finite, without what it has beyond the last multiple of 2^-FractionBits towards 0.
+  void add(double x) {
+    constexpr int kMantissaBits = 52, kBias = 1075;  // x = mantissa 2^(exponent - kBias)
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const int exponent = static_cast<int>(bits >> kMantissaBits & 0x7ffU);
+    std::uint64_t mantissa =
+        (bits & ((std::uint64_t{1} << kMantissaBits) - 1)) | (std::uint64_t{1} << kMantissaBits);
+    int shift = exponent - kBias + FractionBits;
+    if (shift < 0) {
+      if (shift <= -64) return;  // also 0 and subnormal numbers
+      mantissa >>= static_cast<unsigned>(-shift);
+      shift = 0;
+    }
+    const auto word = static_cast<std::size_t>(shift) / 64;
+    const auto offset = static_cast<unsigned>(shift) % 64;
+    FixedSum term;
+    if (word < Words) term.words[word] = mantissa << offset;
+    if (offset != 0 && word + 1 < Words) term.words[word + 1] = mantissa >> (64 - offset);
+    *this += (bits >> 63U) != 0 ? term.negated() : term;
+  }
+
+  FixedSum& operator+=(const FixedSum& other) {
+    std::uint64_t carry = 0;
+    for (std::size_t i = 0; i < Words; ++i) {
+      const std::uint64_t partial = words[i] + carry;
+      carry = partial < carry ? 1 : 0;
+      words[i] = partial + other.words[i];
+      carry += words[i] < partial ? 1 : 0;
+    }
+    return *this;
+  }
+
+  /// The sum, rounded.
+  [[nodiscard]] double value() const {
+    const bool is_negative = (words[Words - 1] >> 63U) != 0;
+    const FixedSum magnitude = is_negative ? negated() : *this;
+    double result = 0;
+    for (std::size_t i = Words; i-- > 0;) {
+      result = result * 0x1p64 + static_cast<double>(magnitude.words[i]);
+    }
+    // 2^-FractionBits
+    constexpr auto kUnit = std::bit_cast<double>(std::uint64_t{1023 - FractionBits} << 52U);
+    return is_negative ? -result * kUnit : result * kUnit;
+  }
+
+  [[nodiscard]] bool operator==(const FixedSum&) const = default;
+
+ private:
+  [[nodiscard]] FixedSum negated() const {
+    FixedSum result;
+    std::uint64_t carry = 1;
+    for (std::size_t i = 0; i < Words; ++i) {
+      result.words[i] = ~words[i] + carry;
+      carry = result.words[i] < carry ? 1 : 0;
+    }
+    return result;
+  }
+};
+
+}  // namespace microtrace

@@ -1,0 +1,79 @@
+#include "render/draw_at_random.hpp"
+
+#include "render/film_pixel.hpp"
+#include "render/passes.hpp"
+#include "render/random_painter.hpp"
+#include "render/tiles.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <array>
+#include <new>
+#include <span>
+
+namespace microtrace {
+namespace {
+
+/// The sums to go on from; new ones if there are none.
+void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
+             const Vec3& background) {
+  if (sums.pixels.empty()) {
+    try {
+      sums = SampleSums(whole, drawing.window, background);
+    } catch (const std::bad_alloc&) {
+      throw Error(ErrorKind::limit, "",
+                  "no memory for the samples of all pixels; ask for a smaller picture or a crop");
+    }
+  }
+  if (sums.window != drawing.window || sums.background != background)
+    throw Error(ErrorKind::usage, "", "the samples to go on from are another picture's");
+}
+
+}  // namespace
+
+void draw_at_random(const RandomDrawing& drawing, Film& film,
+                    const std::function<void(const PixelRect&)>& beside) {
+  const RenderOptions& options = drawing.options;
+  const PixelRect& window = drawing.window;
+  const Vec3 background = options.transparent ? Vec3(0) : drawing.world.scene.background;
+  const RandomPainter painter(drawing.world, drawing.integrator, options, background);
+  const SampleRange all{.first = 0, .last = options.samples};
+  std::uint32_t samples_per_pixel = options.samples;
+  const auto set = [&](std::uint32_t x, std::uint32_t y, const PixelSum& pixel) {
+    set_pixel(film, x - window.x0, y - window.y0, pixel.mean_color(), pixel.mean_alpha(),
+              background);
+  };
+  if (options.passes) {
+    SampleSums own;
+    SampleSums& sums = options.passes->sums != nullptr ? *options.passes->sums : own;
+    prepare(sums, drawing, film.whole, background);
+    run_passes(painter, options.passes->part.value_or(all), *options.passes, drawing.start,
+               drawing.threads, options.progress, sums);
+    samples_per_pixel = sums.count();
+    const auto finish = [&](const PixelRect& tile) {
+      for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+        for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums.at(x, y));
+      }
+      beside(tile);
+    };
+    for_each_tile(window, drawing.threads, finish, nullptr);
+  } else {
+    const auto draw = [&](const PixelRect& tile) {
+      std::array<PixelSum, kTilePixels> sums{};
+      painter.add(tile, all, sums);
+      std::size_t pixel = 0;
+      for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+        for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums[pixel++]);
+      }
+      beside(tile);
+    };
+    for_each_tile(window, drawing.threads, draw, options.progress);
+  }
+  if (options.counts != nullptr) {
+    *options.counts = {.samples = painter.samples(),
+                       .invalid_samples = painter.invalid_samples(),
+                       .samples_per_pixel = samples_per_pixel};
+  }
+}
+
+}  // namespace microtrace

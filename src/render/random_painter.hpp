@@ -1,0 +1,41 @@
+#pragma once
+/// Samples of integrators whose answers are random.
+
+#include "render/camera_rays.hpp"
+#include "render/pixel_filter.hpp"
+
+#include <microtrace/integrator.hpp>
+#include <microtrace/render.hpp>
+#include <microtrace/sample_sums.hpp>
+
+#include <atomic>
+#include <cstdint>
+#include <span>
+
+namespace microtrace {
+
+/// Any number of threads may paint tiles that do not overlap.
+class RandomPainter {
+ public:
+  /// World and integrator must outlive it. Luminance is taken over that background.
+  RandomPainter(const World& world, const Integrator& integrator, const RenderOptions& options,
+                const Vec3& background);
+
+  /// Adds the samples of that range to the sums of a tile's pixels, row by row. The tile is at most
+  /// kTileEdge pixels a side. Fast where the range is 16 samples or more.
+  void add(const PixelRect& tile, const SampleRange& range, std::span<PixelSum> sums) const;
+
+  /// How many samples were taken, and how many of them were no numbers.
+  [[nodiscard]] std::uint64_t samples() const { return samples_; }
+  [[nodiscard]] std::uint64_t invalid_samples() const { return invalid_; }
+
+ private:
+  const World& world_;
+  const Integrator& integrator_;
+  CameraRays ray_;
+  FilterSampler filter_;
+  Vec3 background_;
+  mutable std::atomic<std::uint64_t> samples_ = 0, invalid_ = 0;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,43 @@
+#pragma once
+#include <microtrace/integrator.hpp>
+#include <microtrace/ray.hpp>
+
+#include <array>
+#include <cstddef>
+#include <new>
+#include <span>
+
+namespace microtrace {
+
+/// Rays on their way to the integrator, and the pixel that each belongs to.
+template <std::size_t Size>
+class RayBatch {
+ public:
+  [[nodiscard]] bool is_full() const { return count_ == Size; }
+
+  /// make_ray() makes the ray in its place: copying what was just written in parts is slow.
+  template <class MakeRay>
+  void add(std::size_t pixel, const SampleId& id, const MakeRay& make_ray) {
+    ::new (&rays_[count_]) Ray(make_ray());
+    ids_[count_] = id;
+    pixels_[count_++] = pixel;
+  }
+
+  /// f(pixel, sample) in the order of the rays; leaves the batch empty.
+  template <class F>
+  void trace(const Integrator& integrator, const World& world, F&& f) {
+    integrator.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
+                     std::span(samples_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) f(pixels_[i], samples_[i]);
+    count_ = 0;
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<Ray, Size> rays_;
+  std::array<SampleId, Size> ids_;
+  std::array<std::size_t, Size> pixels_;
+  std::array<Sample, Size> samples_;
+};
+
+}  // namespace microtrace
