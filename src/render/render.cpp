@@ -111,7 +111,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   std::optional<Lighting> lighting;
   if (integrator.is_random()) {
     world.shading = &shading.emplace(scene, bvh.primitives());
-    world.lighting = &lighting.emplace(scene, bvh.primitives(), *shading);
+    world.lighting = &lighting.emplace(scene, *shading);
   }
   Film film =
       make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);

@@ -74,7 +74,8 @@ void Wave::set_off() {
 void Wave::escape(const Ray& ray, const PathState& path) {
   const Vec3 wi = bsdf::unit(ray.d);
   if (path.density > 0) {
-    const float weight = power_heuristic(path.density, lighting_.environment_density(wi));
+    const float weight =
+        power_heuristic(path.density, lighting_.environment_density(path.from, wi));
     colors_[path.slot] += path.throughput * lighting_.environment(wi) * weight;
   } else if (lighting_.is_seen()) {  // else the background is the picture's business
     colors_[path.slot] += path.throughput * lighting_.environment(wi);
@@ -111,7 +112,7 @@ void Wave::step(std::size_t i) {
   const Vec3 d = bsdf::unit(ray.d);
   if (const Vec3 emission = shading_.emission(point); emission != Vec3(0)) {
     const float cosine = std::abs(glm::dot(d, point.at.n));
-    const float other = lighting_.emitter_density(hit->id, point.at.distance, cosine);
+    const float other = lighting_.emitter_density(hit->id, path.from, point.at.distance, cosine);
     const float weight = from_camera ? 1 : power_heuristic(path.density, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
@@ -130,9 +131,9 @@ std::size_t Wave::spawn(const Vertex& vertex, const Vec3& direction) {
 }
 
 void Wave::ask_light(const Vertex& vertex, const PathState& path) {
-  const std::optional<LightSample> light =
-      lighting_.sample(vertex.point.at.p, path.sobol.pair(pair(sampling::kLightPair)),
-                       path.sobol.one(pair(sampling::kLightChoicePair)));
+  const std::optional<LightSample> light = lighting_.sample(
+      {.p = vertex.point.at.p, .n = vertex.frame.n}, path.sobol.pair(pair(sampling::kLightPair)),
+      path.sobol.one(pair(sampling::kLightChoicePair)));
   if (!light || !is_above(vertex.point, light->wi)) return;
   const bsdf::Evaluation f = vertex.bsdf.evaluate(vertex.frame.to_local(light->wi));
   if (f.value == Vec3(0)) return;
@@ -159,6 +160,7 @@ void Wave::scatter(const Vertex& vertex, const PathState& path) {
     next.throughput /= survival;
   }
   next.density = sample->density;
+  next.from = {.p = vertex.point.at.p, .n = vertex.frame.n};
   next.begin = vertex.point.width;
   // Samples of such a density are about so far apart, and a quarter blurs nothing that is seen.
   next.spread += sample_width_ * 0.25F / std::sqrt(sample->density);

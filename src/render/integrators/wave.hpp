@@ -27,6 +27,7 @@ struct PathState {
   std::size_t slot = 0;  ///< in the batch
   Vec3 throughput{1};
   float density = 0;            ///< with which its last direction was chosen; 0: by the camera
+  Receiver from{};              ///< the surface that it leaves
   float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
 };
 

@@ -15,6 +15,12 @@ struct LightSample {
                       ///< that faces them, over the share of samples that they get
   float density = 0;  ///< per solid angle; 0 for lights without size, which no path can meet
   std::optional<PrimitiveId> target{};  ///< what shines, if it is a triangle of the scene
+
+  /// Makes it one of several that are chosen among, by the share of samples that it gets.
+  void take_share(float share) {
+    light /= share;
+    density *= share;
+  }
 };
 
 }  // namespace microtrace

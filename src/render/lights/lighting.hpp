@@ -3,31 +3,40 @@
 
 #include "render/lights/environment_light.hpp"
 #include "render/lights/light_sample.hpp"
+#include "render/lights/light_tree.hpp"
 #include "render/shading/shading.hpp"
 
-#include <microtrace/bvh.hpp>
+#include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
 namespace microtrace {
 
+/// What light falls on.
+struct Receiver {
+  Vec3 p{0};
+  Vec3 n{0, 0, 1};  ///< unit normal, on either side
+};
+
 /// Made once for a picture; any number of threads may ask it.
 class Lighting {
  public:
   /// All must outlive this. A scene with neither lights nor an environment gets the studio.
-  Lighting(const Scene& scene, const Primitives& primitives, const Shading& shading);
+  Lighting(const Scene& scene, const Shading& shading);
 
-  /// Light chosen at random: `choice` says which, u where on it. Nothing if there is none to be
-  /// chosen: what a uniform environment sends is found as soon by paths that meet it.
-  [[nodiscard]] std::optional<LightSample> sample(const Vec3& p, const Vec2& u, float choice) const;
+  /// Light chosen at random for a point: `choice` says which, u where on it. Nothing if there is
+  /// none to be chosen: what a uniform environment sends is found as soon by paths that meet it.
+  [[nodiscard]] std::optional<LightSample> sample(const Receiver& receiver, const Vec2& u,
+                                                  float choice) const;
 
   /// Whether sample() ever finds light.
-  [[nodiscard]] bool can_sample() const { return environment_share_ > 0 || !emitters_.empty(); }
+  [[nodiscard]] bool can_sample() const {
+    return tree_ || !far_lights_.empty() || samples_environment();
+  }
 
   /// Whether camera rays see the environment.
   [[nodiscard]] bool is_seen() const {
@@ -38,15 +47,16 @@ class Lighting {
   [[nodiscard]] Vec3 environment(const Vec3& wi) const {
     return environment_ ? environment_->radiance(wi) : Vec3(0);
   }
-  /// The density with which sample() gives that direction of the environment.
-  [[nodiscard]] float environment_density(const Vec3& wi) const;
+  /// The density with which sample() gives that direction of the environment, at the receiver.
+  [[nodiscard]] float environment_density(const Receiver& receiver, const Vec3& wi) const;
 
-  /// The same of a point of a triangle that shines, for a path that came to it over `distance`;
-  /// `cosine` is that of the angle between the path and the triangle's normal.
-  [[nodiscard]] float emitter_density(PrimitiveId id, float distance, float cosine) const;
+  /// The same of a point of a triangle that shines, for a path that came to it from the receiver
+  /// over `distance`; `cosine` is that of the angle between the path and the triangle's normal.
+  [[nodiscard]] float emitter_density(PrimitiveId id, const Receiver& receiver, float distance,
+                                      float cosine) const;
 
  private:
-  /// A triangle, or a light of Scene::lights.
+  /// A triangle, or a light of Scene::lights with a place.
   struct Emitter {
     PrimitiveId id;
     std::uint32_t light;  ///< kNone: a triangle
@@ -54,21 +64,31 @@ class Lighting {
   };
   static constexpr std::uint32_t kNone = ~0U;
 
-  void add_triangles(const Shading& shading);
-  void add_lights();
-  [[nodiscard]] float share(std::size_t emitter) const;
+  /// Of samples at a place: the environment's, that of all far lights together, the tree's.
+  struct Shares {
+    float environment, far, tree;
+  };
+  [[nodiscard]] Shares shares(const Receiver& receiver) const;
+
+  void add_triangles(const Shading& shading, std::vector<LightBounds>& bounds);
+  void add_lights(std::vector<LightBounds>& bounds);
+  [[nodiscard]] bool samples_environment() const {
+    return environment_ && !environment_->is_uniform();
+  }
+  [[nodiscard]] std::optional<LightSample> of_far(const Receiver& receiver, float choice) const;
+  [[nodiscard]] std::optional<LightSample> of_tree(const Receiver& receiver, const Vec2& u,
+                                                   float choice) const;
   [[nodiscard]] std::optional<LightSample> of_triangle(const Emitter& emitter, const Vec3& p,
                                                        const Vec2& u) const;
 
   const Scene& scene_;
-  const Primitives& primitives_;
   const Shading& shading_;
   std::optional<EnvironmentLight> environment_;
-  float environment_share_ = 0;    // of samples
-  std::vector<Emitter> emitters_;  // triangles first, by id
+  std::vector<std::uint32_t> far_lights_;  // of Scene::lights those without a place
+  std::vector<Emitter> emitters_;          // triangles first, by id
   std::size_t triangles_ = 0;
-  std::vector<float> powers_;
-  std::vector<float> sums_;  // of the powers up to and with each, over all
+  std::optional<LightTree> tree_;                // of the emitters
+  float environment_light_ = 0, far_light_ = 0;  // about what falls on a surface
 };
 
 }  // namespace microtrace

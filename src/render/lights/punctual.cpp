@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <variant>
 
 #include <glm/geometric.hpp>
 
 namespace microtrace {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// The extension's window: from 1 down to 0 at the range.
 double window(double distance, double range) {
@@ -53,26 +50,29 @@ std::optional<LightSample> sample(const SpotLight& light, const Vec3& p) {
   return from_place(light.position, p, light.color, light.intensity * inside * inside, light.range);
 }
 
-double solid_angle(const DirectionalLight&) {
-  return kPi;
+LightBounds bounds_at(const DVec3& place, const Vec3& color, float intensity,
+                      const LightCone& cone) {
+  const float brightness = 0.2126F * color.x + 0.7152F * color.y + 0.0722F * color.z;
+  return {.low = Vec3(place), .high = Vec3(place), .power = intensity * brightness, .cone = cone};
 }
-double solid_angle(const PointLight&) {
-  return 4 * kPi;
+
+std::optional<LightBounds> bounds(const DirectionalLight&) {
+  return std::nullopt;
 }
-double solid_angle(const SpotLight& light) {
-  return 2 * kPi * (1 - cos_radians((light.inner_angle + light.outer_angle) / 2));
+std::optional<LightBounds> bounds(const PointLight& light) {
+  return bounds_at(light.position, light.color, light.intensity, {.cos_o = -1});
+}
+std::optional<LightBounds> bounds(const SpotLight& light) {
+  // No less bright towards the cone's edge: it may be chosen too often there.
+  return bounds_at(light.position, light.color, light.intensity,
+                   {.axis = Vec3(light.direction),
+                    .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F});
 }
 
 }  // namespace
 
-float punctual_power(const Light& light) {
-  return std::visit(
-      [](const auto& l) {
-        const Vec3& c = l.color;
-        const double brightness = 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
-        return static_cast<float>(solid_angle(l) * l.intensity * brightness);
-      },
-      light);
+std::optional<LightBounds> punctual_bounds(const Light& light) {
+  return std::visit([](const auto& l) { return bounds(l); }, light);
 }
 
 std::optional<LightSample> of_punctual(const Light& light, const Vec3& p) {

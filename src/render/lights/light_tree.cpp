@@ -1,0 +1,208 @@
+#include "render/lights/light_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+/// From there on lights are halved by number, so that no way down is longer than a trail: 24 and
+/// the 32 of halving what has 32-bit numbers.
+constexpr unsigned kDeepest = 24;
+constexpr int kBuckets = 12;
+
+/// An angle in [0, pi].
+struct Angle {
+  float cosine, sine;
+
+  explicit Angle(float c) : cosine(c), sine(std::sqrt(std::max(1 - c * c, 0.0F))) {}
+  Angle(float c, float s) : cosine(c), sine(s) {}
+};
+
+/// a - b, at least 0.
+Angle less(const Angle& a, const Angle& b) {
+  if (a.cosine >= b.cosine) return {1, 0};
+  return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
+}
+
+/// a + b, at most pi.
+Angle sum(const Angle& a, const Angle& b) {
+  const float sine = a.sine * b.cosine + a.cosine * b.sine;
+  if (sine < 0 || a.cosine == -1 || b.cosine == -1) return {-1, 0};
+  return {a.cosine * b.cosine - a.sine * b.sine, sine};
+}
+
+LightCone united(const LightCone& a, const LightCone& b) {
+  LightCone cone{.axis = a.axis, .cos_o = -1, .cos_e = std::min(a.cos_e, b.cos_e)};
+  const Vec3 middle = a.axis + b.axis;
+  const float square = glm::dot(middle, middle);
+  if (a.cos_o == -1 || b.cos_o == -1 || !(square > 1e-6F)) return cone;
+  cone.axis = middle / std::sqrt(square);
+  const Angle to_a = sum(Angle(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle(a.cos_o));
+  const Angle to_b = sum(Angle(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle(b.cos_o));
+  // A little wider than rounding could make it too narrow.
+  cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
+  return cone;
+}
+
+float half_area(const Vec3& low, const Vec3& high) {
+  const Vec3 d = high - low;
+  return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+struct Bucket {
+  LightBounds bounds;
+  std::size_t count = 0;
+
+  void add(const LightBounds& light) {
+    bounds = count == 0 ? light : united(bounds, light);
+    ++count;
+  }
+  void add(const Bucket& other) {
+    if (other.count == 0) return;
+    bounds = count == 0 ? other.bounds : united(bounds, other.bounds);
+    count += other.count;
+  }
+  /// Power and box decide; one light's box may be flat or a point.
+  [[nodiscard]] float cost(float least_area) const {
+    return bounds.power * (half_area(bounds.low, bounds.high) + least_area);
+  }
+};
+
+}  // namespace
+
+LightBounds united(const LightBounds& a, const LightBounds& b) {
+  return {.low = glm::min(a.low, b.low),
+          .high = glm::max(a.high, b.high),
+          .power = a.power + b.power,
+          .cone = united(a.cone, b.cone),
+          .two_sided = a.two_sided || b.two_sided};
+}
+
+float LightBounds::importance(const Vec3& p, const Vec3& n) const {
+  const Vec3 way = p - (low + high) * 0.5F, diagonal = high - low;
+  const float radius_square = glm::dot(diagonal, diagonal) * 0.25F;
+  const float square = glm::dot(way, way);
+  if (!(square > 0)) return power / std::max(radius_square, std::numeric_limits<float>::min());
+  const Vec3 direction = way / std::sqrt(square);
+  const float along = glm::dot(cone.axis, direction);
+  const Angle to_point(std::min(two_sided ? std::abs(along) : along, 1.0F));
+  // The angle under which the box's sphere is seen.
+  const Angle box = square <= radius_square ? Angle(-1, 0)
+                                            : Angle(std::sqrt(1 - radius_square / square),
+                                                    std::sqrt(radius_square / square));
+  const Angle off_cone = less(to_point, Angle(cone.cos_o));
+  const Angle least = box.cosine == -1 ? Angle(1, 0) : less(off_cone, box);
+  if (least.cosine < cone.cos_e) return 0;
+  const Angle arriving(std::min(std::abs(glm::dot(direction, n)), 1.0F));
+  const Angle least_arriving = box.cosine == -1 ? Angle(1, 0) : less(arriving, box);
+  return power * std::max(least.cosine, 0.0F) * std::max(least_arriving.cosine, 0.0F) /
+         std::max(square, radius_square);
+}
+
+LightTree::LightTree(const std::vector<LightBounds>& lights) : trails_(lights.size()) {
+  nodes_.reserve(2 * lights.size());
+  std::vector<std::uint32_t> order(lights.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
+  build(lights, order, 0, order.size(), 0, 0);
+}
+
+void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
+                      std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth) {
+  const std::size_t place = nodes_.size();
+  nodes_.push_back({.bounds = lights[order[begin]]});
+  if (end - begin == 1) {
+    nodes_[place].light = order[begin];
+    trails_[order[begin]] = trail;
+    return;
+  }
+  const auto centre = [&](std::uint32_t i) { return (lights[i].low + lights[i].high) * 0.5F; };
+  Vec3 low = centre(order[begin]), high = low;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    nodes_[place].bounds = united(nodes_[place].bounds, lights[order[i]]);
+    low = glm::min(low, centre(order[i]));
+    high = glm::max(high, centre(order[i]));
+  }
+  const Vec3 extent = high - low;
+  const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+
+  // The cheapest of the bucket borders; without one, or too deep, the middle of the order.
+  std::size_t middle = begin + (end - begin) / 2;
+  if (extent[axis] > 0 && depth < kDeepest) {
+    const float scale = kBuckets / extent[axis];
+    const auto bucket_of = [&](std::uint32_t i) {
+      return std::min(static_cast<int>((centre(i)[axis] - low[axis]) * scale), kBuckets - 1);
+    };
+    std::array<Bucket, kBuckets> buckets;
+    for (std::size_t i = begin; i < end; ++i)
+      buckets[static_cast<std::size_t>(bucket_of(order[i]))].add(lights[order[i]]);
+    const float least_area = extent[axis] * extent[axis] * 1e-4F;
+    int best = 0;
+    float best_cost = std::numeric_limits<float>::infinity();
+    for (int border = 1; border < kBuckets; ++border) {
+      Bucket left, right;
+      for (int b = 0; b < border; ++b) left.add(buckets[static_cast<std::size_t>(b)]);
+      for (int b = border; b < kBuckets; ++b) right.add(buckets[static_cast<std::size_t>(b)]);
+      if (left.count == 0 || right.count == 0) continue;
+      const float cost = left.cost(least_area) + right.cost(least_area);
+      if (cost < best_cost) best = border, best_cost = cost;
+    }
+    if (best > 0) {
+      const auto first = order.begin() + static_cast<std::ptrdiff_t>(begin);
+      const auto last = order.begin() + static_cast<std::ptrdiff_t>(end);
+      const auto border =
+          std::stable_partition(first, last, [&](std::uint32_t i) { return bucket_of(i) < best; });
+      middle = static_cast<std::size_t>(border - order.begin());
+    }
+  }
+  nodes_[place].is_leaf = false;
+  build(lights, order, begin, middle, trail, depth + 1);
+  nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
+  build(lights, order, middle, end, trail | std::uint64_t{1} << depth, depth + 1);
+}
+
+float LightTree::first_share(const Node& node, const Vec3& p, const Vec3& n) const {
+  const float first = (&node + 1)->bounds.importance(p, n);
+  const float second = nodes_[node.second].bounds.importance(p, n);
+  return first + second > 0 ? first / (first + second) : -1;
+}
+
+std::optional<LightTree::Choice> LightTree::choose(const Vec3& p, const Vec3& n, float u) const {
+  float share = 1;
+  const Node* node = nodes_.data();
+  while (!node->is_leaf) {
+    const float first = first_share(*node, p, n);
+    if (first < 0) return std::nullopt;
+    // What is left of u is as good as new.
+    if (u < first) {
+      u = std::min(u / first, 0x1.fffffep-1F);
+      share *= first;
+      node = node + 1;
+    } else {
+      u = std::min((u - first) / (1 - first), 0x1.fffffep-1F);
+      share *= 1 - first;
+      node = &nodes_[node->second];
+    }
+  }
+  return Choice{.light = node->light, .share = share};
+}
+
+float LightTree::share(std::size_t light, const Vec3& p, const Vec3& n) const {
+  float share = 1;
+  const Node* node = nodes_.data();
+  for (std::uint64_t trail = trails_[light]; !node->is_leaf; trail >>= 1U) {
+    const float first = first_share(*node, p, n);
+    if (first < 0) return 0;
+    const bool is_second = (trail & 1U) != 0;
+    share *= is_second ? 1 - first : first;
+    node = is_second ? &nodes_[node->second] : node + 1;
+  }
+  return share;
+}
+
+}  // namespace microtrace

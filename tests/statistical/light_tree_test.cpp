@@ -1,0 +1,123 @@
+#include "render/lights/light_tree.hpp"
+
+#include <microtrace/path.hpp>
+#include <microtrace/render.hpp>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+struct Random {
+  std::mt19937 bits{5};
+  float operator()(float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(bits);
+  }
+  Vec3 in_cube(float size) {
+    return {(*this)(-size, size), (*this)(-size, size), (*this)(-size, size)};
+  }
+  Vec3 direction() {
+    const Vec3 v = in_cube(1);
+    return v / std::sqrt(glm::dot(v, v));
+  }
+};
+
+std::vector<LightBounds> lights(Random& random, int count) {
+  std::vector<LightBounds> result;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p = random.in_cube(10), size = random.in_cube(0.5F);
+    result.push_back(
+        {.low = p - glm::abs(size),
+         .high = p + glm::abs(size),
+         .power = random(0.1F, 5),
+         .cone = {.axis = random.direction(), .cos_o = i % 3 == 0 ? -1.0F : random(0.5F, 1)},
+         .two_sided = i % 5 == 0});
+  }
+  return result;
+}
+
+// But for halves of which neither brings anything, though both together seemed to.
+TEST(LightTree, SharesAddUpToOne) {
+  Random random;
+  for (const int count : {1, 2, 3, 17, 300}) {
+    const LightTree tree(lights(random, count));
+    for (int i = 0; i < 50; ++i) {
+      const Vec3 p = random.in_cube(15), n = random.direction();
+      double sum = 0, chosen = 0;
+      for (int light = 0; light < count; ++light) sum += tree.share(std::size_t(light), p, n);
+      for (int k = 0; k < 1000; ++k)
+        chosen += tree.choose(p, n, (float(k) + 0.5F) / 1000) ? 1e-3 : 0;
+      EXPECT_LE(sum, 1 + 1e-4) << count;
+      EXPECT_NEAR(sum, chosen, 0.01) << count;
+    }
+  }
+}
+
+TEST(LightTree, ChoosesEachByItsShare) {
+  Random random;
+  constexpr int count = 40, samples = 100000;
+  const LightTree tree(lights(random, count));
+  for (int i = 0; i < 5; ++i) {
+    const Vec3 p = random.in_cube(5), n = random.direction();
+    std::vector<int> chosen(count);
+    for (int k = 0; k < samples; ++k) {
+      const auto choice = tree.choose(p, n, (float(k) + 0.5F) / samples);
+      ASSERT_TRUE(choice);
+      EXPECT_FLOAT_EQ(choice->share, tree.share(choice->light, p, n));
+      ++chosen[choice->light];
+    }
+    for (std::size_t light = 0; light < count; ++light)
+      EXPECT_NEAR(chosen[light], tree.share(light, p, n) * samples, 2 + 1e-4 * samples);
+  }
+}
+
+// What can bring light is not left out: bounds of a whole tree are above nothing where a light is.
+TEST(LightTree, BoundsHoldWhatTheyUnite) {
+  Random random;
+  for (int i = 0; i < 20000; ++i) {
+    const auto two = lights(random, 2);
+    const Vec3 p = random.in_cube(12), n = random.direction();
+    const LightBounds both = united(two[0], two[1]);
+    if (two[0].importance(p, n) > 0 || two[1].importance(p, n) > 0) {
+      EXPECT_GT(both.importance(p, n), 0);
+    }
+  }
+}
+
+// A floor under many lamps, against the sum over all of them.
+TEST(LightTree, ManyLampsOverAFloor) {
+  Scene scene;
+  scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .metallic = 1, .roughness = 1}};
+  scene.objects.push_back({.name = "floor", .shape = Plane{{0, 0, 0}, {0, 1, 0}}, .material = 0});
+  scene.environment = Environment{.content = Vec3(0)};
+  Random random;
+  const OrthographicCamera camera{
+      .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.01};
+  const PathIntegrator path;
+  const auto brightness = [&](std::uint32_t samples) {
+    Film film =
+        render(scene, camera, {.width = 1, .height = 1}, {.integrator = &path, .samples = samples});
+    return double{film.at(0, 0).x};
+  };
+  double sum = 0;
+  std::vector<NamedLight> all;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 place(random(-30, 30), random(0.5F, 3), random(-30, 30));
+    scene.lights = {
+        {.name = "lamp", .light = PointLight{.position = DVec3(place), .intensity = random(1, 9)}}};
+    all.push_back(scene.lights[0]);
+    sum += brightness(1);
+  }
+  scene.lights = all;
+  EXPECT_NEAR(brightness(16384), sum, 0.01 * sum);
+  // And soon: by power alone 256 samples would be off by half.
+  EXPECT_NEAR(brightness(256), sum, 0.1 * sum);
+}
+
+}  // namespace
+}  // namespace microtrace
