@@ -60,6 +60,11 @@ const Poke refused[] = {
        poke<std::uint16_t>(asset, rig_indices, 2, 3);
      },
      "/accessors/8", "names vertices beyond the 3"},
+    {[](AssetBuilder& asset) {
+       asset.add_object({{"attributes", nlohmann::json::object()},
+                         {"indices", asset.add_indices({0, 0, 0}, u8)}});
+     },
+     "/accessors/14", "names vertices beyond the 0"},
 };
 
 const Poke survived[] = {

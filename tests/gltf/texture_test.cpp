@@ -121,6 +121,23 @@ TEST(GltfTexture, AWrongMediaTypeIsAWarning) {
   EXPECT_THAT(loaded.scene.images.at(0), NotNull());
 }
 
+TEST(GltfTexture, DataUrisSayWhatTheyHold) {
+  AssetBuilder asset = textured();
+  const std::string png = base64(png_of(1, 1, {9, 8, 7, 6}));
+  for (const char* type :
+       {"", "image/gif", "image/jpeg", "image/jpg", "application/octet-stream"}) {
+    asset.json["images"][0] = {{"uri", std::string("data:") + type + ";base64," + png}};
+    EXPECT_EQ(error_of(asset).kind(), ErrorKind::invalid_scene) << type;
+    EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << type;
+    asset.json["images"][0]["mimeType"] = "image/png";
+    EXPECT_THAT(error_of(asset).what(), HasSubstr("is image/png")) << type;
+  }
+  asset.json["images"][0] = {{"uri", "data:image/png;base64,AAAA"}};
+  EXPECT_THAT(error_of(asset).what(), HasSubstr("neither PNG, JPEG nor WebP"));
+  asset.json["images"][0] = {{"uri", "data:Image/PNG;base64," + png}};
+  EXPECT_THAT(load(asset).scene.images.at(0), NotNull());
+}
+
 TEST(GltfTexture, OnlyImagesThatArePicturedAreDecoded) {
   AssetBuilder asset = textured();
   asset.json["materials"][0]["normalTexture"] = {{"index", 1}};

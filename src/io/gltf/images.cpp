@@ -7,6 +7,7 @@
 #include "io/json/excerpt.hpp"
 #include "scene/material_textures.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -34,6 +35,28 @@ std::string_view declared_type(const Element& at) {
   return data ? data->media_type : std::string_view();
 }
 
+std::string small_letters(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
+/// A data URI must say what it holds (glTF 2.0, section 2.8; so the Khronos validator has it too).
+/// image/jpg, which is no media type, is widespread.
+void check_media_type(const Asset& asset, const Element& uri, ImageFormat format) {
+  constexpr std::array<std::string_view, 3> not_decoded = {"image/ktx2", "image/avif",
+                                                           "image/vnd-ms.dds"};
+  const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
+  const bool is_right =
+      format == ImageFormat::unknown
+          ? std::ranges::find(not_decoded, type) != not_decoded.end()
+          : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
+  if (is_right) return;
+  asset.fail(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
+                      (format == ImageFormat::unknown ? "neither PNG, JPEG nor WebP"
+                                                      : std::string(media_type(format))));
+}
+
 class ImageLoader {
  public:
   ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
@@ -47,6 +70,9 @@ class ImageLoader {
       return nullptr;
     }
     const ImageHeader header = read_image_header(*bytes);
+    if (const JsonValue* uri = at.value->find("uri"); uri != nullptr && is_data_uri(uri->string)) {
+      check_media_type(asset_, at.member("uri"), header.format);
+    }
     if (header.format == ImageFormat::unknown) {
       asset_.warn(at, "is neither PNG, JPEG nor WebP; textures of it are white");
       return nullptr;

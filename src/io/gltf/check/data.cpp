@@ -223,37 +223,39 @@ class DataCheck {
 class IndexCheck {
  public:
   IndexCheck(const Asset& asset, const tinygltf::Model& model, const BufferViews& views)
-      : asset_(asset), model_(model), views_(views), greatest_(model.accessors.size(), -1) {}
+      : asset_(asset), model_(model), views_(views), greatest_(model.accessors.size()) {}
 
   void primitive(const JsonValue& primitive) {
     const JsonValue* indices = primitive.find("indices");
     const JsonValue& attributes = *primitive.find("attributes");
-    if (indices == nullptr || attributes.members.empty() ||
-        attributes.find("POSITION") != nullptr) {
-      return;
-    }
+    if (indices == nullptr || attributes.find("POSITION") != nullptr) return;
     const auto accessor = static_cast<std::size_t>(indices->number);
-    const auto first = static_cast<std::size_t>(attributes.members.front().value.number);
-    const auto count = static_cast<double>(model_.accessors[first].count);
-    if (greatest(accessor) < count) return;
+    const std::size_t count = vertex_count(attributes);
+    const std::optional<double> vertex = greatest(accessor);
+    if (!vertex || *vertex < static_cast<double>(count)) return;
     asset_.fail(asset_.element("accessors", accessor),
-                "names vertices beyond the " + std::to_string(model_.accessors[first].count) +
-                    " of the primitive");
+                "names vertices beyond the " + std::to_string(count) + " of the primitive");
   }
 
  private:
-  double greatest(std::size_t accessor) {
-    double& result = greatest_[accessor];
-    if (result >= 0) return result;
+  [[nodiscard]] std::size_t vertex_count(const JsonValue& attributes) const {
+    if (attributes.members.empty()) return 0;
+    return model_.accessors[static_cast<std::size_t>(attributes.members[0].value.number)].count;
+  }
+
+  /// Nothing where the numbers are not at hand.
+  std::optional<double> greatest(std::size_t accessor) {
+    std::optional<double>& result = greatest_[accessor];
+    if (result) return result;
     const auto elements = Elements::of(asset_, model_, views_, accessor);
-    result = elements ? bounds_of(*elements).greatest[0] : 0;
+    if (elements) result = bounds_of(*elements).greatest[0];
     return result;
   }
 
   const Asset& asset_;
   const tinygltf::Model& model_;
   const BufferViews& views_;
-  std::vector<double> greatest_;  // by accessor; negative until it is asked for
+  std::vector<std::optional<double>> greatest_;  // by accessor, once it was asked for
 };
 
 /// Accessors may overlap, so that a small file asks for the reading of much.
