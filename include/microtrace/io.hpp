@@ -99,13 +99,14 @@ struct Sidecar {
   std::string text;
 };
 
-/// Writes a picture; the kind is the ending's: .ppm by the library itself, any other by
-/// OpenImageIO, whose module is loaded then. Float formats (.exr, .hdr) hold the film's numbers,
-/// the others 8 bits as its display says. Alpha is multiplied into the colours of float formats and
-/// divided out of the others, before they are encoded. Only .exr takes further channels; there a
-/// film that is a part of a picture has the whole as its display window. The file appears whole or
-/// not at all. "-" is standard output, and takes PPM. A sidecar is written whole before either
-/// file takes its place. Throws Error: usage where the format lacks what the film has.
+/// Writes a picture; the kind is the ending's: .ppm by the library itself, .png by
+/// libpng, any other by OpenImageIO, whose modules are loaded then. Float formats (.exr, .hdr) hold
+/// the film's numbers, the others 8 bits as its display says. Alpha is multiplied into the colours
+/// of float formats and divided out of the others, before they are encoded. Only .exr takes further
+/// channels; there a film that is a part of a picture has the whole as its display window. The file
+/// appears whole or not at all. "-" is standard output, and takes PPM. A sidecar is written whole
+/// before either file takes its place. Throws Error: usage where the format lacks what the film
+/// has.
 void save_image(const Film& film, const std::filesystem::path& path,
                 PpmEncoding ppm = PpmEncoding::binary, const Sidecar* sidecar = nullptr);
 

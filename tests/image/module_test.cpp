@@ -104,7 +104,7 @@ TEST(Module, MissingModuleNamesThePackage) {
   const Folder folder;
   ::setenv("MICROTRACE_MODULE_PATH", (folder / "nowhere").c_str(), 1);
   try {
-    save_image(gradient(), folder / "a.png");
+    save_image(gradient(), folder / "a.exr");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
@@ -121,7 +121,7 @@ TEST(Module, BrokenModuleIsReported) {
   write_bytes(folder / "microtrace_openimageio.so", "not a library");
   ::setenv("MICROTRACE_MODULE_PATH", (folder / "").c_str(), 1);
   try {
-    save_image(gradient(), folder / "a.png");
+    save_image(gradient(), folder / "a.exr");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);

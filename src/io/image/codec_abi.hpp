@@ -1,6 +1,6 @@
 #pragma once
-/// The C interface between the library and its module of image decoders. A change of anything here
-/// takes a new number in the function's name, so that an old module is refused instead of misread.
+/// The C interface between the library and its module of image codecs. A change of anything here
+/// takes a new number in a function's name, so that an old module is refused instead of misread.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,11 +26,28 @@ struct MicrotraceImageSink {
 /// are ignored.
 using MicrotraceDecode = int (*)(const void* bytes, std::size_t size,
                                  const MicrotraceImageSink* sink);
+
+/// A picture of 8 bits a sample, and where its file goes. No function throws.
+struct MicrotracePng {
+  std::uint32_t width, height;
+  std::uint32_t channels;  ///< 3: rgb, 4: rgb and alpha, which is not multiplied into it
+  std::uint32_t is_srgb;   ///< else the file has no colour space
+  void* context;           ///< the caller's
+  /// The samples of a row, asked for once each, from the upper one on.
+  const unsigned char* (*row)(void* context, std::uint32_t y);
+  /// Takes the next bytes of the file; 0 ends the writing.
+  int (*take)(void* context, const void* bytes, std::size_t size);
+  void (*complain)(void* context, const char* text);  ///< takes the reason of a failure
+};
+
+/// Writes a PNG file that depends on the samples alone: 1 if all of it was taken, else 0.
+using MicrotraceEncodePng = int (*)(const MicrotracePng* picture);
 }
 
 namespace microtrace::io {
 
 inline constexpr char codec_module_file_name[] = "microtrace_codecs.so";
 inline constexpr char decode_name[] = "microtrace_decode_v1";
+inline constexpr char encode_png_name[] = "microtrace_encode_png_v1";
 
 }  // namespace microtrace::io

@@ -17,10 +17,11 @@ void* load_module(const std::string& file) {
   if (!module.path.empty()) {
     throw Error(ErrorKind::unsupported, file,
                 "can't load the OpenImageIO module: " + module.complaint +
-                    "; install libopenimageio2.4, or write .ppm");
+                    "; install libopenimageio2.4, or write .ppm or .png");
   }
   std::string message =
-      "only .ppm can be written without the OpenImageIO module; install libopenimageio-dev and "
+      "only .ppm and .png can be written without the OpenImageIO module; install "
+      "libopenimageio-dev and "
       "build the target microtrace_openimageio, or set MICROTRACE_MODULE_PATH to the folder of ";
   message += module_file_name;
   message += " (sought in ";

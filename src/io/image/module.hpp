@@ -1,5 +1,5 @@
 #pragma once
-/// The module of picture formats other than PPM. It is loaded when it is first needed, for
+/// The module of picture formats other than PPM and PNG. It is loaded when it is first needed, for
 /// OpenImageIO and the 260 libraries it brings cost a quarter of a second and 130 MB.
 
 #include "io/image/module_abi.hpp"

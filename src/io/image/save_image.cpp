@@ -1,5 +1,6 @@
 #include "io/image/atomic_file.hpp"
 #include "io/image/module.hpp"
+#include "io/image/png.hpp"
 #include "io/image/ppm.hpp"
 
 #include <microtrace/error.hpp>
@@ -53,15 +54,41 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" has no alpha; write .png or .exr, or give the background a colour");
 }
 
-constexpr MicrotraceFormat ppm_format{};  // 8 bits, no alpha, no channels
+/// What writes files of one ending, loaded where it is a module.
+class Writer {
+ public:
+  Writer(const std::filesystem::path& path, const std::string& ending) : ending_(ending) {
+    if (ending == "ppm") return;
+    if (ending == "png") {
+      png_.emplace(path.string());
+      format_.has_alpha = 1;
+    } else {
+      others_.emplace(path.string());
+      format_ = others_->find_format(ending);
+    }
+  }
+
+  [[nodiscard]] const MicrotraceFormat& format() const { return format_; }
+
+  void write(const Film& film, PpmEncoding ppm, io::AtomicFile& file) const {
+    const auto out = [&file](std::string_view bytes) { file.write(bytes); };
+    if (png_) return png_->encode(film, out);
+    if (others_) return others_->encode(film, ending_, out);
+    write_ppm(film, ppm, file);
+  }
+
+ private:
+  std::string ending_;
+  std::optional<io::PngEncoder> png_;
+  std::optional<io::ImageModule> others_;
+  MicrotraceFormat format_{};  // PPM's: 8 bits, no alpha, no channels
+};
 
 }  // namespace
 
 void check_image_path(const std::filesystem::path& path, const FilmContents& contents) {
   const std::string ending = format_ending(path);
-  require(contents,
-          ending == "ppm" ? ppm_format : io::ImageModule(path.string()).find_format(ending), path,
-          ending);
+  require(contents, Writer(path, ending).format(), path, ending);
   io::check_target(path);
 }
 
@@ -78,9 +105,8 @@ void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding
                 const Sidecar* sidecar) {
   const std::string ending = format_ending(path);
   const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
-  std::optional<io::ImageModule> module;
-  if (ending != "ppm") module.emplace(path.string());
-  require(contents, module ? module->find_format(ending) : ppm_format, path, ending);
+  const Writer writer(path, ending);
+  require(contents, writer.format(), path, ending);
   std::optional<io::AtomicFile> beside;
   if (sidecar != nullptr) {
     beside.emplace(sidecar->path);
@@ -88,11 +114,7 @@ void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding
     beside->close();
   }
   io::AtomicFile file(path);
-  if (module) {
-    module->encode(film, ending, [&file](std::string_view bytes) { file.write(bytes); });
-  } else {
-    write_ppm(film, ppm, file);
-  }
+  writer.write(film, ppm, file);
   file.commit();
   if (beside) beside->commit();
 }

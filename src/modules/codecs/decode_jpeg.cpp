@@ -1,4 +1,4 @@
-#include "modules/codecs/decoders.hpp"
+#include "modules/codecs/codecs.hpp"
 
 #include <csetjmp>
 #include <cstdio>

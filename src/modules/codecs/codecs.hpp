@@ -1,5 +1,6 @@
 #pragma once
-/// One decoder for each kind of file. 1 if there is an image now, else 0.
+/// One decoder for each kind of file: 1 if there is an image now, else 0. The encoder: 1 if the
+/// file is whole, else 0.
 
 #include "io/image/codec_abi.hpp"
 
@@ -8,3 +9,4 @@
 int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int decode_jpeg(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
+int encode_png(const MicrotracePng& picture);

@@ -1,0 +1,88 @@
+#include "io/image/png.hpp"
+
+#include "io/image/eight_bits.hpp"
+#include "io/module_function.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <utility>
+#include <vector>
+
+namespace microtrace::io {
+namespace {
+
+/// What the encoder reads from and writes to. An exception may not pass the module's frames, so it
+/// waits here.
+struct Streams {
+  const Film& film;
+  const std::function<void(std::string_view)>& out;
+  std::vector<std::uint8_t> row;
+  std::string bytes{};  // not yet handed on
+  std::string reason{};
+  std::exception_ptr thrown{};
+};
+
+const unsigned char* row_of(void* context, std::uint32_t y) {
+  auto& streams = *static_cast<Streams*>(context);
+  encode_row(streams.film, y, streams.row.data());
+  return streams.row.data();
+}
+
+int take_bytes(void* context, const void* bytes, std::size_t size) {
+  constexpr std::size_t block = std::size_t{1} << 16;
+  auto& streams = *static_cast<Streams*>(context);
+  try {
+    streams.bytes.append(static_cast<const char*>(bytes), size);
+    if (streams.bytes.size() < block) return 1;
+    streams.out(streams.bytes);
+    streams.bytes.clear();
+    return 1;
+  } catch (...) {
+    streams.thrown = std::current_exception();
+    return 0;
+  }
+}
+
+void take_reason(void* context, const char* text) {
+  auto& streams = *static_cast<Streams*>(context);
+  try {
+    streams.reason = text;
+  } catch (...) {
+    streams.thrown = std::current_exception();
+  }
+}
+
+}  // namespace
+
+PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
+  const ModuleFunction function = find_module_function(codec_module_file_name, encode_png_name);
+  if (function.address == nullptr) {
+    throw Error(ErrorKind::unsupported, file_,
+                "no PNG can be written: " + function.complaint +
+                    "; install libpng-dev, libjpeg-dev and libwebp-dev and build the target "
+                    "microtrace_codecs, set MICROTRACE_MODULE_PATH to its folder, or write .ppm");
+  }
+  encode_ = reinterpret_cast<MicrotraceEncodePng>(function.address);
+}
+
+void PngEncoder::encode(const Film& film, const std::function<void(std::string_view)>& out) const {
+  const std::uint32_t channels = film.has_alpha() ? 4 : 3;
+  Streams streams{film, out, std::vector<std::uint8_t>(std::size_t{channels} * film.size().width)};
+  const MicrotracePng picture{.width = film.size().width,
+                              .height = film.size().height,
+                              .channels = channels,
+                              .is_srgb = film.display.srgb ? 1U : 0U,
+                              .context = &streams,
+                              .row = row_of,
+                              .take = take_bytes,
+                              .complain = take_reason};
+  const bool done = encode_(&picture) != 0;
+  if (streams.thrown) std::rethrow_exception(streams.thrown);
+  if (!done) throw Error(ErrorKind::io, file_, "can't be encoded: " + streams.reason);
+  out(streams.bytes);
+}
+
+}  // namespace microtrace::io

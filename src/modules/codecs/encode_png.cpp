@@ -1,0 +1,55 @@
+#include "modules/codecs/codecs.hpp"
+
+#include <csetjmp>
+#include <png.h>
+
+namespace {
+
+const MicrotracePng& picture_of(png_voidp pointer) {
+  return *static_cast<const MicrotracePng*>(pointer);
+}
+
+void fail(png_structp png, png_const_charp message) {
+  const MicrotracePng& picture = picture_of(png_get_error_ptr(png));
+  picture.complain(picture.context, message);
+  png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
+void write(png_structp png, png_bytep bytes, std::size_t size) {
+  const MicrotracePng& picture = picture_of(png_get_io_ptr(png));
+  if (picture.take(picture.context, bytes, size) == 0) png_error(png, "the file can't be written");
+}
+
+void flush(png_structp) {}
+
+}  // namespace
+
+// No object with a destructor lives where libpng jumps after an error.
+int encode_png(const MicrotracePng& picture) {
+  auto* pointer = const_cast<MicrotracePng*>(&picture);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, pointer, fail, ignore);
+  if (png == nullptr) {
+    picture.complain(picture.context, "libpng does not start");
+    return 0;
+  }
+  png_infop info = png_create_info_struct(png);
+  volatile int done = 0;  // changed after setjmp, read after the jump
+  if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {
+    png_set_write_fn(png, pointer, write, flush);
+    png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
+    png_set_IHDR(png, info, picture.width, picture.height, 8,
+                 picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
+                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (picture.is_srgb != 0) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
+    png_write_info(png, info);
+    for (std::uint32_t y = 0; y < picture.height; ++y) {
+      png_write_row(png, picture.row(picture.context, y));
+    }
+    png_write_end(png, nullptr);
+    done = 1;
+  }
+  png_destroy_write_struct(&png, &info);
+  return done;
+}
