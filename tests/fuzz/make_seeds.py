@@ -3,7 +3,7 @@
 
 usage: make_seeds.py PROJECT_FOLDER FOLDER
 
-FOLDER/json_scene and FOLDER/gltf hold small files, json_scene.dict and gltf.dict the words of each format. glTF
+FOLDER/json_scene, FOLDER/gltf and FOLDER/image hold small files, json_scene.dict, gltf.dict and image.dict the words of each format. glTF
 assets with a binary chunk are written in the target's own form: JSON, a zero byte, the chunk.
 """
 
@@ -14,6 +14,9 @@ import struct
 import sys
 import zlib
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+import image_seeds
 
 GLTF_WORDS = """
 asset version minVersion generator extensionsUsed extensionsRequired extensions extras scene scenes nodes children mesh
@@ -57,14 +60,26 @@ def dictionary(words):
     return "\n".join(lines) + "\n"
 
 
-def png(width, height):
-    """A picture of 8-bit RGBA pixels."""
+def png(width, height, depth=8, color=6, interlaced=0, **more):
+    """A picture, of 8-bit RGBA pixels if nothing else is said; `more` are chunks before its pixels."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + bytes((40 * x + 90 * y + 50 * c) % 256 for x in range(width) for c in range(4))
-                    for y in range(height))
-    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)
-    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")
+    row = -(-width * depth * {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[color] // 8)
+    rows = b"".join(bytes([y % 5]) + bytes((40 * x + 90 * y) % 256 for x in range(row)) for y in range(height))
+    header = struct.pack(">IIBBBBB", width, height, depth, color, 0, 0, interlaced)
+    before = b"".join(chunk(kind.encode(), data) for kind, data in more.items())
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + before + chunk(b"IDAT", zlib.compress(rows))
+            + chunk(b"IEND", b""))
+
+
+def images():
+    """Files of all kinds by their names."""
+    palette = {"PLTE": bytes(range(48)), "tRNS": b"\0\x80\xff"}
+    files = {"grey1.png": png(19, 9, 1, 0), "grey16.png": png(5, 4, 16, 0, tRNS=b"\0\1"), "rgb.png": png(6, 5, 8, 2),
+             "palette2.png": png(9, 5, 2, 3, **palette), "palette4.png": png(9, 5, 4, 3, **palette),
+             "grey_alpha.png": png(4, 4, 8, 4), "rgba16.png": png(3, 3, 16, 6, gAMA=b"\0\1\x86\xa0"),
+             "interlaced.png": png(1, 1, 8, 6, 1)}
+    return files | image_seeds.decoded()
 
 
 class Asset:
@@ -251,7 +266,7 @@ def compressed():
 def main():
     project, folder = Path(sys.argv[1]), Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
-    for name in ("json_scene", "gltf"):
+    for name in ("json_scene", "gltf", "image"):
         (folder / name).mkdir(parents=True)
 
     for path in [*project.glob("tests/io/good/*.json"), *project.glob("scenes/*.json"), *project.glob("scenes/degenerate/*.json")]:
@@ -267,6 +282,12 @@ def main():
             (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())
     shutil.copy(project / "scenes/gltf/cube.glb", folder / "gltf" / "cube.glb")
     (folder / "gltf.dict").write_text(dictionary(GLTF_WORDS.split()))
+    for name, data in images().items():
+        (folder / "image" / name).write_bytes(data)
+    # Markers of JPEG, chunks of WebP; those of PNG carry checksums.
+    words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]
+    words += ["RIFF", "WEBP", "VP8 ", "VP8L", "VP8X", "ALPH", "ANIM", "ICCP", "IDAT", "PLTE", "tRNS"]
+    (folder / "image.dict").write_text("".join(f'"{word}"\n' for word in words))
 
 
 main()

@@ -1,6 +1,6 @@
 # A script: fuzzes one format for some seconds. Fails by FATAL_ERROR.
 #   BUILD    the build folder of the preset "fuzz"
-#   FORMAT   json_scene or gltf
+#   FORMAT   json_scene, gltf or image
 #   SECONDS  how long
 cmake_minimum_required(VERSION 3.25)
 

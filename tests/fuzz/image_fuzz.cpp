@@ -1,0 +1,45 @@
+// libFuzzer's entry for images: the decoders of PNG, JPEG and WebP behind the module's interface.
+
+#include "io/image/decode_image.hpp"
+#include "io/image/image_header.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <iostream>
+#include <string_view>
+#include <variant>
+
+namespace {
+
+void expect(bool promise, const char* words) {
+  if (promise) return;
+  std::cerr << "broken promise: " << words << '\n';
+  std::abort();
+}
+
+}  // namespace
+
+// The name and the types are libFuzzer's.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace microtrace;
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  const io::ImageHeader header = io::read_image_header(bytes);
+  // What is larger takes memory by right, and time.
+  constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 20;
+  if (std::uint64_t{header.width} * header.height > kMostPixels) return 0;
+  const io::DecodedImage decoded = io::decode_image(bytes);
+  expect(!decoded.no_module, "the decoders are there");
+  if (!decoded.image) {
+    expect(decoded.too_large || !decoded.complaint.empty(), "a failure has a reason");
+    return 0;
+  }
+  const Image& image = *decoded.image;
+  expect(header.format != io::ImageFormat::unknown, "what is decoded is known by its first bytes");
+  expect(image.width == header.width && image.height == header.height, "the size is the header's");
+  expect(image.channels >= 1 && image.channels <= 4, "there are one to four channels");
+  const std::size_t count = std::size_t{image.width} * image.height * image.channels;
+  std::visit([&](const auto& samples) { expect(samples.size() == count, "all samples are there"); },
+             image.samples);
+  return 0;
+}
