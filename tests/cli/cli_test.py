@@ -4,10 +4,12 @@
 usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
 
+import base64
 import json
 import os
 import resource
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -174,6 +176,32 @@ class CommandLine(ProgramTest):
             self.assertEqual(wrong.returncode, 2, wrong.stderr)
             self.assertIn(b"has no alpha; write .png or .exr", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_variants(self):
+        colour = lambda *rgb: {"pbrMetallicRoughness": {"baseColorFactor": [*rgb, 1]}}
+        variants = "KHR_materials_variants"
+        corners = struct.pack("<9f", -9, -9, 0, 9, -9, 0, 0, 9, 0)
+        self.write("a.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "extensionsUsed": [variants],
+            "extensions": {variants: {"variants": [{"name": "leaf"}, {"name": "sea"}]}},
+            "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}],
+            "cameras": [{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 1, "zfar": 9}}],
+            "materials": [colour(1, 0, 0), colour(0, 1, 0), colour(0, 0, 1)],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {variants: {
+                "mappings": [{"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}]}}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
+                           "min": [-9, -9, 0], "max": [9, 9, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
+                         + base64.b64encode(corners).decode()}]}))
+        for options, pixel in (([], b"\xff\0\0"), (["--variant", "leaf"], b"\0\xff\0"),
+                               (["--variant", "sea"], b"\0\0\xff"), (["--variant", "0"], b"\0\xff\0")):
+            _, _, rows = self.picture("a.gltf", "--integrator", "flat", "--size", "3x3", *options)
+            self.assertEqual(rows, [3 * pixel] * 3, options)
+        wrong = self.run_program("a.gltf", "--variant", "sand")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn(b"0 (leaf), 1 (sea)", wrong.stderr)
+        self.assertEqual(os.listdir(self.folder), ["a.gltf"])
 
     def test_quantities(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
