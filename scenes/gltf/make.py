@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
-"""Writes the glTF scenes of this folder: cube.glb and knot.glb.
+"""Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb.
 
-knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colours over a floor.
+knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colours over a floor. textures.glb has four rectangles
+before an orthographic camera: a repeated texture magnified, another minified by mip maps, a mask before grey, and one that
+leans back, so that its footprints are long.
 """
 
 import json
 import math
 import pathlib
 import struct
+import zlib
 
 MATERIALS = {
     "red": (0.80, 0.05, 0.04),
@@ -52,6 +55,18 @@ class Asset:
         view = {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target}
         self.buffer += data
         return self.add("bufferViews", view)
+
+    def numbers(self, kind, tuples):
+        data = b"".join(struct.pack(f"<{len(t)}f", *t) for t in tuples)
+        return self.add("accessors", {"bufferView": self.view(data, 34962), "componentType": 5126, "type": kind,
+                                      "count": len(tuples)})
+
+    def texture(self, name, png, sampler):
+        self.buffer += b"\0" * (-len(self.buffer) % 4)
+        view = self.add("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(png)})
+        self.buffer += png
+        image = self.add("images", {"name": name, "mimeType": "image/png", "bufferView": view})
+        return self.add("textures", {"name": name, "source": image, "sampler": self.add("samplers", sampler)})
 
     def positions(self, points):
         data = b"".join(struct.pack("<3f", *p) for p in points)
@@ -165,10 +180,62 @@ def knot(rings=96, sides=8, radius=0.55):
     return asset
 
 
+def png(size, channels, pixel):
+    """A square PNG file of pixel(x, y), 8 bits a channel."""
+    def chunk(name, data):
+        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(size)) for y in range(size))
+    header = struct.pack(">IIBBBBB", size, size, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9))
+            + chunk(b"IEND", b""))
+
+
+def textures():
+    asset = Asset([])
+    repeat, mirrored, linear, mip_maps = 10497, 33648, 9729, 9987
+    patches = png(8, 3, lambda x, y: ((37 * x + 91 * y) % 256, (151 * x + 53 * y) % 256, 40 * ((x + y) % 2) + 30 * y))
+    waves = png(64, 3, lambda x, y: (
+        round(127.5 + 127.5 * math.sin(math.pi * x / 16)), 255 if (x // 4 + y // 8) % 2 else 30, (x * y) % 256))
+    holes = png(16, 4, lambda x, y: (255, 16 * y, 255 - 16 * x, max(0, 255 - 4 * ((x - 8) ** 2 + (y - 7) ** 2))))
+    sampler = {"wrapS": repeat, "wrapT": repeat, "magFilter": linear, "minFilter": mip_maps}
+    # Name, texture, factor, corners x0, y0, x1, y1 with depths at y0 and y1, uv there; a unit is 80 pixels.
+    rectangles = [
+        ("Magnified", asset.texture("patches", patches, sampler), (1, 1, 1, 1),
+         (-3.75, 0.25, -0.25, 2.75, 0, 0), (-0.5, 1.75, 1.75, -0.25)),
+        ("Minified", asset.texture("waves", waves, sampler), (1, 0.75, 1, 1),
+         (0.25, 0.25, 3.75, 2.75, 0, 0), (0, 8.4375, 11.8125, 0)),
+        ("Mask", asset.texture("holes", holes, dict(sampler, wrapS=mirrored)), (0.5, 1, 1, 0.875),
+         (-3.75, -2.75, -0.25, -0.25, 0, 0), (-1, 2.5, 2.5, 0)),
+        ("Leaning", 1, (1, 1, 1, 1), (0.25, -2.75, 3.75, -0.25, 0, -4.5), (-1, 9, 4.5, -5)),
+    ]
+    for name, texture, factor, (x0, y0, x1, y1, z0, z1), (u0, v0, u1, v1) in rectangles:
+        material = {"name": name, "extensions": {"KHR_materials_unlit": {}},
+                    "pbrMetallicRoughness": {"baseColorFactor": factor, "baseColorTexture": {"index": texture}}}
+        if name == "Mask":
+            material.update(alphaMode="MASK", alphaCutoff=0.25)
+        primitive = {
+            "attributes": {"POSITION": asset.positions([(x0, y0, z0), (x1, y0, z0), (x1, y1, z1), (x0, y1, z1)]),
+                           "TEXCOORD_0": asset.numbers("VEC2", [(u0, v0), (u1, v0), (u1, v1), (u0, v1)])},
+            "indices": asset.indices([(0, 1, 2), (0, 2, 3)]), "material": asset.add("materials", material)}
+        asset.node({"name": name, "mesh": asset.add("meshes", {"name": name, "primitives": [primitive]})})
+    grey = asset.add("materials", {"name": "grey", "extensions": {"KHR_materials_unlit": {}},
+                                   "pbrMetallicRoughness": {"baseColorFactor": [*MATERIALS["grey"], 1]}})
+    primitive = {"attributes": {"POSITION": asset.positions([(-3.75, -2.75, -1), (-0.25, -2.75, -1), (-0.25, -0.25, -1),
+                                                             (-3.75, -0.25, -1)])},
+                 "indices": asset.indices([(0, 1, 2), (0, 2, 3)]), "material": grey}
+    asset.node({"name": "Behind", "mesh": asset.add("meshes", {"name": "Behind", "primitives": [primitive]})})
+    camera = asset.add("cameras", {"type": "orthographic",
+                                   "orthographic": {"xmag": 4, "ymag": 3, "znear": 1, "zfar": 100}})
+    asset.node({"name": "Front", "camera": camera, "translation": [0, 0, 10]})
+    return asset
+
+
 def main():
     folder = pathlib.Path(__file__).parent
     cube().write(folder / "cube.glb")
     knot().write(folder / "knot.glb")
+    textures().write(folder / "textures.glb")
 
 
 if __name__ == "__main__":

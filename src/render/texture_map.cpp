@@ -189,7 +189,8 @@ DVec4 TextureMap::look_up(const DVec2& uv, const TextureFootprint& footprint) co
   if (!(longer > 1)) return filtered(0, sampler_.magnification, uv);
   if (!std::isfinite(longer)) return filtered(level_count() - 1, sampler_.minification, uv);
   const bool one = sampler_.mip == MipFilter::none || sampler_.minification == Filter::nearest;
-  const double wished = std::ceil(longer / std::max(shorter, 1.0));
+  // A footprint that is square but for rounding asks for one place, not for two of half the width.
+  const double wished = std::ceil(longer / std::max(shorter, 1.0) - 0x1p-10);
   const int probes = one ? 1 : static_cast<int>(std::min<double>(wished, kMaxProbes));
   const double width = one ? longer : longer / probes;
   const DVec2 step = (across > down ? footprint.dx : footprint.dy) / static_cast<double>(probes);

@@ -18,6 +18,7 @@ SCENES = ["perspective1.json", "perspective2.json", "perspective3.json", "enviro
           "orthographic.json", "hyperboloid.json", "gltf/knot.glb"]
 QUESTIONS = [[scene, "-o", "-"] for scene in SCENES] + [
     ["perspective2.json", "--spp", "7", "-o", "-"],
+    ["gltf/textures.glb", "--integrator", "flat", "-o", "-"],
     ["gltf/cube.glb", "--view", "-71,33", "--integrator", "normal", "-o", "-"],
     ["gltf/knot.glb", "--integrator", "barycentric", "-o", "-"],
     ["gltf/knot.glb", "--integrator", "path", "--spp", "3", "--size", "160x120", "-o", "-"],
@@ -39,7 +40,7 @@ def build(name, settings):
     subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", *options,
                     "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF",
                     "-DMICROTRACE_WITH_OPENIMAGEIO=OFF"], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["cmake", "--build", folder, "--target", "microtrace"], check=True,
+    subprocess.run(["cmake", "--build", folder, "--target", "microtrace", "microtrace_codecs"], check=True,
                    stdout=subprocess.DEVNULL)
     return folder / "src/cli/microtrace"
 
