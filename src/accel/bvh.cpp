@@ -36,8 +36,6 @@ struct Bvh::Impl {
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, PrimitiveId after) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
-  /// Nothing if only the exact way is sure.
-  [[nodiscard]] std::optional<QuickSpawn> quick_spawn(const Ray& ray, const Hit& hit) const;
 
   /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
   /// kernels.
@@ -109,18 +107,6 @@ std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
   if (has_tree) kernels->closest(view(), kernel_ray(ray, t_scale), judge.slow_path(), best);
   if (best.id == kNoPrimitive) return std::nullopt;
   return judge.hit(best.id);
-}
-
-std::optional<QuickSpawn> Bvh::Impl::quick_spawn(const Ray& ray, const Hit& hit) const {
-  if (!outside.empty() || !exact::is_valid(ray) || hit.id >= primitives.count())
-    return std::nullopt;
-  return primitives.visit(hit.id, [&](const auto& shape) -> std::optional<QuickSpawn> {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-      const QuickSpawn quick(shape, hit.id, ray);
-      if (quick.is_alone(*kernels, view())) return quick;
-    }
-    return std::nullopt;
-  });
 }
 
 std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
@@ -210,16 +196,16 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
                         std::span<std::optional<Vec3>> origins) const {
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
-  std::optional<QuickSpawn> quick;  // of the latest hit, where it is sure
-  const Spawn* latest = nullptr;
-  for (std::size_t i = 0; i < spawns.size(); ++i) {
-    const Spawn& spawn = spawns[i];
-    if (latest == nullptr || latest->ray != spawn.ray || latest->hit.id != spawn.hit.id) {
-      quick = impl_->quick_spawn(*spawn.ray, spawn.hit);
-      latest = &spawn;
+  QuickSpawns quick(impl_->primitives, *impl_->kernels, impl_->view());
+  const bool may_be_quick = impl_->outside.empty();
+  while (!spawns.empty()) {
+    const std::size_t done = may_be_quick ? quick.origins(spawns, origins) : spawns.size();
+    for (std::size_t i = 0; i < done; ++i) {
+      if (!may_be_quick || !origins[i])
+        origins[i] = spawn_origin(*spawns[i].ray, spawns[i].hit, spawns[i].direction);
     }
-    origins[i] = quick ? quick->origin(spawn.direction) : std::nullopt;
-    if (!origins[i]) origins[i] = spawn_origin(*spawn.ray, spawn.hit, spawn.direction);
+    spawns = spawns.subspan(done);
+    origins = origins.subspan(done);
   }
 }
 

@@ -3,7 +3,6 @@
 #include "accel/departure.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -80,18 +79,17 @@ QuickSpawn::QuickSpawn(const Triangle& triangle, PrimitiveId id, const Ray& ray)
   if (!(error <= 0x1p-9 * largest)) p_.reset();
 }
 
-bool QuickSpawn::is_alone(const Kernels& kernels, const TreeView& tree) const {
-  if (!p_) return false;
-  PlaceBox box;
+void QuickSpawn::set_box(PlaceQuery& query) const {
   for (int k = 0; k < 3; ++k) {
     // Rounded outwards by a part of the reach, which has room for it.
-    box.lo[k] = static_cast<float>((*p_)[k] - 1.5 * reach_);
-    box.hi[k] = static_cast<float>((*p_)[k] + 1.5 * reach_);
+    query.lo[k] = static_cast<float>((*p_)[k] - 1.5 * reach_);
+    query.hi[k] = static_cast<float>((*p_)[k] + 1.5 * reach_);
   }
-  std::array<std::uint32_t, 32> places;
-  const int count = kernels.touching(tree, box, places.data(), static_cast<int>(places.size()));
-  if (count < 0) return false;
-  return std::all_of(places.begin(), places.begin() + count, [&](std::uint32_t place) {
+}
+
+bool QuickSpawn::is_alone(const TreeView& tree, const PlaceQuery& found) const {
+  if (found.count < 0) return false;
+  return std::all_of(found.places, found.places + found.count, [&](std::uint32_t place) {
     if (tree.blocks[place / kWidth].id[place % kWidth] == id_) return true;
     // The plane, or the triangle in it, passes by all points from the hit to the origin.
     const Triangle other = triangle_at(tree, place);
@@ -118,6 +116,42 @@ std::optional<Vec3> QuickSpawn::origin(const Vec3& direction) const {
     q[axis_] = neighbour(q[axis_], up);
   }
   return std::nullopt;
+}
+
+std::size_t QuickSpawns::origins(std::span<const Bvh::Spawn> spawns,
+                                 std::span<std::optional<Vec3>> origins) {
+  // One for each hit; which of them each spawn leaves, kNone if none.
+  std::array<std::optional<QuickSpawn>, kPlaceQueries> quick;
+  std::array<std::size_t, std::size_t{4} * kPlaceQueries> hit_of;
+  constexpr std::size_t kNone = kPlaceQueries;
+  std::size_t hits = 0, done = 0;
+  for (; done < spawns.size() && done < hit_of.size(); ++done) {
+    const Bvh::Spawn& spawn = spawns[done];
+    const bool is_same =
+        done > 0 && spawns[done - 1].ray == spawn.ray && spawns[done - 1].hit.id == spawn.hit.id;
+    if (is_same) {
+      hit_of[done] = hit_of[done - 1];
+      continue;
+    }
+    if (hits == kPlaceQueries) break;
+    hit_of[done] = kNone;
+    if (!exact::is_valid(*spawn.ray) || spawn.hit.id >= primitives_.count()) continue;
+    primitives_.visit(spawn.hit.id, [&](const auto& shape) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
+        quick[hits].emplace(shape, spawn.hit.id, *spawn.ray);
+    });
+    if (!quick[hits] || !quick[hits]->is_sure()) continue;
+    quick[hits]->set_box(queries_[hits]);
+    hit_of[done] = hits++;
+  }
+  kernels_.touching(tree_, queries_.data(), static_cast<int>(hits));
+  std::array<bool, kPlaceQueries> is_alone{};
+  for (std::size_t k = 0; k < hits; ++k) is_alone[k] = quick[k]->is_alone(tree_, queries_[k]);
+  for (std::size_t i = 0; i < done; ++i) {
+    const std::size_t k = hit_of[i];
+    origins[i] = k != kNone && is_alone[k] ? quick[k]->origin(spawns[i].direction) : std::nullopt;
+  }
+  return done;
 }
 
 }  // namespace microtrace

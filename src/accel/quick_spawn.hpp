@@ -4,11 +4,16 @@
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
 
+#include <microtrace/bvh.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
 
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace microtrace {
 
@@ -18,9 +23,12 @@ class QuickSpawn {
   /// `ray` hits the triangle, which bears that number.
   QuickSpawn(const Triangle& triangle, PrimitiveId id, const Ray& ray);
 
-  /// Whether it is sure that no other surface of the tree comes near the point. To be asked before
-  /// origin().
-  [[nodiscard]] bool is_alone(const Kernels& kernels, const TreeView& tree) const;
+  /// Whether the point is known well enough to look at what is near.
+  [[nodiscard]] bool is_sure() const { return p_.has_value(); }
+  /// The box in which another surface might come between the point and an origin.
+  void set_box(PlaceQuery& query) const;
+  /// Whether it is sure that none does, by what was found in the box. Origins are good only then.
+  [[nodiscard]] bool is_alone(const TreeView& tree, const PlaceQuery& found) const;
 
   /// Nothing if float64 can't tell.
   [[nodiscard]] std::optional<Vec3> origin(const Vec3& direction) const;
@@ -32,6 +40,24 @@ class QuickSpawn {
   std::optional<Vec3> p_;  // rounded; nothing: not sure
   double reach_ = 0;       // origins lie so near to p_, axis by axis
   int axis_ = 0;           // along which origins are moved
+};
+
+/// Several hits at a time.
+class QuickSpawns {
+ public:
+  /// All primitives must be in the tree.
+  QuickSpawns(const Primitives& primitives, const Kernels& kernels, const TreeView& tree)
+      : primitives_(primitives), kernels_(kernels), tree_(tree) {}
+
+  /// Answers spawns from the front, at least one if there is any, and returns how many. Nothing
+  /// stands for what only exact arithmetic can tell.
+  std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
+
+ private:
+  const Primitives& primitives_;
+  const Kernels& kernels_;
+  const TreeView tree_;
+  std::array<PlaceQuery, kPlaceQueries> queries_;
 };
 
 }  // namespace microtrace

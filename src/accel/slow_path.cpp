@@ -88,6 +88,11 @@ void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
 Verdict Judge::verdict(PrimitiveId id) const {
   return primitives_->visit(id, [&](const auto& shape) {
     if (!filterable_ || !is_filterable(shape)) return Verdict{.certainty = Certainty::unsure};
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
+      // Most that come here are those that rays have just left; for them the plane will do.
+      const Verdict plane = TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
+      if (plane.certainty == Certainty::miss) return plane;
+    }
     return seen_from(ray_->o, shape)(DVec3(ray_->d), range());
   });
 }

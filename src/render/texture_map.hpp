@@ -33,7 +33,24 @@ class TextureMap {
   /// The same in float32 by one bilinear look-up in the level whose pixels are nearest below
   /// `width` in size, which is a part of the image's width and height: for random samples, which
   /// together are the filter.
-  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const;
+  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const { return sample(place(uv, width)); }
+
+  /// Between two pixels of a row or a column, and how far from the first to the second.
+  struct Between {
+    std::int32_t first, second;
+    float share;
+  };
+  /// Where sample() looks.
+  struct Place {
+    std::size_t level;
+    std::uint32_t columns;  ///< of that level
+    Between x, y;
+  };
+  [[nodiscard]] Place place(const Vec2& uv, float width) const;
+  [[nodiscard]] Vec4 sample(const Place& place) const;
+
+  /// Whether both have the same places.
+  [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;
 
   static constexpr int kMaxProbes = 8;
 

@@ -6,11 +6,7 @@
 namespace microtrace {
 namespace {
 
-/// The two pixels between which a coordinate lies, and how far it is from the first to the second.
-struct Between {
-  std::int32_t first, second;
-  float share;
-};
+using Between = TextureMap::Between;
 
 /// The largest whole number up to x; |x| < 2^31.
 std::int32_t floor_of(float x) {
@@ -49,15 +45,19 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
   return {.first = std::min(first, size - 1), .second = second, .share = share};
 }
 
+/// Four numbers in one register: GLM's are computed one by one.
+typedef float Four __attribute__((vector_size(16)));
+
 /// The four pixels around a place, weighed. fetch(index) is a pixel, row by row.
 template <class Fetch>
 Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fetch& fetch) {
   const std::size_t top = static_cast<std::size_t>(y.first) * columns;
   const std::size_t bottom = static_cast<std::size_t>(y.second) * columns;
   const auto left = static_cast<std::size_t>(x.first), right = static_cast<std::size_t>(x.second);
-  const Vec4 upper = fetch(top + left) * (1 - x.share) + fetch(top + right) * x.share;
-  const Vec4 lower = fetch(bottom + left) * (1 - x.share) + fetch(bottom + right) * x.share;
-  return upper * (1 - y.share) + lower * y.share;
+  const Four upper = fetch(top + left) * (1 - x.share) + fetch(top + right) * x.share;
+  const Four lower = fetch(bottom + left) * (1 - x.share) + fetch(bottom + right) * x.share;
+  const Four all = upper * (1 - y.share) + lower * y.share;
+  return {all[0], all[1], all[2], all[3]};
 }
 
 /// From an image's own pixels; `color` and `alpha` are the linear light of its numbers.
@@ -66,29 +66,31 @@ Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color,
               const Between& x, const Between& y, std::size_t columns) {
   switch (channels) {
     case 1:
-      return bilinear(x, y, columns,
-                      [=](std::size_t i) { return Vec4(Vec3(color[samples[i]]), 1); });
+      return bilinear(x, y, columns, [=](std::size_t i) {
+        const float grey = color[samples[i]];
+        return Four{grey, grey, grey, 1};
+      });
     case 2:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 2 * i;
-        return Vec4(Vec3(color[s[0]]), alpha[s[1]]);
+        return Four{color[s[0]], color[s[0]], color[s[0]], alpha[s[1]]};
       });
     case 3:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 3 * i;
-        return Vec4(color[s[0]], color[s[1]], color[s[2]], 1);
+        return Four{color[s[0]], color[s[1]], color[s[2]], 1};
       });
     default:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 4 * i;
-        return Vec4(color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]);
+        return Four{color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]};
       });
   }
 }
 
 }  // namespace
 
-Vec4 TextureMap::sample(const Vec2& uv, float width) const {
+TextureMap::Place TextureMap::place(const Vec2& uv, float width) const {
   std::size_t level = 0;
   const float pixels = width * static_cast<float>(std::max(image_.width, image_.height));
   if (pixels >= 2 && sampler_.mip != MipFilter::none) {
@@ -99,14 +101,27 @@ Vec4 TextureMap::sample(const Vec2& uv, float width) const {
   const Filter filter = pixels > 1 ? sampler_.minification : sampler_.magnification;
   const std::uint32_t columns = level == 0 ? image_.width : levels_[level - 1].width;
   const std::uint32_t rows = level == 0 ? image_.height : levels_[level - 1].height;
-  const Between x = between(uv.x, sampler_.wrap_s, static_cast<std::int32_t>(columns), filter);
-  const Between y = between(uv.y, sampler_.wrap_t, static_cast<std::int32_t>(rows), filter);
+  return {.level = level,
+          .columns = columns,
+          .x = between(uv.x, sampler_.wrap_s, static_cast<std::int32_t>(columns), filter),
+          .y = between(uv.y, sampler_.wrap_t, static_cast<std::int32_t>(rows), filter)};
+}
+
+bool TextureMap::is_laid_out_as(const TextureMap& other) const {
+  const Sampler &a = sampler_, &b = other.sampler_;
+  return image_.width == other.image_.width && image_.height == other.image_.height &&
+         a.wrap_s == b.wrap_s && a.wrap_t == b.wrap_t && a.magnification == b.magnification &&
+         a.minification == b.minification && a.mip == b.mip;
+}
+
+Vec4 TextureMap::sample(const Place& place) const {
+  const auto& [level, columns, x, y] = place;
   if (level > 0) {
     const std::uint16_t* samples = levels_[level - 1].samples.data();
     return bilinear(x, y, columns,
                     [=](std::size_t i) {
                       const std::uint16_t* s = samples + 4 * i;
-                      return Vec4(s[0], s[1], s[2], s[3]);
+                      return Four{float(s[0]), float(s[1]), float(s[2]), float(s[3])};
                     }) *
            (1 / 65535.0F);
   }

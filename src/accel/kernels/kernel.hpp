@@ -131,10 +131,15 @@ struct alignas(64) HitBatch {
   float t[kHitBatch];                                       ///< the answers
 };
 
-/// A small box, closed.
-struct PlaceBox {
+/// A small box, closed, and what was found there.
+struct PlaceQuery {
+  static constexpr int kMost = 32;
+
   float lo[3], hi[3];
+  int count;  ///< of places; -1: more than kMost, or other primitives may be there
+  std::uint32_t places[kMost];  ///< as KernelTile::best_place
 };
+inline constexpr int kPlaceQueries = 16;
 
 /// One instruction set's code.
 struct Kernels {
@@ -160,10 +165,9 @@ struct Kernels {
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a tile that have a place.
   std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
-  /// Writes the places (as KernelTile::best_place) of all triangles whose own boxes have a point in
-  /// the box, some maybe twice; returns their number. -1 if there are more than `capacity` or other
-  /// primitives may be there.
-  int (*touching)(const TreeView& tree, const PlaceBox& box, std::uint32_t* places, int capacity);
+  /// Finds all triangles whose own boxes have a point in each query's box, some maybe twice. Up to
+  /// kPlaceQueries at a time, whose ways to memory overlap.
+  void (*touching)(const TreeView& tree, PlaceQuery* queries, int count);
   /// How many triangles' edges this thread has looked at by float64.
   std::uint64_t (*edge_tests)();
 };

@@ -10,12 +10,12 @@ namespace {
 
 /// The lanes in which [lo, hi] and the intervals of an axis have a number in common.
 template <int N>
-inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const PlaceBox& box, int axis) {
+inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const PlaceQuery& box, int axis) {
   return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
 }
 
 template <int N>
-inline Lanes touched_children(const WideNode& node, const PlaceBox& box) {
+inline Lanes touched_children(const WideNode& node, const PlaceQuery& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     lanes |= (overlapping<N>(load<N>(node.lo_x + i), load<N>(node.hi_x + i), box, 0) &
@@ -28,7 +28,7 @@ inline Lanes touched_children(const WideNode& node, const PlaceBox& box) {
 
 /// By the triangles' boxes. Unused places hold NaN, which overlaps nothing.
 template <int N>
-inline Lanes touched_triangles(const TriangleBlock& block, const PlaceBox& box) {
+inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     Lanes touched = all_lanes<N>;
@@ -44,32 +44,60 @@ inline Lanes touched_triangles(const TriangleBlock& block, const PlaceBox& box) 
   return lanes;
 }
 
-/// See Kernels::touching.
-template <int N>
-int touching(const TreeView& tree, const PlaceBox& box, std::uint32_t* places, int capacity) {
+/// A query on its way through the tree.
+struct PlaceSearch {
+  int size;
   ChildRef stack[kStackSize + kWidth];
-  int size = 0, count = 0;
-  stack[size++] = tree.root;
-  while (size > 0) {
-    const ChildRef next = stack[--size];
-    if ((next & child_ref::kKind) == 0) {
-      const WideNode& node = tree.nodes[next];
-      const Lanes lanes = touched_children<N>(node, box);
-      store_lanes(lanes, node.child, stack + size);
-      size += __builtin_popcount(lanes);
-      continue;
-    }
-    if ((next & child_ref::kKind) != child_ref::kTriangles) return -1;
-    const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
-    for (std::uint32_t b = first; b < end; ++b) {
-      Lanes lanes = touched_triangles<N>(tree.blocks[b], box);
-      for (; lanes != 0; lanes &= lanes - 1) {
-        if (count == capacity) return -1;
-        places[count++] = b * kWidth + static_cast<std::uint32_t>(first_lane(lanes));
-      }
+};
+
+/// One node or leaf further.
+template <int N>
+inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
+  const ChildRef next = search.stack[--search.size];
+  if ((next & child_ref::kKind) == 0) {
+    const WideNode& node = tree.nodes[next];
+    const Lanes lanes = touched_children<N>(node, query);
+    store_lanes(lanes, node.child, search.stack + search.size);
+    search.size += __builtin_popcount(lanes);
+    return;
+  }
+  const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
+  bool overflows = (next & child_ref::kKind) != child_ref::kTriangles;
+  for (std::uint32_t b = first; b < end && !overflows; ++b) {
+    for (Lanes lanes = touched_triangles<N>(tree.blocks[b], query); lanes != 0;
+         lanes &= lanes - 1) {
+      overflows = query.count == PlaceQuery::kMost;
+      if (overflows) break;
+      query.places[query.count++] = b * kWidth + static_cast<std::uint32_t>(first_lane(lanes));
     }
   }
-  return count;
+  if (overflows) {
+    query.count = -1;
+    search.size = 0;
+  }
+}
+
+/// See Kernels::touching.
+template <int N>
+void touching(const TreeView& tree, PlaceQuery* queries, int count) {
+  PlaceSearch searches[kPlaceQueries];
+  int going[kPlaceQueries];
+  for (int i = 0; i < count; ++i) {
+    searches[i].size = 1;
+    searches[i].stack[0] = tree.root;
+    queries[i].count = 0;
+    going[i] = i;
+  }
+  while (count > 0) {
+    int left = 0;
+    for (int k = 0; k < count; ++k) {
+      const int i = going[k];
+      step<N>(tree, searches[i], queries[i]);
+      going[left] = i;
+      left += searches[i].size > 0 ? 1 : 0;
+    }
+    count = left;
+  }
 }
 
 }  // namespace

@@ -107,6 +107,7 @@ void Wave::step(std::size_t i) {
     if (coverage > 0 && path.sobol.one(number) < coverage) break;
     hit = world_.bvh.next(ray, *hit);
   }
+  Shading::find_place(point);
   const bool from_camera = path.density == 0;
   if (from_camera) alphas_[path.slot] = 1;
   const Vec3 d = bsdf::unit(ray.d);

@@ -45,8 +45,8 @@ class Wave {
   struct Vertex {
     const Ray& ray;
     Hit hit;
-    ShadingPoint point;
-    bsdf::Frame frame;
+    const ShadingPoint& point;
+    const bsdf::Frame& frame;
     const bsdf::Bsdf& bsdf;
   };
   /// A ray to a light or on along the path, without origin yet.

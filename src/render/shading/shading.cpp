@@ -13,11 +13,36 @@ namespace {
 
 const Material kNoMaterial{};
 
-Vec4 look_up(const TextureMap& map, const TextureUse& use, const ShadingPoint& point) {
+TextureMap::Place place_of(const TextureMap& map, const TextureUse& use,
+                           const ShadingPoint& point) {
   const Vec2 uv = point.at.uv(use.uv_set);
   const auto& m = use.texture_from_uv;
   const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
-  return map.sample(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
+  return map.place(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
+}
+
+Vec4 look_up(const TextureMap& map, const TextureUse& use, const ShadingPoint& point) {
+  return map.sample(point.place ? *point.place : place_of(map, use, point));
+}
+
+/// Sets the layout if all textures share one.
+void compare_layouts(TexturedMaterial& look) {
+  const Material& m = *look.material;
+  bool same = true;
+  const auto compare = [&](const TextureMap* map, const std::optional<TextureUse>& use) {
+    if (map == nullptr) return;
+    if (look.layout == nullptr) {
+      look.layout = map;
+      look.layout_use = &*use;
+    }
+    same = same && map->is_laid_out_as(*look.layout) && use->uv_set == look.layout_use->uv_set &&
+           use->texture_from_uv == look.layout_use->texture_from_uv;
+  };
+  compare(look.base_color, m.base_color_texture);
+  compare(look.metallic_roughness, m.metallic_roughness_texture);
+  compare(look.normal, m.normal_texture);
+  compare(look.emissive, m.emissive_texture);
+  if (!same) look.layout = nullptr;
 }
 
 /// The normal nearest to n above whose horizon wo is, just.
@@ -54,6 +79,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives)
                           maps_->get(scene, m.metallic_roughness_texture, ColorEncoding::linear),
                       .normal = maps_->get(scene, m.normal_texture, ColorEncoding::linear),
                       .emissive = maps_->get(scene, m.emissive_texture, ColorEncoding::srgb)});
+    compare_layouts(looks_.back());
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
@@ -86,6 +112,11 @@ ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool fr
   return {.at = surface_point(*entry.mesh, id - entry.first_id, barycentrics, front),
           .look = &looks_[entry.look],
           .width = width};
+}
+
+void Shading::find_place(ShadingPoint& point) {
+  const TexturedMaterial& look = *point.look;
+  if (look.layout != nullptr) point.place = place_of(*look.layout, *look.layout_use, point);
 }
 
 Vec4 Shading::base_color(const ShadingPoint& point) const {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace microtrace {
@@ -23,6 +24,9 @@ struct TexturedMaterial {
   const TextureMap* metallic_roughness = nullptr;
   const TextureMap* normal = nullptr;
   const TextureMap* emissive = nullptr;
+  /// One of them, if all have the same places at every point.
+  const TextureMap* layout = nullptr;
+  const TextureUse* layout_use = nullptr;
 };
 
 /// A point, its material and how wide the part of the surface is that it stands for.
@@ -30,6 +34,8 @@ struct ShadingPoint {
   SurfacePoint at;
   const TexturedMaterial* look = nullptr;
   float width = 0;  ///< world space
+  /// Where the material's textures are looked up, if that is known and all the same.
+  std::optional<TextureMap::Place> place{};
 };
 
 /// Made once for a picture; any number of threads may ask it.
@@ -49,6 +55,9 @@ class Shading {
   [[nodiscard]] const Material& material(PrimitiveId id) const {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
   }
+
+  /// Spares the textures of a point from finding their places one by one.
+  static void find_place(ShadingPoint& point);
 
   /// How much of the surface is there: 0 on a side that it lacks; by the base colour's alpha where
   /// the material says so.
