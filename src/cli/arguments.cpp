@@ -56,7 +56,7 @@ void name_values(CLI::App& app) {
   }};
   for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
   for (const char* option :
-       {"--threads", "--stats", "--progress", "--strict", "--validate", "--quiet"}) {
+       {"--threads", "--stats", "--progress", "--strict", "--validate", "--quiet", "--verbose"}) {
     app.get_option(option)->group("Running");
   }
 }
@@ -139,6 +139,8 @@ Parsed parse_arguments(int argc, char** argv) {
   app.add_flag("--strict", a.strict, "warnings are errors: exit 3, no picture");
   app.add_flag("--validate", a.validate, "check the scene, print the verdict, draw nothing");
   app.add_flag("-q,--quiet", a.quiet, "no warnings and no progress bar");
+  app.add_flag("-v,--verbose", a.verbose, "what was read, how it is drawn and what was written")
+      ->excludes("--quiet");
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
   name_values(app);
   try {

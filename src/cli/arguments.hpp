@@ -42,6 +42,7 @@ struct Arguments {
   Statistics statistics = Statistics::none;
   Progress progress = Progress::bar;
   bool quiet = false;
+  bool verbose = false;
   bool strict = false;
   bool validate = false;
 };

@@ -1,6 +1,7 @@
 #include "cli/picture.hpp"
 
 #include "cli/progress_bar.hpp"
+#include "cli/verbose.hpp"
 
 #include <microtrace/render.hpp>
 #include <microtrace/segments.hpp>
@@ -25,6 +26,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                   const std::filesystem::path& output, const std::filesystem::path& sidecar,
                   Stopwatch& watch, const std::function<void(double)>& progress) {
+  if (arguments.verbose) tell_of_scene(arguments, scene, size);
   widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
@@ -54,6 +56,10 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
     std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
   save_image(film, output, arguments.ppm, sidecar.empty() ? nullptr : &beside);
   watch.written();
+  if (arguments.verbose) {
+    tell_of_file(output);
+    if (!sidecar.empty()) tell_of_file(sidecar);
+  }
   watch.report(arguments.statistics, scene, film.size(), arguments.sampling.samples,
                options.threads);
 }

@@ -239,6 +239,15 @@ class CommandLine(ProgramTest):
         self.assertEqual(numbers["threads"], 2)
         self.assertIn(b"rays/s", self.run_program(SCENE, "-o", "a.ppm", "--stats").stderr)
 
+    def test_verbose_tells_what_is_drawn(self):
+        result = self.run_program(SOURCE / "scenes/gltf/textures.glb", "-o", "a.ppm", "-v", "--integrator", "flat")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        lines = result.stderr.decode().splitlines()
+        for text in (": 5 objects: 10 triangles in meshes, 0 other shapes", "6 materials, 3 textures, 3 images, 3",
+                     "camera: Front, the first of 1", "picture: 640 x 480, flat", "written: a.ppm"):
+            self.assertTrue(any(line.startswith("info: ") and text in line for line in lines), (text, lines))
+        self.assertEqual(self.run_program(SCENE, "-v", "-q").returncode, 2)
+
     def test_times_of_stages(self):
         result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "-o", "a.ppm", "--stats=json")
         numbers = json.loads(result.stderr)

@@ -1,0 +1,81 @@
+#include "cli/verbose.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <variant>
+
+namespace microtrace::cli {
+namespace {
+
+void tell(const std::string& text) {
+  std::fprintf(stderr, "info: %s\n", text.c_str());
+}
+
+std::string counted(std::size_t number, const char* what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+/// How many triangles, lines and other primitives the objects have.
+std::string primitives_of(const Scene& scene) {
+  std::size_t triangles = 0, segments = 0, others = 0;
+  for (const Object& object : scene.objects) {
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
+      triangles += mesh->triangles.size();
+      segments += mesh->segments.size();
+    } else {
+      others += primitive_count(object.shape);
+    }
+  }
+  std::string text = counted(triangles, "triangle") + " in meshes";
+  if (segments > 0) text += ", " + std::to_string(segments) + " lines and points";
+  return text + ", " + counted(others, "other shape");
+}
+
+std::string images_of(const Scene& scene) {
+  std::size_t decoded = 0;
+  std::uint32_t side = 0;
+  for (const auto& image : scene.images) {
+    if (!image) continue;
+    ++decoded;
+    side = std::max({side, image->width, image->height});
+  }
+  std::string text = counted(scene.images.size(), "image");
+  if (!scene.images.empty()) text += ", " + std::to_string(decoded) + " of them decoded";
+  if (decoded > 0) text += " (sides up to " + std::to_string(side) + ")";
+  return text;
+}
+
+std::string camera_of(const Arguments& arguments, const Scene& scene) {
+  if (arguments.view) return "framed, as --view asks";
+  if (!arguments.camera.empty()) return arguments.camera;
+  if (scene.cameras.empty()) return "framed, for the scene has none";
+  return scene.cameras[0].name + ", the first of " + std::to_string(scene.cameras.size());
+}
+
+std::string subject_of(const Arguments& arguments) {
+  if (const auto* technique = std::get_if<Technique>(&arguments.integrator)) {
+    return *technique == Technique::flat ? "flat" : "path";
+  }
+  return "an exact quantity";
+}
+
+}  // namespace
+
+void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize size) {
+  tell(arguments.scene + ": " + counted(scene.objects.size(), "object") + ": " +
+       primitives_of(scene));
+  tell(counted(scene.materials.size(), "material") + ", " +
+       counted(scene.textures.size(), "texture") + ", " + images_of(scene));
+  tell(counted(scene.lights.size(), "light") +
+       (scene.environment ? " and an environment" : ", no environment"));
+  tell("camera: " + camera_of(arguments, scene));
+  tell("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
+       subject_of(arguments));
+}
+
+void tell_of_file(const std::filesystem::path& file) {
+  tell("written: " + (file == "-" ? "standard output" : file.string()));
+}
+
+}  // namespace microtrace::cli
