@@ -3,6 +3,7 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/tone_map.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +27,8 @@ struct Display {
   bool srgb = true;  ///< linear light, encoded by sRGB's curve; else v is shown as
                      ///< round(255 (scale v + offset)), clamped
   Vec3 scale{1}, offset{0};
+  double exposure = 0;  ///< of linear light, in stops: it is multiplied with 2^exposure
+  ToneMap tone_map = ToneMap::none;  ///< of linear light, after exposure and before the encoding
 };
 
 /// One number for each pixel beside the colours, row by row from the upper left.

@@ -1,7 +1,9 @@
 #pragma once
 /// Pictures with light.
 
+#include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/tone_map.hpp>
 
 #include <cstdint>
 
@@ -23,6 +25,9 @@ class PathIntegrator final : public Integrator {
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
   [[nodiscard]] bool is_random() const override { return true; }
+  [[nodiscard]] Display display(const Film& /*film*/) const override {
+    return {.tone_map = ToneMap::khronos_pbr_neutral};
+  }
 
  private:
   PathOptions options_;

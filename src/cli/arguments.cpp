@@ -80,7 +80,7 @@ Parsed parse_arguments(int argc, char** argv) {
       "--crop", crop,
       "x0,y0,x1,y1: draw only the pixels from x0 to x1 - 1, y0 to y1 - 1, as they are in "
       "the whole picture; 0,0 is its upper left corner");
-  add_light_options(app, a.surroundings);
+  add_light_options(app, a.surroundings, a.exposure);
   add_sampling_options(app, a.sampling);
   app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
   app.add_option("--view", view,
@@ -147,6 +147,8 @@ Parsed parse_arguments(int argc, char** argv) {
     app.parse(argc, argv);
     if (app.count("--size") > 0) a.size = parse_size(size);
     if (app.count("--integrator") > 0) a.integrator = parse_integrator(integrator);
+    if (a.surroundings.shows_environment() && a.integrator != Subject(Technique::path))
+      throw CLI::ValidationError("--background", "env is seen only with --integrator path");
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);

@@ -30,6 +30,7 @@ struct Arguments {
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
   Surroundings surroundings{};
+  Exposure exposure{};
   Sampling sampling{};
   Subject integrator = Technique::flat;
   std::uint32_t max_depth = PathOptions{}.max_depth;

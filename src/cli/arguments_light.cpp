@@ -24,14 +24,22 @@ EnvironmentSource parse_environment(const std::string& text) {
                                  text);
 }
 
+ToneMap parse_tone_map(const std::string& text) {
+  if (const auto map = tone_map_named(text)) return *map;
+  std::string names;
+  for (const ToneMap map : kToneMaps) names.append(names.empty() ? "" : ", ").append(name_of(map));
+  throw CLI::ValidationError("--tonemap", "wants " + names + ", not " + text);
+}
+
 }  // namespace
 
-void add_light_options(CLI::App& app, Surroundings& surroundings) {
+void add_light_options(CLI::App& app, Surroundings& surroundings, Exposure& exposure) {
   app.add_option_function<std::string>(
          "--env",
          [&](const std::string& text) { surroundings.environment = parse_environment(text); },
          "light from all around: studio, #rrggbb in sRGB, r,g,b in linear light, or the file of a "
-         "latitude-longitude map (.hdr, .exr, ...) [as the scene says]")
+         "latitude-longitude map (.hdr, .exr, ...) [as the scene says; the studio if it has no "
+         "light]")
       ->type_name("LIGHT");
   app.add_option_function<std::string>(
          "--env-rotation",
@@ -57,6 +65,27 @@ void add_light_options(CLI::App& app, Surroundings& surroundings) {
          "what is seen behind all objects: #rrggbb in sRGB, r,g,b in linear light from 0 to 1, "
          "env: the environment, or transparent: an alpha channel [as the scene says, or black]")
       ->type_name("COLOUR");
+  app.add_option_function<std::string>(
+         "--exposure",
+         [&](const std::string& text) {
+           const double stops = parse_number("--exposure", text);
+           if (!(stops >= -64 && stops <= 64))
+             throw CLI::ValidationError("--exposure", "must be from -64 to 64, is " + text);
+           exposure.stops = stops;
+         },
+         "in stops: 8-bit pictures show light times 2^EV [0]")
+      ->type_name("EV");
+  app.add_option_function<std::string>(
+         "--tonemap", [&](const std::string& text) { exposure.tone_map = parse_tone_map(text); },
+         "how 8-bit pictures show bright light: none, khronos-pbr-neutral, aces or agx "
+         "[khronos-pbr-neutral for path, else none]")
+      ->type_name("NAME");
+}
+
+void expose(Film& film, const Exposure& exposure) {
+  if (!film.display.srgb) return;
+  film.display.exposure = exposure.stops.value_or(film.display.exposure);
+  film.display.tone_map = exposure.tone_map.value_or(film.display.tone_map);
 }
 
 std::optional<Environment> load_environment(const Surroundings& surroundings,
@@ -78,25 +107,17 @@ std::optional<Environment> load_environment(const Surroundings& surroundings,
 
 void surround(Scene& scene, const std::optional<Environment>& environment,
               const Surroundings& surroundings) {
+  const std::optional<Background>& background = surroundings.background;
+  const bool is_seen = surroundings.shows_environment();
   if (environment) scene.environment = environment;
-  const auto require_environment = [&](const std::string& option) {
-    if (!scene.environment)
-      throw Error(ErrorKind::usage, "",
-                  option + ": the scene has no environment; name one by --env");
-  };
-  if (surroundings.rotation) {
-    require_environment("--env-rotation");
+  if (!scene.environment && (is_seen || surroundings.rotation || surroundings.intensity))
+    scene.environment = Environment{.content = Studio{}};
+  if (surroundings.rotation)
     scene.environment->rotation = radians_from_degrees(*surroundings.rotation);
-  }
-  if (surroundings.intensity) {
-    require_environment("--env-intensity");
-    scene.environment->intensity = *surroundings.intensity;
-  }
-  if (!surroundings.background) return;
-  const bool is_environment = surroundings.background->kind == Background::Kind::environment;
-  if (is_environment) require_environment("--background env");
-  if (scene.environment) scene.environment->is_background = is_environment;
-  scene.background = surroundings.background->color;
+  if (surroundings.intensity) scene.environment->intensity = *surroundings.intensity;
+  if (!background) return;
+  if (scene.environment) scene.environment->is_background = is_seen;
+  scene.background = background->color;
 }
 
 }  // namespace microtrace::cli

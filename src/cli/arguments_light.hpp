@@ -1,10 +1,11 @@
 #pragma once
-/// Options for the light around the scene and what lies behind it.
+/// Options for the light around the scene, what lies behind it, and how it is shown.
 
 #include "cli/option_values.hpp"
 
 #include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/film.hpp>
 #include <microtrace/scene.hpp>
 
 #include <filesystem>
@@ -30,18 +31,30 @@ struct Surroundings {
   [[nodiscard]] bool is_transparent() const {
     return background && background->kind == Background::Kind::transparent;
   }
+  [[nodiscard]] bool shows_environment() const {
+    return background && background->kind == Background::Kind::environment;
+  }
 };
 
-/// Adds the options, which are written to `surroundings` when the app parses.
-void add_light_options(CLI::App& app, Surroundings& surroundings);
+/// How 8-bit formats show light; what is not given is left to the integrator.
+struct Exposure {
+  std::optional<double> stops{};
+  std::optional<ToneMap> tone_map{};
+};
+
+/// Adds the options, which are written to `surroundings` and `exposure` when the app parses.
+void add_light_options(CLI::App& app, Surroundings& surroundings, Exposure& exposure);
+
+/// Changes how the film is shown, unless it shows numbers rather than light.
+void expose(Film& film, const Exposure& exposure);
 
 /// The environment that the options name, if they do; reads its file and adds to the warnings.
 /// Throws Error.
 [[nodiscard]] std::optional<Environment> load_environment(const Surroundings& surroundings,
                                                           std::vector<Diagnostic>& warnings);
 
-/// Gives the scene that environment, if there is one, and all else that the options ask for. Throws
-/// Error (usage) where they speak of an environment that is not there.
+/// Gives the scene that environment, if there is one, and all else that the options ask for; those
+/// that speak of an environment where there is none mean the studio.
 void surround(Scene& scene, const std::optional<Environment>& environment,
               const Surroundings& surroundings);
 

@@ -48,6 +48,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
   if (ids_for_sidecar_alone) options.aovs.push_back(Aov::id);
   Film film = render(scene, camera, size, options);
   watch.rendered(times);
+  expose(film, arguments.exposure);
 
   Sidecar beside{.path = sidecar, .text = {}};
   if (!sidecar.empty())

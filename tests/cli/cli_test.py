@@ -112,16 +112,6 @@ class CommandLine(ProgramTest):
                     for threads in (1, 2, 3, 16)}
         self.assertEqual(len(pictures), 1)
 
-    def picture(self, *arguments):
-        """Width, height and rows of pixels of the binary PPM that the program writes."""
-        result = self.run_program(*arguments, "-o", "-")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        magic, size, maximum, pixels = result.stdout.split(b"\n", 3)
-        self.assertEqual((magic, maximum), (b"P6", b"255"))
-        width, height = map(int, size.split())
-        self.assertEqual(len(pixels), 3 * width * height)
-        return width, height, [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
-
     def test_crop_holds_the_bytes_of_its_part(self):
         for samples in (1, 5):
             options = [SCENE, "--size", "100x60", "--spp", samples]

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Options for light: what is accepted, what is refused with which exit code.
+"""Options for light and its display: what is accepted, what is refused with which exit code.
 
 usage: light_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
 
 import os
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -43,8 +44,18 @@ class Environments(ProgramTest):
             self.assert_refused(2, "--env-rotation", "--env", "studio", "--env-rotation", turn)
         for factor in ("x", "nan", "-1", "2e9"):
             self.assert_refused(2, "--env-intensity", "--env", "studio", "--env-intensity", factor)
-        for options in (("--env-rotation", "1"), ("--env-intensity", "1"), ("--background", "env")):
-            self.assert_refused(2, "name one by --env", *options)
+        for integrator in ("flat", "normal"):
+            self.assert_refused(2, "--integrator path", "--background", "env", "--integrator", integrator)
+
+    def test_the_environment_behind_the_scene(self):
+        corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",
+                                               "none", *options)[2][0][:3]
+        self.assertEqual(corner("--env", "0.5,0,1"), b"\0\0\0")
+        self.assertEqual(corner("--env", "0.5,0,1", "--background", "env"), b"\xbc\x00\xff")
+        self.assertEqual(corner("--env", "0.5,0,1", "--background", "env", "--env-intensity", "0"), b"\0\0\0")
+        self.assertEqual(corner("--env", "0.5,0,1", "--background", "#102030"), b"\x10\x20\x30")
+        self.assertEqual(corner("--background", "env"), corner("--background", "env", "--env", "studio"))
+        self.assertNotEqual(corner("--background", "env"), corner("--background", "env", "--env-intensity", "0.5"))
 
     def test_files(self):
         self.assert_refused(5, "missing.exr", "--env", "missing.exr")
@@ -60,6 +71,50 @@ class Environments(ProgramTest):
         self.assertIn(b"warning: square.ppm: ", result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)),
                          ["out.ppm", "square.ppm", "text.hdr", "wide.ppm"])
+
+
+class Exposure(ProgramTest):
+    def corner(self, *options, light=0.25):
+        """One pixel of a flat picture's background."""
+        return self.picture(CUBE, "--size", "40x30", "--background", f"{light},{light},{light}", *options)[2][0][:3]
+
+    def test_values(self):
+        self.assertEqual(self.corner(), b"\x89" * 3)
+        self.assertEqual(self.corner("--exposure", "1"), b"\xbc" * 3)  # of 0.5
+        self.assertEqual(self.corner("--exposure", "-2.5", "--tonemap", "none"),
+                         self.corner(light=0.25 * 2**-2.5))
+        self.assertEqual(self.corner("--exposure", "9"), b"\xff" * 3)
+        self.assertEqual(self.corner("--tonemap", "khronos-pbr-neutral"),
+                         self.corner(light=0.21))
+        pixels = {self.corner("--tonemap", name) for name in ("none", "khronos-pbr-neutral", "aces", "agx")}
+        self.assertEqual(len(pixels), 4)
+
+    def test_float_formats_hold_the_light_itself(self):
+        for options, name in (((), "a.exr"), (("--exposure", "2", "--tonemap", "agx"), "b.exr")):
+            self.run_program(CUBE, "--size", "40x30", "-o", name, *options)
+        difference = subprocess.run(["idiff", "-fail", "0", self.folder / "a.exr", self.folder / "b.exr"],
+                                    stdout=subprocess.DEVNULL)
+        self.assertEqual(difference.returncode, 0)
+
+    def test_files_tell_what_was_done(self):
+        def notes(name, *options):
+            self.run_program(CUBE, "--size", "8x6", "-o", name, *options)
+            info = subprocess.run(["oiiotool", "--info", "-v", self.folder / name], stdout=subprocess.PIPE)
+            return {line.strip() for line in info.stdout.decode().splitlines() if "microtrace:" in line}
+
+        exposed = ("--exposure", "-0.5", "--tonemap", "aces")
+        self.assertEqual(notes("a.png"), set())
+        self.assertEqual(notes("b.png", *exposed), {'microtrace:exposure: "-0.5"', 'microtrace:tonemap: "aces"'})
+        self.assertEqual(notes("b.exr", *exposed), {'microtrace:exposure: "0"', 'microtrace:tonemap: "none"'})
+        self.assertEqual(notes("c.png", "--integrator", "normal", *exposed), set())
+
+    def test_usage(self):
+        for option, values in (("--exposure", ("x", "nan", "65", "")), ("--tonemap", ("filmic", ""))):
+            for value in values:
+                result = self.run_program(CUBE, option, value)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(option.encode(), result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
 
 
 if __name__ == "__main__":

@@ -28,3 +28,13 @@ class ProgramTest(unittest.TestCase):
     def run_program(self, *arguments, **options):
         options = {"cwd": self.folder, "timeout": 60, "env": environment(), **options}
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, **options)
+
+    def picture(self, *arguments):
+        """Width, height and rows of pixels of the binary PPM that the program writes."""
+        result = self.run_program(*arguments, "-o", "-")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        magic, size, maximum, pixels = result.stdout.split(b"\n", 3)
+        self.assertEqual((magic, maximum), (b"P6", b"255"))
+        width, height = map(int, size.split())
+        self.assertEqual(len(pixels), 3 * width * height)
+        return width, height, [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]

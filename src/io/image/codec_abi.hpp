@@ -27,12 +27,20 @@ struct MicrotraceImageSink {
 using MicrotraceDecode = int (*)(const void* bytes, std::size_t size,
                                  const MicrotraceImageSink* sink);
 
+/// A tEXt chunk.
+struct MicrotracePngText {
+  const char* keyword;  ///< 1 to 79 letters of Latin-1
+  const char* text;
+};
+
 /// A picture of 8 bits a sample, and where its file goes. No function throws.
 struct MicrotracePng {
   std::uint32_t width, height;
   std::uint32_t channels;  ///< 3: rgb, 4: rgb and alpha, which is not multiplied into it
   std::uint32_t is_srgb;   ///< else the file has no colour space
-  void* context;           ///< the caller's
+  const MicrotracePngText* texts;
+  std::size_t text_count;
+  void* context;  ///< the caller's
   /// The samples of a row, asked for once each, from the upper one on.
   const unsigned char* (*row)(void* context, std::uint32_t y);
   /// Takes the next bytes of the file; 0 ends the writing.
@@ -40,7 +48,7 @@ struct MicrotracePng {
   void (*complain)(void* context, const char* text);  ///< takes the reason of a failure
 };
 
-/// Writes a PNG file that depends on the samples alone: 1 if all of it was taken, else 0.
+/// Writes a PNG file that depends on these alone: 1 if all of it was taken, else 0.
 using MicrotraceEncodePng = int (*)(const MicrotracePng* picture);
 }
 
@@ -48,6 +56,6 @@ namespace microtrace::io {
 
 inline constexpr char codec_module_file_name[] = "microtrace_codecs.so";
 inline constexpr char decode_name[] = "microtrace_decode_v1";
-inline constexpr char encode_png_name[] = "microtrace_encode_png_v1";
+inline constexpr char encode_png_name[] = "microtrace_encode_png_v2";
 
 }  // namespace microtrace::io

@@ -1,6 +1,8 @@
 #include "io/image/eight_bits.hpp"
 
+#include "scene/exponential.hpp"
 #include "scene/srgb.hpp"
+#include "scene/tone_map.hpp"
 
 #include <span>
 
@@ -13,11 +15,14 @@ std::uint8_t encode_linear(float v) {
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
 }
 
-template <class Encode>
-void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Encode&& encode) {
+/// shown(color) is the colour that encode(color, channel) takes.
+template <class Show, class Encode>
+void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Show&& shown,
+                Encode&& encode) {
   const std::span<const Vec3> colors = film.row(y);
   if (!film.has_alpha()) {
-    for (const Vec3& color : colors) {
+    for (const Vec3& pixel : colors) {
+      const Vec3 color = shown(pixel);
       for (glm::length_t i = 0; i < 3; ++i) *out++ = encode(color, i);
     }
     return;
@@ -25,7 +30,7 @@ void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Encode&& e
   const std::span<const float> alphas = film.alpha_row(y);
   for (std::size_t x = 0; x < colors.size(); ++x) {
     const float alpha = alphas[x];
-    const Vec3 color = alpha > 0 ? colors[x] / alpha : Vec3(0);
+    const Vec3 color = alpha > 0 ? shown(colors[x] / alpha) : Vec3(0);
     for (glm::length_t i = 0; i < 3; ++i) *out++ = alpha > 0 ? encode(color, i) : std::uint8_t{0};
     *out++ = encode_linear(alpha);
   }
@@ -34,15 +39,22 @@ void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Encode&& e
 }  // namespace
 
 void encode_row(const Film& film, std::uint32_t y, std::uint8_t* out) {
-  if (film.display.srgb) {
-    encode_all(film, y, out,
-               [](const Vec3& color, glm::length_t i) { return encode_srgb(color[i]); });
-    return;
+  const auto itself = [](const Vec3& color) { return color; };
+  const auto srgb = [](const Vec3& color, glm::length_t i) { return encode_srgb(color[i]); };
+  const Display& display = film.display;
+  if (!display.srgb) {
+    encode_all(film, y, out, itself, [&](const Vec3& color, glm::length_t i) {
+      return encode_linear(display.scale[i] * color[i] + display.offset[i]);
+    });
+  } else if (display.exposure == 0 && display.tone_map == ToneMap::none) {
+    encode_all(film, y, out, itself, srgb);
+  } else {
+    const auto factor = static_cast<float>(power_of_two(display.exposure));
+    const auto show = [&](const Vec3& color) {
+      return tone_mapped(factor * color, display.tone_map);
+    };
+    encode_all(film, y, out, show, srgb);
   }
-  const Vec3 scale = film.display.scale, offset = film.display.offset;
-  encode_all(film, y, out, [&](const Vec3& color, glm::length_t i) {
-    return encode_linear(scale[i] * color[i] + offset[i]);
-  });
 }
 
 }  // namespace microtrace::io

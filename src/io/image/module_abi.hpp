@@ -28,6 +28,12 @@ struct MicrotraceChannel {
   MicrotraceNumber number;
 };
 
+/// A text in the file's header, where the format has room for it.
+struct MicrotraceNote {
+  const char* name;
+  const char* text;
+};
+
 /// 8-bit alpha is not multiplied into the colours, float alpha is.
 struct MicrotracePicture {
   std::uint32_t width, height;
@@ -36,6 +42,8 @@ struct MicrotracePicture {
   std::int32_t is_color;                    ///< sRGB, where it is 8 bits, else numbers of any kind
   const MicrotraceChannel* channels;
   std::size_t channel_count;
+  const MicrotraceNote* notes;
+  std::size_t note_count;
 };
 
 /// Takes text or bytes; `context` is the caller's. Never throws.
@@ -74,8 +82,8 @@ using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, cons
 namespace microtrace::io {
 
 inline constexpr char module_file_name[] = "microtrace_openimageio.so";
-inline constexpr char find_format_name[] = "microtrace_find_format_v2";
-inline constexpr char encode_name[] = "microtrace_encode_v2";
+inline constexpr char find_format_name[] = "microtrace_find_format_v3";
+inline constexpr char encode_name[] = "microtrace_encode_v3";
 inline constexpr char decode_colors_name[] = "microtrace_decode_colors_v1";
 
 }  // namespace microtrace::io

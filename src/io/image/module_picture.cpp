@@ -13,13 +13,17 @@ constexpr std::array color_names = {"R", "G", "B", "A"};
 
 }  // namespace
 
-ModulePicture::ModulePicture(const Film& film, const MicrotraceFormat& format) {
+ModulePicture::ModulePicture(const Film& film, const MicrotraceFormat& format)
+    : notes_(notes_of(film.display, format.is_float != 0)) {
   if (format.is_float != 0) {
     add_float_colors(film);
   } else {
     add_byte_colors(film);
   }
   add_channels(film);
+  for (const Note& note : notes_) {
+    note_views_.push_back({.name = note.name.c_str(), .text = note.text.c_str()});
+  }
   picture_ = {.width = film.size().width,
               .height = film.size().height,
               .x0 = film.x0,
@@ -28,7 +32,9 @@ ModulePicture::ModulePicture(const Film& film, const MicrotraceFormat& format) {
               .whole_height = film.whole.height,
               .is_color = film.display.srgb ? 1 : 0,
               .channels = channels_.data(),
-              .channel_count = channels_.size()};
+              .channel_count = channels_.size(),
+              .notes = note_views_.data(),
+              .note_count = note_views_.size()};
 }
 
 void ModulePicture::add_float_colors(const Film& film) {

@@ -2,6 +2,7 @@
 /// A film as the module wants it.
 
 #include "io/image/module_abi.hpp"
+#include "io/image/notes.hpp"
 
 #include <microtrace/film.hpp>
 
@@ -24,6 +25,8 @@ class ModulePicture {
 
   std::vector<std::uint8_t> bytes_;  // of the pixels, where the format wants them
   std::vector<MicrotraceChannel> channels_;
+  std::vector<Note> notes_;
+  std::vector<MicrotraceNote> note_views_;
   MicrotracePicture picture_;
 };
 

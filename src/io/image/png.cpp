@@ -1,6 +1,7 @@
 #include "io/image/png.hpp"
 
 #include "io/image/eight_bits.hpp"
+#include "io/image/notes.hpp"
 #include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>
@@ -71,10 +72,17 @@ PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
 void PngEncoder::encode(const Film& film, const std::function<void(std::string_view)>& out) const {
   const std::uint32_t channels = film.has_alpha() ? 4 : 3;
   Streams streams{film, out, std::vector<std::uint8_t>(std::size_t{channels} * film.size().width)};
+  const std::vector<Note> notes = notes_of(film.display, false);
+  std::vector<MicrotracePngText> texts;
+  for (const Note& note : notes) {
+    texts.push_back({.keyword = note.name.c_str(), .text = note.text.c_str()});
+  }
   const MicrotracePng picture{.width = film.size().width,
                               .height = film.size().height,
                               .channels = channels,
                               .is_srgb = film.display.srgb ? 1U : 0U,
+                              .texts = texts.data(),
+                              .text_count = texts.size(),
                               .context = &streams,
                               .row = row_of,
                               .take = take_bytes,

@@ -43,6 +43,13 @@ int encode_png(const MicrotracePng& picture) {
                  picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (picture.is_srgb != 0) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
+    for (std::size_t i = 0; i < picture.text_count; ++i) {
+      png_text text{};
+      text.compression = PNG_TEXT_COMPRESSION_NONE;
+      text.key = const_cast<char*>(picture.texts[i].keyword);  // only read
+      text.text = const_cast<char*>(picture.texts[i].text);
+      png_set_text(png, info, &text, 1);
+    }
     png_write_info(png, info);
     for (std::uint32_t y = 0; y < picture.height; ++y) {
       png_write_row(png, picture.row(picture.context, y));

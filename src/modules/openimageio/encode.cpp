@@ -79,6 +79,9 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
   // memory.
   if (format != "tiff" && picture.is_color != 0)
     spec.attribute("oiio:ColorSpace", is_float_format(format) ? "Linear" : "sRGB");
+  for (const MicrotraceNote& note : std::span(picture.notes, picture.note_count)) {
+    spec.attribute(note.name, note.text);
+  }
   // An empty one keeps writers from noting the time, by which no two files would be equal.
   spec.attribute("DateTime", "");
   return spec;
@@ -150,7 +153,7 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_find_format_v2(const char* ending,
+__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* ending,
                                                                      MicrotraceFormat* format) {
   try {
     const std::unique_ptr<ImageOutput> writer = find_writer(ending);
@@ -166,7 +169,7 @@ __attribute__((visibility("default"))) int microtrace_find_format_v2(const char*
   }
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_v2(const MicrotracePicture* picture,
+__attribute__((visibility("default"))) int microtrace_encode_v3(const MicrotracePicture* picture,
                                                                 const char* ending,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,

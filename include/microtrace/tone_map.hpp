@@ -1,0 +1,28 @@
+#pragma once
+/// How light brighter than a screen is shown.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace microtrace {
+
+/// From linear Rec. 709 to linear Rec. 709 in [0, 1], before the encoding.
+///
+/// To add one: its name in kToneMaps, its function in src/scene/tone_map.cpp.
+enum class ToneMap {
+  none,                 ///< what is brighter than 1 is cut off
+  khronos_pbr_neutral,  ///< the Khronos PBR neutral tone mapper: keeps colours up to 0.8 as they
+                        ///< are, but for 0.04 less, which makes up for the reflection at a surface
+  aces,  ///< RRT and ODT of ACES as S. Hill fitted them, of colours / 0.6, as in three.js
+  agx,   ///< AgX by T. Sobotka with Blender's base contrast, as in three.js
+};
+
+inline constexpr std::array kToneMaps = {ToneMap::none, ToneMap::khronos_pbr_neutral, ToneMap::aces,
+                                         ToneMap::agx};
+
+/// As on the command line: "khronos-pbr-neutral".
+[[nodiscard]] std::string_view name_of(ToneMap map);
+[[nodiscard]] std::optional<ToneMap> tone_map_named(std::string_view name);
+
+}  // namespace microtrace
