@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -105,47 +107,119 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
-// Directions in cells of equal cos(theta) and phi against the integral of the density.
-TEST(Bsdf, SamplesHaveTheirDensity) {
-  constexpr int rows = 12, columns = 16, fine = 24;
+TEST(Bsdf, SmoothGlassReturnsAllLight) {
+  for (const std::optional<float> eta : {std::optional<float>(), {1.5F}, {1 / 1.5F}}) {
+    for (const double theta : {0.0, 0.5, 0.7, 1.0, 1.4}) {
+      const Bsdf bsdf({.base_color = Vec3(1), .roughness = 0.03F, .transmission = 1, .eta = eta},
+                      direction(theta));
+      EXPECT_NEAR(reflected(bsdf, 1U << 12U).x, 1, 0.003) << eta.value_or(0) << ' ' << theta;
+    }
+  }
+}
+
+TEST(Bsdf, RoughGlassAndPaperReturnNoMoreThanComes) {
+  for (const float roughness : {0.2F, 0.6F, 1.0F}) {
+    for (const std::optional<float> eta : {std::optional<float>(), {1.5F}, {1 / 1.5F}}) {
+      for (const double theta : {0.1, 0.9, 1.4}) {
+        Parameters p{.base_color = Vec3(1), .roughness = roughness, .transmission = 1, .eta = eta};
+        const double glass = reflected(Bsdf(p, direction(theta)), 1U << 14U).x;
+        EXPECT_LE(glass, 1.004) << roughness << ' ' << eta.value_or(0) << ' ' << theta;
+        if (!eta) {
+          EXPECT_NEAR(glass, 1, 0.01) << roughness << theta;
+        }
+        if (roughness < 0.5F) {
+          EXPECT_GE(glass, 0.96);
+        }
+        p = {.base_color = Vec3(1), .roughness = roughness, .diffuse_transmission = 0.5F};
+        EXPECT_NEAR(reflected(Bsdf(p, direction(theta)), 1U << 14U).x, 1, 0.004);
+      }
+    }
+  }
+}
+
+// Snell: what is refracted by a smooth surface goes on at sin(theta) / eta.
+TEST(Bsdf, SmoothGlassBendsLight) {
+  const Bsdf bsdf({.roughness = 0, .transmission = 1, .eta = 1.5F}, direction(0.8, 0));
+  int below = 0;
+  for (std::uint32_t k = 0; k < 200; ++k) {
+    const sampling::Sobol sobol(7, {.x = 0, .y = 0, .index = k});
+    const auto s = bsdf.sample(sobol.pair(0), sobol.one(1));
+    if (!s || s->wi.z > 0) continue;
+    ++below;
+    EXPECT_NEAR(s->wi.x, -std::sin(0.8) / 1.5, 0.01);
+  }
+  EXPECT_GT(below, 150);
+}
+
+TEST(Bsdf, SpecularWeighsTheReflection) {
+  const Vec3 wo = direction(0.3, 0), wi = direction(0.3, kPi);
+  const auto value = [&](const Schlick& schlick) {
+    return Bsdf({.base_color = Vec3(0), .roughness = 0.2F, .dielectric = schlick}, wo)
+        .evaluate(wi)
+        .value;
+  };
+  EXPECT_EQ(value({.f0 = Vec3(0), .f90 = 0}), Vec3(0));
+  const Vec3 half = value({.f0 = Vec3(0.02F), .f90 = 0.5F}), whole = value({});
+  EXPECT_NEAR(half.x / whole.x, 0.5, 0.005);
+  const Vec3 red = value({.f0 = {0.04F, 0, 0}});
+  EXPECT_FLOAT_EQ(red.x, whole.x);
+  EXPECT_LT(red.y, 0.01F * red.x);
+}
+
+// Directions in cells of equal cos(theta) and phi, above and below, against the integral of the
+// density.
+void check_density(const Bsdf& bsdf, const std::string& what) {
+  constexpr int rows = 24, columns = 16, fine = 24;
   constexpr int samples = 200000;
   std::mt19937 random(3);
   std::uniform_real_distribution<float> u(0, 1);
-  for (const float roughness : {0.25F, 0.5F, 1.0F}) {
-    for (const float metallic : {0.0F, 1.0F}) {
-      for (const double theta : {0.2, 1.2}) {
-        const Bsdf bsdf({.base_color = Vec3(0.6F), .metallic = metallic, .roughness = roughness},
-                        direction(theta));
-        std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
-        for (int i = 0; i < samples; ++i) {
-          const auto s = bsdf.sample({u(random), u(random)}, u(random));
-          if (!s) {
-            ++counts.back();
-            continue;
-          }
-          double phi = std::atan2(s->wi.y, s->wi.x) / (2 * kPi);
-          phi -= std::floor(phi);
-          const int row = std::min(int(s->wi.z * rows), rows - 1);
-          ++counts[std::size_t(row * columns + std::min(int(phi * columns), columns - 1))];
-        }
-        double within = 0;
-        for (int cell = 0; cell < rows * columns; ++cell) {
-          double sum = 0;
-          for (int i = 0; i < fine; ++i) {
-            for (int j = 0; j < fine; ++j) {
-              const double z = (cell / columns + (i + 0.5) / fine) / rows;
-              const double phi = 2 * kPi * (cell % columns + (j + 0.5) / fine) / columns;
-              sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
-            }
-          }
-          const double mass = sum / (fine * fine) * 2 * kPi / (rows * columns);
-          expected[std::size_t(cell)] = mass * samples;
-          within += mass;
-        }
-        expected.back() = std::max(1 - within, 0.0) * samples;
-        EXPECT_LT(chi_square_excess(counts, expected), 5)
-            << roughness << ' ' << metallic << ' ' << theta;
+  std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 chances(u(random), u(random));
+    const auto s = bsdf.sample(chances, u(random));
+    if (!s) {
+      ++counts.back();
+      continue;
+    }
+    double phi = std::atan2(s->wi.y, s->wi.x) / (2 * kPi);
+    phi -= std::floor(phi);
+    const int row = std::min(int((s->wi.z + 1) / 2 * rows), rows - 1);
+    ++counts[std::size_t(row * columns + std::min(int(phi * columns), columns - 1))];
+  }
+  double within = 0;
+  for (int cell = 0; cell < rows * columns; ++cell) {
+    double sum = 0;
+    for (int i = 0; i < fine; ++i) {
+      for (int j = 0; j < fine; ++j) {
+        const double z = 2 * (cell / columns + (i + 0.5) / fine) / rows - 1;
+        const double phi = 2 * kPi * (cell % columns + (j + 0.5) / fine) / columns;
+        sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
       }
+    }
+    const double mass = sum / (fine * fine) * 4 * kPi / (rows * columns);
+    expected[std::size_t(cell)] = mass * samples;
+    within += mass;
+  }
+  expected.back() = std::max(1 - within, 0.0) * samples;
+  EXPECT_LT(chi_square_excess(counts, expected), 5) << what;
+}
+
+TEST(Bsdf, SamplesHaveTheirDensity) {
+  for (const float roughness : {0.3F, 0.6F, 1.0F}) {
+    for (const double theta : {0.6, 1.2}) {
+      const std::string place =
+          " of roughness " + std::to_string(roughness) + " at " + std::to_string(theta);
+      const auto check = [&](Parameters p, const std::string& what) {
+        p.base_color = Vec3(0.6F);
+        p.roughness = roughness;
+        check_density(Bsdf(p, direction(theta)), what + place);
+      };
+      check({}, "plastic");
+      check({.metallic = 1}, "metal");
+      check({.transmission = 0.7F}, "thin wall");
+      check({.transmission = 1, .eta = 1.5F}, "glass from outside");
+      check({.transmission = 0.8F, .eta = 1 / 1.5F}, "glass from within");
+      check({.diffuse_transmission = 0.4F}, "paper");
     }
   }
 }

@@ -3,35 +3,26 @@
 #include "render/bsdf/frame.hpp"
 #include "render/sampling/warps.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace::bsdf {
 namespace {
 
-/// Of a dielectric with index of refraction 1.5.
-constexpr float kDielectricF0 = 0.04F;
-
-float fifth_power(float x) {
-  const float square = x * x;
-  return square * square * x;
-}
-
-/// C. Schlick, An inexpensive BRDF model for physically-based rendering, 1994.
-Vec3 schlick(const Vec3& f0, float cosine) {
-  return f0 + (Vec3(1) - f0) * fifth_power(1 - cosine);
-}
-
-float luminance(const Vec3& c) {
-  return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
-}
-
 /// Of light that single reflections do not return, the share that several do; `mean` is the white
 /// albedo's (Kulla and Conty).
 template <typename Color>
-Color returned_later(const Color& f0, float mean) {
-  const Color fresnel = f0 + (Color(1) - f0) * (1 / 21.0F);
+Color returned_later(const Color& f0, float f90, float mean) {
+  const Color fresnel = f0 + (Color(f90) - f0) * (1 / 21.0F);
   return fresnel * fresnel * mean / (Color(1) - fresnel * (1 - mean));
+}
+
+/// Below the surface light goes on in the reflected direction's mirror image.
+Vec3 mirrored(const Vec3& w) {
+  return {w.x, w.y, -w.z};
 }
 
 }  // namespace
@@ -40,50 +31,130 @@ Bsdf::Bsdf(const Parameters& p, const Vec3& wo)
     : wo_(wo),
       ggx_(p.roughness),
       albedo_(ggx_),
-      dielectric_white_(kDielectricF0),
-      f0_(kDielectricF0 + p.metallic * (p.base_color - Vec3(kDielectricF0))) {
+      specular_{.f0 = p.dielectric.f0 + p.metallic * (p.base_color - p.dielectric.f0),
+                .f90 = p.dielectric.f90 + p.metallic * (1 - p.dielectric.f90)},
+      greatest_{.f0 = std::max({p.dielectric.f0.x, p.dielectric.f0.y, p.dielectric.f0.z}),
+                .f90 = p.dielectric.f90},
+      eta_(p.eta) {
   const Albedo mean = albedo_.mean(), there = albedo_.at(wo.z);
-  dielectric_rest_ = returned_later(dielectric_white_, mean.white);
-  multiple_ = returned_later(f0_, mean.white) *
+  returned_ = returned_later(greatest_.f0, greatest_.f90, mean.white);
+  multiple_ = returned_later(specular_.f0, specular_.f90, mean.white) *
               (kInversePi / std::max(1 - mean.white, 1e-6F) * (1 - there.white));
-  diffuse_ = (1 - p.metallic) * kInversePi * left_over(there) / left_over(mean) * p.base_color;
+  const float dielectric = 1 - p.metallic, mean_left = std::max(left_over(mean), 1e-6F);
+  const Vec3 diffuse(dielectric * (1 - p.transmission) * kInversePi * left_over(there) / mean_left);
+  diffuse_ = (1 - p.diffuse_transmission) * diffuse * p.base_color;
+  diffuse_below_ = p.diffuse_transmission * diffuse * p.diffuse_transmission_color;
+  transmitted_ = dielectric * p.transmission * p.base_color;
+  // A thin wall lets through all that the specular part leaves over, not only what comes through
+  // after one scattering.
+  if (!eta_)
+    transmitted_ *= left_over(there) / std::max(there.white - greatest_.albedo(there), 1e-6F);
 
-  // About what each part returns; neither is left to chance too rarely, unless it is as good as
+  // About what each part returns; none is left to chance too rarely, unless it is as good as
   // absent.
-  const float specular = luminance(f0_ * (there.white - there.edge) + Vec3(there.edge));
-  const float spread =
-      (luminance(diffuse_) * left_over(mean) + luminance(multiple_) * (1 - mean.white)) /
-      kInversePi;
-  specular_share_ = spread > 0.01F ? std::clamp(specular / (specular + spread), 0.1F, 0.9F) : 1;
+  const float reflected =
+      luminance(specular_.f0 * (there.white - there.edge)) + specular_.f90 * there.edge;
+  const float facets = reflected + luminance(transmitted_) * left_over(there);
+  const float up =
+      (luminance(diffuse_) * mean_left + luminance(multiple_) * (1 - mean.white)) / kInversePi;
+  const float down = luminance(diffuse_below_) * mean_left / kInversePi;
+  const float spread = up + down;
+  facet_share_ = spread > 0.01F ? std::clamp(facets / (facets + spread), 0.1F, 0.9F) : 1;
+  below_share_ = down > 0 ? std::clamp(down / spread, 0.1F, 0.9F) : 0;
 }
 
-Evaluation Bsdf::evaluate(const Vec3& wi, const Vec3& h) const {
-  if (!(wi.z > 0)) return {};
+// Schlick's term takes the angle in the thinner medium.
+Vec3 Bsdf::fresnel(float cosine) const {
+  if (!eta_ || *eta_ >= 1) return specular_(cosine);
+  const float square = 1 - (1 - cosine * cosine) / (*eta_ * *eta_);
+  return square > 0 ? specular_(std::sqrt(square)) : Vec3(1);
+}
+
+float Bsdf::reflected_share(const Vec3& fresnel) const {
+  if (transmitted_ == Vec3(0)) return 1;
+  const float reflected = luminance(fresnel);
+  const float through = luminance((Vec3(1) - fresnel) * transmitted_);
+  return reflected + through > 0 ? reflected / (reflected + through) : 1;
+}
+
+Evaluation Bsdf::above(const Vec3& wi, const Vec3& h) const {
   const float cosine = std::min(glm::dot(wo_, h), 1.0F);
   const float d = ggx_.distribution(h);
   const Albedo there = albedo_.at(wi.z);
-  const Vec3 f = schlick(f0_, cosine) * (d * ggx_.visibility(wo_.z, wi.z)) +
-                 diffuse_ * left_over(there) + multiple_ * (1 - there.white);
-  return {.value = f * wi.z,
-          .density = specular_share_ * ggx_.reflected_density(wo_.z, d) +
-                     (1 - specular_share_) * kInversePi * wi.z};
+  const Vec3 reflectance = fresnel(cosine);
+  const Vec3 f = reflectance * (d * ggx_.visibility(wo_.z, wi.z)) + diffuse_ * left_over(there) +
+                 multiple_ * (1 - there.white);
+  return {
+      .value = f * wi.z,
+      .density = facet_share_ * reflected_share(reflectance) * ggx_.reflected_density(wo_.z, d) +
+                 (1 - facet_share_) * (1 - below_share_) * kInversePi * wi.z};
+}
+
+Evaluation Bsdf::below(const Vec3& wi) const {
+  const float z_i = -wi.z;
+  Evaluation e{.value = diffuse_below_ * (left_over(albedo_.at(z_i)) * z_i),
+               .density = (1 - facet_share_) * below_share_ * kInversePi * z_i};
+  if (transmitted_ == Vec3(0)) return e;
+  if (!eta_) {
+    const Vec3 up = mirrored(wi), h = unit(wo_ + up);
+    const float d = ggx_.distribution(h);
+    const Vec3 reflectance = fresnel(std::min(glm::dot(wo_, h), 1.0F));
+    e.value += (Vec3(1) - reflectance) * transmitted_ * (d * ggx_.visibility(wo_.z, z_i) * z_i);
+    e.density +=
+        facet_share_ * (1 - reflected_share(reflectance)) * ggx_.reflected_density(wo_.z, d);
+    return e;
+  }
+  const Vec3 sum = wo_ + *eta_ * wi;
+  const float square = glm::dot(sum, sum);
+  if (!(square > 0)) return e;
+  Vec3 h = sum / std::sqrt(square);
+  if (h.z < 0) h = -h;
+  const float cos_o = glm::dot(wo_, h), cos_i = glm::dot(wi, h);
+  if (!(cos_o > 0) || !(cos_i < 0)) return e;
+  const float denominator = cos_o + *eta_ * cos_i;
+  const Vec3 reflectance = fresnel(std::min(cos_o, 1.0F));
+  // Directions per normal; what wo sees of the facets, 2 / (z + root) = G1 / z.
+  const float spreading = *eta_ * *eta_ * -cos_i / (denominator * denominator);
+  const float seen = ggx_.distribution(h) * cos_o * 2 / (wo_.z + ggx_.root(wo_.z)) * spreading;
+  const float unmasked = 2 * z_i / (z_i + ggx_.root(z_i));
+  if (!(seen < 1e30F)) return e;
+  e.value += (Vec3(1) - reflectance) * transmitted_ * (seen * unmasked);
+  e.density += facet_share_ * (1 - reflected_share(reflectance)) * seen;
+  return e;
 }
 
 Evaluation Bsdf::evaluate(const Vec3& wi) const {
-  if (!(wi.z > 0)) return {};
-  return evaluate(wi, unit(wo_ + wi));
+  if (wi.z > 0) return above(wi, unit(wo_ + wi));
+  return wi.z < 0 ? below(wi) : Evaluation{};
 }
 
 std::optional<DirectionSample> Bsdf::sample(const Vec2& u, float lobe) const {
-  Vec3 wi, h;
-  if (lobe < specular_share_) {
-    h = ggx_.visible_normal(wo_, u);
-    wi = 2 * glm::dot(wo_, h) * h - wo_;
+  Vec3 wi;
+  Evaluation e;
+  if (lobe < facet_share_) {
+    const Vec3 h = ggx_.visible_normal(wo_, u);
+    const float cosine = std::min(glm::dot(wo_, h), 1.0F);
+    const Vec3 reflected = 2 * cosine * h - wo_;
+    const bool is_reflected =
+        transmitted_ == Vec3(0) || lobe < facet_share_ * reflected_share(fresnel(cosine));
+    if (is_reflected) {
+      wi = reflected;
+      if (wi.z > 0) e = above(wi, h);
+    } else {
+      if (!eta_) {
+        wi = mirrored(reflected);
+      } else {
+        // Not beyond total reflection, of which no sample is transmitted.
+        const float along = 1 - (1 - cosine * cosine) / (*eta_ * *eta_);
+        wi = (cosine / *eta_ - std::sqrt(std::max(along, 0.0F))) * h - wo_ / *eta_;
+      }
+      if (wi.z < 0) e = below(wi);
+    }
   } else {
     wi = sampling::cosine_hemisphere(u);
-    h = unit(wo_ + wi);
+    if (lobe - facet_share_ < (1 - facet_share_) * below_share_) wi.z = -wi.z;
+    e = evaluate(wi);
   }
-  const Evaluation e = evaluate(wi, h);
   if (!(e.density > 0)) return std::nullopt;
   return DirectionSample{.wi = wi, .weight = e.value / e.density, .density = e.density};
 }

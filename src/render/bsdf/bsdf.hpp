@@ -1,10 +1,13 @@
 #pragma once
-/// How a surface scatters light: the metallic-roughness model of glTF 2.0, appendix B.
+/// How a surface scatters light: the metallic-roughness model of glTF 2.0, appendix B, and the
+/// extensions that change its parts.
 ///
 /// Local coordinates: z is the shading normal on the side of wo. Directions are unit vectors that
-/// point away from the surface: wo to where the path comes from, wi to where it goes on.
+/// point away from the surface: wo to where the path comes from, wi to where it goes on, above or
+/// below.
 
 #include "render/bsdf/ggx.hpp"
+#include "render/bsdf/schlick.hpp"
 
 #include <microtrace/math.hpp>
 
@@ -16,6 +19,14 @@ namespace microtrace::bsdf {
 struct Parameters {
   Vec3 base_color{1};                 ///< linear Rec. 709, each in [0, 1]
   float metallic = 0, roughness = 1;  ///< each in [0, 1]
+  Schlick dielectric{};               ///< of the part that is no metal
+  /// Of the light that enters the dielectric: what goes through (KHR_materials_transmission).
+  float transmission = 0;
+  /// The index of refraction below over that above; nothing: a thin wall, which bends no light.
+  std::optional<float> eta{};
+  /// Of diffuse light: what goes through, and in which colour (KHR_materials_diffuse_transmission).
+  float diffuse_transmission = 0;
+  Vec3 diffuse_transmission_color{1};
 };
 
 /// f(wo, wi) |cos(theta_i)|, and the density with which sample() gives wi, per solid angle.
@@ -37,34 +48,54 @@ struct DirectionSample {
 /// 2017), and the diffuse part gets what the specular one leaves over in all, to wo and from wi
 /// (C. Kelemen and L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with
 /// importance sampling, 2001). So it is reciprocal, and white returns all light.
+///
+/// Light that is refracted (B. Walter et al., Microfacet models for refraction, 2007) is counted
+/// without the square of the index: radiance divided by it stays the same on its way in and out.
 class Bsdf {
  public:
   /// wo.z > 0.
   Bsdf(const Parameters& parameters, const Vec3& wo);
 
-  /// wi of any direction; below the surface it is 0.
   [[nodiscard]] Evaluation evaluate(const Vec3& wi) const;
 
-  /// u chooses the direction, `lobe`, in [0, 1), the part of the model. Nothing where the direction
-  /// goes below the surface: such light is lost.
+  /// u chooses the direction, `lobe`, in [0, 1), the part of the model. Nothing where light is
+  /// lost.
   [[nodiscard]] std::optional<DirectionSample> sample(const Vec2& u, float lobe) const;
 
+  /// Whether light can go through.
+  [[nodiscard]] bool transmits() const {
+    return transmitted_ != Vec3(0) || diffuse_below_ != Vec3(0);
+  }
+
  private:
-  [[nodiscard]] Evaluation evaluate(const Vec3& wi, const Vec3& h) const;
+  [[nodiscard]] Evaluation above(const Vec3& wi, const Vec3& h) const;
+  [[nodiscard]] Evaluation below(const Vec3& wi) const;
+  /// Of samples at a facet of which wo is seen at that cosine, those that are reflected.
+  [[nodiscard]] float reflected_share(const Vec3& fresnel) const;
+  [[nodiscard]] Vec3 fresnel(float cosine) const;
+
   /// What the dielectric's specular part leaves over.
   [[nodiscard]] float left_over(const Albedo& albedo) const {
-    return 1 - albedo.edge - dielectric_white_ * albedo.white -
-           dielectric_rest_ * (1 - albedo.white) + dielectric_white_ * albedo.edge;
+    return 1 - greatest_.albedo(albedo) - returned_ * (1 - albedo.white);
   }
 
   Vec3 wo_;
   Ggx ggx_;
   GgxAlbedo albedo_;
-  float dielectric_white_, dielectric_rest_;  ///< F0; what is returned of several reflections
-  Vec3 f0_;
-  Vec3 diffuse_;          ///< all that does not depend on wi
-  Vec3 multiple_;         ///< the same, of several reflections
-  float specular_share_;  ///< of samples
+  Schlick specular_;  ///< of metal and dielectric together
+  struct Grey {
+    float f0, f90;
+    [[nodiscard]] float albedo(const Albedo& a) const {
+      return f0 * (a.white - a.edge) + f90 * a.edge;
+    }
+  } greatest_;      ///< the dielectric's, its brightest channel
+  float returned_;  ///< of it after several reflections
+  // All that does not depend on wi: diffuse light above and below, several reflections, what goes
+  // through.
+  Vec3 diffuse_, diffuse_below_, multiple_, transmitted_;
+  std::optional<float> eta_;
+  // Of samples: by a facet's normal, and of the others those below.
+  float facet_share_, below_share_;
 };
 
 }  // namespace microtrace::bsdf

@@ -1,5 +1,7 @@
 #include "render/integrators/wave.hpp"
 
+#include "scene/exponential.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,10 +19,21 @@ float power_heuristic(float density, float other) {
   return square / (square + other * other);
 }
 
-/// Whether light from wi comes to the side of the surface that the ray sees.
-bool is_above(const ShadingPoint& point, const Vec3& wi) {
+/// Whether a direction is on one side of the surface, that of the ray if `above`, by the geometric
+/// normal as it is by the shading normal.
+bool agrees(const ShadingPoint& point, const Vec3& wi, bool above) {
   const float cosine = glm::dot(wi, point.at.n);
-  return point.at.front ? cosine > 0 : cosine < 0;
+  return point.at.front == above ? cosine > 0 : cosine < 0;
+}
+
+/// Of light after a way through a medium.
+Vec3 transmittance(const Vec3& absorption, float distance) {
+  Vec3 left(1);
+  for (int c = 0; c < 3; ++c) {
+    const double powers = double{absorption[c]} * distance;
+    if (powers > 0) left[c] = static_cast<float>(power_of_two(-std::min(powers, 200.0)));
+  }
+  return left;
 }
 
 }  // namespace
@@ -107,6 +120,8 @@ void Wave::step(std::size_t i) {
     if (coverage > 0 && path.sobol.one(number) < coverage) break;
     hit = world_.bvh.next(ray, *hit);
   }
+  if (path.absorption != Vec3(0))
+    path.throughput *= transmittance(path.absorption, point.at.distance);
   Shading::find_place(point);
   const bool from_camera = path.density == 0;
   if (from_camera) alphas_[path.slot] = 1;
@@ -119,11 +134,28 @@ void Wave::step(std::size_t i) {
   }
   if (depth_ >= options_.max_depth || point.look->material->unlit) return;
 
+  const int channel = channel_of(*point.look->material, path);
   const bsdf::Frame frame = shading_.frame(point, -d);
-  const bsdf::Bsdf bsdf(shading_.parameters(point), frame.to_local(-d));
-  const Vertex vertex{.ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf};
+  Vec3 wo = frame.to_local(-d);
+  wo.z = std::max(wo.z, 1e-5F);  // above, whatever rounding does
+  const bsdf::Bsdf bsdf(shading_.parameters(point, channel), wo);
+  const Vertex vertex{
+      .ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf, .channel = channel};
   if (lighting_.can_sample()) ask_light(vertex, path);
   scatter(vertex, path);
+}
+
+int Wave::channel_of(const Material& material, const PathState& path) const {
+  if (path.channel < 3 || material.dispersion == 0 || !encloses_medium(material))
+    return path.channel;
+  return std::min(static_cast<int>(3 * path.sobol.pair(pair(sampling::kLightChoicePair)).y), 2);
+}
+
+Vec3 Wave::one_channel(const Vertex& vertex, const PathState& path) {
+  if (path.channel == vertex.channel) return Vec3(1);
+  Vec3 mask(0);
+  mask[vertex.channel] = 3;
+  return mask;
 }
 
 std::size_t Wave::spawn(const Vertex& vertex, const Vec3& direction) {
@@ -135,9 +167,12 @@ void Wave::ask_light(const Vertex& vertex, const PathState& path) {
   const std::optional<LightSample> light = lighting_.sample(
       {.p = vertex.point.at.p, .n = vertex.frame.n}, path.sobol.pair(pair(sampling::kLightPair)),
       path.sobol.one(pair(sampling::kLightChoicePair)));
-  if (!light || !is_above(vertex.point, light->wi)) return;
-  const bsdf::Evaluation f = vertex.bsdf.evaluate(vertex.frame.to_local(light->wi));
+  if (!light) return;
+  const Vec3 wi = vertex.frame.to_local(light->wi);
+  if (!agrees(vertex.point, light->wi, wi.z > 0)) return;
+  bsdf::Evaluation f = vertex.bsdf.evaluate(wi);
   if (f.value == Vec3(0)) return;
+  if (wi.z < 0) f.value *= one_channel(vertex, path);
   const float weight = light->density > 0 ? power_heuristic(light->density, f.density) : 1;
   shadows_[shadow_count_++] = {.light = *light,
                                .color = path.throughput * f.value * light->light * weight,
@@ -151,9 +186,16 @@ void Wave::scatter(const Vertex& vertex, const PathState& path) {
       vertex.bsdf.sample(path.sobol.pair(pair(sampling::kDirectionPair)), chances.x);
   if (!sample) return;
   const Vec3 wi = vertex.frame.to_world(sample->wi);
-  if (!is_above(vertex.point, wi)) return;
+  const bool above = sample->wi.z > 0;
+  if (!agrees(vertex.point, wi, above)) return;
   PathState next = path;
   next.throughput *= sample->weight;
+  if (!above) {
+    next.throughput *= one_channel(vertex, path);
+    next.channel = vertex.channel;
+    if (encloses_medium(*vertex.point.look->material))
+      next.absorption = shading_.absorption(vertex.point);
+  }
   if (depth_ >= kFirstRoulette) {
     const Vec3& t = next.throughput;
     const float survival = std::min(std::max({t.x, t.y, t.z}), 0.95F);

@@ -28,6 +28,8 @@ struct PathState {
   Vec3 throughput{1};
   float density = 0;            ///< with which its last direction was chosen; 0: by the camera
   Receiver from{};              ///< the surface that it leaves
+  Vec3 absorption{0};           ///< of the medium that it is in, in powers of two per length
+  int channel = 3;              ///< of a path through a dispersing medium, 0 to 2; 3: all
   float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
 };
 
@@ -48,6 +50,7 @@ class Wave {
     const ShadingPoint& point;
     const bsdf::Frame& frame;
     const bsdf::Bsdf& bsdf;
+    int channel;  ///< for which a dispersing surface bends the path
   };
   /// A ray to a light or on along the path, without origin yet.
   struct Shadow {
@@ -67,6 +70,10 @@ class Wave {
   void escape(const Ray& ray, const PathState& path);
   void ask_light(const Vertex& vertex, const PathState& path);
   void scatter(const Vertex& vertex, const PathState& path);
+  /// The channel for which a path goes on through the surface, chosen at random if it is of all.
+  [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
+  /// What is left of light when a path of all channels becomes one of one.
+  [[nodiscard]] static Vec3 one_channel(const Vertex& vertex, const PathState& path);
   std::size_t spawn(const Vertex& vertex, const Vec3& direction);
   /// Makes the rays of the next step.
   void set_off();

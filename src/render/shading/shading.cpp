@@ -1,10 +1,9 @@
 #include "render/shading/shading.hpp"
 
+#include "render/shading/texture_slots.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -13,74 +12,46 @@ namespace {
 
 const Material kNoMaterial{};
 
-TextureMap::Place place_of(const TextureMap& map, const TextureUse& use,
-                           const ShadingPoint& point) {
-  const Vec2 uv = point.at.uv(use.uv_set);
-  const auto& m = use.texture_from_uv;
-  const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
-  return map.place(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
+/// Of a dielectric with that index of refraction in air; 0 stands for infinity.
+float head_on_reflectance(float ior) {
+  if (ior == 0) return 1;
+  const float r = (ior - 1) / (ior + 1);
+  return r * r;
 }
 
-Vec4 look_up(const TextureMap& map, const TextureUse& use, const ShadingPoint& point) {
-  return map.sample(point.place ? *point.place : place_of(map, use, point));
+/// KHR_materials_dispersion: of red, green and blue.
+float dispersed(float ior, float dispersion, int channel) {
+  const float half_spread = (ior - 1) * 0.025F * dispersion;
+  return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);
 }
 
-/// Sets the layout if all textures share one.
-void compare_layouts(TexturedMaterial& look) {
-  const Material& m = *look.material;
-  bool same = true;
-  const auto compare = [&](const TextureMap* map, const std::optional<TextureUse>& use) {
-    if (map == nullptr) return;
-    if (look.layout == nullptr) {
-      look.layout = map;
-      look.layout_use = &*use;
-    }
-    same = same && map->is_laid_out_as(*look.layout) && use->uv_set == look.layout_use->uv_set &&
-           use->texture_from_uv == look.layout_use->texture_from_uv;
-  };
-  compare(look.base_color, m.base_color_texture);
-  compare(look.metallic_roughness, m.metallic_roughness_texture);
-  compare(look.normal, m.normal_texture);
-  compare(look.emissive, m.emissive_texture);
-  if (!same) look.layout = nullptr;
-}
-
-/// The normal nearest to n above whose horizon wo is, just.
-Vec3 turned_towards(const Vec3& n, const Vec3& wo) {
+/// Whether wo is above the horizon of n, and its mirror image above that of the surface itself, of
+/// normal ng.
+bool reflects_outwards(const Vec3& n, const Vec3& ng, const Vec3& wo) {
   constexpr float least = 0.01F;
   const float cosine = glm::dot(n, wo);
-  if (cosine >= least) return n;
-  return bsdf::unit(n + (least - cosine) * wo);
+  return cosine >= least &&
+         glm::dot(2 * cosine * n - wo, ng) >= std::min(0.9F * glm::dot(wo, ng), least);
+}
+
+/// Interpolated normals and those of textures may be such that what they reflect would go below the
+/// surface and be lost: then the nearest, about, on the way to the surface's own that does not.
+Vec3 usable_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
+  if (reflects_outwards(n, ng, wo)) return n;
+  float low = 0, high = 1;
+  for (int i = 0; i < 6; ++i) {
+    const float middle = (low + high) * 0.5F;
+    const bool is_good = reflects_outwards(bsdf::unit(n + middle * (ng - n)), ng, wo);
+    (is_good ? high : low) = middle;
+  }
+  return bsdf::unit(n + high * (ng - n));
 }
 
 }  // namespace
 
-/// By texture and encoding.
-struct Shading::Maps {
-  const TextureMap* get(const Scene& scene, const std::optional<TextureUse>& use,
-                        ColorEncoding encoding) {
-    if (!use) return nullptr;
-    const Texture& texture = scene.textures[use->texture];
-    if (!texture.image || !scene.images[*texture.image]) return nullptr;
-    return &maps.try_emplace({use->texture, encoding}, *scene.images[*texture.image],
-                             texture.sampler, encoding)
-                .first->second;
-  }
-
-  std::map<std::pair<std::uint32_t, ColorEncoding>, TextureMap> maps;
-};
-
 Shading::Shading(const Scene& scene, const Primitives& primitives)
-    : primitives_(primitives), maps_(std::make_unique<Maps>()) {
-  const auto add = [&](const Material& m) {
-    looks_.push_back({.material = &m,
-                      .base_color = maps_->get(scene, m.base_color_texture, ColorEncoding::srgb),
-                      .metallic_roughness =
-                          maps_->get(scene, m.metallic_roughness_texture, ColorEncoding::linear),
-                      .normal = maps_->get(scene, m.normal_texture, ColorEncoding::linear),
-                      .emissive = maps_->get(scene, m.emissive_texture, ColorEncoding::srgb)});
-    compare_layouts(looks_.back());
-  };
+    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene)) {
+  const auto add = [&](const Material& material) { looks_.push_back(maps_->slots(material)); };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
   PrimitiveId first = 0;
@@ -115,21 +86,18 @@ ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool fr
 }
 
 void Shading::find_place(ShadingPoint& point) {
-  const TexturedMaterial& look = *point.look;
-  if (look.layout != nullptr) point.place = place_of(*look.layout, *look.layout_use, point);
+  const TextureSlot& layout = point.look->layout;
+  if (layout.map != nullptr) point.place = layout.place(point);
 }
 
 Vec4 Shading::base_color(const ShadingPoint& point) const {
-  const TexturedMaterial& look = *point.look;
-  Vec4 color = look.material->base_color * point.at.color();
-  if (look.base_color != nullptr)
-    color *= look_up(*look.base_color, *look.material->base_color_texture, point);
-  return color;
+  return point.look->material->base_color * point.at.color() * point.look->base_color.at(point);
 }
 
 float Shading::coverage(const ShadingPoint& point) const {
   const Material& material = *point.look->material;
-  if (!point.at.front && !material.double_sided) return 0;
+  // The back of what encloses a medium is seen from within.
+  if (!point.at.front && !material.double_sided && !encloses_medium(material)) return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
   const float alpha = base_color(point).w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
@@ -139,42 +107,64 @@ float Shading::coverage(const ShadingPoint& point) const {
 Vec3 Shading::emission(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
   if (look.material->unlit) return Vec3(base_color(point));
-  Vec3 color = look.material->emissive;
-  if (color != Vec3(0) && look.emissive != nullptr)
-    color *= Vec3(look_up(*look.emissive, *look.material->emissive_texture, point));
-  return color;
+  const Vec3 color = look.material->emissive;
+  return color == Vec3(0) ? color : color * Vec3(look.emissive.at(point));
 }
 
-bsdf::Parameters Shading::parameters(const ShadingPoint& point) const {
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) const {
   const TexturedMaterial& look = *point.look;
+  const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
-                     .metallic = look.material->metallic,
-                     .roughness = look.material->roughness};
-  if (look.metallic_roughness != nullptr) {
-    const Vec4 t =
-        look_up(*look.metallic_roughness, *look.material->metallic_roughness_texture, point);
+                     .metallic = m.metallic,
+                     .roughness = m.roughness};
+  if (look.metallic_roughness.map != nullptr) {
+    const Vec4 t = look.metallic_roughness.at(point);
     p.roughness *= t.y;
     p.metallic *= t.z;
   }
+  if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
+  if (const auto& s = m.specular) {
+    const float factor = s->factor * look.specular.at(point).w;
+    const Vec3 color = s->color * Vec3(look.specular_color.at(point));
+    p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
+    p.dielectric.f90 = factor;
+  }
+  if (const auto& t = m.transmission) {
+    p.transmission = t->factor * look.transmission.at(point).x;
+    if (encloses_medium(m)) {
+      float ior = m.ior == 0 ? 1e6F : m.ior;
+      if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
+      p.eta = point.at.front ? ior : 1 / ior;
+    }
+  }
+  if (const auto& d = m.diffuse_transmission) {
+    p.diffuse_transmission = d->factor * look.diffuse_transmission.at(point).w;
+    p.diffuse_transmission_color = d->color * Vec3(look.diffuse_transmission_color.at(point));
+  }
   return p;
+}
+
+Vec3 Shading::absorption(const ShadingPoint& point) const {
+  const Material& m = *point.look->material;
+  if (!point.at.front || !encloses_medium(m)) return Vec3(0);
+  return point.look->absorption;
 }
 
 bsdf::Frame Shading::frame(const ShadingPoint& point, const Vec3& wo) const {
   const TexturedMaterial& look = *point.look;
   Vec3 n = point.at.ns;
-  if (look.normal != nullptr) {
+  if (look.normal.map != nullptr) {
     const Vec4 tangent = point.at.tangent();
     if (tangent.w != 0) {
       const Vec3 t(tangent), b = tangent.w * glm::cross(n, t);
-      const Vec3 v =
-          Vec3(look_up(*look.normal, *look.material->normal_texture, point)) * 2.0F - Vec3(1);
+      const Vec3 v = Vec3(look.normal.at(point)) * 2.0F - Vec3(1);
       const float scale = look.material->normal_scale;
       const Vec3 turned = scale * v.x * t + scale * v.y * b + v.z * n;
       if (glm::dot(turned, turned) > 0) n = bsdf::unit(turned);
     }
   }
-  if (!point.at.front) n = -n;
-  return bsdf::Frame::about(turned_towards(n, wo));
+  const float side = point.at.front ? 1.0F : -1.0F;
+  return bsdf::Frame::about(usable_normal(side * n, side * point.at.n, wo));
 }
 
 }  // namespace microtrace

@@ -17,16 +17,34 @@
 
 namespace microtrace {
 
-/// A material with its textures at hand; null where it has none.
+struct ShadingPoint;
+
+/// A texture where a material uses it.
+struct TextureSlot {
+  const TextureMap* map = nullptr;  ///< null: white
+  const TextureUse* use = nullptr;
+  bool shares_place = false;  ///< with TexturedMaterial::layout
+
+  /// Linear; white where there is none.
+  [[nodiscard]] Vec4 at(const ShadingPoint& point) const {
+    return map == nullptr ? Vec4(1) : look_up(point);
+  }
+  [[nodiscard]] TextureMap::Place place(const ShadingPoint& point) const;
+
+ private:
+  [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
+};
+
+/// A material with its textures at hand. To take another texture: a slot here, its line in
+/// texture_slots.cpp.
 struct TexturedMaterial {
   const Material* material = nullptr;
-  const TextureMap* base_color = nullptr;
-  const TextureMap* metallic_roughness = nullptr;
-  const TextureMap* normal = nullptr;
-  const TextureMap* emissive = nullptr;
-  /// One of them, if all have the same places at every point.
-  const TextureMap* layout = nullptr;
-  const TextureUse* layout_use = nullptr;
+  TextureSlot base_color{}, metallic_roughness{}, normal{}, emissive{};
+  TextureSlot specular{}, specular_color{}, transmission{};
+  TextureSlot diffuse_transmission{}, diffuse_transmission_color{};
+  /// That by which the places of all that share them are found; often it is all.
+  TextureSlot layout{};
+  Vec3 absorption{0};  ///< by the medium that it encloses, in powers of two per length
 };
 
 /// A point, its material and how wide the part of the surface is that it stands for.
@@ -34,9 +52,16 @@ struct ShadingPoint {
   SurfacePoint at;
   const TexturedMaterial* look = nullptr;
   float width = 0;  ///< world space
-  /// Where the material's textures are looked up, if that is known and all the same.
+  /// Where those textures are looked up that share their places, if that is known.
   std::optional<TextureMap::Place> place{};
 };
+
+/// Whether light is refracted into the surface and out at its back (KHR_materials_volume).
+[[nodiscard]] inline bool encloses_medium(const Material& m) {
+  return m.transmission && m.volume && m.volume->thickness > 0;
+}
+
+class TextureMaps;
 
 /// Made once for a picture; any number of threads may ask it.
 class Shading {
@@ -69,14 +94,19 @@ class Shading {
   /// Radiance that leaves the point to the side of the ray. Unlit materials leave their colour.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
-  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point) const;
+  /// For a ray of that direction's side; `channel` is the one that a path through dispersing media
+  /// is of, 0 to 2; 3: none.
+  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, int channel) const;
+
+  /// The medium below the surface absorbs so much, in powers of two per length; 0 where there is
+  /// none.
+  [[nodiscard]] Vec3 absorption(const ShadingPoint& point) const;
 
   /// The shading normal on the ray's side, by the normal texture if there is one, with tangents.
   /// `wo`, of unit length, is above it.
   [[nodiscard]] bsdf::Frame frame(const ShadingPoint& point, const Vec3& wo) const;
 
  private:
-  struct Maps;
   struct Entry {
     const Mesh* mesh;
     PrimitiveId first_id;
@@ -86,7 +116,7 @@ class Shading {
   [[nodiscard]] Vec4 base_color(const ShadingPoint& point) const;
 
   const Primitives& primitives_;
-  std::unique_ptr<Maps> maps_;
+  std::unique_ptr<TextureMaps> maps_;
   std::vector<TexturedMaterial> looks_;  // by material; the last for objects without
   std::vector<Entry> entries_;           // by object
   bool all_cover_ = true;

@@ -32,6 +32,8 @@ void add_attributes(const DVec3& n, double area, SurfacePoint& at) {
     const Vec3 ns = weighed(at, mesh.normals);
     const float square = glm::dot(ns, ns);
     if (square > 0) at.ns = ns / std::sqrt(square);
+    // Some files wind triangles against their normals; what is in front is said by the winding.
+    if (glm::dot(at.ns, at.n) < 0) at.ns = -at.ns;
   }
   if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty()) {
     at.first_uv = weighed(at, mesh.uv_sets[0]);

@@ -1,0 +1,72 @@
+#include "render/shading/texture_slots.hpp"
+
+#include "scene/exponential.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microtrace {
+
+TextureMap::Place TextureSlot::place(const ShadingPoint& point) const {
+  const Vec2 uv = point.at.uv(use->uv_set);
+  const auto& m = use->texture_from_uv;
+  const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
+  return map->place(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
+}
+
+Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
+  return map->sample(shares_place && point.place ? *point.place : place(point));
+}
+
+TextureSlot TextureMaps::slot(const std::optional<TextureUse>& use, ColorEncoding encoding) {
+  if (!use) return {};
+  const Texture& texture = scene_.textures[use->texture];
+  if (!texture.image || !scene_.images[*texture.image]) return {};
+  const auto made = maps_.try_emplace({use->texture, encoding}, *scene_.images[*texture.image],
+                                      texture.sampler, encoding);
+  return {.map = &made.first->second, .use = &*use};
+}
+
+namespace {
+
+/// Beer and Lambert: what is left after a length l is color^(l / distance).
+Vec3 absorption_of(const Volume& volume) {
+  Vec3 result(0);
+  for (int c = 0; c < 3; ++c) {
+    const double left = std::clamp<double>(volume.attenuation_color[c], 0x1p-30, 1);
+    result[c] = static_cast<float>(-binary_logarithm(left) / volume.attenuation_distance);
+  }
+  return result;
+}
+
+}  // namespace
+
+TexturedMaterial TextureMaps::slots(const Material& m) {
+  constexpr auto srgb = ColorEncoding::srgb, linear = ColorEncoding::linear;
+  TexturedMaterial look{.material = &m,
+                        .base_color = slot(m.base_color_texture, srgb),
+                        .metallic_roughness = slot(m.metallic_roughness_texture, linear),
+                        .normal = slot(m.normal_texture, linear),
+                        .emissive = slot(m.emissive_texture, srgb)};
+  if (const auto& s = m.specular) {
+    look.specular = slot(s->texture, linear);
+    look.specular_color = slot(s->color_texture, srgb);
+  }
+  if (const auto& t = m.transmission) look.transmission = slot(t->texture, linear);
+  if (const auto& d = m.diffuse_transmission) {
+    look.diffuse_transmission = slot(d->texture, linear);
+    look.diffuse_transmission_color = slot(d->color_texture, srgb);
+  }
+  if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
+  for (TextureSlot* slot :
+       {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {
+    if (slot->map == nullptr) continue;
+    if (look.layout.map == nullptr) look.layout = *slot;
+    slot->shares_place = slot->map->is_laid_out_as(*look.layout.map) &&
+                         slot->use->uv_set == look.layout.use->uv_set &&
+                         slot->use->texture_from_uv == look.layout.use->texture_from_uv;
+  }
+  return look;
+}
+
+}  // namespace microtrace
