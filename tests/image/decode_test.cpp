@@ -151,6 +151,7 @@ TEST(DecodeImage, OtherFilesAreNone) {
 }
 
 TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
+  using std::string_view_literals::operator""sv;
   const auto expect_header = [](const std::string& bytes, ImageFormat format, std::uint32_t width,
                                 std::uint32_t height) {
     const ImageHeader header = read_image_header(bytes);
@@ -169,12 +170,15 @@ TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
   };
   expect_header(tests::png_file({.width = 70000, .height = 2}), ImageFormat::png, 70000, 2);
   expect_header(kJpeg, ImageFormat::jpeg, 4, 3);
+  std::string loose = kJpeg;
+  loose.insert(20, "\xFF\0stray\xFF"sv);  // after the first segment
+  EXPECT_TRUE(decode_image(loose).image);
+  expect_header(loose, ImageFormat::jpeg, 4, 3);
   expect_header(kLosslessWebp, ImageFormat::webp, 2, 2);
   expect_header(kLossyWebp, ImageFormat::webp, 4, 3);
   EXPECT_EQ(read_image_header("BM").format, ImageFormat::unknown);
-  using std::string_view_literals::operator""sv;
   for (const std::string_view nonsense :
-       {"\xFF\xD8\xFF\xD9\0\0"sv, "\xFF\xD8\xFF\0\0\0"sv, "\x89PNG\r\n\x1a\n\0\0\0\x0dIDAT"sv}) {
+       {"\xFF\xD8\xFF\xD9\0\0"sv, "\xFF\xD8\xFF\xDA\0\0"sv, "\x89PNG\r\n\x1a\n\0\0\0\x0dIDAT"sv}) {
     EXPECT_EQ(read_image_header(nonsense).state, ImageHeader::State::damaged);
   }
 }

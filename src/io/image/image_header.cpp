@@ -1,5 +1,6 @@
 #include "io/image/image_header.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
@@ -38,11 +39,12 @@ std::optional<Size> png_size(std::string_view bytes) {
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
-/// JPEG (ITU-T T.81), annex B: segments follow each other up to the frame header, SOFn.
+/// JPEG (ITU-T T.81), annex B: segments follow each other up to the frame header, SOFn. Bytes
+/// between them are passed over as libjpeg does it.
 std::optional<Size> jpeg_size(std::string_view bytes) {
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
     const std::uint32_t marker = byte(bytes, at + 1);
-    if (byte(bytes, at) != 0xFF || marker == 0xFF) {  // fill, or bytes that decoders pass over
+    if (byte(bytes, at) != 0xFF || marker == 0xFF || marker == 0) {
       ++at;
       continue;
     }
@@ -52,9 +54,9 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
       if (at + 9 > bytes.size()) return std::nullopt;
       return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
-    if (marker == 0 || marker == 0xD9 || marker == 0xDA) return no_size;
+    if (marker == 0xD9 || marker == 0xDA) return no_size;
     const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
-    at += alone ? 2 : 2 + big_endian(bytes, at + 2, 2);
+    at += alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U);
   }
   return std::nullopt;
 }
