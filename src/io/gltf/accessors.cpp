@@ -223,8 +223,9 @@ std::vector<Element> AccessorReader::read(int accessor, std::span<const std::uin
   const Decoder<Element> decode_some = decoder<Element>(from.accessor);
   std::vector<Element> result(numbers.size(), Element(0));
   if (!from.bytes.empty()) {
-    // As many ascending numbers as there are elements are all of them.
-    const bool all = numbers.size() == from.accessor.count;
+    // As many different numbers as there are elements are all of them.
+    const bool all = numbers.size() == from.accessor.count &&
+                     std::ranges::adjacent_find(numbers) == numbers.end();
     decode_some(from.bytes.data(), from.stride, all ? nullptr : numbers.data(), result);
   }
   for (std::size_t i = 0; i < numbers.size() && from.sparse_count > 0; ++i) {

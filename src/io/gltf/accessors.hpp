@@ -48,8 +48,8 @@ class AccessorReader {
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(int accessor);
 
-  /// The same for some elements only, by ascending numbers below the accessor's count: as many as
-  /// a primitive uses, in time and memory, however long the accessor is.
+  /// The same for some elements only, by numbers below the accessor's count that don't descend: as
+  /// many as a primitive uses, in time and memory, however long the accessor is.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(int accessor, std::span<const std::uint32_t> numbers);
 

@@ -3,6 +3,7 @@
 #include "io/gltf/draco.hpp"
 #include "io/gltf/topology.hpp"
 #include "io/gltf/vertex_attributes.hpp"
+#include "scene/tangents.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,9 +12,20 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
+
+/// The texture coordinates along which the material's tangents lie, if it needs any.
+std::optional<std::uint32_t> tangent_set(const Material& material) {
+  if (material.normal_texture) return material.normal_texture->uv_set;
+  if (material.clearcoat && material.clearcoat->normal_texture) {
+    return material.clearcoat->normal_texture->uv_set;
+  }
+  if (!material.anisotropy) return std::nullopt;
+  return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
+}
 
 class SurfaceMaker {
  public:
@@ -51,6 +63,7 @@ class SurfaceMaker {
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
                     {.material = materials_[result.material], .detail = detail_}, result.mesh);
+    if (detail_ == SurfaceDetail::all) add_tangents(result);
     return result;
   }
 
@@ -63,6 +76,17 @@ class SurfaceMaker {
   std::uint32_t material_of(const tinygltf::Primitive& primitive) const {
     if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
+  }
+
+  /// Where the material asks for some (glTF 2.0, section 3.7.2.1) and the mesh has none.
+  void add_tangents(Surface& surface) const {
+    Mesh& mesh = surface.mesh;
+    const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
+    if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
+    if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
+    surface.vertices = std::move(vertices);
   }
 
   void check_count(const Element& at, std::size_t count) {

@@ -17,11 +17,12 @@
 
 namespace microtrace::io::gltf {
 
-/// One primitive of a mesh: only the vertices that it uses, in the order of the file.
+/// One primitive of a mesh: only the vertices that it uses, in the order of the file; some more
+/// than once where tangents were made.
 struct Surface {
   Mesh mesh{};
-  /// Which of the primitive's vertices each of the mesh is, ascending: AccessorReader::read takes
-  /// them to read other attributes.
+  /// Which of the primitive's vertices each of the mesh is, not descending: AccessorReader::read
+  /// takes them to read other attributes.
   std::vector<std::uint32_t> vertices{};
   std::uint32_t material = 0;  ///< of make_materials
   std::size_t number = 0;      ///< among the mesh's primitives

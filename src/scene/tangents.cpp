@@ -1,0 +1,110 @@
+#include "scene/tangents.hpp"
+
+#include "scene/tangent_groups.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <tuple>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+/// Values of those numbers, if there are any.
+template <typename Value>
+std::vector<Value> picked(const std::vector<Value>& values,
+                          std::span<const std::uint32_t> numbers) {
+  std::vector<Value> result;
+  if (values.empty()) return result;
+  result.reserve(numbers.size());
+  for (const std::uint32_t i : numbers) result.push_back(values[i]);
+  return result;
+}
+
+Vec3 flat_normal(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const DVec3 a(mesh.positions[triangle[0]]);
+  const DVec3 cross =
+      glm::cross(DVec3(mesh.positions[triangle[1]]) - a, DVec3(mesh.positions[triangle[2]]) - a);
+  const double square = glm::dot(cross, cross);
+  return square > 0 ? Vec3(cross / std::sqrt(square)) : Vec3(0);
+}
+
+/// Splits vertices at whose corners of triangles, of which i of all has tangent i, these differ.
+std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
+  const std::size_t vertex_count = mesh.positions.size();
+  const auto vertex_at = [&](std::size_t corner) -> std::uint32_t& {
+    return mesh.triangles[corner / 3][corner % 3];
+  };
+  // Corners by vertex: a counting sort.
+  std::vector<std::uint32_t> first(vertex_count + 1);
+  for (std::size_t i = 0; i < tangents.size(); ++i) ++first[vertex_at(i) + 1];
+  for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
+  std::vector<std::uint32_t> corners(tangents.size());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  for (std::size_t i = 0; i < tangents.size(); ++i) {
+    corners[next[vertex_at(i)]++] = static_cast<std::uint32_t>(i);
+  }
+
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    const Vec4 &s = tangents[a], &t = tangents[b];
+    return std::tie(s.x, s.y, s.z, s.w, a) < std::tie(t.x, t.y, t.z, t.w, b);
+  };
+  std::vector<std::uint32_t> origin, standard(vertex_count);
+  mesh.tangents.clear();
+  for (std::uint32_t v = 0; v < vertex_count; ++v) {
+    standard[v] = static_cast<std::uint32_t>(origin.size());
+    const std::span<std::uint32_t> here(corners.data() + first[v], corners.data() + first[v + 1]);
+    std::ranges::sort(here, less);
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      if (i == 0 || tangents[here[i]] != tangents[here[i - 1]]) {
+        origin.push_back(v);
+        mesh.tangents.push_back(tangents[here[i]]);
+      }
+      vertex_at(here[i]) = static_cast<std::uint32_t>(origin.size() - 1);
+    }
+    if (!here.empty()) continue;  // else one of lines alone
+    origin.push_back(v);
+    mesh.tangents.push_back(tangent_across(mesh.normals.empty() ? Vec3(0) : mesh.normals[v]));
+  }
+  for (auto& segment : mesh.segments) {
+    for (std::uint32_t& vertex : segment) vertex = standard[vertex];
+  }
+  mesh.positions = picked(mesh.positions, origin);
+  mesh.normals = picked(mesh.normals, origin);
+  mesh.colors = picked(mesh.colors, origin);
+  for (auto& set : mesh.uv_sets) set = picked(set, origin);
+  return origin;
+}
+
+/// As if each triangle had vertices of its own, with its own normal.
+std::vector<Vec4> flat_tangents(const Mesh& mesh, std::size_t uv_set) {
+  std::vector<Vec3> positions, normals;
+  std::vector<Vec2> uv;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const auto& triangle : mesh.triangles) {
+    const auto number = static_cast<std::uint32_t>(positions.size());
+    triangles.push_back({number, number + 1, number + 2});
+    for (const std::uint32_t vertex : triangle) {
+      positions.push_back(mesh.positions[vertex]);
+      normals.push_back(flat_normal(mesh, triangle));
+      uv.push_back(mesh.uv_sets[uv_set][vertex]);
+    }
+  }
+  return corner_tangents(
+      {.positions = positions, .normals = normals, .uv = uv, .triangles = triangles});
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> make_tangents(Mesh& mesh, std::size_t uv_set) {
+  if (mesh.normals.empty()) return split(mesh, flat_tangents(mesh, uv_set));
+  return split(mesh, corner_tangents({.positions = mesh.positions,
+                                      .normals = mesh.normals,
+                                      .uv = mesh.uv_sets[uv_set],
+                                      .triangles = mesh.triangles}));
+}
+
+}  // namespace microtrace
