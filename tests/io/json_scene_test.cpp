@@ -104,6 +104,60 @@ TEST(JsonScene, ReadsShapesInFileOrder) {
   EXPECT_EQ(std::get<Plane>(scene.objects[5].shape).normal, Vec3(0, 0, 2));
 }
 
+TEST(JsonScene, ReadsMaterials) {
+  const Scene scene = parse(R"({"version": 1, "colors": {"red": [1, 0, 0]},
+    "materials": {
+      "lamp": {"emissive": [0, 5, 0]},
+      "glass": {"base_color": "red", "roughness": 0.25, "ior": 1.75, "transmission": 1,
+                "volume": {"attenuation_distance": 2}, "iridescence": {"thickness": 300}}},
+    "objects": [
+      {"type": "sphere", "center": [0,0,0], "radius": 1, "material": "glass"},
+      {"type": "sphere", "center": [0,0,0], "radius": 2, "color": "red"},
+      {"type": "sphere", "center": [0,0,0], "radius": 3, "material": "glass"}]})");
+  ASSERT_EQ(scene.materials.size(), 3U);
+  const Material& glass = material_of(scene, scene.objects.at(0));
+  EXPECT_EQ(glass.name, "glass");
+  EXPECT_EQ(glass.base_color, Vec4(1, 0, 0, 1));
+  EXPECT_EQ(glass.metallic, 0);
+  EXPECT_EQ(glass.roughness, 0.25F);
+  EXPECT_EQ(glass.ior, 1.75F);
+  EXPECT_EQ(glass.transmission.value().factor, 1);
+  EXPECT_GT(glass.volume.value().thickness, 0);
+  EXPECT_EQ(glass.volume.value().attenuation_distance, 2);
+  EXPECT_EQ(glass.iridescence.value().factor, 1);
+  EXPECT_EQ(glass.iridescence.value().thickness_maximum, 300);
+  EXPECT_FALSE(glass.clearcoat || glass.sheen || glass.specular || glass.diffuse_transmission);
+  EXPECT_EQ(&material_of(scene, scene.objects.at(2)), &glass);
+  EXPECT_EQ(material_of(scene, scene.objects.at(1)).base_color, Vec4(1, 0, 0, 1));
+  EXPECT_FALSE(material_of(scene, scene.objects.at(1)).transmission);
+}
+
+TEST(JsonScene, ReadsLightsAndTheEnvironment) {
+  const Scene scene = parse(R"({"version": 1,
+    "lights": [
+      {"type": "directional", "direction": [0, -2, 0], "intensity": 10},
+      {"name": "lamp", "type": "spot", "position": [1, 2, 3], "direction": [0, 0, 3],
+       "color": [1, 0.5, 0], "inner_angle": 30, "outer_angle": 90}],
+    "environment": {"type": "uniform", "color": [0, 2, 0], "intensity": 3},
+    "objects": [{"type": "plane", "point": [0,0,0], "normal": [0,1,0]}]})");
+  ASSERT_EQ(scene.lights.size(), 2U);
+  EXPECT_EQ(scene.lights[0].name, "lights/0");
+  const auto& sun = std::get<DirectionalLight>(scene.lights[0].light);
+  EXPECT_EQ(sun.direction, DVec3(0, -1, 0));
+  EXPECT_EQ(sun.intensity, 10);
+  EXPECT_EQ(scene.lights[1].name, "lamp");
+  const auto& lamp = std::get<SpotLight>(scene.lights[1].light);
+  EXPECT_EQ(lamp.position, DVec3(1, 2, 3));
+  EXPECT_EQ(lamp.direction, DVec3(0, 0, 1));
+  EXPECT_EQ(lamp.color, Vec3(1, 0.5F, 0));
+  EXPECT_NEAR(lamp.inner_angle, std::numbers::pi / 6, 1e-15);
+  EXPECT_EQ(lamp.outer_angle, std::numbers::pi / 2);
+  ASSERT_TRUE(scene.environment);
+  EXPECT_EQ(std::get<Vec3>(scene.environment->content), Vec3(0, 2, 0));
+  EXPECT_EQ(scene.environment->intensity, 3);
+  EXPECT_TRUE(scene.environment->is_background);
+}
+
 TEST(JsonScene, NamesThePlaceOfAnError) {
   std::string text(minimal);
   text.replace(text.find("\"radius\": 1"), 11, "\"radius\": -1");

@@ -3,9 +3,9 @@
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
 #include "io/json/excerpt.hpp"
+#include "io/scene_json/path.hpp"
 #include "scene/trigonometry.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -58,17 +58,6 @@ DMat4 read_matrix(const JsonReader& json) {
   return out;
 }
 
-std::filesystem::path read_relative_path(const JsonReader& json) {
-  const std::string name = json.name();
-  if (name.find('\0') != std::string::npos) json.fail("must not contain a zero byte");
-  std::filesystem::path path(name);
-  const bool climbs = std::find(path.begin(), path.end(), "..") != path.end();
-  if (path.is_absolute() || climbs) {
-    json.fail("must be a path within the scene's folder: relative and without \"..\"");
-  }
-  return path;
-}
-
 std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& path) {
   try {
     return read_file(path, max_file_size);
@@ -98,7 +87,7 @@ DMat4 read_transform(const JsonReader& json) {
 
 LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folder,
                       const LoadOptions& options) {
-  json.require_object({"name", "type", "color", "file", "transform"});
+  json.require_object({"name", "type", "color", "material", "file", "transform"});
   const JsonReader file = json.member("file");
   const std::filesystem::path path = folder / read_relative_path(file);
   const auto transform = json.find("transform");

@@ -1,51 +1,22 @@
 #include "io/scene_json/scene.hpp"
 
-#include "io/json/excerpt.hpp"
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
+#include "io/scene_json/color.hpp"
+#include "io/scene_json/light.hpp"
+#include "io/scene_json/material.hpp"
 #include "io/scene_json/mesh.hpp"
+#include "io/scene_json/names.hpp"
 #include "io/scene_json/shape.hpp"
 #include "scene/merge.hpp"
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <iterator>
 #include <map>
-#include <unordered_map>
 
 namespace microtrace::io {
 namespace {
-
-using Colors = std::map<std::string, Vec3, std::less<>>;
-
-Vec3 read_triple(const JsonReader& json) {
-  for (const JsonReader& channel : json.items(3)) {
-    const double x = channel.number();
-    if (x >= 0 && x <= 1) continue;
-    channel.fail(std::string("must lie between 0 and 1, is ").append(decimal(x)));
-  }
-  return json.vector32();
-}
-
-Colors read_colors(const JsonReader& json) {
-  Colors colors;
-  for (const auto& [name, color] : json.members()) colors.emplace(name, read_triple(color));
-  return colors;
-}
-
-Vec3 read_color(const JsonReader& json, const Colors& colors) {
-  if (json.value().kind == JsonValue::Kind::array) return read_triple(json);
-  if (json.value().kind != JsonValue::Kind::string) {
-    json.fail("must be three numbers from 0 to 1 or a name from /colors");
-  }
-  const auto found = colors.find(json.string());
-  if (found != colors.end()) return found->second;
-  std::vector<std::string_view> names;
-  for (const auto& [name, color] : colors) names.push_back(name);
-  if (names.empty()) json.fail("is a name, but the scene names no colours in /colors");
-  json.fail_unknown("colour name", json.string(), names);
-}
 
 /// A side of the picture; numbers too large for ImageSize stay too large.
 std::uint32_t read_side(const JsonReader& json) {
@@ -73,26 +44,6 @@ void require_version(const JsonReader& json) {
                 .append(decimal(static_cast<double>(version))));
 }
 
-/// The names within one array, unique.
-class Names {
- public:
-  /// The member "name", or where there is none the pointer without its first slash.
-  std::string read(const JsonReader& json) {
-    const auto given = json.find("name");
-    std::string name = given ? given->name() : json.pointer().substr(1);
-    const auto [earlier, is_new] = pointers_.emplace(name, json.pointer());
-    if (!is_new) {
-      std::string message = "the name ";
-      message.append(in_quotes(name)).append(" is taken by ").append(earlier->second);
-      (given ? *given : json).fail(message.append("; names must differ"));
-    }
-    return name;
-  }
-
- private:
-  std::unordered_map<std::string, std::string> pointers_;
-};
-
 std::vector<JsonReader> read_filled_array(const JsonReader& json) {
   std::vector<JsonReader> items = json.items();
   if (items.empty()) json.fail("must have at least one item");
@@ -107,35 +58,66 @@ void read_cameras(const JsonReader& json, Scene& scene) {
   }
 }
 
+void read_lights(const JsonReader& json, const Colors& colors, Scene& scene) {
+  Names names;
+  for (const JsonReader& item : read_filled_array(json)) {
+    const Light light = read_light(item, colors);
+    scene.lights.push_back({.name = names.read(item), .light = light});
+  }
+}
+
 bool is_mesh(const JsonReader& json) {
   json.require_object();
   const auto type = json.find("type");
   return type && type->value().kind == JsonValue::Kind::string && type->value().string == "mesh";
 }
 
-/// One material for each colour.
+/// The materials that the scene names, and one for each colour of objects.
 class Palette {
  public:
   Palette(const Colors& colors, Scene& scene) : colors_(colors), scene_(scene) {}
 
-  /// The material of the object's member "color", if it has one.
+  void name_materials(const JsonReader& json) {
+    for (const auto& [name, item] : json.members()) {
+      named_.emplace(name, static_cast<std::uint32_t>(scene_.materials.size()));
+      scene_.materials.push_back(read_material(item, colors_));
+      scene_.materials.back().name = name;
+    }
+  }
+
+  /// Of the object's member "material" or "color", if it has one.
   std::optional<std::uint32_t> read(const JsonReader& object) {
-    const auto json = object.find("color");
-    if (!json) return std::nullopt;
-    const Vec3 color = read_color(*json, colors_);
+    const auto color = object.find("color");
+    if (const auto name = object.find("material")) {
+      if (color) name->fail("must not stand beside color");
+      return find(*name);
+    }
+    if (!color) return std::nullopt;
+    const Vec3 rgb = read_color(*color, colors_);
     const auto next = static_cast<std::uint32_t>(scene_.materials.size());
-    const auto [known, is_new] = materials_.try_emplace({color.x, color.y, color.z}, next);
-    if (is_new) scene_.materials.push_back({.base_color = Vec4(color, 1)});
+    const auto [known, is_new] = plain_.try_emplace({rgb.x, rgb.y, rgb.z}, next);
+    if (is_new) scene_.materials.push_back({.base_color = Vec4(rgb, 1)});
     return known->second;
   }
 
  private:
+  std::uint32_t find(const JsonReader& json) const {
+    const std::string name = json.string();
+    const auto found = named_.find(name);
+    if (found != named_.end()) return found->second;
+    if (named_.empty()) json.fail("is a name, but the scene names no materials in /materials");
+    std::vector<std::string_view> names;
+    for (const auto& [known, index] : named_) names.push_back(known);
+    json.fail_unknown("material", name, names);
+  }
+
   const Colors& colors_;
   Scene& scene_;
-  std::map<std::array<float, 3>, std::uint32_t> materials_;
+  std::map<std::string, std::uint32_t> named_;
+  std::map<std::array<float, 3>, std::uint32_t> plain_;
 };
 
-/// A colour replaces the materials of the mesh's own file.
+/// A material replaces those of the mesh's own file.
 void add_mesh(const JsonReader& json, const std::string& name,
               std::optional<std::uint32_t> material, const std::filesystem::path& folder,
               const LoadOptions& options, LoadedScene& out) {
@@ -150,10 +132,9 @@ void add_mesh(const JsonReader& json, const std::string& name,
   std::move(mesh.warnings.begin(), mesh.warnings.end(), std::back_inserter(out.warnings));
 }
 
-void read_objects(const JsonReader& json, const Colors& colors, const std::filesystem::path& folder,
+void read_objects(const JsonReader& json, Palette& palette, const std::filesystem::path& folder,
                   const LoadOptions& options, LoadedScene& out) {
   Names names;
-  Palette palette(colors, out.scene);
   for (const JsonReader& item : read_filled_array(json)) {
     if (is_mesh(item)) {
       const std::string name = names.read(item);
@@ -175,8 +156,8 @@ LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem:
   const JsonReader root(document);
   root.require_object();
   require_version(root.member("version"));
-  root.require_object(
-      {"$schema", "version", "image", "background", "epsilon", "colors", "cameras", "objects"});
+  root.require_object({"$schema", "version", "image", "background", "epsilon", "colors",
+                       "materials", "cameras", "lights", "environment", "objects"});
   LoadedScene out;
   if (const auto schema = root.find("$schema")) (void)schema->string();
   if (const auto image = root.find("image")) out.scene.size = read_image(*image);
@@ -185,7 +166,13 @@ LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem:
   if (const auto color = root.find("background")) out.scene.background = read_color(*color, colors);
   if (const auto epsilon = root.find("epsilon")) out.scene.epsilon = read_epsilon(*epsilon);
   if (const auto cameras = root.find("cameras")) read_cameras(*cameras, out.scene);
-  read_objects(root.member("objects"), colors, folder, options, out);
+  if (const auto lights = root.find("lights")) read_lights(*lights, colors, out.scene);
+  if (const auto environment = root.find("environment")) {
+    out.scene.environment = read_environment(*environment, colors, folder, out.warnings);
+  }
+  Palette palette(colors, out.scene);
+  if (const auto materials = root.find("materials")) palette.name_materials(*materials);
+  read_objects(root.member("objects"), palette, folder, options, out);
   return out;
 }
 

@@ -7,31 +7,31 @@ namespace microtrace::io {
 namespace {
 
 Sphere read_sphere(const JsonReader& json) {
-  json.require_object({"name", "type", "color", "center", "radius"});
+  json.require_object({"name", "type", "color", "material", "center", "radius"});
   return {.center = json.member("center").vector32(), .radius = json.member("radius").float32()};
 }
 
 Plane read_plane(const JsonReader& json) {
-  json.require_object({"name", "type", "color", "point", "normal"});
+  json.require_object({"name", "type", "color", "material", "point", "normal"});
   return {.point = json.member("point").vector32(), .normal = json.member("normal").vector32()};
 }
 
 Disc read_disc(const JsonReader& json) {
-  json.require_object({"name", "type", "color", "center", "normal", "radius"});
+  json.require_object({"name", "type", "color", "material", "center", "normal", "radius"});
   return {.center = json.member("center").vector32(),
           .normal = json.member("normal").vector32(),
           .radius = json.member("radius").float32()};
 }
 
 Triangle read_triangle(const JsonReader& json) {
-  json.require_object({"name", "type", "color", "a", "b", "c"});
+  json.require_object({"name", "type", "color", "material", "a", "b", "c"});
   return {.a = json.member("a").vector32(),
           .b = json.member("b").vector32(),
           .c = json.member("c").vector32()};
 }
 
 Quadric read_quadric(const JsonReader& json) {
-  json.require_object({"name", "type", "color", "coefficients"});
+  json.require_object({"name", "type", "color", "material", "coefficients"});
   const JsonReader coefficients = json.member("coefficients");
   coefficients.require_object({"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"});
   Quadric q;
