@@ -23,7 +23,10 @@ struct LoadedScene {
 enum class SurfaceDetail {
   color,  ///< what a flat picture shows: base colours, their images and texture coordinates
   all,    ///< normals, tangents, all images and texture coordinates too
+  usual,  ///< color in JSON scenes, all in glTF assets: what these are usually drawn with
 };
+
+enum class SceneFormat { json, gltf };
 
 /// Where the time of loading went, in seconds.
 struct LoadTimes {
@@ -70,6 +73,8 @@ class SceneFile {
   ~SceneFile();
   SceneFile(SceneFile&& other) noexcept;
   SceneFile& operator=(SceneFile&& other) noexcept;
+
+  [[nodiscard]] SceneFormat format() const;
 
   /// The scene at that time, as load_scene would read it. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time);

@@ -90,7 +90,7 @@ Parsed parse_arguments(int argc, char** argv) {
       ->excludes("--camera");
   app.add_option("--integrator", integrator,
                  "what the picture shows: flat (colours without light), path (with light, by path "
-                 "tracing), or a quantity as --aov has them [flat]");
+                 "tracing), or a quantity as --aov has them [glTF: path, JSON: flat]");
   app.add_option("--max-depth", a.max_depth,
                  "the most straight parts of a path of light, 2: direct light alone [16]")
       ->check(CLI::Range(1U, 65536U))
@@ -146,9 +146,7 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (app.count("--size") > 0) a.size = parse_size(size);
-    if (app.count("--integrator") > 0) a.integrator = parse_integrator(integrator);
-    if (a.surroundings.shows_environment() && a.integrator != Subject(Technique::path))
-      throw CLI::ValidationError("--background", "env is seen only with --integrator path");
+    if (app.count("--integrator") > 0) a.wanted = parse_integrator(integrator);
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
@@ -188,6 +186,20 @@ Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize s
     message += std::to_string(i) + " (" + scene.cameras[i].name + ")";
   }
   throw Error(ErrorKind::usage, "", message);
+}
+
+void settle(Arguments& a, SceneFormat format) {
+  const bool is_gltf = format == SceneFormat::gltf;
+  a.integrator = a.wanted.value_or(is_gltf ? Technique::path : Technique::flat);
+  const bool has_light = a.integrator == Subject(Technique::path);
+  if (a.surroundings.shows_environment() && !has_light) {
+    throw Error(ErrorKind::usage, "",
+                "--background: env is seen only with light; use --integrator path");
+  }
+  if (a.sampling.samples == 0) a.sampling.samples = has_light ? 64 : 1;
+  // Lighter than shadows and darker than highlights, so that models stand out.
+  if (is_gltf && has_light && !a.surroundings.background)
+    a.surroundings.background = Background{.color = Vec3(0.6F)};
 }
 
 std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {

@@ -32,7 +32,8 @@ struct Arguments {
   Surroundings surroundings{};
   Exposure exposure{};
   Sampling sampling{};
-  Subject integrator = Technique::flat;
+  std::optional<Subject> wanted{};       ///< what --integrator names
+  Subject integrator = Technique::flat;  ///< as settle() has it
   std::uint32_t max_depth = PathOptions{}.max_depth;
   std::vector<Aov> aovs{};
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
@@ -60,7 +61,11 @@ struct Parsed {
 /// the names there are.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size);
 
-/// What --integrator names.
+/// Fills in what is left to the scene's format: glTF assets are drawn with light, over grey, JSON
+/// scenes flat. Throws Error (usage) where options make no sense then.
+void settle(Arguments& arguments, SceneFormat format);
+
+/// That of the settled arguments.
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Arguments& arguments);
 
 }  // namespace microtrace::cli

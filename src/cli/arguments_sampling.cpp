@@ -12,7 +12,7 @@ namespace microtrace::cli {
 
 void add_sampling_options(CLI::App& app, Sampling& sampling) {
   app.add_option("--spp,--samples", sampling.samples,
-                 "rays for each pixel, spread over it [1, through its centre]")
+                 "rays for each pixel, spread over it [with light 64, else 1, through its centre]")
       ->check(CLI::Range(1U, kMaxSamples))
       ->type_name("N");
   const auto set_filter = [&sampling](const std::string& name) {

@@ -12,7 +12,7 @@ class App;
 namespace microtrace::cli {
 
 struct Sampling {
-  std::uint32_t samples = 1;  ///< per pixel
+  std::uint32_t samples = 0;  ///< per pixel; 0: as settle() has it
   PixelFilter filter = PixelFilter::box;
   std::uint32_t seed = 0;
 };

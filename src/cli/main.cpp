@@ -36,9 +36,12 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
 // A flat picture takes only the colours of surfaces.
 LoadOptions load_options(const cli::Arguments& arguments) {
   LoadOptions options = arguments.load;
-  const bool flat =
-      arguments.integrator == cli::Subject(cli::Technique::flat) && arguments.aovs.empty();
-  options.detail = flat ? SurfaceDetail::color : SurfaceDetail::all;
+  options.detail = SurfaceDetail::all;
+  if (arguments.aovs.empty()) {
+    if (!arguments.wanted) options.detail = SurfaceDetail::usual;
+    if (arguments.wanted == cli::Subject(cli::Technique::flat))
+      options.detail = SurfaceDetail::color;
+  }
   return options;
 }
 
@@ -58,13 +61,14 @@ std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& argument
 }
 
 /// The file is read once.
-void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) {
+void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   using cli::frame_path;
   cli::Stopwatch watch;
   LoadTimes times;
   LoadOptions options = load_options(arguments);
   options.times = &times;
   SceneFile file(arguments.scene, options);
+  cli::settle(arguments, file.format());
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
   std::optional<Camera> framing;
@@ -98,13 +102,15 @@ void run_frames(const cli::Arguments& arguments, const cli::FrameRange& frames) 
     cli::print_valid(arguments.scene, reported.size() + light_warnings.size());
 }
 
-void run(const cli::Arguments& arguments) {
+void run(cli::Arguments arguments) {
   if (arguments.frames) return run_frames(arguments, *arguments.frames);
   cli::Stopwatch watch;
   LoadTimes times;
   LoadOptions options = load_options(arguments);
   options.times = &times;
-  auto [scene, warnings] = load_scene(arguments.scene, options);
+  SceneFile file(arguments.scene, options);
+  cli::settle(arguments, file.format());
+  auto [scene, warnings] = file.at(arguments.load.time);
   const auto environment = cli::load_environment(arguments.surroundings, warnings);
   report(warnings, arguments);
   cli::surround(scene, environment, arguments.surroundings);

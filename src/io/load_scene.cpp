@@ -53,9 +53,10 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
   return document;
 }
 
-LoadedScene read(Reader& reader, const std::filesystem::path& folder, const LoadOptions& options) {
+LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOptions options) {
   if (auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
   io::LoadClock clock(options.times);
+  if (options.detail == SurfaceDetail::usual) options.detail = SurfaceDetail::color;
   LoadedScene result = io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);
   clock.lap(&LoadTimes::bake);
   return result;
@@ -95,6 +96,11 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
 SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&& other) noexcept = default;
 SceneFile& SceneFile::operator=(SceneFile&& other) noexcept = default;
+
+SceneFormat SceneFile::format() const {
+  return std::holds_alternative<io::GltfFile>(content_->reader) ? SceneFormat::gltf
+                                                                : SceneFormat::json;
+}
 
 LoadedScene SceneFile::at(std::optional<double> time) {
   const FloatEnvironment environment;

@@ -68,6 +68,9 @@ def lower_left(picture):
     return min(lit) if lit else None
 
 
+FLAT = ("--integrator", "flat")
+
+
 class Animation(ProgramTest):
     def setUp(self):
         super().setUp()
@@ -75,7 +78,7 @@ class Animation(ProgramTest):
 
     def square_at(self, *arguments):
         # Ten pixels are one unit; the picture's lower left corner is (-2, -1).
-        result = self.run_program("move.gltf", "--size", "80x60", "-o", "-", *arguments)
+        result = self.run_program("move.gltf", *FLAT, "--size", "80x60", "-o", "-", *arguments)
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         column, row = lower_left(result.stdout)
         return (column - 20) / 10, (row - 10) / 10
@@ -106,7 +109,7 @@ class Animation(ProgramTest):
             self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
 
     def frames(self, *arguments):
-        return self.run_program("move.gltf", "--size", "80x60", *arguments)
+        return self.run_program("move.gltf", *FLAT, "--size", "80x60", *arguments)
 
     def test_frames_are_the_pictures_of_their_times(self):
         result = self.frames("--frames", "2:5", "--fps", "4", "-o", "out_%03d.ppm")
@@ -190,7 +193,7 @@ class Animation(ProgramTest):
         self.assertEqual(shares[-1], 1)
 
     def test_an_interrupt_leaves_whole_frames_only(self):
-        process = subprocess.Popen([PROGRAM, "move.gltf", "--size", "800x600", "--frames", "0:9999"],
+        process = subprocess.Popen([PROGRAM, "move.gltf", *FLAT, "--size", "800x600", "--frames", "0:9999"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 30
         while not (self.folder / "move_0003.ppm").exists() and time.monotonic() < deadline:
@@ -206,7 +209,7 @@ class Animation(ProgramTest):
         camera = {"type": "orthographic", "position": [2, 2, 10], "direction": [0, 0, -1], "height": 6}
         (self.folder / "scene.json").write_text(json.dumps({
             "version": 1, "cameras": [camera], "objects": [{"type": "mesh", "file": "move.gltf"}]}))
-        pictures = [self.run_program(scene, "--size", "80x60", "-o", "-", "--time", "1.5").stdout
+        pictures = [self.run_program(scene, *FLAT, "--size", "80x60", "-o", "-", "--time", "1.5").stdout
                     for scene in ("scene.json", "move.gltf")]
         self.assertEqual(pictures[0], pictures[1])
         self.assertEqual(lower_left(pictures[0]), (50, 10))

@@ -132,7 +132,7 @@ class CommandLine(ProgramTest):
             width, height = map(int, size.split("x"))
             pictures = {}
             for view in (None, "30,25", "front", "back", "left", "right", "top", "bottom", "iso"):
-                _, _, rows = self.picture(cube, "--size", size, *(["--view", view] if view else []))
+                _, _, rows = self.picture(cube, "--integrator", "flat", "--size", size, *(["--view", view] if view else []))
                 pictures[view] = b"".join(rows)
                 drawn = [[row[3 * x:3 * x + 3] != b"\0\0\0" for x in range(width)] for row in rows]
                 columns = [x for x in range(width) if any(row[x] for row in drawn)]
@@ -153,7 +153,7 @@ class CommandLine(ProgramTest):
 
     def test_backgrounds(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
-        corner = lambda *options: self.picture(cube, "--size", "40x30", *options)[2][0][:3]
+        corner = lambda *options: self.picture(cube, "--integrator", "flat", "--size", "40x30", *options)[2][0][:3]
         self.assertEqual(corner(), b"\0\0\0")
         self.assertEqual(corner("--background", "#2b7CfF"), b"\x2b\x7c\xff")
         self.assertEqual(corner("--background", "0.5,0,1"), b"\xbc\x00\xff")  # linear light
@@ -193,12 +193,19 @@ class CommandLine(ProgramTest):
         self.assertIn(b"0 (leaf), 1 (sea)", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), ["a.gltf"])
 
+    def test_gltf_is_drawn_with_light_and_json_flat(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        lit = self.picture(cube, "--size", "40x30")
+        self.assertEqual(self.picture(cube, "--size", "40x30", "--integrator", "path", "--spp", "64",
+                                      "--background", "0.6,0.6,0.6"), lit)
+        self.assertNotEqual(self.picture(cube, "--size", "40x30", "--integrator", "flat"), lit)
+        self.assertEqual(self.picture(SCENE, "--integrator", "flat", "--spp", "1"), self.picture(SCENE))
+
     def test_quantities(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
         quantities = ("depth", "distance", "position", "normal", "barycentric", "id")
         options = [cube, "--size", "40x30"]
-        flat = self.picture(*options)
-        self.assertEqual(self.picture(*options, "--integrator", "flat"), flat)
+        flat = self.picture(*options, "--integrator", "flat")
         pictures = [flat] + [self.picture(*options, "--integrator", name) for name in quantities]
         self.assertEqual(len({b"".join(rows) for _, _, rows in pictures}), len(pictures))
         normals = b"".join(self.picture(*options, "--integrator", "face_normal", "--view", "front")[2])
@@ -239,7 +246,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(self.run_program(SCENE, "-v", "-q").returncode, 2)
 
     def test_times_of_stages(self):
-        result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "-o", "a.ppm", "--stats=json")
+        result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "--integrator", "flat", "-o", "a.ppm", "--stats=json")
         numbers = json.loads(result.stderr)
         for stage in ("read_s", "validate_s", "bake_s", "build_s", "trace_s", "write_s"):
             self.assertGreater(numbers[stage], 0, stage)

@@ -143,13 +143,14 @@ void check_requirements(Asset& asset) {
   }
 }
 
-void warn_of_ignored_features(Asset& asset) {
+void warn_of_ignored_features(Asset& asset, SurfaceDetail detail) {
   const std::vector<JsonValue>& used = asset.array("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (std::ranges::find(honoured, used[i].string) != honoured.end()) continue;
     asset.warn(asset.element("extensionsUsed", i),
                "extension " + in_quotes(used[i].string) + " is not supported; it is ignored");
   }
+  if (detail != SurfaceDetail::color) return;
   FeatureSearch search(asset);
   for (std::size_t i = 0; i < asset.array("materials").size(); ++i) {
     search.material(asset.element("materials", i));

@@ -149,7 +149,8 @@ auto guarded(const std::string& name, Part&& part) {
 struct GltfFile::Content {
   Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
-      : times(options.times),
+      : detail(options.detail == SurfaceDetail::usual ? SurfaceDetail::all : options.detail),
+        times(options.times),
         clock(times),
         name(file_name),
         container(gltf::open_container(bytes, name)),
@@ -164,11 +165,11 @@ struct GltfFile::Content {
         reader(asset, model, checked_views()),
         materials(gltf::make_materials(asset)),
         textures(gltf::make_textures(asset)),
-        surfaces(gltf::make_surfaces(asset, model, reader, materials, options.detail)),
-        images(gltf::load_images(asset, views, folders, wanted_images(options.detail))),
+        surfaces(gltf::make_surfaces(asset, model, reader, materials, detail)),
+        images(gltf::load_images(asset, views, folders, wanted_images())),
         instances(asset, model, reader),
         animations(gltf::choose_animations(asset, options.animation)) {
-    gltf::warn_of_ignored_features(asset);
+    gltf::warn_of_ignored_features(asset, detail);
     if (!container.is_aligned) {
       asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
     }
@@ -213,7 +214,7 @@ struct GltfFile::Content {
     return views;
   }
 
-  [[nodiscard]] std::vector<bool> wanted_images(SurfaceDetail detail) const {
+  [[nodiscard]] std::vector<bool> wanted_images() const {
     std::vector<bool> drawn(materials.size());
     for (const auto& mesh : surfaces) {
       for (const Surface& surface : mesh) drawn[surface.material] = true;
@@ -221,6 +222,7 @@ struct GltfFile::Content {
     return gltf::wanted_images(materials, drawn, textures, asset.array("images").size(), detail);
   }
 
+  SurfaceDetail detail;
   LoadTimes* times;
   LoadClock clock;
   std::string name;
