@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""How long microtrace and Mitsuba 3 take to the same error, that of Mitsuba's picture of the helmet at 64 spp.
+
+usage: equal_error.py FOLDER MICROTRACE [--env constant|sky] [--size WxH] [--reference N] [--variant NAME]
+Each picture is held against a long one by the same program with another seed, since the two programs' materials
+differ. The error is the root of the mean square over all pixels and channels, linear radiance.
+"""
+import argparse
+import pathlib
+
+import mitsuba as mi
+import numpy as np
+
+import time_helmet
+
+SAMPLES = (1, 2, 4, 8, 16, 32, 64, 128)
+
+
+def read(path):
+    return np.array(mi.Bitmap(str(path)).convert(component_format=mi.Struct.Type.Float32))[..., :3].astype(float)
+
+
+def rmse(a, b):
+    return float(np.sqrt(np.mean((a - b) ** 2)))
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("program")
+    parser.add_argument("--env", choices=time_helmet.ENVIRONMENTS, default="constant")
+    parser.add_argument("--size", default="160x120")
+    parser.add_argument("--reference", type=int, default=4096)
+    parser.add_argument("--variant", default="llvm_ad_rgb")
+    options = parser.parse_args()
+    mi.set_variant("scalar_rgb")
+    folder, program = options.folder, str(pathlib.Path(options.program).resolve())
+    width, height = options.size.split("x")
+
+    def ours(spp, seed):
+        """The picture and the processor seconds of rendering."""
+        seconds = time_helmet.ours(program, folder, options.env, spp, options.size, seed=seed)[1]
+        return read(folder / "ours.exr"), seconds
+
+    def theirs(spp, passes, seed, variant):
+        seconds = time_helmet.mitsuba(variant, folder, options.env, spp, passes, seed, (width, height))[1]
+        return np.load(folder / f"{variant}.npy")[..., :3].astype(float), seconds
+
+    reference = theirs(256, options.reference // 256, 1000, "llvm_ad_rgb")[0]
+    goal = rmse(theirs(64, 1, 1, options.variant)[0], reference)
+    seconds = theirs(64, 2, 1, options.variant)[1]
+    print(f"{options.variant}: 64 spp, {options.size}: error {goal:.5f}, {seconds:.2f} s")
+
+    reference = ours(options.reference, 1)[0]
+    errors, times = [], []
+    for spp in SAMPLES:
+        picture, time = ours(spp, 0)
+        errors.append(rmse(picture, reference))
+        times.append(time)
+        print(f"microtrace: {spp} spp: error {errors[-1]:.5f}, {time:.2f} s")
+    # Both are about straight over logarithms.
+    spp = np.exp(np.interp(-np.log(goal), -np.log(errors), np.log(SAMPLES)))
+    time = times[-1] * spp / SAMPLES[-1]
+    slope = np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]
+    print(f"microtrace has that error at {spp:.1f} spp, {time:.2f} s; Mitsuba takes {seconds / time:.2f} times as long; "
+          f"our error goes as spp^{slope:.2f}")
+
+
+if __name__ == "__main__":
+    main()

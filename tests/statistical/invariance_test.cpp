@@ -1,0 +1,151 @@
+/// What must not change a picture with light.
+#include "support/closed_meshes.hpp"
+#include "support/effort.hpp"
+#include "support/pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+// Within a closed surface no light from outside is ever seen, however thin and creased it is and
+// wherever it lies. Materials absorb nothing, so that any leak would stay.
+TEST(Invariance, ClosedSurfacesLetNoLightIn) {
+  const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
+  for (const auto& closed : adversarial::closed_meshes()) {
+    Scene scene;
+    scene.materials = {{.metallic = 0.5F, .roughness = 0.5F}};
+    scene.objects.push_back({.name = "box", .shape = closed.mesh, .material = 0});
+    scene.environment = Environment{.content = Vec3(1e9F), .is_background = true};
+    scene.lights.push_back(
+        {.name = "lamp",
+         .light = PointLight{.position = DVec3(closed.centre) + DVec3(0, 64 * closed.radius, 0),
+                             .intensity = 1e20F}});
+    const EnvironmentCamera camera{.pose = {.position = DVec3(closed.centre)}};
+    const Film film =
+        shoot(scene, camera,
+              {.size = {.width = 32, .height = 16}, .samples = 32 * effort, .max_depth = 12});
+    for (const DVec3& pixel : pixels_of(film)) ASSERT_EQ(pixel, DVec3(0)) << closed.name;
+  }
+}
+
+/// A square of edge 64 in y = 0, of 2 n^2 triangles with corners on a grid.
+Mesh tiled_floor(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t j = 0; j <= n; ++j) {
+    for (std::uint32_t i = 0; i <= n; ++i)
+      mesh.positions.emplace_back(64.0F * float(i) / float(n) - 32, 0,
+                                  64.0F * float(j) / float(n) - 32);
+  }
+  for (std::uint32_t j = 0; j < n; ++j) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t a = j * (n + 1) + i, b = a + n + 1;
+      mesh.triangles.push_back({a, b, b + 1});
+      mesh.triangles.push_back({a, b + 1, a + 1});
+    }
+  }
+  return mesh;
+}
+
+// Under light that grazes it, a floor of many triangles looks like one of two: none of them throws
+// a shadow on its neighbours.
+TEST(Invariance, FlatTrianglesThrowNoShadows) {
+  Scene scene;
+  scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .metallic = 0.5F, .roughness = 0.6F}};
+  scene.objects.push_back({.name = "floor", .shape = tiled_floor(1), .material = 0});
+  scene.environment = Environment{.content = Vec3(0.1F)};
+  scene.lights.push_back(
+      {.name = "sun",
+       .light =
+           DirectionalLight{.direction = glm::normalize(DVec3(1, -1e-4, 0.3)), .intensity = 1e4F}});
+  scene.lights.push_back(
+      {.name = "lamp", .light = PointLight{.position = {9, 0.001, 2}, .intensity = 1000}});
+  const PerspectiveCamera camera{
+      .pose = {.position = {0, 3, 8}, .direction = {0, -1, -1}, .up = {0, 1, 0}}};
+  const Shot shot{.size = {.width = 64, .height = 48}, .samples = 8};
+  const auto coarse = pixels_of(shoot(scene, camera, shot));
+  scene.objects[0].shape = tiled_floor(256);
+  const auto fine = pixels_of(shoot(scene, camera, shot));
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    ASSERT_GT(coarse[i].y, 0);
+    ASSERT_NEAR(fine[i].y, coarse[i].y, 2e-3 * coarse[i].y) << i % 64 << ' ' << i / 64;
+  }
+}
+
+/// A mirror-like and a matt block on a floor under a lamp, corners on a grid of 1/8.
+Scene blocks(const Vec3& shift) {
+  Scene scene;
+  scene.materials = {{.base_color = {0.7F, 0.6F, 0.5F, 1}},
+                     {.base_color = {0.9F, 0.9F, 0.9F, 1}, .metallic = 1, .roughness = 0.4F},
+                     {.base_color = {0, 0, 0, 1}, .emissive = Vec3(20)}};
+  const auto add = [&](const Vec3& corner, const Vec3& along, const Vec3& up, std::uint32_t m) {
+    scene.objects.push_back(
+        {.name = "part", .shape = parallelogram(corner + shift, along, up), .material = m});
+  };
+  add({-32, 0, 32}, {64, 0, 0}, {0, 0, -64}, 0);
+  add({-4, 20, -4}, {0, 0, 8}, {8, 0, 0}, 2);
+  for (const float x : {-9.0F, 1.0F}) {
+    const std::uint32_t m = x > 0 ? 1 : 0;
+    add({x, 0, 4}, {8, 0, 0}, {0, 6, 0.5F}, m);
+    add({x, 6, 4.5F}, {8, 0, 0}, {0, 0, -8}, m);
+    add({x + 8, 0, 4}, {0, 0, -8}, {0, 6, 0.5F}, m);
+    add({x, 0, -4}, {0, 0, 8}, {0, 6, 0.5F}, m);
+  }
+  scene.environment = Environment{.content = Vec3(0.25F)};
+  return scene;
+}
+
+// The same numbers far away: what float32 rounds in shading may move light a little, but no part of
+// the picture.
+TEST(Invariance, FarFromTheOriginItLooksTheSame) {
+  const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
+  const Shot shot{.size = {.width = 64, .height = 48}, .samples = 16};
+  const auto picture = [&](const Vec3& by) {
+    const PerspectiveCamera camera{.pose = {.position = DVec3(by) + DVec3(6, 14, 32),
+                                            .direction = {-6, -11, -32},
+                                            .up = {0, 1, 0}}};
+    return pixels_of(shoot(blocks(by), camera, shot));
+  };
+  const auto here = picture(Vec3(0)), there = picture(shift);
+  double difference = 0, light = 0;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    difference += std::abs(here[i].y - there[i].y);
+    light += here[i].y;
+  }
+  EXPECT_LT(difference / light, 0.02);
+}
+
+// Lamps, a map, blending, smooth and rough surfaces: any number of threads and any window.
+TEST(Invariance, ThreadsAndCropsKeepAllBytes) {
+  Scene scene = blocks(Vec3(0));
+  RadianceMap map{.width = 8, .height = 4};
+  for (int i = 0; i < 32; ++i) map.pixels.emplace_back(i == 11 ? 30.0F : 0.3F);
+  scene.environment = Environment{.content = std::make_shared<const RadianceMap>(map)};
+  scene.materials[1].base_color.a = 0.5F;
+  scene.materials[1].alpha_mode = AlphaMode::blend;
+  scene.lights.push_back(
+      {.name = "spot", .light = SpotLight{.position = {3, 9, 9}, .direction = {0, -1, 0}}});
+  const PerspectiveCamera camera{
+      .pose = {.position = {6, 14, 32}, .direction = {-6, -11, -32}, .up = {0, 1, 0}}};
+  const PathIntegrator path;
+  RenderOptions options{.threads = 1, .integrator = &path, .samples = 5, .seed = 3};
+  const ImageSize size{.width = 71, .height = 37};
+  const Film one = render(scene, camera, size, options);
+  for (const unsigned threads : {2U, 3U, 8U}) {
+    options.threads = threads;
+    options.crop = PixelRect{.x0 = threads, .y0 = 3, .x1 = 71 - threads, .y1 = 30 + threads % 8};
+    Film part = render(scene, camera, size, options);
+    for (std::uint32_t y = 3; y < options.crop->y1; ++y) {
+      for (std::uint32_t x = threads; x < 71 - threads; ++x)
+        ASSERT_EQ(part.at(x - threads, y - 3), one.row(y)[x]) << threads;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microtrace

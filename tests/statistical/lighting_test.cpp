@@ -1,0 +1,157 @@
+/// Directions in which light is sought against the density that they are said to have.
+#include "render/lights/lighting.hpp"
+
+#include "support/chi_square.hpp"
+#include "support/pictures.hpp"
+
+#include <microtrace/bvh.hpp>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kRows = 16, kColumns = 32;
+
+/// Cells of equal solid angle.
+std::size_t cell_of(const Vec3& d) {
+  const double u = std::atan2(double{d.z}, double{d.x}) / (2 * kPi) + 0.5;
+  const auto row = std::min(int((double{d.y} + 1) / 2 * kRows), kRows - 1);
+  return std::size_t(row * kColumns + std::min(int(u * kColumns), kColumns - 1));
+}
+
+/// Lamps on all sides of the origin: one-sided and two-sided, facing it or not, a large one close
+/// by; a map with a bright spot.
+Scene lamps(bool with_map) {
+  Scene scene;
+  scene.materials = {{.double_sided = false, .emissive = Vec3(3)}, {.emissive = Vec3(1)}};
+  std::mt19937 random(8);
+  std::uniform_real_distribution<float> u(-1, 1);
+  const auto vector = [&] { return Vec3(u(random), u(random), u(random)); };
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const Vec3 way = vector();
+    scene.objects.push_back({.name = "lamp",
+                             .shape = parallelogram(way * (4 / std::sqrt(glm::dot(way, way))),
+                                                    vector() * 1.5F, vector() * 1.5F),
+                             .material = i % 2});
+  }
+  scene.objects.push_back(
+      {.name = "close", .shape = parallelogram({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}), .material = 1});
+  RadianceMap map{.width = 16, .height = 8};
+  for (std::uint32_t i = 0; i < 16 * 8; ++i) map.pixels.emplace_back(i == 37 ? 40.0F : 0.5F);
+  scene.environment = Environment{.content = Vec3(0)};
+  if (with_map) scene.environment->content = std::make_shared<const RadianceMap>(map);
+  return scene;
+}
+
+/// The density of all that lies in a direction, the one behind the other.
+double density(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
+               const Receiver& receiver, const Vec3& d) {
+  double sum = double{lighting.environment_density(receiver, d)};
+  const Ray ray{.o = receiver.p, .t_min = 0, .d = d};
+  for (std::optional<Hit> hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) {
+    const ShadingPoint point = shading.point(ray, *hit, 0, 0);
+    if (shading.emission(point) == Vec3(0) || shading.coverage(point) == 0) continue;
+    const float cosine = std::abs(glm::dot(d, point.at.n));
+    sum += double{lighting.emitter_density(hit->id, receiver, point.at.distance, cosine)};
+  }
+  return sum;
+}
+
+class Lamps : public testing::TestWithParam<bool> {};
+
+TEST_P(Lamps, SamplesHaveTheirDensity) {
+  const Scene scene = lamps(GetParam());
+  const Bvh bvh(scene, {.threads = 1});
+  const Shading shading(scene, bvh.primitives());
+  const Lighting lighting(scene, shading);
+  for (const Receiver& receiver : {Receiver{.p = {0, 0, 0}, .n = {0, 1, 0}},
+                                   Receiver{.p = {0.5F, -0.9F, 0.25F}, .n = {0.6F, 0.8F, 0}}}) {
+    constexpr int samples = 200000, fine = 48;
+    std::vector<double> counts(kRows * kColumns + 1), expected(kRows * kColumns + 1);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
+    int differ = 0;
+    for (int i = 0; i < samples; ++i) {
+      const Vec2 place(u(random), u(random));
+      const auto light = lighting.sample(receiver, place, u(random));
+      ++counts[light ? cell_of(light->wi) : counts.size() - 1];
+      if (!light || i >= 2000) continue;
+      // What the sample says itself, without what lies before or behind it.
+      ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-5);
+      differ += double{light->density} >
+                        1.01 * density(lighting, shading, bvh, receiver, light->wi) + 1e-6
+                    ? 1
+                    : 0;
+    }
+    EXPECT_LE(differ, 10);  // at edges of lamps and of the map's pixels
+    double within = 0;
+    for (int row = 0; row < kRows * fine; ++row) {
+      const double y = 2 * (row + 0.5) / (kRows * fine) - 1, r = std::sqrt(1 - y * y);
+      for (int column = 0; column < kColumns * fine; ++column) {
+        const double phi = ((column + 0.5) / (kColumns * fine) - 0.5) * 2 * kPi;
+        const Vec3 d(DVec3(r * std::cos(phi), y, r * std::sin(phi)));
+        const double mass = density(lighting, shading, bvh, receiver, d) * 4 * kPi /
+                            (kRows * kColumns * fine * fine);
+        expected[cell_of(d)] += mass * samples;
+        within += mass;
+      }
+    }
+    expected.back() = std::max(1 - within, 0.0) * samples;
+    EXPECT_LT(within, 1.002);
+    EXPECT_LT(chi_square_excess(counts, expected), 5.5) << within;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Environment, Lamps, testing::Bool());
+
+// Samples of a lamp lie evenly over its triangles.
+TEST(Lighting, PointsOfALampAreSpreadEvenly) {
+  Scene scene;
+  scene.materials = {{.emissive = Vec3(1)}};
+  scene.objects.push_back(
+      {.name = "lamp", .shape = parallelogram({0, 2, 0}, {2, 0, 0}, {1, 0, 3}), .material = 0});
+  scene.environment = Environment{.content = Vec3(0)};
+  const Bvh bvh(scene, {.threads = 1});
+  const Shading shading(scene, bvh.primitives());
+  const Lighting lighting(scene, shading);
+  const Receiver receiver{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
+  constexpr int samples = 100000, side = 10;
+  // The triangle is chosen by its light at the receiver, so each is counted alone: two cells of
+  // equal area for each square of the grid over the parallelogram.
+  std::array<std::vector<double>, 2> counts{std::vector<double>(side * side / 2),
+                                            std::vector<double>(side * side / 2)};
+  std::array<double, 2> all{};
+  for (int i = 0; i < samples; ++i) {
+    const Vec2 place(u(random), u(random));
+    const auto light = lighting.sample(receiver, place, u(random));
+    ASSERT_TRUE(light && light->target);
+    const DVec3 p = DVec3(receiver.p) + DVec3(light->way);
+    const double b = p.z / 3, a = (p.x - b) / 2;  // along, up
+    const auto triangle = std::size_t(*light->target);
+    // Barycentric coordinates: s for how far from the diagonal, t along what is left.
+    const double low = triangle == 0 ? b : a, high = triangle == 0 ? a : b;
+    const double s = std::clamp(high * high, 0.0, 1 - 1e-9),
+                 t = std::clamp(low / high, 0.0, 1 - 1e-9);
+    ++counts[triangle][std::size_t(s * side) * (side / 2) + std::size_t(t * (side / 2))];
+    ++all[triangle];
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<double> expected(counts[i].size(), all[i] / double(counts[i].size()));
+    EXPECT_LT(chi_square_excess(counts[i], expected), 5) << i;
+  }
+}
+
+}  // namespace
+}  // namespace microtrace
