@@ -23,6 +23,8 @@ QUESTIONS = [[scene, "-o", "-"] for scene in SCENES] + [
     ["gltf/cube.glb", "--view", "-71,33", "--integrator", "normal", "-o", "-"],
     ["gltf/knot.glb", "--integrator", "barycentric", "-o", "-"],
     ["gltf/knot.glb", "--integrator", "path", "--spp", "3", "--size", "160x120", "-o", "-"],
+    ["gltf/knot.glb", "--integrator", "path", "--spp", "2", "--size", "120x90", "--env", "studio", "--env-rotation", "40",
+     "--background", "env", "--exposure", "0.3", "--tonemap", "agx", "-o", "-"],
     ["framed.json", "--integrator", "depth", "-o", "-"],
     # The framed camera's numbers and the boxes to their last digit.
     ["perspective1.json", "--view", "12.5,-61", "-o", "/dev/null", "--sidecar", "-"],

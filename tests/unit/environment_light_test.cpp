@@ -271,5 +271,23 @@ TEST(Studio, IsGreyAndTheSameOnBothSides) {
   });
 }
 
+// What docs/light.md says of white surfaces.
+TEST(Studio, ExposesWhite) {
+  const EnvironmentLight light({.content = Studio{}});
+  const auto shown = [&](const Vec3& n) {
+    double irradiance = 0;
+    for_sphere(256, [&](const Vec3& d, double weight) {
+      irradiance += std::max(double{glm::dot(n, d)}, 0.0) * double{light.radiance(d).x} * weight;
+    });
+    return 0.8 * irradiance / kPi;
+  };
+  EXPECT_NEAR(shown({0, 1, 0}), 0.83, 0.05);
+  EXPECT_NEAR(shown({0, 0, 1}), 0.62, 0.05);
+  EXPECT_NEAR(shown({1, 0, 0}), 0.52, 0.05);
+  EXPECT_NEAR(shown({0, 0, -1}), 0.4, 0.05);
+  EXPECT_NEAR(shown({0, -1, 0}), 0.25, 0.05);
+  EXPECT_NEAR(light.mean_luminance(), 0.66, 0.01);
+}
+
 }  // namespace
 }  // namespace microtrace
