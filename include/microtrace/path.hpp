@@ -6,6 +6,7 @@
 #include <microtrace/tone_map.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace microtrace {
 
@@ -20,7 +21,8 @@ struct PathOptions {
 /// them. The mean over the samples is the radiance but for what paths longer than max_depth bring.
 class PathIntegrator final : public Integrator {
  public:
-  explicit PathIntegrator(const PathOptions& options = {}) : options_(options) {}
+  explicit PathIntegrator(const PathOptions& options = {});
+  ~PathIntegrator() override;
 
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
@@ -30,7 +32,9 @@ class PathIntegrator final : public Integrator {
   }
 
  private:
+  class Waves;
   PathOptions options_;
+  std::unique_ptr<Waves> waves_;
 };
 
 }  // namespace microtrace

@@ -96,6 +96,12 @@ void TextureMap::make_levels() {
     const auto height = static_cast<std::uint32_t>(size.y);
     const std::size_t finer = levels_.size();
     Level level{.width = std::max(width / 2, 1U), .height = std::max(height / 2, 1U)};
+    if (width % 2 == 0 && height % 2 == 0) {
+      halve(finer, level);
+      levels_.push_back(std::move(level));
+      size = level_size(levels_.size());
+      continue;
+    }
     level.samples.reserve(std::size_t{level.width} * level.height * 4);
     std::vector<Cover> columns;
     for (std::uint32_t x = 0; x < level.width; ++x) columns.push_back(cover(x, width));
@@ -117,6 +123,70 @@ void TextureMap::make_levels() {
     levels_.push_back(std::move(level));
     size = level_size(levels_.size());
   }
+}
+
+namespace {
+
+/// Four numbers in registers: GLM's are computed one by one.
+typedef double Four __attribute__((vector_size(32)));
+
+/// What make_levels does where each pixel covers four. add(x, y, sum) adds to the sum a pixel of
+/// the finer level times kPart.
+constexpr double kPart = 0.25 * 65535.0;
+template <class Add>
+void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,
+                 std::vector<std::uint16_t>& samples) {
+  samples.resize(std::size_t{width} * height * 4);
+  std::uint16_t* to = samples.data();
+  for (std::uint32_t y = 0; y < height; ++y) {
+    for (std::uint32_t x = 0; x < width; ++x) {
+      Four sum = Four{} + 0.5;  // rounds to the nearest
+      add(2 * x, 2 * y, sum);
+      add(2 * x + 1, 2 * y, sum);
+      add(2 * x, 2 * y + 1, sum);
+      add(2 * x + 1, 2 * y + 1, sum);
+      for (int c = 0; c < 4; ++c) *to++ = static_cast<std::uint16_t>(std::min(sum[c], 65535.0));
+    }
+  }
+}
+
+}  // namespace
+
+void TextureMap::halve(std::size_t finer, Level& level) const {
+  const std::size_t columns = std::size_t{2} * level.width;
+  if (finer > 0) {
+    const std::uint16_t* from = levels_[finer - 1].samples.data();
+    const auto add = [=](std::size_t x, std::size_t y, Four& sum) {
+      const std::uint16_t* s = from + (y * columns + x) * 4;
+      sum += kPart * (Four{double(s[0]), double(s[1]), double(s[2]), double(s[3])} * (1 / 65535.0));
+    };
+    return halve_lines(level.width, level.height, add, level.samples);
+  }
+  const float *color = color_table_.data(), *alpha = alpha_table_.data();
+  std::visit(
+      [&](const auto& samples) {
+        const auto halve_from = [&]<std::size_t channels>() {
+          const auto* from = samples.data();
+          const auto add = [=](std::size_t x, std::size_t y, Four& sum) {
+            const auto* s = from + (y * columns + x) * channels;
+            const double a = channels % 2 == 0 ? alpha[s[channels - 1]] : 1;
+            constexpr int green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2;
+            sum += kPart * Four{color[s[0]], color[s[green]], color[s[blue]], a};
+          };
+          halve_lines(level.width, level.height, add, level.samples);
+        };
+        switch (image_.channels) {
+          case 1:
+            return halve_from.template operator()<1>();
+          case 2:
+            return halve_from.template operator()<2>();
+          case 3:
+            return halve_from.template operator()<3>();
+          default:
+            return halve_from.template operator()<4>();
+        }
+      },
+      image_.samples);
 }
 
 DVec2 TextureMap::level_size(std::size_t level) const {

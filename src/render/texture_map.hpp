@@ -69,6 +69,8 @@ class TextureMap {
   /// At a footprint of so many pixels of the image, above 1.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
   void make_levels();
+  /// Fills a level of half the width and height of the finer one, both even.
+  void halve(std::size_t finer, Level& level) const;
 
   const Image& image_;
   Sampler sampler_;

@@ -16,30 +16,35 @@ void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& c
   any_target_ |= light.target.has_value();
 }
 
-float ShadowRays::passed(const Ray& ray, std::optional<Hit> hit,
-                         const std::optional<PrimitiveId>& target) const {
+namespace {
+
+/// The share of the light that passes all that is before t_max or the target.
+float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::optional<Hit> hit,
+             const std::optional<PrimitiveId>& target) {
   float passed = 1;
   while (hit && hit->id != target) {
-    passed *= 1 - shading_.coverage(shading_.point(ray, *hit, 0, 0));
+    passed *= 1 - shading.coverage(shading.point(ray, *hit, 0, 0));
     if (passed == 0) return 0;
-    hit = bvh_.next(ray, *hit);
+    hit = bvh.next(ray, *hit);
   }
   return hit || !target ? passed : 0;
 }
 
-void ShadowRays::arrive(std::span<Vec3> colors) {
+}  // namespace
+
+void ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
   const auto rays = std::span(rays_).first(count_);
-  if (shading_.all_cover() && !any_target_) {
+  if (shading.all_cover() && !any_target_) {
     std::array<bool, kRandomBatch> occluded;
-    bvh_.occluded(rays, std::span(occluded).first(count_));
+    bvh.occluded(rays, std::span(occluded).first(count_));
     for (std::size_t i = 0; i < count_; ++i) {
       if (!occluded[i]) colors[slots_[i]] += light_[i];
     }
   } else {
     std::array<std::optional<Hit>, kRandomBatch> hits;
-    bvh_.intersect(rays, std::span(hits).first(count_));
+    bvh.intersect(rays, std::span(hits).first(count_));
     for (std::size_t i = 0; i < count_; ++i)
-      colors[slots_[i]] += passed(rays[i], hits[i], targets_[i]) * light_[i];
+      colors[slots_[i]] += passed(bvh, shading, rays[i], hits[i], targets_[i]) * light_[i];
   }
   count_ = 0;
   any_target_ = false;

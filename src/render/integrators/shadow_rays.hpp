@@ -17,22 +17,14 @@ namespace microtrace {
 /// Rays from surfaces to lights, asked together.
 class ShadowRays {
  public:
-  ShadowRays(const Bvh& bvh, const Shading& shading) : bvh_(bvh), shading_(shading) {}
-
   /// From a spawned origin. `light` is for colors[slot] if nothing is in between. At most
   /// kRandomBatch.
   void add(const Vec3& origin, const LightSample& light, const Vec3& color, std::size_t slot);
 
   /// Adds what arrives to the colours, in the order of add(), and forgets the rays.
-  void arrive(std::span<Vec3> colors);
+  void arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors);
 
  private:
-  /// The share of the light that passes all that is before t_max or the target.
-  [[nodiscard]] float passed(const Ray& ray, std::optional<Hit> hit,
-                             const std::optional<PrimitiveId>& target) const;
-
-  const Bvh& bvh_;
-  const Shading& shading_;
   std::size_t count_ = 0;
   bool any_target_ = false;
   std::array<Ray, kRandomBatch> rays_;

@@ -38,37 +38,38 @@ Vec3 transmittance(const Vec3& absorption, float distance) {
 
 }  // namespace
 
-Wave::Wave(const World& world, const PathOptions& options, std::span<const Ray> rays,
-           std::span<const SampleId> ids)
-    : world_(world),
-      shading_(*world.shading),
-      lighting_(*world.lighting),
-      options_(options),
-      sample_width_(1 / std::sqrt(static_cast<float>(world.samples))),
-      shadow_rays_(world.bvh, *world.shading),
-      count_(rays.size()) {
+void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids) {
+  world_ = &world;
+  shading_ = world.shading;
+  lighting_ = world.lighting;
+  sample_width_ = 1 / std::sqrt(static_cast<float>(world.samples));
+  count_ = rays.size();
+  depth_ = 1;
   for (std::size_t i = 0; i < count_; ++i) {
     rays_[i] = rays[i];
-    paths_[i] = {.sobol = sampling::Sobol(world.seed, ids[i]), .slot = i};
+    paths_[i] = {.sobol = sampling::Sobol(world_->seed, ids[i]), .slot = i};
     colors_[i] = Vec3(0);
     alphas_[i] = 0;
   }
 }
 
-void Wave::trace(std::span<Sample> samples) {
+void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
+                 std::span<const SampleId> ids, std::span<Sample> samples) {
+  begin(world, rays, ids);
+  max_depth_ = options.max_depth;
   for (; count_ > 0; ++depth_) {
-    world_.bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
+    world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) step(i);
     set_off();
-    shadow_rays_.arrive(colors_);
+    shadow_rays_.arrive(world_->bvh, *shading_, colors_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
 }
 
 void Wave::set_off() {
-  world_.bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
-                           std::span(origins_).first(spawn_count_));
+  world_->bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
+                            std::span(origins_).first(spawn_count_));
   // Without an origin there is no room between two walls.
   for (const Shadow& shadow : std::span(shadows_).first(shadow_count_)) {
     if (const auto& origin = origins_[shadow.spawn])
@@ -88,16 +89,16 @@ void Wave::escape(const Ray& ray, const PathState& path) {
   const Vec3 wi = bsdf::unit(ray.d);
   if (path.density > 0) {
     const float weight =
-        power_heuristic(path.density, lighting_.environment_density(path.from, wi));
-    colors_[path.slot] += path.throughput * lighting_.environment(wi) * weight;
-  } else if (lighting_.is_seen()) {  // else the background is the picture's business
-    colors_[path.slot] += path.throughput * lighting_.environment(wi);
+        power_heuristic(path.density, lighting_->environment_density(path.from, wi));
+    colors_[path.slot] += path.throughput * lighting_->environment(wi) * weight;
+  } else if (lighting_->is_seen()) {  // else the background is the picture's business
+    colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;
   }
 }
 
 void Wave::widen(const Ray& ray, PathState& path) const {
-  const RayDifferential step = world_.camera.differential(ray);
+  const RayDifferential step = world_->camera.differential(ray);
   const DVec3 d(ray.d);
   const double spread = std::sqrt(glm::dot(step.d_dy, step.d_dy) / glm::dot(d, d));
   const double begin = std::sqrt(glm::dot(step.o_dy, step.o_dy));
@@ -113,12 +114,12 @@ void Wave::step(std::size_t i) {
   ShadingPoint point;
   for (std::uint32_t layer = 0;; ++layer) {
     if (!hit) return escape(ray, path);
-    point = shading_.point(ray, *hit, path.begin, path.spread);
-    const float coverage = shading_.coverage(point);
+    point = shading_->point(ray, *hit, path.begin, path.spread);
+    const float coverage = shading_->coverage(point);
     if (coverage == 1) break;
     const std::uint32_t number = pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
     if (coverage > 0 && path.sobol.one(number) < coverage) break;
-    hit = world_.bvh.next(ray, *hit);
+    hit = world_->bvh.next(ray, *hit);
   }
   if (path.absorption != Vec3(0))
     path.throughput *= transmittance(path.absorption, point.at.distance);
@@ -126,22 +127,22 @@ void Wave::step(std::size_t i) {
   const bool from_camera = path.density == 0;
   if (from_camera) alphas_[path.slot] = 1;
   const Vec3 d = bsdf::unit(ray.d);
-  if (const Vec3 emission = shading_.emission(point); emission != Vec3(0)) {
+  if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
     const float cosine = std::abs(glm::dot(d, point.at.n));
-    const float other = lighting_.emitter_density(hit->id, path.from, point.at.distance, cosine);
+    const float other = lighting_->emitter_density(hit->id, path.from, point.at.distance, cosine);
     const float weight = from_camera ? 1 : power_heuristic(path.density, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
-  if (depth_ >= options_.max_depth || point.look->material->unlit) return;
+  if (depth_ >= max_depth_ || point.look->material->unlit) return;
 
   const int channel = channel_of(*point.look->material, path);
-  const bsdf::Frame frame = shading_.frame(point, -d);
+  const bsdf::Frame frame = shading_->frame(point, -d);
   Vec3 wo = frame.to_local(-d);
   wo.z = std::max(wo.z, 1e-5F);  // above, whatever rounding does
-  const bsdf::Bsdf bsdf(shading_.parameters(point, channel), wo);
+  const bsdf::Bsdf bsdf(shading_->parameters(point, channel), wo);
   const Vertex vertex{
       .ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf, .channel = channel};
-  if (lighting_.can_sample()) ask_light(vertex, path);
+  if (lighting_->can_sample()) ask_light(vertex, path);
   scatter(vertex, path);
 }
 
@@ -164,7 +165,7 @@ std::size_t Wave::spawn(const Vertex& vertex, const Vec3& direction) {
 }
 
 void Wave::ask_light(const Vertex& vertex, const PathState& path) {
-  const std::optional<LightSample> light = lighting_.sample(
+  const std::optional<LightSample> light = lighting_->sample(
       {.p = vertex.point.at.p, .n = vertex.frame.n}, path.sobol.pair(pair(sampling::kLightPair)),
       path.sobol.one(pair(sampling::kLightChoicePair)));
   if (!light) return;
@@ -194,7 +195,7 @@ void Wave::scatter(const Vertex& vertex, const PathState& path) {
     next.throughput *= one_channel(vertex, path);
     next.channel = vertex.channel;
     if (encloses_medium(*vertex.point.look->material))
-      next.absorption = shading_.absorption(vertex.point);
+      next.absorption = shading_->absorption(vertex.point);
   }
   if (depth_ >= kFirstRoulette) {
     const Vec3& t = next.throughput;

@@ -33,16 +33,15 @@ struct PathState {
   float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
 };
 
+/// Large: made once for many batches.
 class Wave {
  public:
-  /// One path for each ray; at most kRandomBatch. World and options must outlive it.
-  Wave(const World& world, const PathOptions& options, std::span<const Ray> rays,
-       std::span<const SampleId> ids);
-
-  /// Follows all paths to their ends. Once.
-  void trace(std::span<Sample> samples);
+  /// Follows a path for each ray to its end; at most kRandomBatch.
+  void trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
+             std::span<const SampleId> ids, std::span<Sample> samples);
 
  private:
+  void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
   /// Where a path stands.
   struct Vertex {
     const Ray& ray;
@@ -83,14 +82,15 @@ class Wave {
     return sampling::kFirstVertexPair + (depth_ - 1) * sampling::kVertexPairs + which;
   }
 
-  const World& world_;
-  const Shading& shading_;
-  const Lighting& lighting_;
-  const PathOptions& options_;
+  // Of the present batch:
+  const World* world_ = nullptr;
+  const Shading* shading_ = nullptr;
+  const Lighting* lighting_ = nullptr;
   std::uint32_t depth_ = 1;  // straight parts so far, the one under way among them
-  float sample_width_;       // of a pixel
+  std::uint32_t max_depth_ = 1;
+  float sample_width_ = 1;  // of a pixel
   ShadowRays shadow_rays_;
-  std::size_t count_;
+  std::size_t count_ = 0;
   std::array<Ray, kRandomBatch> rays_;
   std::array<PathState, kRandomBatch> paths_;
   std::array<std::optional<Hit>, kRandomBatch> hits_;
