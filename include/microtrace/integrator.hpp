@@ -36,6 +36,7 @@ struct World {
 struct SampleId {
   std::uint32_t x = 0, y = 0;  ///< pixel of the whole picture
   std::uint32_t index = 0;     ///< in the pixel, from 0
+  std::uint32_t key = 0;       ///< a random number of seed and pixel
 };
 
 /// The light of one ray without the scene's background.

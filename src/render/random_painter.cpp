@@ -3,6 +3,9 @@
 #include "render/ray_batch.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
+#include "render/tiles.hpp"
+
+#include <array>
 
 namespace microtrace {
 
@@ -23,14 +26,20 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
       if (!sums[pixel].add(sample.color, sample.alpha, background_)) ++invalid;
     });
   };
+  std::array<std::uint32_t, std::size_t{kTileEdge} * kTileEdge> keys;
+  std::size_t pixels = 0;
+  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+    for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
+      keys[pixels++] = sampling::pixel_key(world_.seed, x, y);
+  }
   // Sample by sample, so that the rays of neighbouring pixels make bundles.
   for (std::uint32_t k = range.first; k < range.last; ++k) {
     std::size_t pixel = 0;
     for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
       for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++pixel) {
         if (batch.is_full()) trace();
-        const SampleId id{.x = x, .y = y, .index = k};
-        const Vec2 uv = sampling::Sobol(world_.seed, id).pair(sampling::kPixelPair);
+        const SampleId id{.x = x, .y = y, .index = k, .key = keys[pixel]};
+        const Vec2 uv = sampling::Sobol(id.key, id.index).pair(sampling::kPixelPair);
         const PixelOffset offset = filter_(uv.x, uv.y);
         batch.add(pixel, id, [&] { return ray_(x + offset.x, y + offset.y); });
       }

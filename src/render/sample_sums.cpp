@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
+
 namespace microtrace {
 namespace {
 
@@ -17,6 +19,14 @@ double luminance(const DVec3& color) {
 
 bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
   ++count;
+  // Rays that hit nothing, which are many, add at most the background's luminance.
+  if (sample == Vec3(0) && sample_alpha == 0) {
+    if (background != Vec3(0)) {
+      const double y = luminance(glm::min(DVec3(background), DVec3(kMaxSampleLight)));
+      square.add(y * y);
+    }
+    return true;
+  }
   const bool is_number = !std::isnan(sample.x) && !std::isnan(sample.y) && !std::isnan(sample.z) &&
                          !std::isnan(sample_alpha);
   if (!is_number) {

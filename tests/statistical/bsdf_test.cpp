@@ -26,7 +26,7 @@ Vec3 direction(double theta, double phi = 0.3) {
 DVec3 reflected(const Bsdf& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
-    const sampling::Sobol sobol(7, {.x = 0, .y = 0, .index = k});
+    const sampling::Sobol sobol(7, k);
     if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += DVec3(s->weight);
   }
   return sum / double(samples);
@@ -142,7 +142,7 @@ TEST(Bsdf, SmoothGlassBendsLight) {
   const Bsdf bsdf({.roughness = 0, .transmission = 1, .eta = 1.5F}, direction(0.8, 0));
   int below = 0;
   for (std::uint32_t k = 0; k < 200; ++k) {
-    const sampling::Sobol sobol(7, {.x = 0, .y = 0, .index = k});
+    const sampling::Sobol sobol(7, k);
     const auto s = bsdf.sample(sobol.pair(0), sobol.one(1));
     if (!s || s->wi.z > 0) continue;
     ++below;

@@ -50,7 +50,7 @@ void for_sphere(std::uint32_t rows, F&& f) {
 }
 
 Vec2 sobol(std::uint32_t i) {
-  return sampling::Sobol(7, {.x = 1, .y = 2, .index = i}).pair(0);
+  return sampling::Sobol(7, i).pair(0);
 }
 
 TEST(EnvironmentLight, AUniformOneIsTheSameFromEverywhere) {

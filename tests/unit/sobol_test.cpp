@@ -13,7 +13,7 @@ namespace {
 std::vector<Vec2> points(std::uint32_t count, std::uint32_t pair, std::uint32_t seed = 0) {
   std::vector<Vec2> result;
   for (std::uint32_t k = 0; k < count; ++k)
-    result.push_back(Sobol(seed, {.x = 3, .y = 7, .index = k}).pair(pair));
+    result.push_back(Sobol(pixel_key(seed, 3, 7), k).pair(pair));
   return result;
 }
 
@@ -50,7 +50,7 @@ TEST(Sobol, PairsAreIndependent) {
     double sum = 0;
     for (std::uint32_t pixel = 0; pixel < pixels; ++pixel) {
       for (std::uint32_t k = 0; k < count; ++k) {
-        const Sobol sobol(1, {.x = pixel, .y = 0, .index = k});
+        const Sobol sobol(pixel_key(1, pixel, 0), k);
         sum += double{sobol.pair(0).x} * sobol.pair(other).x;
       }
     }
@@ -60,16 +60,16 @@ TEST(Sobol, PairsAreIndependent) {
 }
 
 TEST(Sobol, SeedPixelAndPairMakeOthers) {
-  const Vec2 base = Sobol(0, {.x = 1, .y = 2, .index = 3}).pair(0);
-  EXPECT_NE(base, Sobol(1, {.x = 1, .y = 2, .index = 3}).pair(0));
-  EXPECT_NE(base, Sobol(0, {.x = 2, .y = 1, .index = 3}).pair(0));
-  EXPECT_NE(base, Sobol(0, {.x = 1, .y = 2, .index = 4}).pair(0));
-  EXPECT_NE(base, Sobol(0, {.x = 1, .y = 2, .index = 3}).pair(1));
+  const Vec2 base = Sobol(pixel_key(0, 1, 2), 3).pair(0);
+  EXPECT_NE(base, Sobol(pixel_key(1, 1, 2), 3).pair(0));
+  EXPECT_NE(base, Sobol(pixel_key(0, 2, 1), 3).pair(0));
+  EXPECT_NE(base, Sobol(pixel_key(0, 1, 2), 4).pair(0));
+  EXPECT_NE(base, Sobol(pixel_key(0, 1, 2), 3).pair(1));
 }
 
 TEST(Sobol, OneIsThePairsFirst) {
   for (std::uint32_t k = 0; k < 100; ++k) {
-    const Sobol sobol(9, {.x = 5, .y = 5, .index = k});
+    const Sobol sobol(pixel_key(9, 5, 5), k);
     EXPECT_EQ(sobol.one(4), sobol.pair(4).x);
   }
 }

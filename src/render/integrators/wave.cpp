@@ -47,7 +47,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   depth_ = 1;
   for (std::size_t i = 0; i < count_; ++i) {
     rays_[i] = rays[i];
-    paths_[i] = {.sobol = sampling::Sobol(world_->seed, ids[i]), .slot = i};
+    paths_[i] = {.sobol = sampling::Sobol(ids[i].key, ids[i].index), .slot = i};
     colors_[i] = Vec3(0);
     alphas_[i] = 0;
   }

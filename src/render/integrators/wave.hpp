@@ -23,7 +23,7 @@ namespace microtrace {
 
 /// One path on its way.
 struct PathState {
-  sampling::Sobol sobol{0, {}};
+  sampling::Sobol sobol{};
   std::size_t slot = 0;  ///< in the batch
   Vec3 throughput{1};
   float density = 0;            ///< with which its last direction was chosen; 0: by the camera

@@ -3,7 +3,6 @@
 
 #include "render/sampling/hash.hpp"
 
-#include <microtrace/integrator.hpp>
 #include <microtrace/math.hpp>
 
 #include <array>
@@ -67,14 +66,19 @@ constexpr float unit_float(std::uint32_t x) {
 
 }  // namespace detail
 
+/// What tells the random numbers of one pixel from another's.
+constexpr std::uint32_t pixel_key(std::uint32_t seed, std::uint32_t x, std::uint32_t y) {
+  return hash(hash(hash(seed, x), y), 0x9e3779b9U);
+}
+
 /// The numbers of one sample of one pixel. Dimensions come in pairs; the pairs of a pixel's samples
 /// are a (0, 2)-sequence each, scrambled by Owen's method and put in an order of its own, so that
 /// no two pairs have to do with each other (B. Burley, Practical hash-based Owen scrambling, 2020).
 class Sobol {
  public:
-  Sobol(std::uint32_t seed, const SampleId& id)
-      : key_(hash(hash(hash(seed, id.x), id.y), 0x9e3779b9U)),
-        index_(detail::reversed_bits(id.index)) {}
+  Sobol() = default;
+  /// Of one of a pixel's samples; the key is pixel_key's.
+  Sobol(std::uint32_t key, std::uint32_t index) : key_(key), index_(detail::reversed_bits(index)) {}
 
   /// Two numbers in [0, 1) for the pair of that number.
   [[nodiscard]] Vec2 pair(std::uint32_t number) const {
@@ -97,7 +101,7 @@ class Sobol {
   }
 
  private:
-  std::uint32_t key_, index_;
+  std::uint32_t key_ = 0, index_ = 0;
 };
 
 }  // namespace microtrace::sampling
