@@ -13,7 +13,7 @@ namespace microtrace {
 struct PathOptions {
   /// The most straight parts of a path: with 1 only what shines itself is seen, with 2 what it
   /// lights directly. At least 1.
-  std::uint32_t max_depth = 16;
+  std::uint32_t max_depth = 32;
 };
 
 /// Light by path tracing (J. Kajiya, The rendering equation, 1986): the scene's lights, its

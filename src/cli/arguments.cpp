@@ -92,7 +92,7 @@ Parsed parse_arguments(int argc, char** argv) {
                  "what the picture shows: flat (colours without light), path (with light, by path "
                  "tracing), or a quantity as --aov has them [glTF: path, JSON: flat]");
   app.add_option("--max-depth", a.max_depth,
-                 "the most straight parts of a path of light, 2: direct light alone [16]")
+                 "the most straight parts of a path of light, 2: direct light alone [32]")
       ->check(CLI::Range(1U, 65536U))
       ->type_name("N");
   app.add_option(
