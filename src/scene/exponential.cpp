@@ -33,4 +33,14 @@ double binary_logarithm(double x) {
   return static_cast<double>(exponent) + 2 / std::numbers::ln2 * (s * sum);
 }
 
+double exponential(double x) {
+  return x < -690 ? 0 : power_of_two(x * std::numbers::log2e);
+}
+
+double power(double x, double y) {
+  if (!(x >= 0x1p-1000)) return 0;
+  const double exponent = y * binary_logarithm(x);
+  return exponent < -1000 ? 0 : power_of_two(exponent);
+}
+
 }  // namespace microtrace

@@ -43,5 +43,20 @@ TEST(Exponential, WholePowersAreExact) {
   }
 }
 
+TEST(Exponential, NaturalExponentialsAndPowersAgreeWithTheLibrary) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> argument(-690, 690), base(0.01, 1), exponent(0.01, 100);
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = argument(random), b = base(random), y = exponent(random);
+    ASSERT_NEAR(exponential(x) / std::exp(x), 1, 1e-12) << x;
+    ASSERT_NEAR(power(b, y) / std::pow(b, y), 1, 1e-12) << b << ' ' << y;
+  }
+  EXPECT_EQ(exponential(0), 1);
+  EXPECT_EQ(exponential(-1e300), 0);
+  EXPECT_EQ(power(0, 2), 0);
+  EXPECT_EQ(power(1, 1e6), 1);
+  EXPECT_EQ(power(0.5, 1e6), 0);
+}
+
 }  // namespace
 }  // namespace microtrace

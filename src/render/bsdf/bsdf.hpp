@@ -6,6 +6,7 @@
 /// point away from the surface: wo to where the path comes from, wi to where it goes on, above or
 /// below.
 
+#include "render/bsdf/anisotropic_ggx.hpp"
 #include "render/bsdf/ggx.hpp"
 #include "render/bsdf/schlick.hpp"
 
@@ -14,6 +15,13 @@
 #include <optional>
 
 namespace microtrace::bsdf {
+
+/// Over part of a surface (KHR_materials_iridescence).
+struct ThinFilm {
+  float share = 1;        ///< in [0, 1]
+  float ior = 1.3F;       ///< at least 1
+  float thickness = 400;  ///< nanometres
+};
 
 /// What the textures and factors of a material come to at one point.
 struct Parameters {
@@ -27,6 +35,11 @@ struct Parameters {
   /// Of diffuse light: what goes through, and in which colour (KHR_materials_diffuse_transmission).
   float diffuse_transmission = 0;
   Vec3 diffuse_transmission_color{1};
+  /// In [0, 1], and the direction of the longer highlights, of unit length
+  /// (KHR_materials_anisotropy).
+  float anisotropy = 0;
+  Vec2 along{1, 0};
+  std::optional<ThinFilm> film{};
 };
 
 /// f(wo, wi) |cos(theta_i)|, and the density with which sample() gives wi, per solid angle.
@@ -51,10 +64,13 @@ struct DirectionSample {
 ///
 /// Light that is refracted (B. Walter et al., Microfacet models for refraction, 2007) is counted
 /// without the square of the index: radiance divided by it stays the same on its way in and out.
-class Bsdf {
+///
+/// Microfacets is Ggx, or AnisotropicGgx: then what takes several reflections is left out.
+template <typename Microfacets>
+class BasicBsdf {
  public:
   /// wo.z > 0.
-  Bsdf(const Parameters& parameters, const Vec3& wo);
+  BasicBsdf(const Parameters& parameters, const Vec3& wo);
 
   [[nodiscard]] Evaluation evaluate(const Vec3& wi) const;
 
@@ -73,6 +89,8 @@ class Bsdf {
   /// Of samples at a facet of which wo is seen at that cosine, those that are reflected.
   [[nodiscard]] float reflected_share(const Vec3& fresnel) const;
   [[nodiscard]] Vec3 fresnel(float cosine) const;
+  /// Sets what lies under the film; what it reflects head on, about.
+  Vec3 add_film();
 
   /// What the dielectric's specular part leaves over.
   [[nodiscard]] float left_over(const Albedo& albedo) const {
@@ -80,9 +98,10 @@ class Bsdf {
   }
 
   Vec3 wo_;
-  Ggx ggx_;
+  Microfacets ggx_;
   GgxAlbedo albedo_;
   Schlick specular_;  ///< of metal and dielectric together
+  std::optional<ThinFilm> film_;
   struct Grey {
     float f0, f90;
     [[nodiscard]] float albedo(const Albedo& a) const {
@@ -97,5 +116,10 @@ class Bsdf {
   // Of samples: by a facet's normal, and of the others those below.
   float facet_share_, below_share_;
 };
+
+using Bsdf = BasicBsdf<Ggx>;
+using AnisotropicBsdf = BasicBsdf<AnisotropicGgx>;
+extern template class BasicBsdf<Ggx>;
+extern template class BasicBsdf<AnisotropicGgx>;
 
 }  // namespace microtrace::bsdf

@@ -48,6 +48,15 @@ class Ggx {
     return distribution / (2 * (z_o + root(z_o)));
   }
 
+  // By directions, as AnisotropicGgx has them.
+  [[nodiscard]] float root(const Vec3& w) const { return root(w.z); }
+  [[nodiscard]] float visibility(const Vec3& wo, const Vec3& wi) const {
+    return visibility(wo.z, wi.z);
+  }
+  [[nodiscard]] float reflected_density(const Vec3& wo, float distribution) const {
+    return reflected_density(wo.z, distribution);
+  }
+
   /// A normal that wo sees (J. Dupuy and A. Benyoub, Sampling visible GGX normals with spherical
   /// caps, 2023).
   [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {

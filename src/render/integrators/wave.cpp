@@ -139,7 +139,8 @@ void Wave::step(std::size_t i) {
   const bsdf::Frame frame = shading_->frame(point, -d);
   Vec3 wo = frame.to_local(-d);
   wo.z = std::max(wo.z, 1e-5F);  // above, whatever rounding does
-  const bsdf::Bsdf bsdf(shading_->parameters(point, channel), wo);
+  const bsdf::Scattering bsdf(shading_->parameters(point, frame, channel),
+                              shading_->layers(point, frame, -d), wo);
   const Vertex vertex{
       .ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf, .channel = channel};
   if (lighting_->can_sample()) ask_light(vertex, path);

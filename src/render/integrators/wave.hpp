@@ -2,8 +2,8 @@
 /// Many paths that go on together, a straight part of each at a time, so that their rays make
 /// batches.
 
-#include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/frame.hpp"
+#include "render/bsdf/scattering.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/sampling/dimensions.hpp"
@@ -48,7 +48,7 @@ class Wave {
     Hit hit;
     const ShadingPoint& point;
     const bsdf::Frame& frame;
-    const bsdf::Bsdf& bsdf;
+    const bsdf::Scattering& bsdf;
     int channel;  ///< for which a dispersing surface bends the path
   };
   /// A ray to a light or on along the path, without origin yet.

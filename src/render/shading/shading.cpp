@@ -1,10 +1,12 @@
 #include "render/shading/shading.hpp"
 
+#include "render/shading/normals.hpp"
 #include "render/shading/texture_slots.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace {
@@ -23,28 +25,6 @@ float head_on_reflectance(float ior) {
 float dispersed(float ior, float dispersion, int channel) {
   const float half_spread = (ior - 1) * 0.025F * dispersion;
   return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);
-}
-
-/// Whether wo is above the horizon of n, and its mirror image above that of the surface itself, of
-/// normal ng.
-bool reflects_outwards(const Vec3& n, const Vec3& ng, const Vec3& wo) {
-  constexpr float least = 0.01F;
-  const float cosine = glm::dot(n, wo);
-  return cosine >= least &&
-         glm::dot(2 * cosine * n - wo, ng) >= std::min(0.9F * glm::dot(wo, ng), least);
-}
-
-/// Interpolated normals and those of textures may be such that what they reflect would go below the
-/// surface and be lost: then the nearest, about, on the way to the surface's own that does not.
-Vec3 usable_normal(const Vec3& n, const Vec3& ng, const Vec3& wo) {
-  if (reflects_outwards(n, ng, wo)) return n;
-  float low = 0, high = 1;
-  for (int i = 0; i < 6; ++i) {
-    const float middle = (low + high) * 0.5F;
-    const bool is_good = reflects_outwards(bsdf::unit(n + middle * (ng - n)), ng, wo);
-    (is_good ? high : low) = middle;
-  }
-  return bsdf::unit(n + high * (ng - n));
 }
 
 }  // namespace
@@ -111,7 +91,8 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
   return color == Vec3(0) ? color : color * Vec3(look.emissive.at(point));
 }
 
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) const {
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Frame& frame,
+                                     int channel) const {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
@@ -129,6 +110,7 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) con
     p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
     p.dielectric.f90 = factor;
   }
+  if (m.anisotropy) add_anisotropy(point, frame, p);
   if (const auto& t = m.transmission) {
     p.transmission = t->factor * look.transmission.at(point).x;
     if (encloses_medium(m)) {
@@ -136,6 +118,19 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) con
       if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
       p.eta = point.at.front ? ior : 1 / ior;
     }
+  }
+  if (const auto& archived = m.specular_glossiness) {
+    const Vec4 t = look.specular_glossiness.at(point);
+    p.metallic = 0;
+    p.roughness = 1 - archived->glossiness * t.w;
+    p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
+  }
+  if (const auto& i = m.iridescence) {
+    const bsdf::ThinFilm film{.share = i->factor * look.iridescence.at(point).x,
+                              .ior = i->ior,
+                              .thickness = glm::mix(i->thickness_minimum, i->thickness_maximum,
+                                                    look.iridescence_thickness.at(point).y)};
+    if (film.share > 0 && film.thickness > 0) p.film = film;
   }
   if (const auto& d = m.diffuse_transmission) {
     p.diffuse_transmission = d->factor * look.diffuse_transmission.at(point).w;
@@ -151,18 +146,7 @@ Vec3 Shading::absorption(const ShadingPoint& point) const {
 }
 
 bsdf::Frame Shading::frame(const ShadingPoint& point, const Vec3& wo) const {
-  const TexturedMaterial& look = *point.look;
-  Vec3 n = point.at.ns;
-  if (look.normal.map != nullptr) {
-    const Vec4 tangent = point.at.tangent();
-    if (tangent.w != 0) {
-      const Vec3 t(tangent), b = tangent.w * glm::cross(n, t);
-      const Vec3 v = Vec3(look.normal.at(point)) * 2.0F - Vec3(1);
-      const float scale = look.material->normal_scale;
-      const Vec3 turned = scale * v.x * t + scale * v.y * b + v.z * n;
-      if (glm::dot(turned, turned) > 0) n = bsdf::unit(turned);
-    }
-  }
+  const Vec3 n = mapped_normal(point, point.look->normal, point.look->material->normal_scale);
   const float side = point.at.front ? 1.0F : -1.0F;
   return bsdf::Frame::about(usable_normal(side * n, side * point.at.n, wo));
 }

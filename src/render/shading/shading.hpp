@@ -3,6 +3,7 @@
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/frame.hpp"
+#include "render/bsdf/layered.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/texture_map.hpp"
 
@@ -42,6 +43,9 @@ struct TexturedMaterial {
   TextureSlot base_color{}, metallic_roughness{}, normal{}, emissive{};
   TextureSlot specular{}, specular_color{}, transmission{};
   TextureSlot diffuse_transmission{}, diffuse_transmission_color{};
+  TextureSlot clearcoat{}, clearcoat_roughness{}, clearcoat_normal{};
+  TextureSlot sheen_color{}, sheen_roughness{}, anisotropy{};
+  TextureSlot iridescence{}, iridescence_thickness{}, specular_glossiness{};
   /// That by which the places of all that share them are found; often it is all.
   TextureSlot layout{};
   Vec3 absorption{0};  ///< by the medium that it encloses, in powers of two per length
@@ -94,9 +98,14 @@ class Shading {
   /// Radiance that leaves the point to the side of the ray. Unlit materials leave their colour.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
-  /// For a ray of that direction's side; `channel` is the one that a path through dispersing media
-  /// is of, 0 to 2; 3: none.
-  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, int channel) const;
+  /// On the ray's side, in the coordinates of frame(); `channel` is the one that a path through
+  /// dispersing media is of, 0 to 2; 3: none.
+  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, const bsdf::Frame& frame,
+                                            int channel) const;
+
+  /// What lies over that, if anything does; `wo` in world space.
+  [[nodiscard]] std::optional<bsdf::Layers> layers(const ShadingPoint& point,
+                                                   const bsdf::Frame& frame, const Vec3& wo) const;
 
   /// The medium below the surface absorbs so much, in powers of two per length; 0 where there is
   /// none.
@@ -114,6 +123,8 @@ class Shading {
   };
 
   [[nodiscard]] Vec4 base_color(const ShadingPoint& point) const;
+  static void add_anisotropy(const ShadingPoint& point, const bsdf::Frame& frame,
+                             bsdf::Parameters& p);
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;

@@ -57,6 +57,23 @@ TexturedMaterial TextureMaps::slots(const Material& m) {
     look.diffuse_transmission = slot(d->texture, linear);
     look.diffuse_transmission_color = slot(d->color_texture, srgb);
   }
+  if (const auto& c = m.clearcoat) {
+    look.clearcoat = slot(c->texture, linear);
+    look.clearcoat_roughness = slot(c->roughness_texture, linear);
+    look.clearcoat_normal = slot(c->normal_texture, linear);
+  }
+  if (const auto& s = m.sheen) {
+    look.sheen_color = slot(s->color_texture, srgb);
+    look.sheen_roughness = slot(s->roughness_texture, linear);
+  }
+  if (const auto& a = m.anisotropy) look.anisotropy = slot(a->texture, linear);
+  if (const auto& i = m.iridescence) {
+    look.iridescence = slot(i->texture, linear);
+    look.iridescence_thickness = slot(i->thickness_texture, linear);
+  }
+  if (const auto& archived = m.specular_glossiness) {
+    look.specular_glossiness = slot(archived->texture, srgb);
+  }
   if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
   for (TextureSlot* slot :
        {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {

@@ -1,0 +1,267 @@
+#include "render/bsdf/scattering.hpp"
+#include "render/bsdf/sheen.hpp"
+#include "render/bsdf/thin_film.hpp"
+#include "render/sampling/sobol.hpp"
+#include "support/chi_square.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace::bsdf {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Vec3 direction(double theta, double phi = 0.3) {
+  return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+}
+
+struct Surface {
+  const char* name;
+  Parameters base;
+  std::optional<Layers> layers{};
+};
+
+/// At least one of each kind; none absorbs, but for tints of what is reflected head on.
+std::vector<Surface> surfaces() {
+  std::vector<Surface> result;
+  for (const float roughness : {0.3F, 0.8F}) {
+    const Parameters dielectric{.base_color = Vec3(1), .metallic = 0, .roughness = roughness};
+    Parameters metal = dielectric, glass = dielectric, wall = dielectric, film = dielectric;
+    metal.metallic = 1;
+    wall.transmission = 0.6F;
+    glass.transmission = 1;
+    glass.eta = 1.5F;
+    film.film = ThinFilm{.share = 0.7F, .ior = 1.8F, .thickness = 500};
+    Parameters brushed = metal, filmed = metal, all = dielectric, out = glass;
+    brushed.anisotropy = 0.8F;
+    brushed.along = {0.6F, 0.8F};
+    filmed.film = ThinFilm{.thickness = 300};
+    out.eta = 1 / 1.5F;
+    all.transmission = 0.3F;
+    all.diffuse_transmission = 0.5F;
+    all.anisotropy = 0.5F;
+    all.film = ThinFilm{.share = 0.5F};
+    const Layers coat{.coat = 1, .coat_roughness = 0.2F};
+    const Layers cloth{.sheen = {1, 0.5F, 0.2F}, .sheen_roughness = 0.4F};
+    const Layers both{
+        .sheen = {0.5F, 0.4F, 0.2F}, .sheen_roughness = 0.5F, .coat = 0.7F, .coat_roughness = 0.3F};
+    Layers above = both, below = both;
+    above.side = Layers::Side::above;
+    below.side = Layers::Side::below;
+    result.push_back({"brushed metal", brushed});
+    result.push_back({"film on metal", filmed});
+    result.push_back({"film", film});
+    result.push_back({"cloth", dielectric, cloth});
+    result.push_back({"coat", dielectric, coat});
+    result.push_back({"coat on metal", metal, coat});
+    result.push_back({"layers on a wall", wall, both});
+    result.push_back({"layers on glass", glass, above});
+    result.push_back({"glass under layers", out, below});
+    result.push_back({"all at once", all, both});
+  }
+  return result;
+}
+
+/// Where wo is on the other side of the surface, upside down about x.
+Surface turned(Surface s) {
+  if (s.base.eta) s.base.eta = 1 / *s.base.eta;
+  s.base.along.y = -s.base.along.y;
+  if (!s.layers || s.layers->side == Layers::Side::both) return s;
+  s.layers->side =
+      s.layers->side == Layers::Side::above ? Layers::Side::below : Layers::Side::above;
+  return s;
+}
+
+Vec3 turned(const Vec3& v) {
+  return {v.x, -v.y, -v.z};
+}
+
+Scattering scattering(const Surface& s, const Vec3& wo) {
+  return {s.base, s.layers, wo};
+}
+
+std::string text(const Surface& s, double theta) {
+  return std::string(s.name) + " " + std::to_string(s.base.roughness) + " " + std::to_string(theta);
+}
+
+/// The share of white light from all around that goes to wo, by the sampler's weights.
+DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
+  DVec3 sum(0);
+  for (std::uint32_t k = 0; k < samples; ++k) {
+    const sampling::Sobol sobol(7, k);
+    if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += DVec3(s->weight);
+  }
+  return sum / double(samples);
+}
+
+/// The same by the midpoint rule, without the sampler.
+DVec3 integrated(const Scattering& bsdf, int steps) {
+  DVec3 sum(0);
+  for (int i = 0; i < 2 * steps; ++i) {
+    for (int j = 0; j < 2 * steps; ++j) {
+      const double theta = (i + 0.5) / steps * kPi / 2, phi = (j + 0.5) / steps * kPi;
+      sum += DVec3(bsdf.evaluate(direction(theta, phi)).value) * std::sin(theta);
+    }
+  }
+  return sum * (kPi / 2 / steps) * (kPi / steps);
+}
+
+TEST(Layered, NeverReturnsMoreThanComes) {
+  for (const Surface& s : surfaces()) {
+    for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
+      const DVec3 sum = scattered(scattering(s, direction(theta)), 1U << 13U);
+      for (int c = 0; c < 3; ++c) EXPECT_LE(sum[c], 1.004) << text(s, theta);
+    }
+  }
+}
+
+// Of layers, either wo's or wi's share passes, and facets turn them apart.
+TEST(Layered, LosesLittleUnderACoat) {
+  const Parameters polished{.base_color = Vec3(1), .metallic = 1, .roughness = 0.05F};
+  for (const double theta : {0.0, 0.4, 0.8, 1.2, 1.4}) {
+    const Surface surface{"coat", polished, Layers{.coat = 1}};
+    EXPECT_NEAR(scattered(scattering(surface, direction(theta)), 1U << 15U).x, 1, 0.007) << theta;
+  }
+}
+
+TEST(Layered, WithoutLayersIsTheBase) {
+  for (const Surface& s : surfaces()) {
+    if (s.base.anisotropy > 0) continue;
+    const Vec3 wo = direction(0.7), wi = direction(0.4, 2), through = direction(2.6, 2);
+    const LayeredBsdf layered(s.base, {}, wo);
+    const Bsdf bare(s.base, wo);
+    for (const Vec3& w : {wi, through}) {
+      EXPECT_EQ(layered.evaluate(w).value, bare.evaluate(w).value) << s.name;
+      EXPECT_EQ(layered.evaluate(w).density, bare.evaluate(w).density) << s.name;
+    }
+  }
+}
+
+TEST(Anisotropic, WithoutStrengthIsTheBase) {
+  const Parameters p{.base_color = {0.9F, 0.5F, 0.2F}, .metallic = 1, .roughness = 0.3F};
+  const Vec3 wo = direction(0.7), wi = direction(0.5, 2.9);
+  const Vec3 plain = Bsdf(p, wo).evaluate(wi).value;
+  const Vec3 general = AnisotropicBsdf(p, wo).evaluate(wi).value;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(general[c] / plain[c], 1, 0.02) << "several reflections";
+}
+
+TEST(Anisotropic, HighlightsAreLongerAlong) {
+  const Parameters p{.base_color = Vec3(1), .metallic = 1, .roughness = 0.3F, .anisotropy = 0.7F};
+  const AnisotropicBsdf bsdf(p, {0, 0, 1});
+  EXPECT_GT(bsdf.evaluate(direction(0.5, 0)).value.x,
+            4 * bsdf.evaluate(direction(0.5, kPi / 2)).value.x);
+}
+
+TEST(Layered, SamplerAndQuadratureAgree) {
+  for (const Surface& s : surfaces()) {
+    for (const double theta : {0.2, 1.0}) {
+      const Scattering bsdf = scattering(s, direction(theta));
+      const DVec3 a = scattered(bsdf, 1U << 14U), b = integrated(bsdf, 200);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(a[c], b[c], 0.006) << text(s, theta);
+    }
+  }
+}
+
+TEST(Layered, IsReciprocal) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> u(0.02, 1);
+  for (const Surface& s : surfaces()) {
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 a = direction(std::acos(u(random)), 6 * u(random));
+      Vec3 b = direction(std::acos(u(random)), 6 * u(random));
+      const Vec3 forth = scattering(s, a).evaluate(b).value / b.z;
+      const Vec3 back = scattering(s, b).evaluate(a).value / a.z;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(forth[c], back[c], 1e-3F * (forth[c] + 0.01F)) << s.name << " above";
+      const float square = s.base.eta ? *s.base.eta * *s.base.eta : 1;
+      b.z = -b.z;
+      // What a thin wall lets through in all depends on the one side's angle.
+      if (!s.base.eta && s.base.transmission > 0) continue;
+      const Vec3 through = scattering(s, a).evaluate(b).value / -b.z;
+      const Vec3 home = scattering(turned(s), turned(b)).evaluate(turned(a)).value / a.z * square;
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(through[c], home[c], 2e-3F * (through[c] + 0.01F)) << s.name << " through";
+    }
+  }
+}
+
+TEST(Layered, SamplesHaveTheirDensity) {
+  constexpr int rows = 20, columns = 14, fine = 16, samples = 100'000;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> u(0, 1);
+  for (const Surface& s : surfaces()) {
+    const Scattering bsdf = scattering(s, direction(0.6));
+    std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
+    for (int i = 0; i < samples; ++i) {
+      const auto drawn = bsdf.sample({u(random), u(random)}, u(random));
+      if (!drawn) {
+        ++counts.back();
+        continue;
+      }
+      double phi = std::atan2(drawn->wi.y, drawn->wi.x) / (2 * kPi);
+      phi -= std::floor(phi);
+      const int row = std::clamp(int((drawn->wi.z + 1) / 2 * rows), 0, rows - 1);
+      ++counts[std::size_t(row * columns + std::min(int(phi * columns), columns - 1))];
+    }
+    double within = 0;
+    for (int cell = 0; cell < rows * columns; ++cell) {
+      double sum = 0;
+      for (int i = 0; i < fine; ++i) {
+        for (int j = 0; j < fine; ++j) {
+          const double z = 2 * (cell / columns + (i + 0.5) / fine) / rows - 1;
+          const double phi = 2 * kPi * (cell % columns + (j + 0.5) / fine) / columns;
+          sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
+        }
+      }
+      const double mass = sum / (fine * fine) * 4 * kPi / (rows * columns);
+      expected[std::size_t(cell)] = mass * samples;
+      within += mass;
+    }
+    EXPECT_LT(within, 1.003) << s.name;
+    expected.back() = std::max(1 - within, 0.0) * samples;
+    EXPECT_LT(chi_square_excess(counts, expected), 5) << text(s, 0.6);
+  }
+}
+
+TEST(ThinFilm, WithoutThicknessIsNone) {
+  const Vec3 f0(0.04F, 0.3F, 0.9F), film = thin_film_reflectance(1, 1.3F, 0, f0);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(film[c], f0[c], 0.02F);
+}
+
+TEST(ThinFilm, ColoursChangeWithTheThickness) {
+  const Vec3 thin = thin_film_reflectance(1, 1.33F, 300, Vec3(0.1F));
+  const Vec3 thick = thin_film_reflectance(1, 1.33F, 400, Vec3(0.1F));
+  EXPECT_GT(glm::distance(thin, thick), 0.02F);
+  EXPECT_GT(std::abs(thin.x - thin.z) + std::abs(thin.x - thin.y), 0.01F) << "has a colour";
+}
+
+TEST(Sheen, AlbedoIsTheIntegralOfTheReflectance) {
+  for (const float roughness : {0.25F, 0.5F, 0.85F, 1.0F}) {
+    const SheenLobe sheen(roughness);
+    for (const double theta : {0.0, 0.7, 1.2, 1.45}) {
+      const Vec3 wo = direction(theta);
+      double sum = 0;
+      constexpr int steps = 300;
+      for (int i = 0; i < steps; ++i) {
+        for (int j = 0; j < steps; ++j) {
+          const Vec3 wi = direction(std::acos((i + 0.5) / steps), 2 * kPi * (j + 0.5) / steps);
+          sum += double(sheen.reflectance(wo, wi, unit(wo + wi))) * wi.z;
+        }
+      }
+      const double wanted = sum * 2 * kPi / (steps * steps);
+      EXPECT_NEAR(sheen.albedo(wo.z), wanted, 0.015) << roughness << ' ' << theta;
+      EXPECT_GE(sheen.albedo(wo.z), wanted - 0.004) << "layers below must not get too much";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::bsdf
