@@ -29,7 +29,7 @@ def cpu(command, folder):
 
 def ours(program, folder, env, spp, size="640x480", seed=0):
     """(whole process, rendering alone): what the process takes for one pixel is taken off."""
-    command = [program, "helmet.glb", "-q", "-t", "1", "--integrator", "path", "--env", ENVIRONMENTS[env],
+    command = [program, "helmet.glb", "-q", "-t", "1", "--integrator", "path", "--max-depth", "8", "--env", ENVIRONMENTS[env],
                "--background", "env", "--size", size, "--spp", str(spp), "--seed", str(seed), "-o", "ours.exr"]
     whole, _ = cpu(command, folder)
     rest, _ = cpu(command[:-1] + ["pixel.exr", "--crop", "0,0,1,1"], folder)

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""Holds pictures by microtrace against Mitsuba 3's, for scenes that both can express.
+
+usage: agreement.py FOLDER MICROTRACE [--spp N] [--seeds N]
+For each scene several pictures of other seeds by each program: the difference of the means over blocks of pixels, in
+standard deviations of itself, must look like the normal distribution's. FOLDER gets the scenes and the mean pictures.
+"""
+import argparse
+import pathlib
+
+import mitsuba as mi
+import numpy as np
+
+import agreement_scenes
+import time_helmet
+
+BLOCK = 8  # pixels
+
+
+def blocks(picture):
+    height, width, channels = picture.shape
+    return picture.reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, channels).mean((1, 3))
+
+
+def ours(program, folder, scene, spp, seed):
+    command = [program, f"{scene.name}.glb", "-q", "--integrator", "path", "--background", "env", "--spp", str(spp),
+               "--seed", str(seed), "--max-depth", str(scene.depth), "--size", "128x96", "-o", "ours.exr"]
+    time_helmet.cpu(command + scene.options, folder)
+    return np.array(mi.Bitmap(str(folder / "ours.exr")))[..., :3].astype(float)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("program")
+    parser.add_argument("--spp", type=int, default=256)
+    parser.add_argument("--seeds", type=int, default=8)
+    options = parser.parse_args()
+    program = str(pathlib.Path(options.program).resolve())
+    options.folder.mkdir(parents=True, exist_ok=True)
+    mi.set_variant("scalar_rgb")
+    print("scene | mean, ours | Mitsuba's | difference of means, sigma | of blocks, sigma: root of mean square | largest",
+          flush=True)
+    for scene in agreement_scenes.write(options.folder):
+        theirs = mi.load_dict(scene.mitsuba)
+        a, b = [], []
+        for seed in range(options.seeds):
+            a.append(ours(program, options.folder, scene, options.spp, seed))
+            picture = np.array(mi.render(theirs, spp=options.spp, seed=seed), dtype=float)
+            b.append(picture[..., :3])
+        for name, pictures in (("ours", a), ("mitsuba", b)):
+            mi.Bitmap(np.mean(pictures, 0).astype(np.float32)).write(str(options.folder / f"{scene.name}_{name}.exr"))
+        n = options.seeds
+        whole_a, whole_b = ([p.mean() for p in pictures] for pictures in (a, b))
+        deviation = np.sqrt((np.var(whole_a, ddof=1) + np.var(whole_b, ddof=1)) / n)
+        small_a, small_b = (np.array([blocks(p)[..., 1] for p in pictures]) for pictures in (a, b))
+        z = small_a.mean(0) - small_b.mean(0)
+        spread = np.sqrt((small_a.var(0, ddof=1) + small_b.var(0, ddof=1)) / n)
+        lit = spread > 1e-3 * small_b.mean(0)  # else it is the sky itself, whose pixels lie otherwise
+        z = np.abs(z[lit] / spread[lit])
+        print(f"{scene.name} | {np.mean(whole_a):.5f} | {np.mean(whole_b):.5f} | "
+              f"{(np.mean(whole_a) - np.mean(whole_b)) / deviation:.2f} | {np.sqrt(np.mean(z**2)):.2f} | {z.max():.1f}", flush=True)
+
+
+if __name__ == "__main__":
+    main()

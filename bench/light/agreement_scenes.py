@@ -1,0 +1,141 @@
+"""Scenes that glTF and Mitsuba 3 can both express, the same for each.
+
+Common ground: `diffuse` is a dielectric without specular part (KHR_materials_specular, factor 0). A conductor that reflects
+all is the same but for what leaves it after several reflections, which Mitsuba drops: little, if it is smooth.
+"""
+import dataclasses
+
+import mitsuba as mi
+import numpy as np
+
+import files
+import textures
+
+YFOV = 40.0
+
+
+@dataclasses.dataclass
+class Scene:
+    name: str
+    mitsuba: dict
+    options: list
+    depth: int = 6
+
+
+def quad(corner, along, up):
+    corner, along, up = (np.array(v, float) for v in (corner, along, up))
+    return {"positions": np.array([corner, corner + along, corner + along + up, corner + up]),
+            "triangles": np.array([[0, 1, 2], [0, 2, 3]])}
+
+
+def box(low, high):
+    """Seen from outside."""
+    x, y, z = np.diag(np.subtract(high, low).astype(float))
+    low, high = np.array(low, float), np.array(high, float)
+    return [quad(low, y, x), quad(low, z, y), quad(low, x, z), quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x)]
+
+
+def ball(centre, radius, rows=64):
+    v, u = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, 2 * rows + 1), indexing="ij")
+    n = np.stack([np.sin(v) * np.sin(u), np.cos(v), np.sin(v) * np.cos(u)], -1).reshape(-1, 3)
+    first = (np.arange(rows)[:, None] * (2 * rows + 1) + np.arange(2 * rows)).ravel()
+    below = first + 2 * rows + 1
+    triangles = np.concatenate([np.stack([first, below, below + 1], -1),
+                                np.stack([first, below + 1, first + 1], -1)])
+    positions = n * radius + centre
+    corners = positions[triangles]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return {"positions": positions, "normals": n, "uvs": np.zeros((len(n), 2)), "triangles": triangles[area > 1e-9]}
+
+
+class Both:
+    """A scene that grows in both forms."""
+
+    def __init__(self, folder, name, depth=6):
+        self.folder, self.name, self.depth, self.options = folder, name, depth, ["--env", "0,0,0"]
+        self.glb = files.Glb()
+        self.glb.document["extensionsUsed"] = ["KHR_materials_specular", "KHR_materials_emissive_strength"]
+        lens = {"yfov": float(np.radians(YFOV)), "aspectRatio": 4 / 3, "znear": 0.01}
+        self.glb.add_node(camera=self.glb.add("cameras", {"type": "perspective", "perspective": lens}),
+                          translation=[0, 0, 4])
+        film = {"type": "hdrfilm", "width": 128, "height": 96, "rfilter": {"type": "box"}, "pixel_format": "rgb"}
+        camera = {"type": "perspective", "fov": YFOV, "fov_axis": "y", "film": film,
+                  "to_world": mi.ScalarTransform4f().look_at([0, 0, 4], [0, 0, 0], [0, 1, 0])}
+        self.mitsuba = {"type": "scene", "integrator": {"type": "path", "max_depth": depth, "rr_depth": 100},
+                        "sensor": camera}
+
+    def add(self, mesh, color=(0.5, 0.5, 0.5), emission=0.0, conductor=None):
+        """conductor: the roughness of one that reflects all; otherwise the surface is diffuse."""
+        number = len(self.mitsuba)
+        path = self.folder / f"{self.name}_{number}.ply"
+        files.write_ply(path, mesh)
+        shape = {"type": "ply", "filename": str(path)}
+        base = {"baseColorFactor": [*map(float, color), 1], "metallicFactor": 0}
+        material = {"doubleSided": True, "pbrMetallicRoughness": base}
+        if conductor is None:
+            material["extensions"] = {"KHR_materials_specular": {"specularFactor": 0}}
+            bsdf = {"type": "diffuse", "reflectance": {"type": "rgb", "value": list(color)}}
+            shape["face_normals"] = "normals" not in mesh
+        else:
+            base |= {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 1, "roughnessFactor": conductor}
+            bsdf = {"type": "roughconductor", "material": "none", "distribution": "ggx", "alpha": conductor**2}
+        if emission:
+            material |= {"emissiveFactor": [1, 1, 1], "doubleSided": False}
+            material.setdefault("extensions", {})["KHR_materials_emissive_strength"] = {"emissiveStrength": emission}
+            shape["emitter"] = {"type": "area", "radiance": {"type": "rgb", "value": emission}}
+        shape["bsdf"] = {"type": "twosided", "bsdf": bsdf} if not emission else bsdf
+        self.mitsuba[f"shape{number}"] = shape
+        primitive = self.glb.primitive({k: v for k, v in mesh.items() if k != "uvs"},
+                                       self.glb.add("materials", material))
+        self.glb.add_node(mesh=self.glb.add("meshes", {"primitives": [primitive]}))
+
+    def add_point(self, place, intensity):
+        self.glb.document["extensionsUsed"].append("KHR_lights_punctual")
+        self.glb.document["extensions"] = {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": intensity}]}}
+        self.glb.add_node(translation=list(place), extensions={"KHR_lights_punctual": {"light": 0}})
+        self.mitsuba["point"] = {"type": "point", "position": list(place), "intensity": {"type": "rgb", "value": intensity}}
+
+    def finish(self):
+        self.glb.write(self.folder / f"{self.name}.glb")
+        return Scene(self.name, self.mitsuba, self.options, self.depth)
+
+
+def add_room(scene):
+    scene.add(quad((-1, -1, -1), (2, 0, 0), (0, 2, 0)), (0.7, 0.7, 0.7))
+    scene.add(quad((-1, -1, 1), (2, 0, 0), (0, 0, -2)), (0.7, 0.7, 0.7))
+    scene.add(quad((-1, 1, -1), (2, 0, 0), (0, 0, 2)), (0.7, 0.7, 0.7))
+    scene.add(quad((-1, -1, 1), (0, 0, -2), (0, 2, 0)), (0.6, 0.1, 0.1))
+    scene.add(quad((1, -1, -1), (0, 0, 2), (0, 2, 0)), (0.1, 0.5, 0.1))
+    for side in box((-0.6, -1, -0.5), (-0.1, 0.2, 0.1)) + box((0.1, -1, 0), (0.6, -0.4, 0.5)):
+        scene.add(side, (0.6, 0.6, 0.6))
+
+
+def write(folder):
+    lamp = Both(folder, "room_under_lamp")
+    add_room(lamp)
+    lamp.add(quad((-0.3, 0.98, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0), emission=12.0)
+    # From behind, a one-sided surface lets light pass in glTF; in Mitsuba it does not.
+    lamp.add(quad((-0.3, 0.985, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0))
+    yield lamp.finish()
+
+    point = Both(folder, "room_under_point")
+    add_room(point)
+    point.add_point((0.2, 0.7, 0.3), 3.0)
+    yield point.finish()
+
+    mi.Bitmap(textures.sky(1024).astype(np.float32)).write(str(folder / "sky.exr"))
+    sky = Both(folder, "balls_under_sky")
+    sky.add(quad((-9, -1, 9), (18, 0, 0), (0, 0, -18)), (0.5, 0.4, 0.3))
+    sky.add(ball((-0.9, -0.2, 0), 0.8), (0.7, 0.7, 0.7))
+    sky.add(ball((0.9, -0.2, 0), 0.8), conductor=0.1)
+    sky.mitsuba["sky"] = {"type": "envmap", "filename": str(folder / "sky.exr"),
+                          "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
+    sky.options = ["--env", "sky.exr"]
+    yield sky.finish()
+
+    furnace = Both(folder, "conductors_in_furnace", depth=12)
+    for i, roughness in enumerate((0.1, 0.2, 0.3)):
+        furnace.add(ball((1.2 * i - 1.2, 0, 0), 0.55), conductor=roughness)
+    furnace.mitsuba["light"] = {"type": "constant", "radiance": {"type": "rgb", "value": 1.0}}
+    furnace.options = ["--env", "1,1,1"]
+    yield furnace.finish()
