@@ -196,12 +196,12 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
                         std::span<std::optional<Vec3>> origins) const {
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
-  QuickSpawns quick(impl_->primitives, *impl_->kernels, impl_->view());
-  const bool may_be_quick = impl_->outside.empty();
+  QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels,
+                    impl_->has_tree ? impl_->view() : TreeView{});
   while (!spawns.empty()) {
-    const std::size_t done = may_be_quick ? quick.origins(spawns, origins) : spawns.size();
+    const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {
-      if (!may_be_quick || !origins[i])
+      if (!origins[i])
         origins[i] = spawn_origin(*spawns[i].ray, spawns[i].hit, spawns[i].direction);
     }
     spawns = spawns.subspan(done);

@@ -10,6 +10,7 @@
 #include <microtrace/shape.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -56,7 +57,9 @@ struct Nudge {
 }
 
 inline double to_double(const exact::Dyadic& x) {
-  return exact::enclose(exact::rational(x, 1.0F)).lo;
+  // The middle, so that x and -x have one size.
+  const exact::Enclosure bounds = exact::enclose(exact::rational(x, 1.0F));
+  return (bounds.lo + bounds.hi) / 2;
 }
 
 inline DVec3 gradient_of(const exact::Implicit& f, const Vec3& p) {
@@ -116,13 +119,25 @@ class ExactSurface {
   return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
 }
 
-/// The triangle's point at a parameter, rounded to float32, where its bounds leave no doubt.
-[[nodiscard]] inline std::optional<Vec3> rounded_point(const Triangle& triangle, const Ray& ray,
-                                                       const Verdict& t) {
+/// Coordinates that all points of a flat surface share: those of floors and walls.
+struct SharedCoordinates {
+  std::array<bool, 3> are_shared{};
+  Vec3 at{0};
+};
+[[nodiscard]] inline SharedCoordinates shared_coordinates(const Triangle& t) {
+  SharedCoordinates result{.at = t.a};
+  for (int k = 0; k < 3; ++k)
+    result.are_shared[static_cast<std::size_t>(k)] = t.a[k] == t.b[k] && t.a[k] == t.c[k];
+  return result;
+}
+
+/// The point at a parameter, rounded to float32, where its bounds leave no doubt.
+[[nodiscard]] inline std::optional<Vec3> rounded_point(const Ray& ray, const Verdict& t,
+                                                       const SharedCoordinates& shared) {
   Vec3 p{0};
   for (int k = 0; k < 3; ++k) {
-    if (triangle.a[k] == triangle.b[k] && triangle.a[k] == triangle.c[k]) {
-      p[k] = triangle.a[k];  // floors and walls, of which many lie at 0
+    if (shared.are_shared[static_cast<std::size_t>(k)]) {
+      p[k] = shared.at[k];  // often 0, which no bounds round to
       continue;
     }
     const double o = ray.o[k], d = ray.d[k], middle = (t.lo + t.hi) / 2;
@@ -148,7 +163,7 @@ class TriangleSurface {
           seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
       if (verdict.certainty == Certainty::miss) return std::nullopt;
       if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded_point(triangle_, ray, verdict)) return p;
+        if (const auto p = rounded_point(ray, verdict, shared_coordinates(triangle_))) return p;
       }
     }
     return ExactSurface(triangle_).point(ray);

@@ -12,6 +12,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -223,6 +225,49 @@ TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
     }
   }
   EXPECT_GT(leaves, kCasesPerKind / 2);
+}
+
+// Asked together rays are answered by other means, with the same origins: among shapes of all
+// kinds, touching ones too, with a tree and without.
+TEST(Spawn, ManyAtOnceAreAnsweredAlike) {
+  Random random = traversal::announced_random(77);
+  std::size_t answers = 0;
+  for (int round = 0; round < 40; ++round) {
+    Scene scene;
+    const int count = round % 2 == 0 ? 10 : 60;
+    for (int i = 0; i < count; ++i) {
+      const Vec3 at = random.on_grid(3);
+      Shape shape = Sphere{.center = at, .radius = random.one_in(2) ? 1.0F : 0.7F};
+      if (i % 5 == 1) shape = Triangle{at, at + random.on_grid(2), at + random.in_cube(1)};
+      if (i % 5 == 2) shape = Disc{.center = at, .normal = random.on_grid(1), .radius = 1};
+      if (i % 10 == 3) shape = Plane{.point = at, .normal = {0, 1, 0}};
+      if (i % 10 == 8) shape = Quadric{.a = 1, .b = 1, .c = 2, .h = random.in_cube(1).x, .j = -4};
+      scene.objects.push_back({.name = "", .shape = shape});
+    }
+    const Bvh bvh(scene);
+    std::vector<Ray> rays(200);
+    std::vector<std::optional<Hit>> hits(rays.size());
+    for (Ray& ray : rays) {
+      ray = {.o = random.in_cube(5), .d = random.in_cube(1)};
+      if (random.one_in(4)) ray = {.o = random.on_grid(5), .d = random.on_grid(2)};
+    }
+    bvh.intersect(rays, hits);
+    std::vector<Bvh::Spawn> spawns;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      for (int k = 0; hits[i] && k < 3; ++k) {
+        const Vec3 d = k == 0 ? -rays[i].d : k == 1 ? random.in_cube(1) : random.on_grid(1);
+        spawns.push_back({.ray = &rays[i], .hit = *hits[i], .direction = d});
+      }
+    }
+    std::vector<std::optional<Vec3>> origins(spawns.size());
+    bvh.spawn_origins(spawns, origins);
+    for (std::size_t i = 0; i < spawns.size(); ++i) {
+      const Bvh::Spawn& spawn = spawns[i];
+      ASSERT_EQ(origins[i], bvh.spawn_origin(*spawn.ray, spawn.hit, spawn.direction)) << round;
+      answers += origins[i] ? 1 : 0;
+    }
+  }
+  EXPECT_GT(answers, 5000U);
 }
 
 }  // namespace

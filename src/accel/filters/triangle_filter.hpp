@@ -20,6 +20,9 @@ struct CrossProduct {
     permanent = glm::abs(left) + glm::abs(right);
   }
 
+  /// A vector that is exact, as if it were one.
+  explicit CrossProduct(const DVec3& exact) : value(exact), permanent(glm::abs(exact)) {}
+
   /// Its product with d, itself exact: four roundings from before, one of the product, two of the
   /// sum.
   [[nodiscard]] Approximate along(const DVec3& d) const {

@@ -136,9 +136,10 @@ struct PlaceQuery {
   static constexpr int kMost = 32;
 
   float lo[3], hi[3];
-  int count;  ///< of places; -1: more than kMost, or other primitives may be there
-  std::uint32_t places[kMost];  ///< as KernelTile::best_place
+  int count;                    ///< of places; -1: more than kMost
+  std::uint32_t places[kMost];  ///< as KernelTile::best_place; kOtherPlace + that in the others
 };
+inline constexpr std::uint32_t kOtherPlace = 1U << 31U;
 inline constexpr int kPlaceQueries = 16;
 
 /// One instruction set's code.
@@ -165,7 +166,8 @@ struct Kernels {
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a tile that have a place.
   std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
-  /// Finds all triangles whose own boxes have a point in each query's box, some maybe twice. Up to
+  /// Finds all triangles whose own boxes have a point in each query's box, some maybe twice, and
+  /// other primitives that may. Up to
   /// kPlaceQueries at a time, whose ways to memory overlap.
   void (*touching)(const TreeView& tree, PlaceQuery* queries, int count);
   /// How many triangles' edges this thread has looked at by float64.

@@ -62,14 +62,20 @@ inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
     return;
   }
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
-  bool overflows = (next & child_ref::kKind) != child_ref::kTriangles;
-  for (std::uint32_t b = first; b < end && !overflows; ++b) {
-    for (Lanes lanes = touched_triangles<N>(tree.blocks[b], query); lanes != 0;
-         lanes &= lanes - 1) {
-      overflows = query.count == PlaceQuery::kMost;
-      if (overflows) break;
-      query.places[query.count++] = b * kWidth + static_cast<std::uint32_t>(first_lane(lanes));
+  const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
+  bool overflows = false;
+  const auto add = [&](std::uint32_t place) {
+    overflows = query.count == PlaceQuery::kMost;
+    if (!overflows) query.places[query.count++] = place;
+  };
+  for (std::uint32_t i = first; i < end && !overflows; ++i) {
+    if (!are_triangles) {
+      add(kOtherPlace + i);
+      continue;
     }
+    Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
+    for (; lanes != 0 && !overflows; lanes &= lanes - 1)
+      add(i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
   }
   if (overflows) {
     query.count = -1;
