@@ -6,6 +6,7 @@
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/sample_sums.hpp>
+#include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
 
 #include <cstdint>
@@ -24,10 +25,10 @@ struct RenderTimes {
   double trace = 0;  ///< drawing
 };
 
-/// What was done, by an integrator whose answers are random.
+/// What was done.
 struct RenderCounts {
-  std::uint64_t samples = 0;            ///< taken, of all pixels
-  std::uint64_t invalid_samples = 0;    ///< of these, no numbers: counted as black
+  std::uint64_t samples = 0;            ///< camera rays traced, of all pixels
+  std::uint64_t invalid_samples = 0;    ///< of random integrators, no numbers: counted as black
   std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
 };
 
@@ -46,6 +47,10 @@ struct Passes {
   SampleSums* sums = nullptr;
   /// Takes only these of the samples; nothing: all.
   std::optional<SampleRange> part{};
+  /// If above 0, tiles of 8 x 8 pixels whose error (docs/outputs.md) is not above it, nor that of
+  /// the eight around them, take no more samples. Asked at 32, 64, 128, ... samples. Not with a
+  /// part.
+  double target_error = 0;
   /// No pass begins so many seconds after the call, but the first does.
   double time_limit = std::numeric_limits<double>::infinity();
   /// Told what there is after each pass, on the caller's thread.
@@ -76,6 +81,8 @@ struct RenderOptions {
   std::optional<PixelRect> crop{};
   /// Channels of the film beside the colours, in this order; each once.
   std::vector<Aov> aovs{};
+  /// Means over the samples of a random integrator as further channels behind these; each once.
+  std::vector<SampledAov> sampled_aovs{};
   bool transparent = false;  ///< leaves the background out and gives the film alpha
 };
 

@@ -3,11 +3,13 @@
 #include "render/film_pixel.hpp"
 #include "render/passes.hpp"
 #include "render/random_painter.hpp"
+#include "render/sampled_aov_painter.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/error.hpp>
 
 #include <array>
+#include <cstddef>
 #include <new>
 #include <span>
 
@@ -39,9 +41,12 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
   const RandomPainter painter(drawing.world, drawing.integrator, options, background);
   const SampleRange all{.first = 0, .last = options.samples};
   std::uint32_t samples_per_pixel = options.samples;
+  const SampledAovPainter channels(drawing.world, options, window, film);
   const auto set = [&](std::uint32_t x, std::uint32_t y, const PixelSum& pixel) {
     set_pixel(film, x - window.x0, y - window.y0, pixel.mean_color(), pixel.mean_alpha(),
               background);
+    channels.set(std::size_t{y - window.y0} * film.size().width + (x - window.x0), pixel,
+                 background);
   };
   if (options.passes) {
     SampleSums own;
@@ -54,6 +59,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums.at(x, y));
       }
+      channels.paint(tile);
       beside(tile);
     };
     for_each_tile(window, drawing.threads, finish, nullptr);
@@ -65,6 +71,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums[pixel++]);
       }
+      channels.paint(tile);
       beside(tile);
     };
     for_each_tile(window, drawing.threads, draw, options.progress);

@@ -1,9 +1,12 @@
 #include "render/passes.hpp"
 
+#include "render/tile_errors.hpp"
 #include "render/tiles.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -22,6 +25,44 @@ void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleR
   }
 }
 
+/// Which tiles take no more samples.
+class Stops {
+ public:
+  Stops(const SampleSums& sums, double target)
+      : target_(target), stopped_(tile_count(sums.window)) {
+    if (target <= 0) return;
+    const std::uint32_t most = sums.count();
+    for (std::size_t i = 0; i < stopped_.size(); ++i) {
+      const PixelRect tile = tile_at(i, sums.window);
+      stopped_[i] = sums.at(tile.x0, tile.y0).count < most;
+    }
+  }
+
+  /// Asks for the error, if it is time to.
+  void update(const SampleSums& sums) {
+    const std::uint32_t count = sums.count();
+    if (target_ <= 0 || count < kFirstCheck || !std::has_single_bit(count) ||
+        sums.ranges() != std::vector<SampleRange>{{.first = 0, .last = count}})
+      return;
+    const std::vector<bool> good = good_tiles(tile_errors(sums), sums.window, target_);
+    for (std::size_t i = 0; i < stopped_.size(); ++i) stopped_[i] = stopped_[i] || good[i];
+  }
+
+  /// The range without what comes after the next check.
+  [[nodiscard]] SampleRange until_check(SampleRange range) const {
+    if (target_ > 0) range.last = std::min(range.last, std::bit_ceil(range.first + 1));
+    return range;
+  }
+
+  [[nodiscard]] bool at(std::size_t tile) const { return stopped_[tile]; }
+  [[nodiscard]] bool all() const { return std::ranges::find(stopped_, false) == stopped_.end(); }
+
+ private:
+  static constexpr std::uint32_t kFirstCheck = 32;
+  double target_;
+  std::vector<bool> stopped_;
+};
+
 }  // namespace
 
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
@@ -29,18 +70,26 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
                 const std::function<void(double)>& progress, SampleSums& sums) {
   std::uint32_t to_do = 0, done = 0;
   for (const SampleRange& range : sums.missing(wanted)) to_do += range.size();
+  Stops stops(sums, passes.target_error);
+  const auto is_up = [&] {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    return spent.count() >= passes.time_limit;
+  };
   while (done < to_do) {
+    stops.update(sums);
+    if (stops.all() || (done > 0 && is_up())) break;
     SampleRange range = sums.missing(wanted).front();
     range.last = std::min(range.last, range.first + std::clamp(done, 1U, kSamplesPerPass));
+    range = stops.until_check(range);
+    const auto draw = [&](const PixelRect& tile) {
+      if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, sums);
+    };
     const auto tell = [&](double share) { progress((done + share * range.size()) / to_do); };
-    for_each_tile(
-        sums.window, threads, [&](const PixelRect& tile) { add_tile(painter, tile, range, sums); },
-        progress ? std::function<void(double)>(tell) : nullptr);
+    for_each_tile(sums.window, threads, draw,
+                  progress ? std::function<void(double)>(tell) : nullptr);
     sums.note(range);
     done += range.size();
     if (passes.after_each) passes.after_each(sums);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    if (spent.count() >= passes.time_limit) break;
   }
   if (progress && (done < to_do || to_do == 0)) progress(1);
 }

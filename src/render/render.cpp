@@ -57,17 +57,27 @@ void check(const RenderOptions& options) {
   }
   if (options.samples > 1 && options.integrator != nullptr && options.integrator->is_data())
     refuse("this integrator's picture is of numbers that are never mixed: one sample per pixel");
+  const bool is_random = options.integrator != nullptr && options.integrator->is_random();
   if (options.passes) {
-    if (options.integrator == nullptr || !options.integrator->is_random())
+    if (!is_random)
       refuse("this integrator's answers are not random: its picture is not made in passes");
     const SampleRange part = options.passes->part.value_or(SampleRange{0, options.samples});
+    if (options.passes->part && options.passes->target_error > 0)
+      refuse("where the error settles the number of samples none can be a part of them");
     if (part.first >= part.last || part.last > options.samples)
       refuse("the part must hold samples of the picture, 0 to " + std::to_string(options.samples));
   }
-  std::vector<Aov> aovs = options.aovs;
-  std::ranges::sort(aovs);
-  if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
-    refuse("asks for the channels of " + std::string(name_of(*twice)) + " twice");
+  const auto require_once = [&](auto aovs) {
+    std::ranges::sort(aovs);
+    if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
+      refuse("asks for the channels of " + std::string(name_of(*twice)) + " twice");
+  };
+  require_once(options.aovs);
+  require_once(options.sampled_aovs);
+  if (!options.sampled_aovs.empty() && !is_random) {
+    refuse("this integrator's answers are not random: there are no channels of " +
+           std::string(name_of(options.sampled_aovs.front())));
+  }
 }
 
 PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
@@ -137,6 +147,11 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
       paint_channels(tile);
     };
     for_each_tile(window, threads, draw, options.progress);
+    if (options.counts != nullptr) {
+      const ImageSize part = window.size();
+      *options.counts = {.samples = std::uint64_t{part.width} * part.height * options.samples,
+                         .samples_per_pixel = options.samples};
+    }
   }
   film.display = integrator.display(film);
   if (options.times != nullptr)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -10,12 +11,22 @@
 namespace microtrace {
 namespace {
 
-std::uint64_t tiles_across(std::uint32_t pixels) {
-  return (std::uint64_t{pixels} + kTileEdge - 1) / kTileEdge;
+std::size_t tiles_across(std::uint32_t pixels) {
+  return (std::size_t{pixels} + kTileEdge - 1) / kTileEdge;
 }
 
-PixelRect tile_at(std::uint64_t index, const PixelRect& window) {
-  const std::uint64_t columns = tiles_across(window.size().width);
+}  // namespace
+
+std::size_t tile_columns(const PixelRect& window) {
+  return tiles_across(window.size().width);
+}
+
+std::size_t tile_count(const PixelRect& window) {
+  return tile_columns(window) * tiles_across(window.size().height);
+}
+
+PixelRect tile_at(std::size_t index, const PixelRect& window) {
+  const std::size_t columns = tile_columns(window);
   const auto x0 = window.x0 + static_cast<std::uint32_t>(index % columns * kTileEdge);
   const auto y0 = window.y0 + static_cast<std::uint32_t>(index / columns * kTileEdge);
   return {.x0 = x0,
@@ -24,13 +35,10 @@ PixelRect tile_at(std::uint64_t index, const PixelRect& window) {
           .y1 = std::min(y0 + kTileEdge, window.y1)};
 }
 
-}  // namespace
-
 void for_each_tile(const PixelRect& window, unsigned threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<void(double)>& progress) {
-  const ImageSize size = window.size();
-  const std::uint64_t count = tiles_across(size.width) * tiles_across(size.height);
+  const std::uint64_t count = tile_count(window);
   // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
   // enough to share evenly.
   const std::uint64_t run = std::clamp<std::uint64_t>(count / (std::uint64_t{threads} * 32), 1, 64);

@@ -13,6 +13,19 @@ namespace microtrace {
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
+/// How many tiles the window has, and how many of them lie side by side.
+[[nodiscard]] std::size_t tile_count(const PixelRect& window);
+[[nodiscard]] std::size_t tile_columns(const PixelRect& window);
+
+/// Tiles in their order: row by row from the upper left.
+[[nodiscard]] PixelRect tile_at(std::size_t index, const PixelRect& window);
+
+/// The number of a tile of the window.
+[[nodiscard]] inline std::size_t tile_index(const PixelRect& tile, const PixelRect& window) {
+  return std::size_t{(tile.y0 - window.y0) / kTileEdge} * tile_columns(window) +
+         (tile.x0 - window.x0) / kTileEdge;
+}
+
 /// Calls draw once for every tile of the window, on that many threads, the caller's among them;
 /// then progress with the share done. The first exception that draw throws stops the work and is
 /// thrown here.

@@ -1,0 +1,126 @@
+#include "render/sampled_aov_painter.hpp"
+
+#include "render/aov_value.hpp"
+#include "render/sampling/dimensions.hpp"
+#include "render/sampling/sobol.hpp"
+#include "render/tiles.hpp"
+#include "scene/surface_interaction.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <glm/common.hpp>
+
+namespace microtrace {
+namespace {
+
+/// Of each pixel's samples so many are looked at for what they see: edges need no more.
+constexpr std::uint32_t kMaxSights = 32;
+
+struct Row {
+  std::string_view name;
+  std::string_view channels;  ///< a letter each
+};
+
+const Row& row_of(SampledAov aov) {
+  // In the order of SampledAov.
+  static constexpr std::array kRows = {Row{"variance", "Y"}, Row{"samples", "N"},
+                                       Row{"denoise_albedo", "RGB"}, Row{"denoise_normal", "XYZ"}};
+  static_assert(kRows.size() == kSampledAovs.size());
+  return kRows[static_cast<std::size_t>(aov)];
+}
+
+}  // namespace
+
+std::string_view name_of(SampledAov aov) {
+  return row_of(aov).name;
+}
+
+std::optional<SampledAov> sampled_aov_named(std::string_view name) {
+  for (const SampledAov aov : kSampledAovs) {
+    if (name_of(aov) == name) return aov;
+  }
+  return std::nullopt;
+}
+
+SampledAovPainter::SampledAovPainter(const World& world, const RenderOptions& options,
+                                     const PixelRect& window, Film& film)
+    : world_(world),
+      options_(options),
+      ray_(world.camera, world.scene),
+      filter_(options.filter),
+      window_(window),
+      film_(film) {
+  first_.fill(kNone);
+  const std::size_t pixels = std::size_t{film.size().width} * film.size().height;
+  for (const SampledAov aov : options.sampled_aovs) {
+    first_[static_cast<std::size_t>(aov)] = film.channels.size();
+    for (const char letter : row_of(aov).channels) {
+      film.channels.push_back({.name = std::string(name_of(aov)).append(".").append(1, letter),
+                               .values = std::vector<float>(pixels)});
+    }
+  }
+}
+
+float& SampledAovPainter::value(SampledAov aov, std::size_t channel, std::size_t pixel) const {
+  const std::size_t first = first_[static_cast<std::size_t>(aov)];
+  return std::get<std::vector<float>>(film_.channels[first + channel].values)[pixel];
+}
+
+void SampledAovPainter::set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const {
+  if (has(SampledAov::variance))
+    value(SampledAov::variance, 0, pixel) = static_cast<float>(sum.variance(background));
+  if (has(SampledAov::samples))
+    value(SampledAov::samples, 0, pixel) = static_cast<float>(sum.count);
+}
+
+void SampledAovPainter::paint(const PixelRect& tile) const {
+  if (!has(SampledAov::denoise_albedo) && !has(SampledAov::denoise_normal)) return;
+  std::array<Ray, kTilePixels> rays;
+  std::array<std::optional<Hit>, kTilePixels> hits;
+  std::array<DVec3, kTilePixels> albedos{}, normals{};
+  const ImageSize size = tile.size();
+  const std::size_t pixels = std::size_t{size.width} * size.height;
+  const std::uint32_t count = std::min(options_.samples, kMaxSights);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const auto x = tile.x0 + static_cast<std::uint32_t>(i % size.width);
+      const auto y = tile.y0 + static_cast<std::uint32_t>(i / size.width);
+      const std::uint32_t key = sampling::pixel_key(world_.seed, x, y);
+      const Vec2 uv = sampling::Sobol(key, k).pair(sampling::kPixelPair);
+      const PixelOffset offset = filter_(uv.x, uv.y);
+      rays[i] = ray_(x + offset.x, y + offset.y);
+    }
+    find_seen(world_, std::span(rays).first(pixels), std::span(hits).first(pixels));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      if (!hits[i]) continue;
+      const Sight sight{.world = world_,
+                        .ray = rays[i],
+                        .hit = *hits[i],
+                        .at = interact(world_.bvh.primitives(), rays[i], *hits[i])};
+      const auto albedo = value_of(Aov::albedo, sight), normal = value_of(Aov::normal, sight);
+      albedos[i] += DVec3(albedo[0], albedo[1], albedo[2]);
+      normals[i] += DVec3(normal[0], normal[1], normal[2]);
+    }
+  }
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const std::size_t x = tile.x0 - window_.x0 + i % size.width;
+    const std::size_t y = tile.y0 - window_.y0 + i / size.width;
+    const std::size_t pixel = y * film_.size().width + x;
+    const auto store = [&](SampledAov aov, const DVec3& sum) {
+      if (!has(aov)) return;
+      for (std::size_t c = 0; c < 3; ++c) {
+        value(aov, c, pixel) =
+            static_cast<float>(sum[static_cast<glm::length_t>(c)] / static_cast<double>(count));
+      }
+    };
+    store(SampledAov::denoise_albedo, glm::min(albedos[i], DVec3(count)));
+    store(SampledAov::denoise_normal, normals[i]);
+  }
+}
+
+}  // namespace microtrace

@@ -1,0 +1,51 @@
+#pragma once
+/// Fills the film's channels of means over samples.
+
+#include "render/camera_rays.hpp"
+#include "render/pixel_filter.hpp"
+
+#include <microtrace/film.hpp>
+#include <microtrace/integrator.hpp>
+#include <microtrace/render.hpp>
+#include <microtrace/sample_sums.hpp>
+#include <microtrace/sampled_aov.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace microtrace {
+
+/// Any number of threads may paint tiles and set pixels that do not overlap.
+class SampledAovPainter {
+ public:
+  /// Adds the channels that the options ask for to the film, which holds the pixels of `window`.
+  /// All of these must outlive it.
+  SampledAovPainter(const World& world, const RenderOptions& options, const PixelRect& window,
+                    Film& film);
+
+  /// What samples tell of a pixel, counted in the film.
+  void set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const;
+
+  /// What is seen in a tile of the window, at most kTileEdge pixels a side.
+  void paint(const PixelRect& tile) const;
+
+ private:
+  /// The film's values of a channel.
+  [[nodiscard]] float& value(SampledAov aov, std::size_t channel, std::size_t pixel) const;
+  [[nodiscard]] bool has(SampledAov aov) const {
+    return first_[static_cast<std::size_t>(aov)] != kNone;
+  }
+
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  const World& world_;
+  const RenderOptions& options_;
+  CameraRays ray_;
+  FilterSampler filter_;
+  const PixelRect& window_;
+  Film& film_;
+  std::array<std::size_t, kSampledAovs.size()> first_{};  ///< channel of the film, or kNone
+};
+
+}  // namespace microtrace

@@ -1,0 +1,130 @@
+#include "render/sampling/hash.hpp"
+#include "render/tile_errors.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/render.hpp>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+/// 1 left of pixel 16; a coin of 0 and 2 from there to 31; a hundredth of that from 32 on.
+class CoinIntegrator final : public Integrator {
+ public:
+  void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
+             std::span<Sample> samples) const override {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      using sampling::hash;
+      const std::uint32_t key = hash(hash(hash(world.seed, ids[i].x), ids[i].y), ids[i].index);
+      const float coin = (key >> 31U) != 0 ? 2.0F : 0.0F;
+      samples[i].color = Vec3(ids[i].x < 16 ? 1 : ids[i].x < 32 ? coin : coin / 100);
+      samples[i].alpha = 1;
+    }
+  }
+  [[nodiscard]] bool is_random() const override { return true; }
+};
+
+constexpr ImageSize kSize{.width = 48, .height = 20};
+
+Film drawn(RenderOptions options) {
+  const CoinIntegrator integrator;
+  options.integrator = &integrator;
+  return render(Scene{}, PerspectiveCamera{}, kSize, options);
+}
+
+/// With so many samples at most. Goes on from the sums, if there are some.
+Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
+  return drawn({.threads = threads,
+                .samples = samples,
+                .passes = Passes{.sums = &sums, .target_error = target}});
+}
+
+// A coin of 0 and 2 has the standard deviation 1, its mean of n the error 1 / sqrt(n - 1) at most.
+TEST(TileErrors, AreRelativeToThePixelsLightAndThePictures) {
+  SampleSums sums;
+  (void)drawn_to(0, sums, 4096);
+  const std::vector<double> errors = tile_errors(sums);
+  ASSERT_EQ(errors.size(), 18U);  // 6 x 3
+  const double mean = (1 + 1 + 0.01) / 3, s = 1 / std::sqrt(4095.0);
+  for (std::size_t row = 0; row < 3; ++row) {
+    EXPECT_LT(errors[row * 6], 1e-7);
+    EXPECT_NEAR(errors[row * 6 + 2], s / ((1 + mean) / 2), 1e-2 * s);
+    EXPECT_NEAR(errors[row * 6 + 4], s / 100 / ((0.01 + mean) / 2), 1e-3 * s);
+  }
+}
+
+TEST(TileErrors, ABlackPictureHasNone) {
+  const SampleSums sums({.width = 9, .height = 3}, {0, 0, 9, 3}, Vec3(0));
+  EXPECT_EQ(tile_errors(sums), (std::vector<double>{0, 0}));
+}
+
+TEST(TileErrors, GoodTilesHaveGoodNeighbours) {
+  const PixelRect window{0, 0, 30, 20};  // 4 x 3 tiles
+  std::vector<double> errors(12, 0.1);
+  EXPECT_EQ(good_tiles(errors, window, 0.1), std::vector<bool>(12, true));
+  errors[0] = 0.2;
+  std::vector<bool> expected(12, true);
+  for (const std::size_t near : {0U, 1U, 4U, 5U}) expected[near] = false;
+  EXPECT_EQ(good_tiles(errors, window, 0.1), expected);
+  errors[0] = 0.1;
+  errors[6] = 0.11;
+  expected.assign(12, false);
+  for (const std::size_t far : {0U, 4U, 8U}) expected[far] = true;
+  EXPECT_EQ(good_tiles(errors, window, 0.1), expected);
+}
+
+// Between the halves tiles wait for each other; the coin needs some 800 samples, so 1024.
+TEST(TargetError, StopsWhereThePictureIsGood) {
+  SampleSums sums;
+  RenderCounts counts;
+  const CoinIntegrator integrator;
+  (void)render(Scene{}, PerspectiveCamera{}, kSize,
+               {.integrator = &integrator,
+                .samples = 65536,
+                .passes = Passes{.sums = &sums, .target_error = 0.04},
+                .counts = &counts});
+  EXPECT_EQ(counts.samples_per_pixel, 1024U);
+  std::uint64_t samples = 0;
+  for (const PixelSum& pixel : sums.pixels) samples += pixel.count;
+  EXPECT_EQ(samples, counts.samples);
+  for (std::uint32_t y = 0; y < kSize.height; ++y) {
+    EXPECT_EQ(sums.at(0, y).count, 32U);
+    EXPECT_EQ(sums.at(8, y).count, 1024U);  // beside the coin
+    EXPECT_EQ(sums.at(20, y).count, 1024U);
+    EXPECT_EQ(sums.at(47, y).count, 32U);
+  }
+}
+
+TEST(TargetError, TheMostSamplesStay) {
+  SampleSums sums;
+  (void)drawn_to(1e-9, sums, 100);
+  EXPECT_EQ(sums.at(20, 5).count, 100U);
+  EXPECT_EQ(sums.count(), 100U);
+}
+
+TEST(TargetError, ThreadsAndInterruptionsDontMatter) {
+  SampleSums whole, parts;
+  const Film film = drawn_to(0.04, whole, 4096);
+  for (const std::uint32_t samples : {7U, 32U, 50U, 64U, 700U, 1024U, 1100U})
+    (void)drawn_to(0.04, parts, samples, 3);
+  const Film again = drawn_to(0.04, parts, 4096, 2);
+  EXPECT_EQ(parts.ranges(), whole.ranges());
+  EXPECT_EQ(parts.pixels, whole.pixels);
+  for (std::uint32_t y = 0; y < kSize.height; ++y) {
+    for (std::uint32_t x = 0; x < kSize.width; ++x) ASSERT_EQ(film.row(y)[x], again.row(y)[x]);
+  }
+}
+
+TEST(TargetError, IsNotForParts) {
+  EXPECT_THROW(
+      (void)drawn({.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
+      Error);
+}
+
+}  // namespace
+}  // namespace microtrace
