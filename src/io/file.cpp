@@ -1,5 +1,6 @@
 #include "io/file.hpp"
 
+#include <microtrace/digest.hpp>
 #include <microtrace/error.hpp>
 
 #include <algorithm>
@@ -11,6 +12,9 @@
 
 namespace microtrace::io {
 namespace {
+
+/// That of the thread's last ReadDigest, or null.
+thread_local Digest* digest_of_reads = nullptr;
 
 constexpr std::size_t chunk = std::size_t{64} * 1024;
 
@@ -72,6 +76,7 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
     ended = fill(descriptor, name, bytes, std::min(bytes.size() * 2, limit + 1));
   }
   if (bytes.size() > limit) fail_too_large(name, limit);
+  if (digest_of_reads != nullptr) digest_of_reads->add(bytes);
   return bytes;
 }
 
@@ -89,3 +94,15 @@ std::string read_file(const std::filesystem::path& path, std::size_t limit) {
 }
 
 }  // namespace microtrace::io
+
+namespace microtrace {
+
+ReadDigest::ReadDigest() : former_(io::digest_of_reads) {
+  io::digest_of_reads = &digest_;
+}
+
+ReadDigest::~ReadDigest() {
+  io::digest_of_reads = former_;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,70 @@
+#pragma once
+/// A number that tells byte strings apart.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace microtrace {
+
+/// 64 bits that differ for different bytes but by chance (one in 2^64), the same on every machine.
+/// Against bytes that someone chose to deceive it is no help.
+class Digest {
+ public:
+  /// Goes on with these bytes; how a string is cut into calls has no influence.
+  void add(std::string_view bytes) {
+    for (; !bytes.empty() && filled_ != 0; bytes.remove_prefix(1)) add_byte(bytes[0]);
+    for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
+      std::uint64_t word = 0;
+      for (std::size_t i = 8; i-- > 0;) word = word << 8U | static_cast<unsigned char>(bytes[i]);
+      mix(word);
+    }
+    for (const char byte : bytes) add_byte(byte);
+  }
+
+  [[nodiscard]] std::uint64_t value() const {
+    Digest ended = *this;
+    ended.mix(rest_);
+    ended.mix(8 * words_ + filled_);  // the length: zeros at the end count
+    return ended.state_ ^ ended.state_ >> 29U;
+  }
+
+ private:
+  void add_byte(char byte) {
+    rest_ |= std::uint64_t{static_cast<unsigned char>(byte)} << (8 * filled_);
+    if (++filled_ < 8) return;
+    mix(rest_);
+    filled_ = 0;
+    rest_ = 0;
+  }
+
+  // The multiplier and shifts of SplitMix64 (S. Vigna); one word a step.
+  void mix(std::uint64_t word) {
+    state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9U;
+    state_ ^= state_ >> 31U;
+    ++words_;
+  }
+
+  std::uint64_t state_ = 0x9e3779b97f4a7c15U, words_ = 0;
+  std::uint64_t rest_ = 0;  ///< bytes that make no word yet
+  unsigned filled_ = 0;     ///< their number
+};
+
+/// While it lives, takes all bytes of files, and of standard input, that the library reads on this
+/// thread: at the one place where it reads, so that none can be forgotten. The last one made
+/// counts.
+class ReadDigest {
+ public:
+  ReadDigest();
+  ~ReadDigest();
+  ReadDigest(const ReadDigest&) = delete;
+  ReadDigest& operator=(const ReadDigest&) = delete;
+
+  [[nodiscard]] std::uint64_t value() const { return digest_.value(); }
+
+ private:
+  Digest digest_;
+  Digest* former_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,67 @@
+#include <microtrace/checkpoint.hpp>
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace microtrace {
+namespace {
+
+/// Name to value, in the order of names.
+std::map<std::string, std::string, std::less<>> entries_of(std::string_view identity) {
+  std::map<std::string, std::string, std::less<>> entries;
+  while (!identity.empty()) {
+    const std::string_view line = identity.substr(0, identity.find('\n'));
+    identity.remove_prefix(std::min(line.size() + 1, identity.size()));
+    const std::size_t tab = std::min(line.find('\t'), line.size());
+    entries.emplace(line.substr(0, tab), line.substr(std::min(tab + 1, line.size())));
+  }
+  return entries;
+}
+
+/// "made with --seed 1, not with --seed 2": the first entry that differs.
+std::string difference(std::string_view there, std::string_view here) {
+  const auto theirs = entries_of(there), ours = entries_of(here);
+  for (const auto& [name, value] : theirs) {
+    const auto our = ours.find(name);
+    if (our == ours.end()) return "made with " + name + " " + value + ", not without " + name;
+    if (our->second != value)
+      return "made with " + name + " " + value + ", not with " + name + " " + our->second;
+  }
+  for (const auto& [name, value] : ours) {
+    if (!theirs.contains(name)) return "made without " + name + ", not with " + name + " " + value;
+  }
+  return "made with the same options in another order";
+}
+
+}  // namespace
+
+void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ErrorKind::usage, path.string(), message);
+  };
+  if (other.identity != checkpoint.identity)
+    refuse("holds samples of another picture: " + difference(other.identity, checkpoint.identity));
+  checkpoint.samples = std::max(checkpoint.samples, other.samples);
+  if (checkpoint.sums.pixels.empty()) {
+    checkpoint.sums = std::move(other.sums);
+    return;
+  }
+  const SampleSums &theirs = other.sums, &ours = checkpoint.sums;
+  if (theirs.window != ours.window || theirs.background != ours.background ||
+      other.has_alpha != checkpoint.has_alpha)
+    refuse("holds samples of another part or background of the picture");
+  for (const SampleRange& range : theirs.ranges()) {
+    if (ours.overlaps(range)) {
+      refuse("holds samples " + std::to_string(range.first) + " to " +
+             std::to_string(range.last - 1) + ", of which some are there already");
+    }
+  }
+  checkpoint.sums += theirs;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,57 @@
+#pragma once
+/// Numbers as bytes, the lowest first.
+
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace microtrace::io {
+
+template <std::unsigned_integral Number>
+void append(std::string& bytes, Number value) {
+  for (std::size_t i = 0; i < sizeof(Number); ++i)
+    bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
+}
+
+/// Takes numbers off the front of bytes.
+class ByteReader {
+ public:
+  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+
+  /// Nothing where bytes run out.
+  [[nodiscard]] std::optional<std::string_view> take(std::size_t size) {
+    if (bytes_.size() < size) return std::nullopt;
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return taken;
+  }
+
+  /// Sets is_short() and gives 0 where bytes run out.
+  template <std::unsigned_integral Number>
+  [[nodiscard]] Number number() {
+    const auto taken = take(sizeof(Number));
+    if (!taken) {
+      is_short_ = true;
+      return 0;
+    }
+    Number value = 0;
+    for (std::size_t i = sizeof(Number); i-- > 0;) {
+      value = static_cast<Number>(static_cast<std::uint64_t>(value) << 8U |
+                                  static_cast<unsigned char>((*taken)[i]));
+    }
+    return value;
+  }
+
+  [[nodiscard]] bool is_short() const { return is_short_; }
+  [[nodiscard]] std::size_t left() const { return bytes_.size(); }
+
+ private:
+  std::string_view bytes_;
+  bool is_short_ = false;
+};
+
+}  // namespace microtrace::io

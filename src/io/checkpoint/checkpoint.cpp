@@ -1,0 +1,172 @@
+#include "io/checkpoint/bytes.hpp"
+#include "io/file.hpp"
+#include "io/image/atomic_file.hpp"
+
+#include <microtrace/checkpoint.hpp>
+#include <microtrace/digest.hpp>
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+// The file: magic, version, the members in the order below, the pixels, and the digest of all that
+// is before it. All numbers are unsigned, the lowest byte first; float32 as their bits.
+
+namespace microtrace {
+namespace {
+
+constexpr std::string_view kMagic = "microtrace samples\n";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kPixelBytes = 10 * 8 + 4;
+constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
+constexpr std::uint32_t kMaxRanges = 65536, kMaxIdentity = 1U << 20U;
+
+/// f(number) for each number of a pixel, in the file's order.
+template <class Pixel, class F>
+void for_each_number(Pixel& pixel, const F& f) {
+  for (auto& channel : pixel.color) {
+    for (auto& word : channel.words) f(word);
+  }
+  for (auto& word : pixel.alpha.words) f(word);
+  for (auto& word : pixel.square.words) f(word);
+  f(pixel.count);
+}
+
+std::string encode_head(const Checkpoint& checkpoint) {
+  using io::append;
+  const SampleSums& sums = checkpoint.sums;
+  std::string bytes(kMagic);
+  append(bytes, kVersion);
+  append(bytes, static_cast<std::uint32_t>(checkpoint.identity.size()));
+  bytes += checkpoint.identity;
+  append(bytes, std::uint32_t{checkpoint.has_alpha});
+  append(bytes, checkpoint.samples);
+  append(bytes, std::bit_cast<std::uint64_t>(checkpoint.display.exposure));
+  append(bytes, static_cast<std::uint32_t>(checkpoint.display.tone_map));
+  for (const std::uint32_t number : {sums.whole.width, sums.whole.height, sums.window.x0,
+                                     sums.window.y0, sums.window.x1, sums.window.y1})
+    append(bytes, number);
+  for (const float number : {sums.background.x, sums.background.y, sums.background.z})
+    append(bytes, std::bit_cast<std::uint32_t>(number));
+  append(bytes, static_cast<std::uint32_t>(sums.ranges().size()));
+  for (const SampleRange& range : sums.ranges()) {
+    append(bytes, range.first);
+    append(bytes, range.last);
+  }
+  return bytes;
+}
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& message) {
+  throw Error(ErrorKind::io, path.string(), message);
+}
+
+[[noreturn]] void fail_as_damaged(const std::filesystem::path& path) {
+  fail(path, "is damaged or was cut off; remove it and render its samples again");
+}
+
+/// What stands between the version and the pixels; their number is then the window's.
+Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path) {
+  const auto word = [&] { return reader.number<std::uint32_t>(); };
+  Checkpoint checkpoint;
+  const std::uint32_t identity_size = word();
+  const auto identity = reader.take(std::min(identity_size, kMaxIdentity));
+  if (!identity) fail_as_damaged(path);
+  checkpoint.identity = *identity;
+  checkpoint.has_alpha = word() != 0;
+  checkpoint.samples = word();
+  checkpoint.display.exposure = std::bit_cast<double>(reader.number<std::uint64_t>());
+  const std::uint32_t tone_map = word();
+  if (tone_map >= kToneMaps.size()) fail_as_damaged(path);
+  checkpoint.display.tone_map = kToneMaps[tone_map];
+  ImageSize whole;
+  PixelRect window;
+  for (std::uint32_t* number :
+       {&whole.width, &whole.height, &window.x0, &window.y0, &window.x1, &window.y1})
+    *number = word();
+  Vec3 background(0);
+  for (float* number : {&background.x, &background.y, &background.z})
+    *number = std::bit_cast<float>(word());
+  const std::uint32_t range_count = word();
+  const bool is_window = window.x0 < window.x1 && window.x1 <= whole.width &&
+                         window.y0 < window.y1 && window.y1 <= whole.height;
+  if (!is_window || range_count > kMaxRanges) fail_as_damaged(path);
+  std::vector<SampleRange> ranges(range_count);
+  for (SampleRange& range : ranges) {
+    range.first = word();
+    range.last = word();
+  }
+  const ImageSize size = window.size();
+  const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
+  if (reader.is_short() || reader.left() / kPixelBytes != pixels ||
+      reader.left() % kPixelBytes != 0)
+    fail_as_damaged(path);
+  checkpoint.sums = SampleSums(whole, window, background);
+  for (const SampleRange& range : ranges) checkpoint.sums.note(range);
+  return checkpoint;
+}
+
+}  // namespace
+
+void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16U;
+  io::AtomicFile file(path);
+  Digest digest;
+  std::string bytes = encode_head(checkpoint);
+  const auto flush = [&] {
+    digest.add(bytes);
+    file.write(bytes);
+    bytes.clear();
+  };
+  for (const PixelSum& pixel : checkpoint.sums.pixels) {
+    for_each_number(pixel, [&](auto number) { io::append(bytes, number); });
+    if (bytes.size() >= kBlock) flush();
+  }
+  flush();
+  io::append(bytes, digest.value());
+  file.write(bytes);
+  file.commit();
+}
+
+Checkpoint load_checkpoint(const std::filesystem::path& path) {
+  const std::string bytes = io::read_file(path, kMaxFileSize, [&](std::string_view first) {
+    if (!first.starts_with(kMagic)) fail(path, "holds no samples that microtrace wrote");
+  });
+  io::ByteReader reader(std::string_view(bytes).substr(kMagic.size()));
+  const auto version = reader.number<std::uint32_t>();
+  if (version != kVersion && !reader.is_short()) {
+    fail(path, "has version " + std::to_string(version) + " of its format, not " +
+                   std::to_string(kVersion) + "; use the program that wrote it");
+  }
+  if (bytes.size() < kMagic.size() + 12) fail_as_damaged(path);
+  const std::string_view content = std::string_view(bytes).substr(0, bytes.size() - 8);
+  io::ByteReader end(std::string_view(bytes).substr(content.size()));
+  Digest digest;
+  digest.add(content);
+  if (end.number<std::uint64_t>() != digest.value()) fail_as_damaged(path);
+  reader = io::ByteReader(content.substr(kMagic.size() + sizeof(kVersion)));
+  Checkpoint checkpoint = decode_head(reader, path);
+  for (PixelSum& pixel : checkpoint.sums.pixels) {
+    for_each_number(pixel, [&](auto& number) {
+      number = reader.number<std::remove_cvref_t<decltype(number)>>();
+    });
+  }
+  return checkpoint;
+}
+
+Film picture_of(const Checkpoint& checkpoint) {
+  Film film = develop(checkpoint.sums,
+                      checkpoint.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
+  film.display = checkpoint.display;
+  return film;
+}
+
+void check_checkpoint_path(const std::filesystem::path& path) {
+  if (path == "-" || io::is_stream(path))
+    throw Error(ErrorKind::usage, path.string(), "can't hold samples to go on from; name a file");
+  io::check_target(path);
+}
+
+}  // namespace microtrace
