@@ -26,7 +26,8 @@ Examples:
   microtrace scenes/perspective1.json -o perspective1.ppm
   microtrace model.glb --size 1920x1080 --spp 16 -o model.png
   microtrace model.glb --aov id,depth,normal --background transparent -o model.exr
-  microtrace scene.json -o - | other-program)";
+  microtrace scene.json -o - | other-program
+  microtrace merge CHECKPOINT... -o picture.png)";
 
 std::filesystem::path default_output(const std::string& scene, bool has_frames) {
   if (scene == "-") throw CLI::RequiredError("--output, where the scene is standard input,");
@@ -95,11 +96,11 @@ Parsed parse_arguments(int argc, char** argv) {
                  "the most straight parts of a path of light, 2: direct light alone [32]")
       ->check(CLI::Range(1U, 65536U))
       ->type_name("N");
-  app.add_option(
-      "--aov", aovs,
-      "exact quantities at pixel centres as further channels of an .exr file: depth, "
-      "distance, position, normal, face_normal, uv, barycentric, albedo, id, with commas "
-      "between");
+  app.add_option("--aov", aovs,
+                 "exact quantities at pixel centres as further channels of an .exr file: depth, "
+                 "distance, position, normal, face_normal, uv, barycentric, albedo, id; of path "
+                 "also means over "
+                 "samples: variance, samples, denoise_albedo, denoise_normal; with commas between");
   app.add_option("--sidecar", sidecar,
                  "JSON file for camera, objects with ids, names, boxes and visible pixels, and "
                  "materials [the picture's name with .json added, where --aov has id]");
@@ -147,6 +148,7 @@ Parsed parse_arguments(int argc, char** argv) {
     app.parse(argc, argv);
     if (app.count("--size") > 0) a.size = parse_size(size);
     if (app.count("--integrator") > 0) a.wanted = parse_integrator(integrator);
+    finish_sampling(app, a.sampling);
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     if (app.count("--view") > 0) a.view = parse_view(view);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
@@ -158,9 +160,10 @@ Parsed parse_arguments(int argc, char** argv) {
     if (!statistics.empty())
       a.statistics = statistics == "json" ? Statistics::json : Statistics::text;
     a.output = output;
-    if (output.empty() && !a.validate) a.output = default_output(a.scene, a.frames.has_value());
+    if (output.empty() && !a.validate && !a.sampling.shard)
+      a.output = default_output(a.scene, a.frames.has_value());
     a.sidecar = sidecar;
-    if (sidecar.empty() && std::ranges::find(a.aovs, Aov::id) != a.aovs.end())
+    if (sidecar.empty() && std::ranges::find(a.aovs.exact, Aov::id) != a.aovs.exact.end())
       (a.sidecar = a.output) += ".json";
     if (a.frames && !a.output.empty()) check_pattern("--output", a.output.string());
     if (a.frames && !a.sidecar.empty()) check_pattern("--sidecar", a.sidecar.string());
@@ -196,7 +199,13 @@ void settle(Arguments& a, SceneFormat format) {
     throw Error(ErrorKind::usage, "",
                 "--background: env is seen only with light; use --integrator path");
   }
+  if (!a.aovs.sampled.empty() && !has_light) {
+    throw Error(ErrorKind::usage, "",
+                "--aov: " + std::string(name_of(a.aovs.sampled.front())) +
+                    " is of pictures with light; use --integrator path");
+  }
   if (a.sampling.samples == 0) a.sampling.samples = has_light ? 64 : 1;
+  check_sampling(a.sampling, has_light);
   // Lighter than shadows and darker than highlights, so that models stand out.
   if (is_gltf && has_light && !a.surroundings.background)
     a.surroundings.background = Background{.color = Vec3(0.6F)};

@@ -35,7 +35,7 @@ struct Arguments {
   std::optional<Subject> wanted{};       ///< what --integrator names
   Subject integrator = Technique::flat;  ///< as settle() has it
   std::uint32_t max_depth = PathOptions{}.max_depth;
-  std::vector<Aov> aovs{};
+  Channels aovs{};
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   std::string camera;             ///< a name or an index; empty: the default
   std::optional<View> view{};

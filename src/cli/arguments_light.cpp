@@ -65,6 +65,10 @@ void add_light_options(CLI::App& app, Surroundings& surroundings, Exposure& expo
          "what is seen behind all objects: #rrggbb in sRGB, r,g,b in linear light from 0 to 1, "
          "env: the environment, or transparent: an alpha channel [as the scene says, or black]")
       ->type_name("COLOUR");
+  add_exposure_options(app, exposure);
+}
+
+void add_exposure_options(CLI::App& app, Exposure& exposure) {
   app.add_option_function<std::string>(
          "--exposure",
          [&](const std::string& text) {

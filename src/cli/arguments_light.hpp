@@ -45,6 +45,9 @@ struct Exposure {
 /// Adds the options, which are written to `surroundings` and `exposure` when the app parses.
 void add_light_options(CLI::App& app, Surroundings& surroundings, Exposure& exposure);
 
+/// Adds those that say how light is shown, alone.
+void add_exposure_options(CLI::App& app, Exposure& exposure);
+
 /// Changes how the film is shown, unless it shows numbers rather than light.
 void expose(Film& film, const Exposure& exposure);
 

@@ -1,8 +1,10 @@
 #include "cli/arguments.hpp"
+#include "cli/merge.hpp"
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
 #include "cli/verdict.hpp"
 
+#include <microtrace/digest.hpp>
 #include <microtrace/framing.hpp>
 
 #include <csignal>
@@ -91,12 +93,11 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     watch.loaded(std::exchange(times, {}));
     if (arguments.validate) continue;
 
-    const std::filesystem::path picture = frame_path(output, frame);
-    const std::filesystem::path beside = frame_path(sidecar, frame);
-    cli::make_picture(std::move(scene), camera, size, arguments, picture, beside, watch,
-                      [&](double share) {
-                        if (progress) progress((frame - frames.first + share) / frames.count());
-                      });
+    const cli::PictureFiles files{.picture = frame_path(output, frame),
+                                  .sidecar = frame_path(sidecar, frame)};
+    cli::make_picture(std::move(scene), camera, size, arguments, files, watch, [&](double share) {
+      if (progress) progress((frame - frames.first + share) / frames.count());
+    });
   }
   if (arguments.validate)
     cli::print_valid(arguments.scene, reported.size() + light_warnings.size());
@@ -108,6 +109,8 @@ void run(cli::Arguments arguments) {
   LoadTimes times;
   LoadOptions options = load_options(arguments);
   options.times = &times;
+  std::optional<ReadDigest> digest;
+  if (arguments.sampling.keeps_samples()) digest.emplace();
   SceneFile file(arguments.scene, options);
   cli::settle(arguments, file.format());
   auto [scene, warnings] = file.at(arguments.load.time);
@@ -120,8 +123,30 @@ void run(cli::Arguments arguments) {
   if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
-  cli::make_picture(std::move(scene), camera, size, arguments, arguments.output, arguments.sidecar,
-                    watch, cli::progress_of(arguments));
+  cli::PictureFiles files{.picture = arguments.output, .sidecar = arguments.sidecar};
+  std::optional<cli::SampleFiles> samples;
+  if (arguments.sampling.keeps_samples())
+    files.samples = &samples.emplace(arguments, digest->value());
+  cli::make_picture(std::move(scene), camera, size, arguments, files, watch,
+                    cli::progress_of(arguments));
+}
+
+/// Does the work, and says what went wrong with it.
+template <class Work>
+int exit_code_of(const Work& work) {
+  try {
+    work();
+    return 0;
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+    return static_cast<int>(ErrorKind::limit);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(ErrorKind::internal);
+  }
 }
 
 }  // namespace
@@ -132,20 +157,20 @@ int main(int argc, char** argv) {
   // A closed pipe and a file size limit are errors of the write, with a message.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  const auto [arguments, exit_code] = cli::parse_arguments(argc, argv);
-  if (exit_code) return *exit_code;
-  try {
-    run(arguments);
-    return 0;
-  } catch (const Error& error) {
-    if (arguments.validate) cli::print_refused(arguments.scene, error.kind());
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return static_cast<int>(error.kind());
-  } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "error: out of memory\n");
-    return static_cast<int>(ErrorKind::limit);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return static_cast<int>(ErrorKind::internal);
+  if (cli::is_merge(argc, argv)) {
+    const cli::ParsedMerge merge = cli::parse_merge(argc, argv);
+    if (merge.exit_code) return *merge.exit_code;
+    return exit_code_of([&] { cli::merge_samples(merge.arguments); });
   }
+  const cli::Parsed parsed = cli::parse_arguments(argc, argv);
+  if (parsed.exit_code) return *parsed.exit_code;
+  return exit_code_of([&] {
+    const cli::Arguments& arguments = parsed.arguments;
+    try {
+      run(arguments);
+    } catch (const Error& error) {
+      if (arguments.validate) cli::print_refused(arguments.scene, error.kind());
+      throw;
+    }
+  });
 }

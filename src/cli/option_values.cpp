@@ -149,19 +149,26 @@ Subject parse_integrator(const std::string& text) {
   throw CLI::ValidationError("--integrator", "wants flat, path, " + aov_names() + ", not " + text);
 }
 
-std::vector<Aov> parse_aovs(const std::string& text) {
-  std::vector<Aov> aovs;
+Channels parse_aovs(const std::string& text) {
+  Channels channels;
+  const auto add = [](auto& list, auto aov) {
+    if (std::ranges::find(list, aov) != list.end())
+      throw CLI::ValidationError("--aov", "names " + std::string(name_of(aov)) + " twice");
+    list.push_back(aov);
+  };
   for (const std::string_view name : split(text)) {
-    const auto aov = aov_named(name);
-    if (!aov) {
-      throw CLI::ValidationError(
-          "--aov", "wants names from " + aov_names() + " with commas between, not " + text);
+    if (const auto aov = aov_named(name)) {
+      add(channels.exact, *aov);
+    } else if (const auto sampled = sampled_aov_named(name)) {
+      add(channels.sampled, *sampled);
+    } else {
+      std::string names = aov_names();
+      for (const SampledAov other : kSampledAovs) names.append(", ").append(name_of(other));
+      throw CLI::ValidationError("--aov",
+                                 "wants names from " + names + " with commas between, not " + text);
     }
-    if (std::ranges::find(aovs, *aov) != aovs.end())
-      throw CLI::ValidationError("--aov", "names " + std::string(name) + " twice");
-    aovs.push_back(*aov);
   }
-  return aovs;
+  return channels;
 }
 
 double parse_number(const char* option, const std::string& text) {

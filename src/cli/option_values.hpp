@@ -5,6 +5,7 @@
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/sampled_aov.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -47,7 +48,15 @@ using Subject = std::variant<Technique, Aov>;
 
 /// A technique's or a quantity's name
 [[nodiscard]] Subject parse_integrator(const std::string& text);
+/// What --aov names.
+struct Channels {
+  std::vector<Aov> exact{};
+  std::vector<SampledAov> sampled{};
+
+  [[nodiscard]] bool empty() const { return exact.empty() && sampled.empty(); }
+};
+
 /// Names of quantities with commas between them, each once
-[[nodiscard]] std::vector<Aov> parse_aovs(const std::string& text);
+[[nodiscard]] Channels parse_aovs(const std::string& text);
 
 }  // namespace microtrace::cli

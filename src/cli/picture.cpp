@@ -9,8 +9,32 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace microtrace::cli {
+namespace {
+
+/// The sidecar counts pixels by their ids, whether the picture keeps these or not.
+bool has_ids_for_sidecar_alone(const Arguments& arguments, const PictureFiles& files) {
+  return !files.sidecar.empty() &&
+         std::ranges::find(arguments.aovs.exact, Aov::id) == arguments.aovs.exact.end();
+}
+
+void save_picture(const Arguments& arguments, const Scene& scene, const Camera& camera, Film& film,
+                  const PictureFiles& files) {
+  Sidecar beside{.path = files.sidecar, .text = {}};
+  if (!files.sidecar.empty())
+    beside.text = describe_picture(scene, camera, film, files.picture.filename().string());
+  if (has_ids_for_sidecar_alone(arguments, files))
+    std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
+  save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &beside);
+  if (!arguments.verbose) return;
+  tell_of_file(files.picture);
+  if (!files.sidecar.empty()) tell_of_file(files.sidecar);
+}
+
+}  // namespace
+
 std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_t pictures) {
   if (arguments.progress == Progress::json) return progress_lines();
   return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar(pictures);
@@ -18,18 +42,26 @@ std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_
 
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& sidecar) {
+  const std::filesystem::path& checkpoint = arguments.sampling.checkpoint;
+  if (!checkpoint.empty()) check_checkpoint_path(checkpoint);
+  if (arguments.sampling.shard) return;
+  if (arguments.sampling.is_progressive && output == "-")
+    throw Error(ErrorKind::usage, "standard output", "can't be written again; name a file by -o");
+  if (checkpoint == output && !checkpoint.empty())
+    throw Error(ErrorKind::usage, output.string(), "is the checkpoint's file too; name another");
   check_image_path(output, {.alpha = arguments.surroundings.is_transparent(),
                             .channels = !arguments.aovs.empty()});
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
 
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                  const std::filesystem::path& output, const std::filesystem::path& sidecar,
-                  Stopwatch& watch, const std::function<void(double)>& progress) {
+                  const PictureFiles& files, Stopwatch& watch,
+                  const std::function<void(double)>& progress) {
   if (arguments.verbose) tell_of_scene(arguments, scene, size);
   widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
+  RenderCounts counts;
   RenderOptions options{
       .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
       .progress = progress,
@@ -38,31 +70,33 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .samples = arguments.sampling.samples,
       .filter = arguments.sampling.filter,
       .seed = arguments.sampling.seed,
+      .counts = &counts,
       .crop = arguments.crop,
-      .aovs = arguments.aovs,
+      .aovs = arguments.aovs.exact,
+      .sampled_aovs = arguments.aovs.sampled,
       .transparent = arguments.surroundings.is_transparent(),
   };
-  // The sidecar counts pixels by their ids, whether the picture keeps these or not.
-  const bool ids_for_sidecar_alone =
-      !sidecar.empty() && std::ranges::find(options.aovs, Aov::id) == options.aovs.end();
-  if (ids_for_sidecar_alone) options.aovs.push_back(Aov::id);
+  if (files.samples != nullptr) {
+    Film shown({.width = 1, .height = 1});
+    shown.display = integrator->display(shown);
+    expose(shown, arguments.exposure);
+    options.passes = files.samples->passes(shown.display);
+  } else if (arguments.sampling.wants_passes()) {
+    options.passes = Passes{.target_error = arguments.sampling.target_error,
+                            .time_limit = arguments.sampling.time_limit};
+  }
+  if (has_ids_for_sidecar_alone(arguments, files)) options.aovs.push_back(Aov::id);
   Film film = render(scene, camera, size, options);
   watch.rendered(times);
   expose(film, arguments.exposure);
-
-  Sidecar beside{.path = sidecar, .text = {}};
-  if (!sidecar.empty())
-    beside.text = describe_picture(scene, camera, film, output.filename().string());
-  if (ids_for_sidecar_alone)
-    std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
-  save_image(film, output, arguments.ppm, sidecar.empty() ? nullptr : &beside);
-  watch.written();
-  if (arguments.verbose) {
-    tell_of_file(output);
-    if (!sidecar.empty()) tell_of_file(sidecar);
+  if (counts.invalid_samples > 0 && !arguments.quiet) {
+    std::fprintf(stderr, "warning: %llu samples were no numbers and count as black\n",
+                 static_cast<unsigned long long>(counts.invalid_samples));
   }
-  watch.report(arguments.statistics, scene, film.size(), arguments.sampling.samples,
-               options.threads);
+  if (files.samples != nullptr) files.samples->save();
+  if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
+  watch.written();
+  watch.report(arguments.statistics, scene, film.size(), counts, options.threads);
 }
 
 }  // namespace microtrace::cli

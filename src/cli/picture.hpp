@@ -1,5 +1,6 @@
 #pragma once
 #include "cli/arguments.hpp"
+#include "cli/sample_files.hpp"
 #include "cli/statistics.hpp"
 
 #include <microtrace/camera.hpp>
@@ -11,6 +12,13 @@
 
 namespace microtrace::cli {
 
+/// What a picture is written to.
+struct PictureFiles {
+  std::filesystem::path picture;
+  std::filesystem::path sidecar;   ///< or none
+  SampleFiles* samples = nullptr;  ///< which samples come from and go to; null: none
+};
+
 /// Throws the Error that stands against the pictures that the arguments ask for, before any work.
 void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
                    const std::filesystem::path& sidecar);
@@ -20,9 +28,9 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
                                                       std::uint32_t pictures = 1);
 
 /// Draws a picture of a scene with the surroundings that the arguments ask for and writes it, with
-/// its sidecar if that has a name. Tells the watch.
+/// its sidecar if that has a name; of a shard the samples alone. Tells the watch.
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                  const std::filesystem::path& output, const std::filesystem::path& sidecar,
-                  Stopwatch& watch, const std::function<void(double)>& progress);
+                  const PictureFiles& files, Stopwatch& watch,
+                  const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

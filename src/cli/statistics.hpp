@@ -25,7 +25,7 @@ class Stopwatch {
   void written() { write_ = lap(); }
 
   /// Times in seconds, rays, and memory, to standard error.
-  void report(Statistics kind, const Scene& scene, ImageSize size, std::uint32_t samples,
+  void report(Statistics kind, const Scene& scene, ImageSize size, const RenderCounts& counts,
               unsigned threads) const;
 
  private:

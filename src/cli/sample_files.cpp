@@ -1,0 +1,68 @@
+#include "cli/sample_files.hpp"
+
+#include <microtrace/io.hpp>
+
+#include <algorithm>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace microtrace::cli {
+namespace {
+
+/// All that samples depend on: the program, the files that were read, options.
+std::string identity_of(const Arguments& arguments, std::uint64_t files) {
+  return "version\t" MICROTRACE_VERSION "\nscene files\t" + std::to_string(files) + "\n" +
+         arguments.sampling.identity;
+}
+
+/// The checkpoints to go on from, each once.
+std::vector<std::filesystem::path> files_of(const Sampling& sampling) {
+  std::vector<std::filesystem::path> files = sampling.resume;
+  std::error_code ignored;
+  const bool is_new = std::ranges::none_of(files, [&](const std::filesystem::path& file) {
+    return std::filesystem::equivalent(file, sampling.checkpoint, ignored);
+  });
+  if (std::filesystem::exists(sampling.checkpoint, ignored) && is_new)
+    files.push_back(sampling.checkpoint);
+  return files;
+}
+
+}  // namespace
+
+SampleFiles::SampleFiles(const Arguments& arguments, std::uint64_t files)
+    : arguments_(arguments),
+      samples_{.identity = identity_of(arguments, files),
+               .has_alpha = arguments.surroundings.is_transparent(),
+               .samples = arguments.sampling.samples},
+      saved_(std::chrono::steady_clock::now()) {
+  for (const std::filesystem::path& file : files_of(arguments.sampling))
+    add_samples(samples_, load_checkpoint(file), file);
+}
+
+Passes SampleFiles::passes(const Display& display) {
+  samples_.display = display;
+  return {.sums = &samples_.sums,
+          .part = arguments_.sampling.part(),
+          .target_error = arguments_.sampling.target_error,
+          .time_limit = arguments_.sampling.time_limit,
+          .after_each = [this](const SampleSums&) { save_if_due(); }};
+}
+
+void SampleFiles::save() const {
+  const std::filesystem::path& file = arguments_.sampling.checkpoint;
+  if (!file.empty()) save_checkpoint(samples_, file);
+}
+
+void SampleFiles::save_if_due() {
+  const auto now = std::chrono::steady_clock::now();
+  if (std::chrono::duration<double>(now - saved_).count() < arguments_.sampling.save_every) return;
+  save();
+  if (arguments_.sampling.is_progressive) {
+    save_image(picture_of(samples_), arguments_.output, arguments_.ppm);
+  }
+  saved_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace microtrace::cli

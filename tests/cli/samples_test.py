@@ -1,0 +1,210 @@
+#!/usr/bin/env python3
+"""Samples that are taken in parts: checkpoints, interruptions, shards, time limits.
+
+usage: samples_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, ProgramTest, environment
+
+SOURCE = Path(sys.argv[2]).resolve()
+SCENE = SOURCE / "scenes/perspective1.json"
+LIGHT = ["--integrator", "path", "--env", "studio", "--size", "32x20"]
+
+
+class Samples(ProgramTest):
+    def render(self, *arguments, code=0, scene=SCENE):
+        result = self.run_program(scene, *LIGHT, *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result.stderr.decode(errors="replace")
+
+    def bytes_of(self, name):
+        return (self.folder / name).read_bytes()
+
+    def whole(self, *arguments):
+        self.render("-o", "whole.ppm", *arguments)
+        return self.bytes_of("whole.ppm")
+
+    def test_seed_changes_the_noise_alone_and_threads_nothing(self):
+        pictures = [self.whole("--spp", "3", "--seed", seed, "-t", threads)
+                    for seed, threads in ((1, 1), (1, 3), (2, 2))]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
+
+    def test_checkpoints_are_gone_on_from(self):
+        whole = self.whole("--spp", "37")
+        self.render("-o", "a.ppm", "--spp", "5", "--checkpoint", "c")
+        self.render("-o", "b.ppm", "--spp", "20", "--checkpoint", "c", "-t", "3")
+        self.render("-o", "d.ppm", "--spp", "37", "--resume", "c")
+        self.assertEqual(self.bytes_of("d.ppm"), whole)
+        self.assertEqual(self.bytes_of("a.ppm"), self.whole("--spp", "5"))
+        self.assertEqual(self.bytes_of("b.ppm"), self.whole("--spp", "20"))
+        # Nothing is left to do.
+        self.render("-o", "d.ppm", "--spp", "20", "--checkpoint", "c", "--resume", "c")
+        self.assertEqual(self.bytes_of("d.ppm"), self.bytes_of("b.ppm"))
+
+    def test_killed_runs_lose_nothing_that_was_saved(self):
+        options = ["--spp", "3000"]
+        arguments = [SCENE, *LIGHT, *options, "-o", "out.ppm", "--checkpoint", "c", "--save-every", "0"]
+        kills = 0
+        for _ in range(3):
+            process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env=environment())
+            before = self.folder.joinpath("c").stat().st_mtime_ns if (self.folder / "c").exists() else 0
+            deadline = time.monotonic() + 60
+            while process.poll() is None and time.monotonic() < deadline:
+                path = self.folder / "c"
+                if path.exists() and path.stat().st_mtime_ns != before:
+                    break
+                time.sleep(0.002)
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+            self.assertTrue((self.folder / "c").exists())
+        self.assertGreater(kills, 0, "the program was always done before it was killed")
+        self.assertFalse((self.folder / "out.ppm").exists())
+        stats = self.render(*options, "-o", "out.ppm", "--checkpoint", "c", "--stats=json")
+        stats = json.loads(stats)
+        self.assertEqual(stats["samples_per_pixel"], 3000)
+        self.assertLess(stats["rays"], 3000 * 32 * 20)
+        self.assertEqual(self.bytes_of("out.ppm"), self.whole(*options))
+
+    def test_interrupted_runs_leave_whole_files(self):
+        process = subprocess.Popen(
+            [PROGRAM, SCENE, *LIGHT, "--spp", "65536", "-o", "out.ppm", "--checkpoint", "c", "--progressive",
+             "--save-every", "0"], cwd=self.folder, env=environment())
+        deadline = time.monotonic() + 60
+        while not (self.folder / "out.ppm").exists() and time.monotonic() < deadline:
+            time.sleep(0.002)
+        time.sleep(0.1)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["c", "out.ppm"])
+        self.assertEqual(len(self.bytes_of("out.ppm")), len(b"P6\n32 20\n255\n") + 32 * 20 * 3)
+        self.render("-o", "out.ppm", "--spp", "1", "--resume", "c")
+
+    def test_shards_make_the_whole(self):
+        whole = self.whole("--spp", "50")
+        for shard in (1, 2, 3):
+            self.render("--spp", "50", "--shard", f"{shard}/3", "--checkpoint", f"part{shard}")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["part1", "part2", "part3", "whole.ppm"])
+        for order in ("123", "312"):
+            result = self.run_program("merge", *(f"part{i}" for i in order), "-o", "merged.ppm")
+            self.assertEqual((result.returncode, result.stderr), (0, b""))
+            self.assertEqual(self.bytes_of("merged.ppm"), whole)
+        # Shown in another way.
+        self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
+        self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
+        # One is missing: the picture is there, and so is a warning; a run can fill the gap.
+        result = self.run_program("merge", "part1", "part3", "-o", "merged.ppm")
+        self.assertEqual(result.returncode, 0)
+        self.assertIn(b"samples 16 to 32 of 50 are in none of the files", result.stderr)
+        self.assertNotEqual(self.bytes_of("merged.ppm"), whole)
+        self.render("--spp", "50", "--resume", "part1", "--resume", "part3", "-o", "filled.ppm")
+        self.assertEqual(self.bytes_of("filled.ppm"), whole)
+        twice = self.run_program("merge", "part1", "part2", "part1", "-o", "merged.ppm")
+        self.assertEqual(twice.returncode, 2)
+        self.assertIn(b"part1: holds samples 0 to 15, of which some are there already", twice.stderr)
+
+    def test_samples_of_other_pictures_are_refused(self):
+        scene = self.folder / "scene.json"
+        shutil.copy(SCENE, scene)
+        self.render("-o", "a.ppm", "--spp", "2", "--checkpoint", "c", scene=scene)
+        before = self.bytes_of("c")
+
+        def refused(reason, *arguments):
+            message = self.render("-o", "b.png", "--spp", "4", "--checkpoint", "c", *arguments, code=2, scene=scene)
+            self.assertIn("c: holds samples of another picture: " + reason, message)
+            self.assertEqual(self.bytes_of("c"), before)
+            self.assertFalse((self.folder / "b.png").exists())
+
+        refused("made without --seed, not with --seed 1", "--seed", "1")
+        refused("made without --max-depth", "--max-depth", "3")
+        refused("made without --background", "--background", "transparent")
+        refused("made without --crop", "--crop", "0,0,8,8")
+        scene.write_text(scene.read_text() + "\n")
+        refused("made with scene files ")
+
+    def test_files_that_a_scene_names_count(self):
+        vertices = b"".join(x.to_bytes(4, "little") for x in
+                            (0, 0, 0, 0x3F800000, 0, 0, 0, 0x3F800000, 0))
+        (self.folder / "a.bin").write_bytes(vertices)
+        gltf = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+                "buffers": [{"uri": "a.bin", "byteLength": 36}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                               "min": [0, 0, 0], "max": [1, 1, 0]}]}
+        scene = self.folder / "a.gltf"
+        scene.write_text(json.dumps(gltf))
+        self.render("-o", "a.ppm", "--checkpoint", "c", scene=scene)
+        self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "2", scene=scene)
+        # Another place of the third corner, within the same bounds.
+        (self.folder / "a.bin").write_bytes(vertices[:24] + (0x3F000000).to_bytes(4, "little") + vertices[28:])
+        message = self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "3", code=2, scene=scene)
+        self.assertIn("made with scene files ", message)
+
+    def test_damaged_checkpoints_are_errors_of_input(self):
+        self.render("-o", "a.ppm", "--spp", "2", "--checkpoint", "c")
+        good = self.bytes_of("c")
+        flipped = bytearray(good)
+        flipped[len(good) // 2] ^= 4
+        for name, content, reason in (("cut", good[:-9], "damaged"), ("flip", bytes(flipped), "damaged"),
+                                      ("head", good[:30], "damaged"), ("none", b"", "no samples"),
+                                      ("other", b"P6\n", "no samples"), ("long", good + b"x", "damaged"),
+                                      ("new", good[:19] + b"\x09" + good[20:], "version 9")):
+            (self.folder / name).write_bytes(content)
+            message = self.render("-o", "b.ppm", "--spp", "3", "--resume", name, code=5)
+            self.assertIn(f"{name}: ", message)
+            self.assertIn(reason, message)
+        self.assertIn("missing", self.render("-o", "b.ppm", "--resume", "missing", code=5))
+        self.assertFalse((self.folder / "b.ppm").exists())
+
+    def test_a_time_limit_keeps_what_is_there(self):
+        stats = json.loads(self.render("-o", "a.ppm", "--spp", "65536", "--time-limit", "0.3", "--stats=json"))
+        taken = stats["samples_per_pixel"]
+        self.assertGreaterEqual(taken, 1)
+        self.assertLess(taken, 65536)
+        self.assertEqual(stats["rays"], taken * 32 * 20)
+        self.assertEqual(self.bytes_of("a.ppm"), self.whole("--spp", taken))
+
+    def test_a_target_error_stops_where_it_is_reached(self):
+        options = ["--spp", "512", "--target-error", "0.15", "--stats=json"]
+        stats = json.loads(self.render("-o", "a.ppm", *options, "-t", "1"))
+        self.assertLess(stats["rays"], 512 * 32 * 20)
+        self.assertGreaterEqual(stats["rays"], 32 * 32 * 20)
+        # The same on more threads, and after an interruption.
+        self.render("-o", "b.ppm", "--spp", "40", *options[2:], "--checkpoint", "c")
+        again = json.loads(self.render("-o", "b.ppm", *options, "-t", "3", "--checkpoint", "c"))
+        self.assertEqual(again["samples_per_pixel"], stats["samples_per_pixel"])
+        self.assertEqual(self.bytes_of("a.ppm"), self.bytes_of("b.ppm"))
+
+    def test_what_makes_no_sense_is_refused(self):
+        for arguments in (["--shard", "1/2"], ["--shard", "0/2", "--checkpoint", "c", "--spp", "4"],
+                          ["--shard", "3/2", "--checkpoint", "c", "--spp", "4"],
+                          ["--shard", "1/5", "--checkpoint", "c", "--spp", "4"],
+                          ["--shard", "1/2", "--checkpoint", "c", "--spp", "4", "-o", "a.ppm"],
+                          ["--shard", "1/2", "--checkpoint", "c", "--spp", "4", "--aov", "depth"],
+                          ["--checkpoint", "a.ppm", "-o", "a.ppm"], ["--time-limit", "-1"],
+                          ["--time-limit", "soon"], ["--checkpoint", "c", "--frames", "0:1", "-o", "%d.ppm"],
+                          ["--progressive", "-o", "-"], ["--target-error", "0"],
+                          ["--integrator", "flat", "--checkpoint", "c"]):
+            result = self.run_program(SCENE, *(LIGHT if "flat" not in arguments else []), *arguments)
+            self.assertEqual(result.returncode, 2, (arguments, result.stderr))
+            self.assertNotEqual(result.stderr, b"")
+            self.assertEqual(os.listdir(self.folder), [], arguments)
+        nowhere = self.run_program(SCENE, *LIGHT, "--checkpoint", "no/where", "-o", "a.ppm")
+        self.assertEqual(nowhere.returncode, 5, nowhere.stderr)
+        for arguments in (["merge"], ["merge", "a"], ["merge", "a", "-o", "b.xyz"]):
+            self.assertIn(self.run_program(*arguments).returncode, (2, 5))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
