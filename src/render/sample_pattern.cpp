@@ -1,25 +1,17 @@
 #include "render/sample_pattern.hpp"
 
+#include "render/sampling/hash.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <numeric>
 
 namespace microtrace {
-namespace {
-
-std::uint32_t reversed_bits(std::uint32_t x) {
-  std::uint32_t result = 0;
-  for (int i = 0; i < 32; ++i) result |= (x >> i & 1U) << (31 - i);
-  return result;
-}
-
-}  // namespace
-
 std::vector<PixelOffset> sample_pattern(std::uint32_t n) {
   std::vector<std::uint32_t> by_row(n);
   std::iota(by_row.begin(), by_row.end(), 0U);
-  std::ranges::sort(by_row, {}, reversed_bits);
+  std::ranges::sort(by_row, {}, sampling::reversed_bits);
   std::vector<PixelOffset> pattern(n);
   for (std::uint32_t row = 0; row < n; ++row) {
     const std::uint32_t column = by_row[row];

@@ -1,4 +1,5 @@
 #include "render/film_pixel.hpp"
+#include "render/luminance.hpp"
 
 #include <microtrace/sample_sums.hpp>
 
@@ -8,15 +9,6 @@
 #include <glm/common.hpp>
 
 namespace microtrace {
-namespace {
-
-/// Of Rec. 709 (ITU-R BT.709-6, item 3.2).
-double luminance(const DVec3& color) {
-  return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
-}
-
-}  // namespace
-
 bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
   ++count;
   // Rays that hit nothing, which are many, add at most the background's luminance.

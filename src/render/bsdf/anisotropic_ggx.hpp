@@ -44,14 +44,7 @@ class AnisotropicGgx {
   }
 
   [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {
-    const Vec3 o = turned(wo);
-    Vec3 v(alpha_ * o.x, across_alpha_ * o.y, o.z);
-    v /= std::sqrt(glm::dot(v, v));
-    const auto [cosine, sine] = sampling::unit_pair(u.x);
-    const float z = (1 - u.y) * (1 + v.z) - v.z;
-    const float r = std::sqrt(std::max(1 - z * z, 0.0F));
-    Vec3 h(alpha_ * (r * cosine + v.x), across_alpha_ * (r * sine + v.y), z + v.z);
-    h /= std::sqrt(glm::dot(h, h));
+    const Vec3 h = bsdf::visible_normal(alpha_, across_alpha_, turned(wo), u);
     return {along_.x * h.x - along_.y * h.y, along_.y * h.x + along_.x * h.y, h.z};
   }
 

@@ -2,6 +2,7 @@
 
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/thin_film.hpp"
+#include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <algorithm>

@@ -21,6 +21,18 @@ inline constexpr float kInversePi = static_cast<float>(std::numbers::inv_pi);
 /// are all the same to a picture, and float32 holds out.
 inline constexpr float kLeastAlpha = 0.001F;
 
+/// A normal that wo sees of facets with those alphas along x and y (J. Dupuy and A. Benyoub,
+/// Sampling visible GGX normals with spherical caps, 2023).
+inline Vec3 visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const Vec2& u) {
+  Vec3 v(alpha_x * wo.x, alpha_y * wo.y, wo.z);
+  v /= std::sqrt(glm::dot(v, v));
+  const auto [cosine, sine] = sampling::unit_pair(u.x);
+  const float z = (1 - u.y) * (1 + v.z) - v.z;
+  const float r = std::sqrt(std::max(1 - z * z, 0.0F));
+  const Vec3 h(alpha_x * (r * cosine + v.x), alpha_y * (r * sine + v.y), z + v.z);
+  return h / std::sqrt(glm::dot(h, h));
+}
+
 /// Isotropic. With z = cos(theta): root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) occurs in all of
 /// masking: G1(z) = 2 z / (z + root(z)).
 class Ggx {
@@ -57,16 +69,9 @@ class Ggx {
     return reflected_density(wo.z, distribution);
   }
 
-  /// A normal that wo sees (J. Dupuy and A. Benyoub, Sampling visible GGX normals with spherical
-  /// caps, 2023).
+  /// A normal that wo sees.
   [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {
-    Vec3 v(alpha_ * wo.x, alpha_ * wo.y, wo.z);
-    v /= std::sqrt(glm::dot(v, v));
-    const auto [cosine, sine] = sampling::unit_pair(u.x);
-    const float z = (1 - u.y) * (1 + v.z) - v.z;
-    const float r = std::sqrt(std::max(1 - z * z, 0.0F));
-    const Vec3 h(alpha_ * (r * cosine + v.x), alpha_ * (r * sine + v.y), z + v.z);
-    return h / std::sqrt(glm::dot(h, h));
+    return bsdf::visible_normal(alpha_, alpha_, wo, u);
   }
 
  private:

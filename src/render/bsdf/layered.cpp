@@ -96,7 +96,7 @@ std::optional<DirectionSample> LayeredBsdf::sample(const Vec2& u, float lobe) co
     wi = sampling::cosine_hemisphere(u);
   } else {
     const float layers = coat_share_ + sheen_share_;
-    const float rest = std::min((lobe - layers) / (1 - layers), 0x1.fffffep-1F);
+    const float rest = sampling::reused(lobe, layers, 1 - layers);
     const auto below = std::visit([&](const auto& base) { return base.sample(u, rest); }, base_);
     if (!below) return std::nullopt;
     wi = below->wi;

@@ -15,8 +15,4 @@ struct Schlick {
   }
 };
 
-inline float luminance(const Vec3& c) {
-  return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
-}
-
 }  // namespace microtrace::bsdf

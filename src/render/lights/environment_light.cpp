@@ -1,6 +1,7 @@
 #include "render/lights/environment_light.hpp"
 
 #include "render/lights/studio.hpp"
+#include "render/luminance.hpp"
 #include "scene/turns.hpp"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment)
     mean_luminance_ = static_cast<float>(distribution_->mean_luminance() * double{intensity_});
   } else {
     uniform_ = intensity_ * std::get<Vec3>(environment.content);
-    mean_luminance_ = 0.2126F * uniform_.x + 0.7152F * uniform_.y + 0.0722F * uniform_.z;
+    mean_luminance_ = luminance(uniform_);
   }
 }
 

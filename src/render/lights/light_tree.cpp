@@ -1,5 +1,7 @@
 #include "render/lights/light_tree.hpp"
 
+#include "render/sampling/warps.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -178,13 +180,12 @@ std::optional<LightTree::Choice> LightTree::choose(const Vec3& p, const Vec3& n,
   while (!node->is_leaf) {
     const float first = first_share(*node, p, n);
     if (first < 0) return std::nullopt;
-    // What is left of u is as good as new.
     if (u < first) {
-      u = std::min(u / first, 0x1.fffffep-1F);
+      u = sampling::reused(u, 0, first);
       share *= first;
       node = node + 1;
     } else {
-      u = std::min((u - first) / (1 - first), 0x1.fffffep-1F);
+      u = sampling::reused(u, first, 1 - first);
       share *= 1 - first;
       node = &nodes_[node->second];
     }

@@ -1,6 +1,7 @@
 #include "render/lights/lighting.hpp"
 
 #include "render/lights/punctual.hpp"
+#include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <algorithm>
@@ -11,10 +12,6 @@
 
 namespace microtrace {
 namespace {
-
-float luminance(const Vec3& c) {
-  return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
-}
 
 Vec3 corner_weights(const Vec2& u) {
   const Vec2 w = sampling::triangle_weights(u);
@@ -130,8 +127,7 @@ std::optional<LightSample> Lighting::of_far(const Receiver& receiver, float choi
 
 std::optional<LightSample> Lighting::of_tree(const Receiver& receiver, const Vec2& u,
                                              float choice) const {
-  const std::optional<LightTree::Choice> chosen =
-      tree_->choose(receiver.p, receiver.n, std::min(choice, 0x1.fffffep-1F));
+  const std::optional<LightTree::Choice> chosen = tree_->choose(receiver.p, receiver.n, choice);
   if (!chosen) return std::nullopt;
   const Emitter& emitter = emitters_[chosen->light];
   std::optional<LightSample> result =
@@ -159,7 +155,7 @@ std::optional<LightSample> Lighting::sample(const Receiver& receiver, const Vec2
     result = of_far(receiver, choice / share.far);
     if (result) result->take_share(share.far);
   } else {
-    result = of_tree(receiver, u, (choice - share.far) / share.tree);
+    result = of_tree(receiver, u, sampling::reused(choice, share.far, share.tree));
     if (result) result->take_share(share.tree);
   }
   return result;

@@ -1,5 +1,6 @@
 #include "render/lights/map_distribution.hpp"
 
+#include "render/luminance.hpp"
 #include "scene/trigonometry.hpp"
 
 #include <algorithm>
@@ -14,10 +15,6 @@ constexpr std::uint32_t kWhole = 1U << 24U;
 /// The share of the mean probability that the least likely row, and pixel of a row, keep. Where
 /// there are 65536 of them that is still more than 2^-24.
 constexpr double kFloor = 1.0 / 128;
-
-double luminance(const Vec3& c) {
-  return 0.2126 * double{c.x} + 0.7152 * double{c.y} + 0.0722 * double{c.z};
-}
 
 /// Turns weights into bounds of 0 to kWhole.
 void accumulate(std::span<const double> weights, double total, std::uint32_t* bounds) {
@@ -78,7 +75,7 @@ MapDistribution::MapDistribution(const RadianceMap& map)
   // The mean of a bilinear map over a pixel has weights 1/8, 6/8, 1/8 along each axis.
   const auto pixel_row = [&](std::uint32_t y, std::vector<double>& row) {
     for (std::uint32_t x = 0; x < width_; ++x) {
-      row[x] = luminance(map.pixels[std::size_t{y} * width_ + x]);
+      row[x] = luminance(DVec3(map.pixels[std::size_t{y} * width_ + x]));
     }
   };
   std::vector<double> above(width_), here(width_), below(width_), mixed(width_), weights(width_);

@@ -1,5 +1,6 @@
 #include "render/lights/punctual.hpp"
 
+#include "render/luminance.hpp"
 #include "scene/trigonometry.hpp"
 
 #include <algorithm>
@@ -52,8 +53,8 @@ std::optional<LightSample> sample(const SpotLight& light, const Vec3& p) {
 
 LightBounds bounds_at(const DVec3& place, const Vec3& color, float intensity,
                       const LightCone& cone) {
-  const float brightness = 0.2126F * color.x + 0.7152F * color.y + 0.0722F * color.z;
-  return {.low = Vec3(place), .high = Vec3(place), .power = intensity * brightness, .cone = cone};
+  return {
+      .low = Vec3(place), .high = Vec3(place), .power = intensity * luminance(color), .cone = cone};
 }
 
 std::optional<LightBounds> bounds(const DirectionalLight&) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Mixing of integers.
+/// Mixing and turning of integers.
 
 #include <cstdint>
 
@@ -18,6 +18,14 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
 
 constexpr std::uint32_t hash(std::uint32_t key, std::uint32_t value) {
   return mixed(key ^ mixed(value + 0x9e3779b9U));
+}
+
+constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+  x = (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);
+  x = (x & 0x33333333U) << 2U | (x >> 2U & 0x33333333U);
+  x = (x & 0x0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0fU);
+  x = (x & 0x00ff00ffU) << 8U | (x >> 8U & 0x00ff00ffU);
+  return x << 16U | x >> 16U;
 }
 
 }  // namespace microtrace::sampling

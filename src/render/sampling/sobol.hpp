@@ -39,14 +39,6 @@ constexpr std::uint32_t sobol_y(std::uint32_t n) {
          kSecondDimension[2][n >> 16U & 255U] ^ kSecondDimension[3][n >> 24U];
 }
 
-constexpr std::uint32_t reversed_bits(std::uint32_t x) {
-  x = (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);
-  x = (x & 0x33333333U) << 2U | (x >> 2U & 0x33333333U);
-  x = (x & 0x0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0fU);
-  x = (x & 0x00ff00ffU) << 8U | (x >> 8U & 0x00ff00ffU);
-  return x << 16U | x >> 16U;
-}
-
 /// Scrambles each bit by the lower ones: Owen's scrambling of a number whose bits are reversed
 /// (S. Laine and T. Karras, Stratified sampling for stochastic transparency, 2011; constants by
 /// N. Vegdahl, Building a better LK hash, 2021).
@@ -78,7 +70,7 @@ class Sobol {
  public:
   Sobol() = default;
   /// Of one of a pixel's samples; the key is pixel_key's.
-  Sobol(std::uint32_t key, std::uint32_t index) : key_(key), index_(detail::reversed_bits(index)) {}
+  Sobol(std::uint32_t key, std::uint32_t index) : key_(key), index_(reversed_bits(index)) {}
 
   /// Two numbers in [0, 1) for the pair of that number.
   [[nodiscard]] Vec2 pair(std::uint32_t number) const {

@@ -3,9 +3,16 @@
 
 #include <microtrace/math.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace microtrace::sampling {
+
+/// What is left of u in [begin, begin + share) after it has chosen that interval, as good as new:
+/// in [0, 1), whatever rounding does.
+inline float reused(float u, float begin, float share) {
+  return std::min((u - begin) / share, 0x1.fffffep-1F);
+}
 
 /// Cosine and sine of an angle.
 struct UnitPair {

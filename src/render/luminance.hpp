@@ -1,0 +1,14 @@
+#pragma once
+#include <microtrace/math.hpp>
+
+namespace microtrace {
+
+/// Of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
+inline float luminance(const Vec3& c) {
+  return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
+}
+inline double luminance(const DVec3& c) {
+  return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
+}
+
+}  // namespace microtrace
