@@ -1,7 +1,7 @@
 #include "render/bsdf/bsdf.hpp"
 
 #include "render/sampling/sobol.hpp"
-#include "support/chi_square.hpp"
+#include "support/direction_density.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -17,10 +17,6 @@ namespace microtrace::bsdf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Vec3 direction(double theta, double phi = 0.3) {
-  return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-}
 
 /// The share of white light from all around that goes to wo, by the sampler's weights.
 DVec3 reflected(const Bsdf& bsdf, std::uint32_t samples) {
@@ -166,42 +162,12 @@ TEST(Bsdf, SpecularWeighsTheReflection) {
   EXPECT_LT(red.y, 0.01F * red.x);
 }
 
-// Directions in cells of equal cos(theta) and phi, above and below, against the integral of the
-// density.
 void check_density(const Bsdf& bsdf, const std::string& what) {
-  constexpr int rows = 24, columns = 16, fine = 24;
-  constexpr int samples = 200000;
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> u(0, 1);
-  std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
-  for (int i = 0; i < samples; ++i) {
-    const Vec2 chances(u(random), u(random));
-    const auto s = bsdf.sample(chances, u(random));
-    if (!s) {
-      ++counts.back();
-      continue;
-    }
-    double phi = std::atan2(s->wi.y, s->wi.x) / (2 * kPi);
-    phi -= std::floor(phi);
-    const int row = std::min(int((s->wi.z + 1) / 2 * rows), rows - 1);
-    ++counts[std::size_t(row * columns + std::min(int(phi * columns), columns - 1))];
-  }
-  double within = 0;
-  for (int cell = 0; cell < rows * columns; ++cell) {
-    double sum = 0;
-    for (int i = 0; i < fine; ++i) {
-      for (int j = 0; j < fine; ++j) {
-        const double z = 2 * (cell / columns + (i + 0.5) / fine) / rows - 1;
-        const double phi = 2 * kPi * (cell % columns + (j + 0.5) / fine) / columns;
-        sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
-      }
-    }
-    const double mass = sum / (fine * fine) * 4 * kPi / (rows * columns);
-    expected[std::size_t(cell)] = mass * samples;
-    within += mass;
-  }
-  expected.back() = std::max(1 - within, 0.0) * samples;
-  EXPECT_LT(chi_square_excess(counts, expected), 5) << what;
+  EXPECT_LT(test_density(bsdf, {.rows = 24, .columns = 16, .fine = 48, .samples = 200'000}, random)
+                .excess,
+            5)
+      << what;
 }
 
 TEST(Bsdf, SamplesHaveTheirDensity) {

@@ -2,7 +2,7 @@
 #include "render/bsdf/sheen.hpp"
 #include "render/bsdf/thin_film.hpp"
 #include "render/sampling/sobol.hpp"
-#include "support/chi_square.hpp"
+#include "support/direction_density.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,10 +18,6 @@ namespace microtrace::bsdf {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-Vec3 direction(double theta, double phi = 0.3) {
-  return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
-}
 
 struct Surface {
   const char* name;
@@ -194,40 +190,13 @@ TEST(Layered, IsReciprocal) {
 }
 
 TEST(Layered, SamplesHaveTheirDensity) {
-  constexpr int rows = 20, columns = 14, fine = 16, samples = 100'000;
   std::mt19937 random(3);
-  std::uniform_real_distribution<float> u(0, 1);
   for (const Surface& s : surfaces()) {
-    const Scattering bsdf = scattering(s, direction(0.6));
-    std::vector<double> counts(rows * columns + 1), expected(rows * columns + 1);
-    for (int i = 0; i < samples; ++i) {
-      const auto drawn = bsdf.sample({u(random), u(random)}, u(random));
-      if (!drawn) {
-        ++counts.back();
-        continue;
-      }
-      double phi = std::atan2(drawn->wi.y, drawn->wi.x) / (2 * kPi);
-      phi -= std::floor(phi);
-      const int row = std::clamp(int((drawn->wi.z + 1) / 2 * rows), 0, rows - 1);
-      ++counts[std::size_t(row * columns + std::min(int(phi * columns), columns - 1))];
-    }
-    double within = 0;
-    for (int cell = 0; cell < rows * columns; ++cell) {
-      double sum = 0;
-      for (int i = 0; i < fine; ++i) {
-        for (int j = 0; j < fine; ++j) {
-          const double z = 2 * (cell / columns + (i + 0.5) / fine) / rows - 1;
-          const double phi = 2 * kPi * (cell % columns + (j + 0.5) / fine) / columns;
-          sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
-        }
-      }
-      const double mass = sum / (fine * fine) * 4 * kPi / (rows * columns);
-      expected[std::size_t(cell)] = mass * samples;
-      within += mass;
-    }
-    EXPECT_LT(within, 1.003) << s.name;
-    expected.back() = std::max(1 - within, 0.0) * samples;
-    EXPECT_LT(chi_square_excess(counts, expected), 5) << text(s, 0.6);
+    const DensityTest test =
+        test_density(scattering(s, direction(0.6)),
+                     {.rows = 20, .columns = 14, .fine = 16, .samples = 100'000}, random);
+    EXPECT_LT(test.mass, 1.003) << s.name;
+    EXPECT_LT(test.excess, 5) << text(s, 0.6);
   }
 }
 
