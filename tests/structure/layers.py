@@ -13,10 +13,11 @@ ROOT = Path(sys.argv[1])
 # part -> parts of src/ that it may include, beside itself. Public headers belong to no part; which of them a part may name
 # is PUBLIC below.
 MAY_INCLUDE = {
+    "simd": set(),
     "exact": set(),
     "scene": set(),
-    "accel": {"exact", "scene"},
-    "render": {"scene"},
+    "accel": {"simd", "exact", "scene"},
+    "render": {"simd", "scene"},
     "io": {"scene"},
     "cli": {"scene"},
     "modules": {"io"},
@@ -24,6 +25,7 @@ MAY_INCLUDE = {
 # Public headers that a part must not see.
 HIDDEN = {
     "exact": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
+    "simd": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
     "scene": {"film", "io", "render", "integrator", "aov", "sidecar", "bvh"},
     "accel": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
     "render": {"io", "sidecar"},
@@ -38,7 +40,7 @@ LIBRARIES = {
     r"png\.h|jpeglib\.h|webp/": ["src/modules/codecs"],
     r"CLI/": ["src/cli"],
     r"embree|benchmark/": ["bench"],
-    r"\w*mmintrin\.h": ["src/accel/kernels/simd.hpp"],
+    r"\w*mmintrin\.h": ["src/simd/vectors.hpp", "src/accel/kernels/simd.hpp"],
 }
 
 

@@ -1,49 +1,29 @@
 #include "accel/kernels/dispatch.hpp"
 
-#include <cstdlib>
-#include <string_view>
+#include "simd/instruction_set.hpp"
 
 namespace microtrace {
 namespace {
 
-bool is_available(const Kernels& kernels) {
+const Kernels* kernels_of(InstructionSet set) {
 #if defined(__x86_64__)
-  __builtin_cpu_init();
-  if (&kernels == &kAvx512Kernels)
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
-  if (&kernels == &kAvx2Kernels)
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  if (set == InstructionSet::avx512) return &kAvx512Kernels;
+  if (set == InstructionSet::avx2) return &kAvx2Kernels;
 #endif
-  return &kernels == &kPortableKernels;
+  return &kPortableKernels;
 }
-
-// The fastest first; the last runs everywhere.
-constexpr const Kernels* kAll[] = {
-#if defined(__x86_64__)
-    &kAvx512Kernels,
-    &kAvx2Kernels,
-#endif
-    &kPortableKernels,
-};
 
 }  // namespace
 
 std::vector<const Kernels*> available_kernels() {
   std::vector<const Kernels*> available;
-  for (const Kernels* kernels : kAll) {
-    if (is_available(*kernels)) available.push_back(kernels);
-  }
+  for (const InstructionSet set : available_instruction_sets())
+    available.push_back(kernels_of(set));
   return available;
 }
 
 const Kernels& best_kernels() {
-  const char* wanted = std::getenv("MICROTRACE_ISA");
-  for (const Kernels* kernels : kAll) {
-    if (is_available(*kernels) && (wanted == nullptr || std::string_view(wanted) == kernels->name))
-      return *kernels;
-  }
-  return kPortableKernels;
+  return *kernels_of(best_instruction_set());
 }
 
 }  // namespace microtrace

@@ -23,7 +23,7 @@ float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::option
              const std::optional<PrimitiveId>& target) {
   float passed = 1;
   while (hit && hit->id != target) {
-    passed *= 1 - shading.coverage(shading.point(ray, *hit, 0, 0));
+    passed *= 1 - shading.coverage(shading.point(ray, *hit));
     if (passed == 0) return 0;
     hit = bvh.next(ray, *hit);
   }

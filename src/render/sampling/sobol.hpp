@@ -72,6 +72,9 @@ class Sobol {
   /// Of one of a pixel's samples; the key is pixel_key's.
   Sobol(std::uint32_t key, std::uint32_t index) : key_(key), index_(reversed_bits(index)) {}
 
+  [[nodiscard]] std::uint32_t key() const { return key_; }
+  [[nodiscard]] std::uint32_t index() const { return reversed_bits(index_); }
+
   /// Two numbers in [0, 1) for the pair of that number.
   [[nodiscard]] Vec2 pair(std::uint32_t number) const {
     using namespace detail;

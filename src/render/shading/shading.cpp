@@ -48,13 +48,10 @@ Shading::Shading(const Scene& scene, const Primitives& primitives)
 
 Shading::~Shading() = default;
 
-ShadingPoint Shading::point(const Ray& ray, const Hit& hit, float begin, float spread) const {
+ShadingPoint Shading::point(const Ray& ray, const Hit& hit) const {
   const Entry& entry = entries_[primitives_.object_index(hit.id)];
-  ShadingPoint result{
-      .at = surface_point(primitives_, ray, hit, entry.mesh, hit.id - entry.first_id),
-      .look = &looks_[entry.look]};
-  result.width = begin + spread * result.at.distance;
-  return result;
+  return {.at = surface_point(primitives_, ray, hit, entry.mesh, hit.id - entry.first_id),
+          .look = &looks_[entry.look]};
 }
 
 ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
@@ -91,8 +88,7 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
   return color == Vec3(0) ? color : color * Vec3(look.emissive.at(point));
 }
 
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Frame& frame,
-                                     int channel) const {
+bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
@@ -110,6 +106,20 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Fram
     p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
     p.dielectric.f90 = factor;
   }
+  if (const auto& archived = m.specular_glossiness) {
+    const Vec4 t = look.specular_glossiness.at(point);
+    p.metallic = 0;
+    p.roughness = 1 - archived->glossiness * t.w;
+    p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
+  }
+  return p;
+}
+
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Frame& frame,
+                                     int channel) const {
+  const TexturedMaterial& look = *point.look;
+  const Material& m = *look.material;
+  bsdf::Parameters p = plain_parameters(point);
   if (m.anisotropy) add_anisotropy(point, frame, p);
   if (const auto& t = m.transmission) {
     p.transmission = t->factor * look.transmission.at(point).x;
@@ -118,12 +128,6 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Fram
       if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
       p.eta = point.at.front ? ior : 1 / ior;
     }
-  }
-  if (const auto& archived = m.specular_glossiness) {
-    const Vec4 t = look.specular_glossiness.at(point);
-    p.metallic = 0;
-    p.roughness = 1 - archived->glossiness * t.w;
-    p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
   }
   if (const auto& i = m.iridescence) {
     const bsdf::ThinFilm film{.share = i->factor * look.iridescence.at(point).x,

@@ -4,6 +4,7 @@
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/layered.hpp"
+#include "render/kernels/kernel.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/texture_map.hpp"
 
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace microtrace {
@@ -48,7 +50,8 @@ struct TexturedMaterial {
   TextureSlot iridescence{}, iridescence_thickness{}, specular_glossiness{};
   /// That by which the places of all that share them are found; often it is all.
   TextureSlot layout{};
-  Vec3 absorption{0};  ///< by the medium that it encloses, in powers of two per length
+  Vec3 absorption{0};     ///< by the medium that it encloses, in powers of two per length
+  bool is_plain = false;  ///< Shading::plain_parameters() say all
 };
 
 /// A point, its material and how wide the part of the surface is that it stands for.
@@ -74,8 +77,13 @@ class Shading {
   Shading(const Scene& scene, const Primitives& primitives);
   ~Shading();
 
-  /// `hit` is one of `ray`; at distance 1 samples are `spread` apart, at 0 `begin`.
-  [[nodiscard]] ShadingPoint point(const Ray& ray, const Hit& hit, float begin, float spread) const;
+  /// `hit` is one of `ray`. The width is 0.
+  [[nodiscard]] ShadingPoint point(const Ray& ray, const Hit& hit) const;
+  /// The same for each of up to kShadingLanes hits; points without a hit are left alone. `lanes`
+  /// are for the kernel.
+  void points(const ShadingKernels& kernels, std::span<const Ray> rays,
+              std::span<const std::optional<Hit>> hits, HitLanes& lanes,
+              std::span<ShadingPoint> points) const;
 
   /// A point of a mesh's triangle, without a ray: for what shines.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
@@ -102,6 +110,10 @@ class Shading {
   /// dispersing media is of, 0 to 2; 3: none.
   [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, const bsdf::Frame& frame,
                                             int channel) const;
+
+  /// The same of materials that are metallic-roughness, ior and specular alone, or
+  /// specular-glossiness.
+  [[nodiscard]] bsdf::Parameters plain_parameters(const ShadingPoint& point) const;
 
   /// What lies over that, if anything does; `wo` in world space.
   [[nodiscard]] std::optional<bsdf::Layers> layers(const ShadingPoint& point,

@@ -75,6 +75,8 @@ TexturedMaterial TextureMaps::slots(const Material& m) {
     look.specular_glossiness = slot(archived->texture, srgb);
   }
   if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
+  look.is_plain = !m.transmission && !m.diffuse_transmission && !m.clearcoat && !m.sheen &&
+                  !m.anisotropy && !m.iridescence;
   for (TextureSlot* slot :
        {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {
     if (slot->map == nullptr) continue;

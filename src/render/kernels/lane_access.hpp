@@ -1,0 +1,20 @@
+#pragma once
+/// Vectors into lanes and out of them. Not for the kernels' own translation units.
+
+#include "render/kernels/kernel.hpp"
+
+#include <microtrace/math.hpp>
+
+namespace microtrace {
+
+inline void put(LaneFloats (&lanes)[3], int lane, const Vec3& v) {
+  lanes[0][lane] = v.x;
+  lanes[1][lane] = v.y;
+  lanes[2][lane] = v.z;
+}
+
+[[nodiscard]] inline Vec3 got(const LaneFloats (&lanes)[3], int lane) {
+  return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
+}
+
+}  // namespace microtrace

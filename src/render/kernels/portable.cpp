@@ -1,0 +1,7 @@
+#include "render/kernels/find_normals.hpp"
+#include "render/kernels/find_points.hpp"
+#include "render/kernels/scatter.hpp"
+
+namespace microtrace {
+const ShadingKernels kPortableShading{"portable", find_points<4>, find_normals<4>, scatter<4>};
+}

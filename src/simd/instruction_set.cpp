@@ -1,0 +1,42 @@
+#include "simd/instruction_set.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace microtrace {
+
+std::string_view name_of(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::avx512:
+      return "avx512";
+    case InstructionSet::avx2:
+      return "avx2";
+    case InstructionSet::portable:
+      break;
+  }
+  return "portable";
+}
+
+std::vector<InstructionSet> available_instruction_sets() {
+  std::vector<InstructionSet> available;
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw"))
+    available.push_back(InstructionSet::avx512);
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    available.push_back(InstructionSet::avx2);
+#endif
+  available.push_back(InstructionSet::portable);
+  return available;
+}
+
+InstructionSet best_instruction_set() {
+  const std::vector<InstructionSet> available = available_instruction_sets();
+  const char* wanted = std::getenv("MICROTRACE_ISA");
+  if (wanted == nullptr) return available.front();
+  const auto named = std::ranges::find(available, std::string_view(wanted), name_of);
+  return named != available.end() ? *named : InstructionSet::portable;
+}
+
+}  // namespace microtrace
