@@ -56,7 +56,7 @@ Scene lamps(bool with_map) {
 /// The density of all that lies in a direction, the one behind the other.
 double density(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
                const Receiver& receiver, const Vec3& d) {
-  double sum = double{lighting.environment_density(receiver, d)};
+  double sum = double{lighting.environment(receiver, d).pdf};
   const Ray ray{.o = receiver.p, .t_min = 0, .d = d};
   for (std::optional<Hit> hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) {
     const ShadingPoint point = shading.point(ray, *hit);

@@ -75,9 +75,9 @@ void Wave::step() {
 void Wave::escape(const Ray& ray, const PathState& path) {
   const Vec3 wi = bsdf::unit(ray.d);
   if (path.density > 0) {
-    const float weight =
-        power_heuristic(path.density, lighting_->environment_density(path.from, wi));
-    colors_[path.slot] += path.throughput * lighting_->environment(wi) * weight;
+    const EnvironmentLight::Look light = lighting_->environment(path.from, wi);
+    colors_[path.slot] +=
+        path.throughput * light.radiance * power_heuristic(path.density, light.pdf);
   } else if (lighting_->is_seen()) {  // else the background is the picture's business
     colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;

@@ -21,6 +21,11 @@ float clamped(float x, float size) {
   return x < size ? x : std::nextafter(size, 0.0F);
 }
 
+/// A direction's distance from the y axis.
+float axis_range_of(const Vec3& d) {
+  return std::sqrt(d.x * d.x + d.z * d.z);
+}
+
 /// The part of a turn beyond whole turns, in [0, 1).
 float part_of_turn(double radians) {
   const double turns = radians / (2 * std::numbers::pi);
@@ -47,51 +52,41 @@ EnvironmentLight::EnvironmentLight(const Environment& environment)
     width_ = static_cast<float>(map_->width);
     height_ = static_cast<float>(map_->height);
     mean_luminance_ = static_cast<float>(distribution_->mean_luminance() * double{intensity_});
+    sampled_luminance_ =
+        static_cast<float>(distribution_->sampled_luminance() * double{intensity_});
   } else {
     uniform_ = intensity_ * std::get<Vec3>(environment.content);
-    mean_luminance_ = luminance(uniform_);
+    mean_luminance_ = sampled_luminance_ = luminance(uniform_);
   }
 }
 
-EnvironmentLight::Place EnvironmentLight::place_of(const Vec3& d) const {
-  const float axis_range = std::sqrt(d.x * d.x + d.z * d.z);
+MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
   const float turns = atan2_turns(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
   const float u = turns - chosen(turns >= 1, 1, 0);
-  return {.x = clamped(u * width_, width_), .y = row_of(axis_range, d.y)};
-}
-
-float EnvironmentLight::row_of(float axis_range, float height) const {
-  // Precise at the poles, as acos(y) is not.
-  return clamped(2 * height_ * atan2_turns(axis_range, height), height_);
-}
-
-Vec3 EnvironmentLight::radiance_at(Place place) const {
-  const std::uint32_t width = map_->width, height = map_->height;
   // From 0 on, pixels' centres lie at whole numbers; one is added so that they stay positive.
-  const float x = place.x + 0.5F, y = place.y + 0.5F;
+  const float x = clamped(u * width_, width_) + 0.5F;
+  // Precise at the poles, as acos(y) is not.
+  const float y = clamped(2 * height_ * atan2_turns(axis_range, d.y), height_) + 0.5F;
   const auto column = static_cast<std::uint32_t>(x), line = static_cast<std::uint32_t>(y);
-  const float fx = x - static_cast<float>(column), fy = y - static_cast<float>(line);
-  const std::uint32_t left = column > 0 ? column - 1 : width - 1;
-  const std::uint32_t right = column < width ? column : 0;
-  const std::uint32_t above = line > 0 ? line - 1 : 0, below = std::min(line, height - 1);
-  const Vec3* upper = &map_->pixels[std::size_t{above} * width];
-  const Vec3* lower = &map_->pixels[std::size_t{below} * width];
-  const Vec3 high = (1 - fx) * upper[left] + fx * upper[right];
-  const Vec3 low = (1 - fx) * lower[left] + fx * lower[right];
-  return intensity_ * ((1 - fy) * high + fy * low);
+  return {.column = column < map_->width ? column : 0,
+          .line = line,
+          .x = x - static_cast<float>(column),
+          .y = y - static_cast<float>(line)};
 }
 
-float EnvironmentLight::pdf_at(Place place) const {
-  return distribution_->density(static_cast<std::uint32_t>(place.x),
-                                static_cast<std::uint32_t>(place.y));
+EnvironmentLight::Look EnvironmentLight::look(const Vec3& direction) const {
+  if (!map_) return {.radiance = uniform_, .pdf = kUniformPdf};
+  const float axis_range = axis_range_of(direction);
+  const MapPlace place = place_of(direction, axis_range);
+  const auto corners = corners_of(*map_, place);
+  return {.radiance = intensity_ * bilinear(corners, place.x, place.y),
+          .pdf = distribution_->density(place, corners, axis_range)};
 }
 
 Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
-  return map_ ? radiance_at(place_of(direction)) : uniform_;
-}
-
-float EnvironmentLight::pdf(const Vec3& direction) const {
-  return map_ ? pdf_at(place_of(direction)) : kUniformPdf;
+  if (!map_) return uniform_;
+  const MapPlace place = place_of(direction, axis_range_of(direction));
+  return intensity_ * bilinear(corners_of(*map_, place), place.x, place.y);
 }
 
 EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
@@ -103,12 +98,14 @@ EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
             .pdf = kUniformPdf};
   }
   const MapDistribution::Point point = distribution_->sample(u);
-  const float turns = point.column / width_ + back_turn_;  // in [0, 2]
-  const SineCosine angle = sin_cos_turns(turns - chosen(turns >= 1, 1, 0));
-  const Place place{.x = clamped(point.column, width_),
-                    .y = row_of(point.axis_range, point.height)};
+  const MapPlace& place = point.place;
+  const float column = static_cast<float>(place.column) + (place.x - 0.5F);
+  float turns = column / width_ + back_turn_;  // in [-1/2, 2]
+  turns -= chosen(turns >= 1, 1, 0);
+  turns += chosen(turns < 0, 1, 0);
+  const SineCosine angle = sin_cos_turns(turns);
   return {.wi = {point.axis_range * angle.cosine, point.height, point.axis_range * angle.sine},
-          .radiance = radiance_at(place),
+          .radiance = intensity_ * bilinear(corners_of(*map_, place), place.x, place.y),
           .pdf = point.density};
 }
 

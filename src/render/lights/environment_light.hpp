@@ -26,26 +26,24 @@ class EnvironmentLight {
   struct Sample {
     Vec3 wi;
     Vec3 radiance;  ///< radiance(wi), but for rounding
-    float pdf;      ///< pdf(wi), above 0; where rounding moves wi over the edge of one of the map's
-                    ///< pixels, that of the pixel that was chosen
+    float pdf;      ///< that of wi, above 0, but for rounding of wi
   };
-  /// Chooses a direction about proportionally to luminance; u in [0, 1)^2.
+  /// Chooses a direction, the brighter the likelier; u in [0, 1)^2.
   [[nodiscard]] Sample sample(const Vec2& u) const;
 
-  /// The density with which sample() gives this direction, per steradian; nowhere 0.
-  [[nodiscard]] float pdf(const Vec3& direction) const;
+  struct Look {
+    Vec3 radiance;
+    float pdf;  ///< with which sample() gives this direction, per steradian; nowhere 0
+  };
+  [[nodiscard]] Look look(const Vec3& direction) const;
 
   /// The mean of the luminance over all directions, in the unit of radiance.
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
+  /// The same of what sample() is for: what surfaces do not find as well by themselves.
+  [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
-  struct Place {
-    float x, y;  ///< in pixels of the map, within [0, width) and [0, height)
-  };
-  [[nodiscard]] Place place_of(const Vec3& direction) const;
-  [[nodiscard]] float row_of(float axis_range, float height) const;
-  [[nodiscard]] Vec3 radiance_at(Place place) const;
-  [[nodiscard]] float pdf_at(Place place) const;
+  [[nodiscard]] MapPlace place_of(const Vec3& direction, float axis_range) const;
 
   Vec3 uniform_{0};
   std::shared_ptr<const RadianceMap> map_{};  ///< null: uniform_
@@ -54,7 +52,7 @@ class EnvironmentLight {
   float intensity_;
   float turn_;       ///< added to a direction's longitude, in [0, 1)
   float back_turn_;  ///< added to u of the map for a longitude, in [0, 1)
-  float mean_luminance_ = 0;
+  float mean_luminance_ = 0, sampled_luminance_ = 0;
 };
 
 }  // namespace microtrace

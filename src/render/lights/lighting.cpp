@@ -35,7 +35,7 @@ Lighting::Lighting(const Scene& scene, const Shading& shading) : scene_(scene), 
   add_triangles(shading, bounds);
   add_lights(bounds);
   if (!bounds.empty()) tree_.emplace(bounds);
-  if (environment_) environment_light_ = environment_->mean_luminance() / bsdf::kInversePi;
+  if (environment_) environment_light_ = environment_->sampled_luminance() / bsdf::kInversePi;
   for (const std::uint32_t i : far_lights_) {
     if (const auto light = of_punctual(scene.lights[i].light, Vec3(0)))
       far_light_ += luminance(light->light);
@@ -161,9 +161,11 @@ std::optional<LightSample> Lighting::sample(const Receiver& receiver, const Vec2
   return result;
 }
 
-float Lighting::environment_density(const Receiver& receiver, const Vec3& wi) const {
-  if (!samples_environment()) return 0;
-  return shares(receiver).environment * environment_->pdf(wi);
+EnvironmentLight::Look Lighting::environment(const Receiver& receiver, const Vec3& wi) const {
+  if (!samples_environment()) return {.radiance = environment(wi), .pdf = 0};
+  EnvironmentLight::Look look = environment_->look(wi);
+  look.pdf *= shares(receiver).environment;
+  return look;
 }
 
 float Lighting::emitter_density(PrimitiveId id, const Receiver& receiver, float distance,

@@ -47,8 +47,9 @@ class Lighting {
   [[nodiscard]] Vec3 environment(const Vec3& wi) const {
     return environment_ ? environment_->radiance(wi) : Vec3(0);
   }
-  /// The density with which sample() gives that direction of the environment, at the receiver.
-  [[nodiscard]] float environment_density(const Receiver& receiver, const Vec3& wi) const;
+  /// The same, with the density with which sample() gives that direction of the environment at the
+  /// receiver.
+  [[nodiscard]] EnvironmentLight::Look environment(const Receiver& receiver, const Vec3& wi) const;
 
   /// The same of a point of a triangle that shines, for a path that came to it from the receiver
   /// over `distance`; `cosine` is that of the angle between the path and the triangle's normal.

@@ -2,6 +2,7 @@
 
 #include "render/luminance.hpp"
 #include "scene/trigonometry.hpp"
+#include "scene/turns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +13,8 @@ namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kWhole = 1U << 24U;
-/// The share of the mean probability that the least likely row, and pixel of a row, keep. Where
-/// there are 65536 of them that is still more than 2^-24.
+/// The share of the mean probability that the least likely row, and cell of a row, keep. Where
+/// there are 65537 of them that is still more than 2^-24.
 constexpr double kFloor = 1.0 / 128;
 
 /// Turns weights into bounds of 0 to kWhole.
@@ -28,14 +29,15 @@ void accumulate(std::span<const double> weights, double total, std::uint32_t* bo
 }
 
 /// Entry g of count is where the search for g / count begins: at the last bound that is not above.
-void make_guide(std::span<const std::uint32_t> bounds, std::uint16_t* guide) {
+template <class Index>
+void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
   const std::size_t count = bounds.size() - 1;
   std::size_t i = 0;
   for (std::size_t g = 0; g < count; ++g) {
     // Numbers that come to entry g are at least this.
     const std::size_t least = (g * kWhole + count - 1) / count;
     while (bounds[i + 1] <= least) ++i;
-    guide[g] = static_cast<std::uint16_t>(i);
+    guide[g] = static_cast<Index>(i);
   }
 }
 
@@ -45,7 +47,8 @@ struct Found {
   float place;          // in the cell, in (0, 1)
 };
 
-Found find(const std::uint32_t* bounds, const std::uint16_t* guide, std::uint32_t cells, float u) {
+template <class Index>
+Found find(const std::uint32_t* bounds, const Index* guide, std::uint32_t cells, float u) {
   const auto number = std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
   std::uint32_t i = guide[std::uint64_t{number} * cells >> 24U];
   // Mostly two steps at most: taken without branches, which could not be foretold.
@@ -57,90 +60,144 @@ Found find(const std::uint32_t* bounds, const std::uint16_t* guide, std::uint32_
   return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
 }
 
-/// (1 - cos(theta)) / 2 at the upper edge of a row.
-double edge(std::uint32_t row, std::uint32_t height) {
-  const double s = sin_radians(std::numbers::pi / 2 * row / height);
-  return s * s;
+/// The place up to which the share u, above 0, of a density lies that goes evenly from a to b.
+float inverted(float a, float b, float u) {
+  const float root = std::sqrt(a * a + u * (b * b - a * a));
+  return std::min(u * (a + b) / (a + root), 1.0F);
 }
 
 }  // namespace
 
 MapDistribution::MapDistribution(const RadianceMap& map)
-    : width_(map.width),
+    : map_(map),
+      width_(map.width),
       height_(map.height),
-      row_bounds_(height_ + 1),
-      row_guide_(height_),
-      columns_(std::size_t{height_} * (width_ + 1)),
-      column_guide_(std::size_t{height_} * width_) {
-  // The mean of a bilinear map over a pixel has weights 1/8, 6/8, 1/8 along each axis.
-  const auto pixel_row = [&](std::uint32_t y, std::vector<double>& row) {
-    for (std::uint32_t x = 0; x < width_; ++x) {
-      row[x] = luminance(DVec3(map.pixels[std::size_t{y} * width_ + x]));
-    }
-  };
-  std::vector<double> above(width_), here(width_), below(width_), mixed(width_), weights(width_);
-  std::vector<double> row_sums(height_);
-  pixel_row(0, here);
-  above = here;
-  for (std::uint32_t y = 0; y < height_; ++y) {
-    if (y + 1 < height_) pixel_row(y + 1, below);
-    if (y + 1 == height_) below = here;
-    for (std::uint32_t x = 0; x < width_; ++x) mixed[x] = above[x] + 6 * here[x] + below[x];
-    double sum = 0;
-    for (std::uint32_t x = 0; x < width_; ++x) {
-      const double left = mixed[x > 0 ? x - 1 : width_ - 1];
-      const double right = mixed[x + 1 < width_ ? x + 1 : 0];
-      weights[x] = (left + 6 * mixed[x] + right) / 64;
-      sum += weights[x];
-    }
-    row_sums[y] = sum;
-    const double least = sum > 0 ? kFloor * sum / width_ : 1;
-    for (double& weight : weights) weight += least;
-    std::uint32_t* bounds = &columns_[std::size_t{y} * (width_ + 1)];
-    accumulate(weights, sum + least * width_, bounds);
-    make_guide({bounds, width_ + 1}, &column_guide_[std::size_t{y} * width_]);
-    std::swap(above, here);
-    std::swap(here, below);
+      rows_(height_ + 1),
+      row_bounds_(height_ + 2),
+      row_guide_(height_ + 1),
+      columns_(std::size_t{height_ + 1} * (width_ + 1)),
+      column_guide_(std::size_t{height_ + 1} * width_) {
+  const double step = std::numbers::pi / height_;
+  const double half = sin_radians(step / 4);
+  turns_per_row_ = static_cast<float>(0.5 / height_);
+  polar_h_ = static_cast<float>(half * half);
+  for (std::uint32_t line = 0; line <= height_; ++line) {
+    const auto sine = [&](double y) { return static_cast<float>(sin_radians(step * y)); };
+    rows_[line].sines = {sine(line - 0.5), sine(height_ - line - 0.5)};
+    // So that weights count as much of the solid angle there as in other rows.
+    if (is_polar(line)) rows_[line].sines.fill(static_cast<float>(2 * half * half / step));
   }
-  make_rows(row_sums);
+  find_mean();
+  make_rows(make_columns());
 }
 
-void MapDistribution::make_rows(const std::vector<double>& row_sums) {
-  std::vector<double> weights(height_);
-  double sum = 0;
-  for (std::uint32_t y = 0; y < height_; ++y) {
-    weights[y] = row_sums[y] / width_ * (edge(y + 1, height_) - edge(y, height_));
-    sum += weights[y];
+void MapDistribution::find_mean() {
+  const double step = std::numbers::pi / height_;
+  double sum = 0, above = 0, below = 0;
+  for (std::uint32_t line = 0; line <= height_; ++line) {
+    if (line < height_) {
+      above = below;
+      below = 0;
+      for (const Vec3& pixel : std::span(map_.pixels).subspan(std::size_t{line} * width_, width_))
+        below += luminance(DVec3(pixel));
+    }
+    // The integrals of the sine over the line, and of its part that counts for the lower pixels.
+    const double top = step * std::max(line - 0.5, 0.0);
+    const double bottom = step * std::min(line + 0.5, double{1} * height_);
+    const double all = cos_radians(top) - cos_radians(bottom);
+    double lower = (sin_radians(bottom) - sin_radians(top)) / step - cos_radians(bottom);
+    if (is_polar(line)) lower = all;
+    sum += lower * below + (all - lower) * above;
   }
-  mean_luminance_ = sum;  // the edges' differences sum to 1
-  const double least = sum > 0 ? kFloor * sum / height_ : 1;
+  mean_luminance_ = sum / (2 * width_);
+  // Less is as good as none, and its inverse no float.
+  scale_ = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
+}
+
+std::vector<double> MapDistribution::make_columns() {
+  std::vector<double> row_weights(height_ + 1), cells(width_);
+  for (std::uint32_t line = 0; line <= height_; ++line) {
+    Row& row = rows_[line];
+    row.floor = 0;
+    double sum = 0;
+    for (std::uint32_t column = 0; column < width_; ++column) {
+      const auto w = weights(row, corners_of(map_, {.column = column, .line = line}));
+      cells[column] = double{0.25F * ((w[0] + w[1]) + (w[2] + w[3]))};
+      sum += cells[column];
+    }
+    row_weights[line] = sum / width_;
+    const double least = sum > 0 ? kFloor * row_weights[line] : 1;
+    row.floor = static_cast<float>(least);
+    for (double& cell : cells) cell += least;
+    std::uint32_t* bounds = &columns_[std::size_t{line} * (width_ + 1)];
+    accumulate(cells, sum + least * width_, bounds);
+    make_guide({bounds, width_ + 1}, &column_guide_[std::size_t{line} * width_]);
+  }
+  return row_weights;
+}
+
+void MapDistribution::make_rows(std::vector<double> weights) {
+  double sum = 0, solid_angle = 0;
+  for (std::uint32_t line = 0; line <= height_; ++line) {
+    sum += weights[line];
+    solid_angle += (double{rows_[line].sines[0]} + double{rows_[line].sines[1]}) / 2;
+  }
+  sampled_luminance_ = mean_luminance_ * sum / solid_angle;
+  const double least = sum > 0 ? kFloor * sum / (height_ + 1) : 1;
   for (double& weight : weights) weight += least;
-  accumulate(weights, sum + least * height_, row_bounds_.data());
+  accumulate(weights, sum + least * (height_ + 1), row_bounds_.data());
   make_guide(row_bounds_, row_guide_.data());
-  rows_.resize(height_);
-  for (std::uint32_t y = 0; y < height_; ++y) {
-    const bool is_north = 2 * y < height_;
-    const double first = is_north ? edge(y, height_) : edge(height_ - y, height_);
-    const double last = is_north ? edge(y + 1, height_) : edge(height_ - y - 1, height_);
-    const double solid_angle = 4 * std::numbers::pi * std::abs(last - first) / width_;
-    const double probability = double{1} * (row_bounds_[y + 1] - row_bounds_[y]) / kWhole;
-    rows_[y] = {.first_h = static_cast<float>(first),
-                .h_range = static_cast<float>(last - first),
-                .pole = is_north ? 1.0F : -1.0F,
-                .density = static_cast<float>(probability / (solid_angle * kWhole))};
+  const double step = std::numbers::pi / height_, wide = 2 * std::numbers::pi / width_;
+  const double half = sin_radians(step / 4);
+  for (std::uint32_t line = 0; line <= height_; ++line) {
+    const double probability = double{1} * (row_bounds_[line + 1] - row_bounds_[line]) / kWhole;
+    const double high = is_polar(line) ? 2 * half * half : step;
+    rows_[line].density = static_cast<float>(probability / (wide * high * kWhole));
   }
+}
+
+float MapDistribution::density(const MapPlace& place, const std::array<Vec3, 4>& corners,
+                               float axis_range) const {
+  const Row& row = rows_[place.line];
+  const std::uint32_t* bounds = &columns_[std::size_t{place.line} * (width_ + 1) + place.column];
+  return density(row, bounds[1] - bounds[0], place, weights(row, corners), axis_range);
+}
+
+float MapDistribution::density(const Row& row, std::uint32_t count, const MapPlace& place,
+                               const std::array<float, 4>& w, float axis_range) const {
+  const float mean = 0.25F * ((w[0] + w[1]) + (w[2] + w[3]));
+  const float cell = static_cast<float>(count) * row.density;
+  return cell * bilinear(w, place.x, place.y) / (is_polar(place.line) ? mean : mean * axis_range);
 }
 
 MapDistribution::Point MapDistribution::sample(const Vec2& u) const {
-  const Found y = find(row_bounds_.data(), row_guide_.data(), height_, u.y);
-  const Found x = find(&columns_[std::size_t{y.index} * (width_ + 1)],
-                       &column_guide_[std::size_t{y.index} * width_], width_, u.x);
-  const Row& row = rows_[y.index];
-  const float h = row.first_h + row.h_range * y.place;
-  return {.column = static_cast<float>(x.index) + x.place,
-          .height = row.pole * (1 - 2 * h),
-          .axis_range = 2 * std::sqrt(h * (1 - h)),
-          .density = static_cast<float>(x.count) * row.density};
+  const Found line = find(row_bounds_.data(), row_guide_.data(), height_ + 1, u.y);
+  const Found column = find(&columns_[std::size_t{line.index} * (width_ + 1)],
+                            &column_guide_[std::size_t{line.index} * width_], width_, u.x);
+  const Row& row = rows_[line.index];
+  Point point{.place = {.column = column.index, .line = line.index}};
+  const auto w = weights(row, corners_of(map_, point.place));
+  const bool is_south = 2 * line.index > height_;
+  if (is_polar(line.index)) {
+    // Even in solid angle: in (1 - cos(theta)) / 2, precise at the pole that it is measured from.
+    const float h = (is_south ? 1 - line.place : line.place) * polar_h_;
+    point.height = 1 - 2 * h;
+    point.axis_range = 2 * std::sqrt(h * (1 - h));
+    point.place.y = line.place;
+  } else {
+    const float y = inverted(w[0] + w[1], w[2] + w[3], line.place);
+    const auto rows = static_cast<float>(is_south ? height_ - line.index : line.index);
+    const float turns = (rows + (is_south ? 0.5F - y : y - 0.5F)) * turns_per_row_;
+    const SineCosine angle = sin_cos_turns(turns);
+    point.height = angle.cosine;
+    point.axis_range = angle.sine;
+    point.place.y = y;
+  }
+  if (is_south) point.height = -point.height;
+  const float y = point.place.y;
+  point.place.x = inverted((1 - y) * w[0] + y * w[2], (1 - y) * w[1] + y * w[3], column.place);
+  point.density = density(row, column.count, point.place, w, point.axis_range);
+  return point;
 }
 
 }  // namespace microtrace
