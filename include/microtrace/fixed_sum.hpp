@@ -13,10 +13,13 @@ namespace microtrace {
 /// and grouping, which floating-point numbers don't.
 template <std::size_t Words, int FractionBits>
 struct FixedSum {
+  __extension__ using Wide = unsigned __int128;
+
   std::array<std::uint64_t, Words> words{};
 
   /// x, finite, without what it has beyond the last multiple of 2^-FractionBits towards 0.
   void add(double x) {
+    if (x > -0x1p30 && x < 0x1p30) return add_small(x);
     constexpr int kMantissaBits = 52, kBias = 1075;  // x = mantissa 2^(exponent - kBias)
     const auto bits = std::bit_cast<std::uint64_t>(x);
     const int exponent = static_cast<int>(bits >> kMantissaBits & 0x7ffU);
@@ -63,6 +66,29 @@ struct FixedSum {
   [[nodiscard]] bool operator==(const FixedSum&) const = default;
 
  private:
+  /// The same by conversions to integers, for |x| < 2^30.
+  void add_small(double x) {
+    static_assert(Words <= 3 && FractionBits >= 32 && FractionBits <= 94);
+    // Cut off towards 0, both times; what is between is exact.
+    const double upper = x * 0x1p32;
+    const auto whole = static_cast<std::int64_t>(upper);
+    constexpr auto kScale = std::bit_cast<double>(std::uint64_t{1023 + FractionBits - 32} << 52U);
+    const auto part = static_cast<std::int64_t>((upper - static_cast<double>(whole)) * kScale);
+    const Wide term = (static_cast<Wide>(whole) << (FractionBits - 32U)) + static_cast<Wide>(part);
+    const auto low = static_cast<std::uint64_t>(term);
+    if constexpr (Words == 1) {
+      words[0] += low;
+    } else {
+      const Wide sum = (Wide{words[1]} << 64U | words[0]) + term;
+      words[0] = static_cast<std::uint64_t>(sum);
+      words[1] = static_cast<std::uint64_t>(sum >> 64U);
+      if constexpr (Words == 3) {
+        if (sum < term) ++words[2];
+        if (x < 0 && term != 0) --words[2];
+      }
+    }
+  }
+
   [[nodiscard]] FixedSum negated() const {
     FixedSum result;
     std::uint64_t carry = 1;

@@ -1,10 +1,12 @@
 #include "render/random_painter.hpp"
 
+#include "render/kernels/dispatch.hpp"
 #include "render/ray_batch.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace microtrace {
@@ -15,7 +17,8 @@ RandomPainter::RandomPainter(const World& world, const Integrator& integrator,
       integrator_(integrator),
       ray_(world.camera, world.scene),
       filter_(options.filter),
-      background_(background) {}
+      background_(background),
+      kernels_(best_shading_kernels()) {}
 
 void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
                         std::span<PixelSum> sums) const {
@@ -26,22 +29,33 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
       if (!sums[pixel].add(sample.color, sample.alpha, background_)) ++invalid;
     });
   };
-  std::array<std::uint32_t, std::size_t{kTileEdge} * kTileEdge> keys;
-  std::size_t pixels = 0;
+  struct Pixel {
+    std::uint32_t x, y;
+  };
+  std::array<Pixel, kTilePixels> pixels;
+  std::array<std::uint32_t, kTilePixels> keys{};
+  std::size_t count = 0;
   for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-    for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
-      keys[pixels++] = sampling::pixel_key(world_.seed, x, y);
+    for (std::uint32_t x = tile.x0; x < tile.x1; ++x) {
+      keys[count] = sampling::pixel_key(world_.seed, x, y);
+      pixels[count++] = {.x = x, .y = y};
+    }
   }
   // Sample by sample, so that the rays of neighbouring pixels make bundles.
+  static_assert(kTilePixels % kShadingLanes == 0);
+  std::array<std::uint32_t, kShadingLanes> indices;
+  std::array<float, kShadingLanes> u, v;
   for (std::uint32_t k = range.first; k < range.last; ++k) {
-    std::size_t pixel = 0;
-    for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-      for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++pixel) {
+    indices.fill(k);
+    for (std::size_t first = 0; first < count; first += kShadingLanes) {
+      kernels_.random_pairs(&keys[first], indices.data(), sampling::kPixelPair, u.data(), v.data());
+      const std::size_t size = std::min<std::size_t>(count - first, kShadingLanes);
+      for (std::size_t i = 0; i < size; ++i) {
         if (batch.is_full()) trace();
-        const SampleId id{.x = x, .y = y, .index = k, .key = keys[pixel]};
-        const Vec2 uv = sampling::Sobol(id.key, id.index).pair(sampling::kPixelPair);
-        const PixelOffset offset = filter_(uv.x, uv.y);
-        batch.add(pixel, id, [&] { return ray_(x + offset.x, y + offset.y); });
+        const auto [x, y] = pixels[first + i];
+        const PixelOffset offset = filter_(u[i], v[i]);
+        const SampleId id{.x = x, .y = y, .index = k, .key = keys[first + i]};
+        batch.add(first + i, id, [&] { return ray_(x + offset.x, y + offset.y); });
       }
     }
   }

@@ -2,6 +2,7 @@
 /// Samples of integrators whose answers are random.
 
 #include "render/camera_rays.hpp"
+#include "render/kernels/kernel.hpp"
 #include "render/pixel_filter.hpp"
 
 #include <microtrace/integrator.hpp>
@@ -35,6 +36,7 @@ class RandomPainter {
   CameraRays ray_;
   FilterSampler filter_;
   Vec3 background_;
+  const ShadingKernels& kernels_;
   mutable std::atomic<std::uint64_t> samples_ = 0, invalid_ = 0;
 };
 

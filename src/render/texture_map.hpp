@@ -48,6 +48,8 @@ class TextureMap {
   };
   [[nodiscard]] Place place(const Vec2& uv, float width) const;
   [[nodiscard]] Vec4 sample(const Place& place) const;
+  /// Brings what sample() will look at nearer to the processor.
+  void fetch(const Place& place) const;
 
   /// Whether both have the same places.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;

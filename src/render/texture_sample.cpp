@@ -114,6 +114,17 @@ bool TextureMap::is_laid_out_as(const TextureMap& other) const {
          a.minification == b.minification && a.mip == b.mip;
 }
 
+void TextureMap::fetch(const Place& place) const {
+  const bool is_image = place.level == 0;
+  const void* samples = is_image ? image_samples_ : levels_[place.level - 1].samples.data();
+  const std::size_t size = is_image ? image_.channels * (is_wide_ ? 2U : 1U) : 8;
+  for (const std::int32_t row : {place.y.first, place.y.second}) {
+    const std::size_t pixel =
+        static_cast<std::size_t>(row) * place.columns + static_cast<std::size_t>(place.x.first);
+    __builtin_prefetch(static_cast<const char*>(samples) + pixel * size);
+  }
+}
+
 Vec4 TextureMap::sample(const Place& place) const {
   const auto& [level, columns, x, y] = place;
   if (level > 0) {

@@ -48,6 +48,26 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
   EXPECT_EQ(wide.value(), 0x1p100);
 }
 
+// Near to 1 and far from it, where terms are added in two ways.
+TEST(FixedSum, TermsAreCutOffMultiplesOfTheUnit) {
+  __extension__ using Wide = __int128;
+  std::mt19937_64 random(2);
+  for (int i = 0; i < 100000; ++i) {
+    const double mantissa = static_cast<double>(static_cast<std::int64_t>(random()));
+    const double x = std::ldexp(mantissa, -static_cast<int>(random() % 140));
+    if (std::abs(x) >= 0x1p62) continue;
+    const auto expected = static_cast<Wide>(std::ldexp(x, 64));
+    const Sum sum = sum_of({x});
+    ASSERT_EQ(sum.words[0], static_cast<std::uint64_t>(expected)) << x;
+    ASSERT_EQ(sum.words[1], static_cast<std::uint64_t>(expected >> 64)) << x;
+    FixedSum<3, 80> wide;
+    wide.add(std::ldexp(x, -16));
+    ASSERT_EQ(wide.words[0], sum.words[0]) << x;
+    ASSERT_EQ(wide.words[1], sum.words[1]) << x;
+    ASSERT_EQ(wide.words[2], expected < 0 ? ~std::uint64_t{0} : 0) << x;
+  }
+}
+
 // 65536 equal terms of 24 bits give 65536 times their value, exactly.
 TEST(FixedSum, EqualTermsAddUpExactly) {
   for (const float x : {0.1F, 3e-6F, 1e9F, 0.7F}) {

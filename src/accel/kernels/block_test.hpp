@@ -153,7 +153,7 @@ inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, con
     if (is_certain && t.lo > best.hi) continue;
     if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
       best = {t.lo, t.hi, id};
-    else
+    else if (!(t.lo <= ray.t_min && is_left_behind(block, lane, ray.o, ray.d)))
       slowly(id, best);
     if (kAny && best.id != kNoPrimitive) return;
   }

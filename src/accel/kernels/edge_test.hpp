@@ -16,25 +16,57 @@ inline std::uint64_t edge_tests() {
   return edge_test_count;
 }
 
+/// A triangle as a ray's origin sees it, in float64: a from the origin to its first corner, the two
+/// edges from there.
+struct NearTriangle {
+  double a[3], e1[3], e2[3];
+
+  NearTriangle(const TriangleBlock& block, int k, const float* o)
+      : a{double{block.a_x[k]} - o[0], double{block.a_y[k]} - o[1], double{block.a_z[k]} - o[2]},
+        e1{double{block.b_x[k]} - block.a_x[k], double{block.b_y[k]} - block.a_y[k],
+           double{block.b_z[k]} - block.a_z[k]},
+        e2{double{block.c_x[k]} - block.a_x[k], double{block.c_y[k]} - block.a_y[k],
+           double{block.c_z[k]} - block.a_z[k]} {}
+};
+
+inline double sum_of_magnitudes(const double (&x)[3]) {
+  return __builtin_fabs(x[0]) + __builtin_fabs(x[1]) + __builtin_fabs(x[2]);
+}
+inline double largest_magnitude(const double (&x)[3]) {
+  return greater(greater(__builtin_fabs(x[0]), __builtin_fabs(x[1])), __builtin_fabs(x[2]));
+}
+
+/// Whether a ray certainly leaves the plane of triangle k of a block behind: most that float32
+/// leaves open are those that rays have just come from.
+inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
+  const NearTriangle t(block, k, o);
+  double height = 0, size = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, l = (i + 2) % 3;
+    const double n = t.e1[j] * t.e2[l] - t.e1[l] * t.e2[j];
+    height += n * t.a[i];
+    size += n * d[i];
+  }
+  const double product = largest_magnitude(t.e1) * largest_magnitude(t.e2) * (20 * 0x1p-53);
+  const double d_sum =
+      __builtin_fabs(double{d[0]}) + __builtin_fabs(double{d[1]}) + __builtin_fabs(double{d[2]});
+  const double height_bound = sum_of_magnitudes(t.a) * product + 0x1p-600;
+  const double size_bound = d_sum * product + 0x1p-600;
+  return size > 0 ? size > size_bound && height < -height_bound
+                  : size < -size_bound && height > height_bound;
+}
+
 /// Whether the line of a ray goes through triangle k of a block, all edges included.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;
-  const double a[3] = {double{block.a_x[k]} - o[0], double{block.a_y[k]} - o[1],
-                       double{block.a_z[k]} - o[2]};
-  const double e1[3] = {double{block.b_x[k]} - block.a_x[k], double{block.b_y[k]} - block.a_y[k],
-                        double{block.b_z[k]} - block.a_z[k]};
-  const double e2[3] = {double{block.c_x[k]} - block.a_x[k], double{block.c_y[k]} - block.a_y[k],
-                        double{block.c_z[k]} - block.a_z[k]};
-  double u = 0, v = 0, size = 0, a_sum = 0, d_sum = 0, largest1 = 0, largest2 = 0;
+  const auto [a, e1, e2] = NearTriangle(block, k, o);
+  double u = 0, v = 0, size = 0, d_sum = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
     u += (e2[j] * a[l] - e2[l] * a[j]) * d[i];
     v += (a[j] * e1[l] - a[l] * e1[j]) * d[i];
     size += (e1[j] * e2[l] - e1[l] * e2[j]) * d[i];
-    a_sum += __builtin_fabs(a[i]);
     d_sum += __builtin_fabs(double{d[i]});
-    largest1 = greater(largest1, __builtin_fabs(e1[i]));
-    largest2 = greater(largest2, __builtin_fabs(e2[i]));
   }
   if (size < 0) {
     u = -u;
@@ -42,9 +74,10 @@ inline Within within_edges(const TriangleBlock& block, int k, const float* o, co
     size = -size;
   }
   // Two roundings more than block_test.hpp's forms cover those of the bound itself.
-  const double bound =
-      (a_sum * greater(largest1, largest2) + largest1 * largest2) * (20 * 0x1p-53 * d_sum) +
-      0x1p-600;
+  const double largest1 = largest_magnitude(e1), largest2 = largest_magnitude(e2);
+  const double bound = (sum_of_magnitudes(a) * greater(largest1, largest2) + largest1 * largest2) *
+                           (20 * 0x1p-53 * d_sum) +
+                       0x1p-600;
   const double within = lesser(lesser(u, v), size - (u + v));
   if (within > bound) return Within::yes;
   return within < -bound ? Within::no : Within::unsure;

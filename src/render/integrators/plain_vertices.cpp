@@ -69,13 +69,14 @@ void PlainVertices::add(const WaveStep& step, const Shading& shading, const Ray&
 }
 
 void PlainVertices::ask_lights(const WaveStep& step) {
+  alignas(64) LaneFloats u, v, choice, unused;
+  kernels_->random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair), u, v);
+  kernels_->random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),
+                         choice, unused);
   for (int lane = 0; lane < count_; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
-    const sampling::Sobol& sobol = vertices_[i].path->sobol;
-    const std::optional<LightSample> light =
-        lighting_->sample({.p = vertices_[i].p, .n = got(normals_.frame_n, lane)},
-                          sobol.pair(step.pair(sampling::kLightPair)),
-                          sobol.one(step.pair(sampling::kLightChoicePair)));
+    const std::optional<LightSample> light = lighting_->sample(
+        {.p = vertices_[i].p, .n = got(normals_.frame_n, lane)}, {u[lane], v[lane]}, choice[lane]);
     lights_[i] = light.value_or(LightSample{});
     put(scatter_.light_wi, lane, lights_[i].wi);
     put(scatter_.light, lane, lights_[i].light);

@@ -67,6 +67,9 @@ void Wave::step() {
     const std::size_t size = std::min<std::size_t>(count_ - first, kShadingLanes);
     shading_->points(*kernels_, std::span(rays_).subspan(first, size),
                      std::span(hits_).subspan(first, size), hit_lanes_, points);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (hits_[first + i]) prepare(first + i, points[i]);
+    }
     for (std::size_t i = 0; i < size; ++i) step(first + i, points[i]);
   }
   plain_.finish(step_, departures_);
@@ -93,15 +96,23 @@ void Wave::widen(const Ray& ray, PathState& path) const {
   path.spread = static_cast<float>(spread) * step_.sample_width;
 }
 
+void Wave::prepare(std::size_t i, ShadingPoint& point) {
+  PathState& path = paths_[i];
+  if (step_.depth == 1) widen(rays_[i], path);
+  point.width = path.begin + path.spread * point.at.distance;
+  Shading::find_place(point);
+}
+
 void Wave::step(std::size_t i, ShadingPoint& point) {
   const Ray& ray = rays_[i];
   PathState& path = paths_[i];
   std::optional<Hit> hit = hits_[i];
-  if (hit && step_.depth == 1) widen(ray, path);
   for (std::uint32_t layer = 0;; ++layer) {
     if (!hit) return escape(ray, path);
-    if (layer > 0) point = shading_->point(ray, *hit);
-    point.width = path.begin + path.spread * point.at.distance;
+    if (layer > 0) {
+      point = shading_->point(ray, *hit);
+      prepare(i, point);
+    }
     const float coverage = shading_->coverage(point);
     if (coverage == 1) break;
     const std::uint32_t number =
@@ -111,7 +122,6 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   }
   if (path.absorption != Vec3(0))
     path.throughput *= transmittance(path.absorption, point.at.distance);
-  Shading::find_place(point);
   const bool from_camera = path.density == 0;
   if (from_camera) alphas_[path.slot] = 1;
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {

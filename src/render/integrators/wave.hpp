@@ -43,6 +43,8 @@ class Wave {
     const bsdf::Scattering& bsdf;
     int channel;  ///< for which a dispersing surface bends the path
   };
+  /// Gives the point its width and looks for its textures.
+  void prepare(std::size_t i, ShadingPoint& point);
   /// What becomes of path i, whose ray meets what it meets at `point`, if anything.
   void step(std::size_t i, ShadingPoint& point);
   /// Steps all paths.

@@ -68,6 +68,9 @@ struct ScatterSetup {
 
 struct ShadingKernels {
   const char* name;
+  /// sampling::Sobol(keys[i], indices[i]).pair(number), kShadingLanes of them.
+  void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
+                       std::uint32_t number, float* x, float* y);
   void (*find_points)(HitLanes& lanes);
   void (*find_normals)(NormalLanes& lanes);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);

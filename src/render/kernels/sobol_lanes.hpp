@@ -1,6 +1,7 @@
 #pragma once
 /// Random numbers: sampling::Sobol, of many samples at once.
 
+#include "render/kernels/kernel.hpp"
 #include "simd/vectors.hpp"
 
 namespace microtrace {
@@ -89,6 +90,16 @@ struct SobolLanes {
             unit_float(scrambled_upwards(sobol_upwards(n), hash(pair_key, 2)))};
   }
 };
+
+template <int N>
+void random_pairs(const std::uint32_t* keys, const std::uint32_t* indices, std::uint32_t number,
+                  float* x, float* y) {
+  for (int i = 0; i < kShadingLanes; i += N) {
+    const auto pair = SobolLanes<N>(keys + i, indices + i).pair(number);
+    store<N>(x + i, pair.x);
+    store<N>(y + i, pair.y);
+  }
+}
 
 }  // namespace
 }  // namespace microtrace

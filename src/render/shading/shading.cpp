@@ -63,8 +63,13 @@ ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool fr
 }
 
 void Shading::find_place(ShadingPoint& point) {
-  const TextureSlot& layout = point.look->layout;
-  if (layout.map != nullptr) point.place = layout.place(point);
+  const TexturedMaterial& look = *point.look;
+  if (look.layout.map == nullptr) return;
+  point.place = look.layout.place(point);
+  for (const TextureSlot* slot :
+       {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {
+    if (slot->shares_place) slot->map->fetch(*point.place);
+  }
 }
 
 Vec4 Shading::base_color(const ShadingPoint& point) const {

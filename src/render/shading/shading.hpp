@@ -93,7 +93,8 @@ class Shading {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
   }
 
-  /// Spares the textures of a point from finding their places one by one.
+  /// Spares the textures of a point from finding their places one by one, and begins to fetch what
+  /// they have there.
   static void find_place(ShadingPoint& point);
 
   /// How much of the surface is there: 0 on a side that it lacks; by the base colour's alpha where
