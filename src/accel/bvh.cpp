@@ -3,10 +3,10 @@
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "accel/quick_spawn.hpp"
 #include "accel/ray_stream.hpp"
 #include "accel/slow_path.hpp"
-#include "accel/spawn_among.hpp"
+#include "accel/spawn/quick_spawn.hpp"
+#include "accel/spawn/spawn_among.hpp"
 #include "accel/tile_judge.hpp"
 #include "float_environment.hpp"
 
@@ -47,6 +47,7 @@ struct Bvh::Impl {
   Tree tree;
   bool has_tree = false;
   const Kernels* kernels = &best_kernels();
+  const SpawnKernels* spawn_kernels = &best_spawn_kernels();
 };
 
 Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scene) {
@@ -196,7 +197,7 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
                         std::span<std::optional<Vec3>> origins) const {
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
-  QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels,
+  QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
                     impl_->has_tree ? impl_->view() : TreeView{});
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);

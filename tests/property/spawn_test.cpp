@@ -1,5 +1,6 @@
 // What spawn.hpp promises, asked of exact arithmetic: side, no hit of its own, nearness.
 
+#include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/range.hpp"
@@ -259,13 +260,18 @@ TEST(Spawn, ManyAtOnceAreAnsweredAlike) {
         spawns.push_back({.ray = &rays[i], .hit = *hits[i], .direction = d});
       }
     }
-    std::vector<std::optional<Vec3>> origins(spawns.size());
-    bvh.spawn_origins(spawns, origins);
-    for (std::size_t i = 0; i < spawns.size(); ++i) {
-      const Bvh::Spawn& spawn = spawns[i];
-      ASSERT_EQ(origins[i], bvh.spawn_origin(*spawn.ray, spawn.hit, spawn.direction)) << round;
-      answers += origins[i] ? 1 : 0;
+    std::vector<std::optional<Vec3>> expected;
+    for (const Bvh::Spawn& spawn : spawns) {
+      expected.push_back(bvh.spawn_origin(*spawn.ray, spawn.hit, spawn.direction));
+      answers += expected.back() ? 1 : 0;
     }
+    for (const Kernels* kernels : available_kernels()) {
+      setenv("MICROTRACE_ISA", kernels->name, 1);
+      std::vector<std::optional<Vec3>> origins(spawns.size());
+      Bvh(scene).spawn_origins(spawns, origins);
+      ASSERT_EQ(origins, expected) << round << kernels->name;
+    }
+    unsetenv("MICROTRACE_ISA");
   }
   EXPECT_GT(answers, 5000U);
 }

@@ -13,6 +13,14 @@ const Kernels* kernels_of(InstructionSet set) {
   return &kPortableKernels;
 }
 
+const SpawnKernels& spawn_kernels_of(InstructionSet set) {
+#if defined(__x86_64__)
+  if (set == InstructionSet::avx512) return kAvx512Spawn;
+  if (set == InstructionSet::avx2) return kAvx2Spawn;
+#endif
+  return kPortableSpawn;
+}
+
 }  // namespace
 
 std::vector<const Kernels*> available_kernels() {
@@ -24,6 +32,10 @@ std::vector<const Kernels*> available_kernels() {
 
 const Kernels& best_kernels() {
   return *kernels_of(best_instruction_set());
+}
+
+const SpawnKernels& best_spawn_kernels() {
+  return spawn_kernels_of(best_instruction_set());
 }
 
 }  // namespace microtrace

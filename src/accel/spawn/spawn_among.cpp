@@ -1,9 +1,9 @@
-#include "accel/spawn_among.hpp"
+#include "accel/spawn/spawn_among.hpp"
 
 #include "accel/build/shape_box.hpp"
-#include "accel/departure.hpp"
 #include "accel/slow_path.hpp"
-#include "accel/touching.hpp"
+#include "accel/spawn/departure.hpp"
+#include "accel/spawn/touching.hpp"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "accel/departure.hpp"
+#include "accel/spawn/departure.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/spawn.hpp>

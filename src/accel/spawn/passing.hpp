@@ -1,8 +1,8 @@
 #pragma once
 /// Whether surfaces keep out of a small box, in float64.
 
-#include "accel/departure.hpp"
 #include "accel/filters/shape_filter.hpp"
+#include "accel/spawn/departure.hpp"
 
 #include <microtrace/shape.hpp>
 

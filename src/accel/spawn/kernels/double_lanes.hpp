@@ -1,0 +1,88 @@
+#pragma once
+/// CrossProduct, Approximate and what they need, for N lanes: operation by operation as in
+/// src/accel/filters, since which axis an origin is moved along depends on every bit.
+
+#include "accel/spawn/kernels/kernel.hpp"
+#include "simd/vectors.hpp"
+
+namespace microtrace {
+namespace {
+
+constexpr double kRoundingUnit = 0x1p-53;
+constexpr double kAllUnderflow = 0x1p-600;
+constexpr float kGreatestCoordinate = 0x1p64F;  // kLargestCoordinate
+
+/// All bits of a lane set where something holds.
+template <int N>
+using DoubleMask = typename DoubleVector<N>::bits_type;
+
+template <int N>
+struct Doubles3 {
+  Double<N> v[3];
+};
+
+template <int N>
+inline Doubles3<N> widened3(const float (*p)[kSpawnLanes], int i) {
+  return {{widened<N>(p[0] + i), widened<N>(p[1] + i), widened<N>(p[2] + i)}};
+}
+template <int N>
+inline Doubles3<N> load3(const double (*p)[kSpawnLanes], int i) {
+  Doubles3<N> result;
+  for (int k = 0; k < 3; ++k) __builtin_memcpy(&result.v[k], p[k] + i, sizeof result.v[k]);
+  return result;
+}
+template <int N>
+inline void store3(const Doubles3<N>& a, double (*p)[kSpawnLanes], int i) {
+  for (int k = 0; k < 3; ++k) __builtin_memcpy(p[k] + i, &a.v[k], sizeof a.v[k]);
+}
+template <int N>
+inline Doubles3<N> operator-(const Doubles3<N>& a, const Doubles3<N>& b) {
+  return {{a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2]}};
+}
+template <int N>
+inline Double<N> dot(const Doubles3<N>& a, const Doubles3<N>& b) {
+  return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2];
+}
+template <int N>
+inline Doubles3<N> magnitudes(const Doubles3<N>& a) {
+  return {{magnitude(a.v[0]), magnitude(a.v[1]), magnitude(a.v[2])}};
+}
+
+template <int N>
+struct CrossProducts {
+  Doubles3<N> value, permanent;
+
+  CrossProducts(const Doubles3<N>& value_, const Doubles3<N>& permanent_)
+      : value(value_), permanent(permanent_) {}
+  static CrossProducts of(const Doubles3<N>& x, const Doubles3<N>& y) {
+    const Doubles3<N> left{{x.v[1] * y.v[2], x.v[2] * y.v[0], x.v[0] * y.v[1]}};
+    const Doubles3<N> right{{x.v[2] * y.v[1], x.v[0] * y.v[2], x.v[1] * y.v[0]}};
+    const Doubles3<N> a = magnitudes<N>(left), b = magnitudes<N>(right);
+    return {left - right, {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2]}}};
+  }
+
+  /// A product with a vector and the bound of its error, as so many roundings have it.
+  struct Form {
+    Double<N> value, error;
+  };
+  [[nodiscard]] Form along(const Doubles3<N>& x, int roundings) const {
+    return {dot<N>(x, value),
+            roundings * kRoundingUnit * dot<N>(magnitudes<N>(x), permanent) + kAllUnderflow};
+  }
+};
+
+/// The floats whose lanes are within what filters may be asked about.
+template <int N>
+inline DoubleMask<N> filterable(const Doubles3<N>& x) {
+  const double most = kGreatestCoordinate;
+  return (magnitude(x.v[0]) <= most) & (magnitude(x.v[1]) <= most) & (magnitude(x.v[2]) <= most);
+}
+
+/// x[axis], and x[axis] = y.
+template <int N>
+inline Double<N> component(const Doubles3<N>& x, const Double<N>& axis) {
+  return axis == 0 ? x.v[0] : axis == 1 ? x.v[1] : x.v[2];
+}
+
+}  // namespace
+}  // namespace microtrace

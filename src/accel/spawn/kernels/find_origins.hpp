@@ -1,0 +1,57 @@
+#pragma once
+#include "accel/spawn/kernels/double_lanes.hpp"
+
+namespace microtrace {
+namespace {
+
+/// neighbour() of floats.
+template <int N>
+inline Float<N> neighbours(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
+  using Bits = typename FloatVector<N>::bits_type;
+  const Bits bits = (Bits)x, one = Bits{} + 1;
+  const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
+  const Bits from_zero = up != 0 ? one : one | INT32_MIN;
+  return (Float<N>)(x == 0 ? from_zero : away);
+}
+
+/// N origins from the i-th on.
+template <int N>
+inline void find_origins_of(OriginLanes& lanes, int i) {
+  using D = Double<N>;
+  using Mask = DoubleMask<N>;
+  const CrossProducts<N> normal(load3<N>(lanes.n, i), load3<N>(lanes.permanent, i));
+  const auto a = widened3<N>(lanes.a, i), direction = widened3<N>(lanes.direction, i);
+  auto q = widened3<N>(lanes.p, i);
+  const D axis = widened<N>(lanes.axis + i);
+  const auto slope = normal.along(direction, 8);
+  const Mask to_front = slope.value > slope.error, to_back = slope.value < -slope.error;
+  const Mask up = (component<N>(normal.value, axis) > 0) == (to_front != 0);
+  const auto up_floats = __builtin_convertvector(up, typename FloatVector<N>::bits_type);
+  Mask open = filterable<N>(direction) & (to_front | to_back), is_sure{};
+  for (int step = 0; step <= kQuickSteps; ++step) {
+    const auto from_a = q - a;
+    // certain_side()
+    const D value = dot<N>(from_a, normal.value);
+    const D permanent = dot<N>(magnitudes<N>(from_a), normal.permanent);
+    const D error = 9 * kRoundingUnit * permanent + kAllUnderflow;
+    const Mask in_front = value > error, behind = value < -error;
+    const Mask is_there = (to_front & in_front) | (to_back & behind);
+    is_sure |= open & is_there;
+    // No term but zeros: on the plane, as often on floors and walls.
+    open &= ~is_there & (in_front | behind | (permanent == 0));
+    if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
+    const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
+    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D);
+    for (int k = 0; k < 3; ++k) q.v[k] = open & (axis == k) ? moved : q.v[k];
+  }
+  for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
+  narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
+}
+
+template <int N>
+void find_origins(OriginLanes& lanes) {
+  for (int i = 0; i < kSpawnLanes; i += N) find_origins_of<N>(lanes, i);
+}
+
+}  // namespace
+}  // namespace microtrace

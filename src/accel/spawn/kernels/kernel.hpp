@@ -1,0 +1,48 @@
+#pragma once
+/// Rays that leave triangles, many at a time in float64: as spawn_among() begins, where float64 is
+/// sure. Plain data only; see simd/vectors.hpp for why.
+
+#include <cstdint>
+
+namespace microtrace {
+
+inline constexpr int kSpawnLanes = 16;
+
+/// How often an origin is moved at most: as often as spawn_among does before it looks further away.
+inline constexpr int kQuickSteps = 8;
+
+using SpawnFloats = float[kSpawnLanes];
+
+/// Points where rays hit triangles.
+struct alignas(64) DepartureLanes {
+  SpawnFloats a[3], b[3], c[3];  ///< corners
+  SpawnFloats o[3], d[3], t_min, t_max;
+  // ---- by the kernel:
+  SpawnFloats is_sure;                                  ///< 1 where the rest is known; else 0
+  SpawnFloats p[3];                                     ///< rounded
+  SpawnFloats axis;                                     ///< along which origins are moved, 0 to 2
+  double n[3][kSpawnLanes], permanent[3][kSpawnLanes];  ///< CrossProduct
+  double reach[kSpawnLanes];                            ///< origins lie so near to p, axis by axis
+};
+
+/// Directions in which rays leave such points.
+struct alignas(64) OriginLanes {
+  SpawnFloats a[3], p[3], axis;  ///< as in DepartureLanes, the next too
+  double n[3][kSpawnLanes], permanent[3][kSpawnLanes];
+  SpawnFloats direction[3];
+  // ---- by the kernel:
+  SpawnFloats is_sure;
+  SpawnFloats origin[3];
+};
+
+struct SpawnKernels {
+  void (*find_departures)(DepartureLanes& lanes);
+  void (*find_origins)(OriginLanes& lanes);
+};
+
+extern const SpawnKernels kPortableSpawn;
+#if defined(__x86_64__)
+extern const SpawnKernels kAvx2Spawn, kAvx512Spawn;
+#endif
+
+}  // namespace microtrace

@@ -1,0 +1,182 @@
+#include "accel/spawn/departure.hpp"
+#include "accel/spawn/passing.hpp"
+#include "accel/spawn/quick_spawn.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+namespace microtrace {
+namespace {
+
+Triangle triangle_at(const TreeView& tree, std::uint32_t place) {
+  const TriangleBlock& block = tree.blocks[place / kWidth];
+  const std::uint32_t i = place % kWidth;
+  return {.a = {block.a_x[i], block.a_y[i], block.a_z[i]},
+          .b = {block.b_x[i], block.b_y[i], block.b_z[i]},
+          .c = {block.c_x[i], block.c_y[i], block.c_z[i]}};
+}
+
+void put_vector(SpawnFloats (&lanes)[3], std::size_t lane, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) lanes[k][lane] = v[k];
+}
+Vec3 vector_of(const SpawnFloats (&lanes)[3], std::size_t lane) {
+  return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
+}
+
+/// Around the box p +- reach: rounded outwards by a part of the reach, which has room for it.
+void set_box(const Vec3& p, double reach, PlaceQuery& query) {
+  for (int k = 0; k < 3; ++k) {
+    query.lo[k] = static_cast<float>(p[k] - 1.5 * reach);
+    query.hi[k] = static_cast<float>(p[k] + 1.5 * reach);
+  }
+}
+
+/// Touches nothing.
+void set_empty(PlaceQuery& query) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) query.lo[k] = infinity, query.hi[k] = -infinity;
+}
+
+}  // namespace
+
+void QuickSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
+  put_vector(departures_.a, lane, t.a);
+  put_vector(departures_.b, lane, t.b);
+  put_vector(departures_.c, lane, t.c);
+  put_vector(departures_.o, lane, ray.o);
+  put_vector(departures_.d, lane, ray.d);
+  departures_.t_min[lane] = ray.t_min;
+  departures_.t_max[lane] = ray.t_max;
+}
+
+void QuickSpawns::add(const Bvh::Spawn& spawn) {
+  Departure& surface = surfaces_[hits_];
+  surface = {.id = spawn.hit.id, .is_triangle = false, .other = {}, .is_alone = false};
+  if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives_.count()) {
+    primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
+      surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
+      if constexpr (std::is_same_v<AnyShape, Triangle>) {
+        put(shape, *spawn.ray, hits_);
+      } else {
+        surface.other.emplace(shape, *spawn.ray);
+      }
+    });
+  }
+  ++hits_;
+}
+
+bool QuickSpawns::is_passed_by(PrimitiveId id, const Vec3& p, double reach) const {
+  return primitives_.visit(id, [&](const auto& shape) {
+    return is_filterable(shape) && passes(shape, DVec3(p), reach);
+  });
+}
+
+bool QuickSpawns::is_alone(const PlaceQuery& found, PrimitiveId own, const Vec3& p,
+                           double reach) const {
+  if (found.count < 0) return false;
+  const auto is_passed = [&](std::uint32_t place) {
+    if (place >= kOtherPlace) {
+      const PrimitiveId id = tree_.others[place - kOtherPlace];
+      return id == own || is_passed_by(id, p, reach);
+    }
+    return tree_.blocks[place / kWidth].id[place % kWidth] == own ||
+           passes(triangle_at(tree_, place), DVec3(p), reach);
+  };
+  return std::all_of(found.places, found.places + found.count, is_passed) &&
+         std::all_of(outside_.begin(), outside_.end(),
+                     [&](PrimitiveId id) { return id == own || is_passed_by(id, p, reach); });
+}
+
+void QuickSpawns::find_neighbours() {
+  struct Point {
+    bool is_sure;
+    Vec3 p;
+    double reach;
+  };
+  std::array<Point, kHits> points;
+  for (std::size_t k = 0; k < hits_; ++k) {
+    const Departure& surface = surfaces_[k];
+    PlaceQuery& query = queries_[k];
+    Point& point = points[k];
+    query.count = 0;
+    if (surface.is_triangle) {
+      point = {.is_sure = departures_.is_sure[k] != 0,
+               .p = vector_of(departures_.p, k),
+               .reach = departures_.reach[k]};
+    } else {
+      const bool is_sure = surface.other && surface.other->point();
+      point = {.is_sure = is_sure,
+               .p = is_sure ? *surface.other->point() : Vec3(0),
+               .reach = is_sure ? surface.other->reach() : 0};
+    }
+    point.is_sure ? set_box(point.p, point.reach, query) : set_empty(query);
+  }
+  if (tree_.nodes != nullptr) kernels_.touching(tree_, queries_.data(), static_cast<int>(hits_));
+  for (std::size_t k = 0; k < hits_; ++k) {
+    const auto& [is_sure, p, reach] = points[k];
+    surfaces_[k].is_alone = is_sure && is_alone(queries_[k], surfaces_[k].id, p, reach);
+  }
+}
+
+void QuickSpawns::put(std::size_t hit, const Vec3& direction, std::size_t lane) {
+  put_vector(origins_.a, lane, vector_of(departures_.a, hit));
+  put_vector(origins_.p, lane, vector_of(departures_.p, hit));
+  origins_.axis[lane] = departures_.axis[hit];
+  for (std::size_t k = 0; k < 3; ++k) {
+    origins_.n[k][lane] = departures_.n[k][hit];
+    origins_.permanent[k][lane] = departures_.permanent[k][hit];
+  }
+  put_vector(origins_.direction, lane, direction);
+}
+
+void QuickSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
+                                  std::span<std::optional<Vec3>> origins) {
+  std::array<std::size_t, kSpawnLanes> spawn_of;
+  std::size_t lanes = 0;
+  const auto finish = [&] {
+    if (lanes == 0) return;
+    spawn_kernels_.find_origins(origins_);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      if (origins_.is_sure[lane] != 0) origins[spawn_of[lane]] = vector_of(origins_.origin, lane);
+    }
+    lanes = 0;
+  };
+  for (std::size_t i = 0; i < spawns.size(); ++i) {
+    const Departure& surface = surfaces_[hit_of_[i]];
+    if (!surface.is_triangle || !surface.is_alone) continue;
+    put(hit_of_[i], spawns[i].direction, lanes);
+    spawn_of[lanes++] = i;
+    if (lanes == kSpawnLanes) finish();
+  }
+  finish();
+}
+
+std::size_t QuickSpawns::origins(std::span<const Bvh::Spawn> spawns,
+                                 std::span<std::optional<Vec3>> origins) {
+  hits_ = 0;
+  std::size_t done = 0;
+  for (; done < spawns.size() && done < kSpawns; ++done) {
+    const Bvh::Spawn& spawn = spawns[done];
+    const bool is_same =
+        done > 0 && spawns[done - 1].ray == spawn.ray && spawns[done - 1].hit.id == spawn.hit.id;
+    if (!is_same) {
+      if (hits_ == kHits) break;
+      add(spawn);
+    }
+    hit_of_[done] = hits_ - 1;
+  }
+  const std::span<const Departure> surfaces = std::span(surfaces_).first(hits_);
+  if (std::ranges::any_of(surfaces, &Departure::is_triangle))
+    spawn_kernels_.find_departures(departures_);
+  find_neighbours();
+  for (std::size_t i = 0; i < done; ++i) {
+    const Departure& surface = surfaces_[hit_of_[i]];
+    origins[i] = surface.other && surface.is_alone ? surface.other->origin(spawns[i].direction)
+                                                   : std::nullopt;
+  }
+  leave_triangles(spawns.first(done), origins);
+  return done;
+}
+
+}  // namespace microtrace
