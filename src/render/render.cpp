@@ -2,6 +2,7 @@
 #include "render/aov_painter.hpp"
 #include "render/draw_at_random.hpp"
 #include "render/lights/lighting.hpp"
+#include "render/recentre.hpp"
 #include "render/shading/shading.hpp"
 #include "render/surfaces.hpp"
 #include "render/tile_painter.hpp"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <new>
 #include <string>
 #include <vector>
@@ -90,6 +92,23 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
                   std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
 }
 
+/// What is exact is that of the scene as it stands.
+Film render_recentred(const PlacedScene& near, const Scene& scene, const Camera& camera,
+                      ImageSize size, const RenderOptions& options) {
+  RenderOptions own = options;
+  own.aovs.clear();
+  Film film = render(near.scene, near.camera, size, own);
+  if (options.aovs.empty()) return film;
+  RenderOptions exact;
+  exact.threads = options.threads;
+  exact.crop = options.crop;
+  exact.aovs = options.aovs;
+  Film channels = render(scene, camera, size, exact);
+  film.channels.insert(film.channels.begin(), std::move_iterator(channels.channels.begin()),
+                       std::move_iterator(channels.channels.end()));
+  return film;
+}
+
 }  // namespace
 
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
@@ -101,6 +120,10 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
     return render(widened, camera, size, options);
   }
   check(options);
+  if (options.integrator != nullptr && options.integrator->is_random()) {
+    if (const auto near = recentred(scene, camera))
+      return render_recentred(*near, scene, camera, size, options);
+  }
   const PixelRect window = window_of(size, options.crop);
   const unsigned threads = options.threads != 0 ? options.threads : default_threads();
   const auto start = Clock::now();

@@ -1,0 +1,99 @@
+#include "render/recentre.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include <glm/common.hpp>
+
+namespace microtrace {
+namespace {
+
+/// So many times its own size a scene lies from the origin before it is moved: below, float32 has
+/// 20 bits and more for it anyway.
+constexpr double kFar = 16;
+
+struct Bounds {
+  DVec3 low{std::numeric_limits<double>::infinity()};
+  DVec3 high{-std::numeric_limits<double>::infinity()};
+
+  void add(const DVec3& p) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+};
+
+/// f(point) for each point by which the shape's place is given, of whatever constness; whether
+/// those are all that the place is given by.
+template <class AnyShape, class F>
+bool for_each_point(AnyShape& shape, const F& f) {
+  using Kind = std::remove_const_t<AnyShape>;
+  if constexpr (std::is_same_v<Kind, Mesh>) {
+    for (auto& p : shape.positions) f(p);
+  } else if constexpr (std::is_same_v<Kind, Triangle>) {
+    f(shape.a);
+    f(shape.b);
+    f(shape.c);
+  } else if constexpr (std::is_same_v<Kind, Plane>) {
+    f(shape.point);
+  } else if constexpr (std::is_same_v<Kind, Quadric>) {
+    return false;
+  } else {
+    f(shape.center);
+  }
+  return true;
+}
+
+template <class AnyScene, class F>
+bool for_each_point_of_shapes(AnyScene& scene, const F& f) {
+  return std::ranges::all_of(scene.objects, [&](auto& object) {
+    return std::visit([&](auto& shape) { return for_each_point(shape, f); }, object.shape);
+  });
+}
+
+/// How far to move: by multiples of a power of two above the scene's size.
+DVec3 way_to_origin(const Bounds& bounds) {
+  const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;
+  const double size = std::max({half.x, half.y, half.z});
+  DVec3 way(0);
+  if (!(size > 0 && size < 0x1p60)) return way;
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  const double step = std::ldexp(1.0, exponent);
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(middle[k]) > kFar * size) way[k] = -step * std::round(middle[k] / step);
+  }
+  return way;
+}
+
+}  // namespace
+
+std::optional<PlacedScene> recentred(const Scene& scene, const Camera& camera) {
+  Bounds bounds;
+  std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
+  if (!for_each_point_of_shapes(scene, [&](const Vec3& p) { bounds.add(DVec3(p)); }))
+    return std::nullopt;
+  const DVec3 way = way_to_origin(bounds);
+  if (way == DVec3(0)) return std::nullopt;
+
+  PlacedScene moved{.scene = scene, .camera = camera};
+  bool is_exact = true;
+  for_each_point_of_shapes(moved.scene, [&](Vec3& p) {
+    const Vec3 there(DVec3(p) + way);
+    is_exact &= DVec3(there) - way == DVec3(p);
+    p = there;
+  });
+  if (!is_exact) return std::nullopt;
+  std::visit([&](auto& c) { c.pose.position += way; }, moved.camera);
+  for (NamedLight& light : moved.scene.lights) {
+    std::visit(
+        [&](auto& l) {
+          if constexpr (requires { l.position; }) l.position += way;
+        },
+        light.light);
+  }
+  return moved;
+}
+
+}  // namespace microtrace
