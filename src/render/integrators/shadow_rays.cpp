@@ -9,11 +9,16 @@ void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& c
   constexpr float infinity = std::numeric_limits<float>::infinity();
   // A light without size stands at t = 1; a triangle that shines is met about there.
   const float t_max = light.is_far || light.target ? infinity : 1;
-  rays_[count_] = {.o = origin, .t_min = 0, .d = light.way, .t_max = t_max};
-  light_[count_] = color;
-  slots_[count_] = slot;
-  targets_[count_++] = light.target;
-  any_target_ |= light.target.has_value();
+  Group& group = light.target ? aimed_ : free_;
+  group.add({.o = origin, .t_min = 0, .d = light.way, .t_max = t_max}, color, slot, light.target);
+}
+
+void ShadowRays::Group::add(const Ray& ray, const Vec3& color, std::size_t slot,
+                            const std::optional<PrimitiveId>& target) {
+  rays[count] = ray;
+  light[count] = color;
+  slots[count] = slot;
+  targets[count++] = target;
 }
 
 namespace {
@@ -32,22 +37,30 @@ float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::option
 
 }  // namespace
 
-void ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
-  const auto rays = std::span(rays_).first(count_);
-  if (shading.all_cover() && !any_target_) {
-    std::array<bool, kRandomBatch> occluded;
-    bvh.occluded(rays, std::span(occluded).first(count_));
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (!occluded[i]) colors[slots_[i]] += light_[i];
-    }
-  } else {
-    std::array<std::optional<Hit>, kRandomBatch> hits;
-    bvh.intersect(rays, std::span(hits).first(count_));
-    for (std::size_t i = 0; i < count_; ++i)
-      colors[slots_[i]] += passed(bvh, shading, rays[i], hits[i], targets_[i]) * light_[i];
+void ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
+                             std::span<Vec3> colors) {
+  std::array<std::optional<Hit>, kRandomBatch> hits;
+  bvh.intersect(std::span(group.rays).first(group.count), std::span(hits).first(group.count));
+  for (std::size_t i = 0; i < group.count; ++i) {
+    colors[group.slots[i]] +=
+        passed(bvh, shading, group.rays[i], hits[i], group.targets[i]) * group.light[i];
   }
-  count_ = 0;
-  any_target_ = false;
+  group.count = 0;
+}
+
+void ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
+  std::array<bool, kRandomBatch> occluded;
+  bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count));
+  for (std::size_t i = 0; i < free_.count; ++i) {
+    if (!occluded[i]) {
+      colors[free_.slots[i]] += free_.light[i];
+    } else if (!shading.all_cover()) {
+      met_.add(free_.rays[i], free_.light[i], free_.slots[i], free_.targets[i]);
+    }
+  }
+  free_.count = 0;
+  pass_layers(bvh, shading, met_, colors);
+  pass_layers(bvh, shading, aimed_, colors);
 }
 
 }  // namespace microtrace

@@ -21,16 +21,26 @@ class ShadowRays {
   /// kRandomBatch.
   void add(const Vec3& origin, const LightSample& light, const Vec3& color, std::size_t slot);
 
-  /// Adds what arrives to the colours, in the order of add(), and forgets the rays.
+  /// Adds what arrives to the colours and forgets the rays.
   void arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors);
 
  private:
-  std::size_t count_ = 0;
-  bool any_target_ = false;
-  std::array<Ray, kRandomBatch> rays_;
-  std::array<Vec3, kRandomBatch> light_;
-  std::array<std::size_t, kRandomBatch> slots_;
-  std::array<std::optional<PrimitiveId>, kRandomBatch> targets_;
+  /// Those that end at a triangle that shines, or those that end nowhere else.
+  struct Group {
+    std::size_t count = 0;
+    std::array<Ray, kRandomBatch> rays;
+    std::array<Vec3, kRandomBatch> light;
+    std::array<std::size_t, kRandomBatch> slots;
+    std::array<std::optional<PrimitiveId>, kRandomBatch> targets;
+
+    void add(const Ray& ray, const Vec3& color, std::size_t slot,
+             const std::optional<PrimitiveId>& target);
+  };
+
+  void pass_layers(const Bvh& bvh, const Shading& shading, Group& group, std::span<Vec3> colors);
+
+  Group free_, aimed_;
+  Group met_;  ///< of the free ones those that meet something that may let light through
 };
 
 }  // namespace microtrace
