@@ -35,6 +35,9 @@ struct NamedLight {
 };
 
 struct Scene {
+  /// Where (0, 0, 0) of all coordinates here lies in the world that the file speaks of: next to a
+  /// scene that is far from that world's own origin, so that float32 can hold it.
+  DVec3 origin{0};
   std::vector<Object> objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;

@@ -70,7 +70,7 @@ std::array<float, 3> value_of(Aov aov, const Sight& sight) {
       return rounded(DVec3(std::sqrt(glm::dot(way, way)), 0, 0));
     }
     case Aov::position:
-      return rounded(at.p);
+      return rounded(at.p + sight.world.scene.origin);
     case Aov::normal:
       return rounded(side * at.ns);
     case Aov::face_normal:

@@ -1,28 +1,13 @@
 #include "render/recentre.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <variant>
+#include "scene/way_to_origin.hpp"
 
-#include <glm/common.hpp>
+#include <algorithm>
+#include <type_traits>
+#include <variant>
 
 namespace microtrace {
 namespace {
-
-/// So many times its own size a scene lies from the origin before it is moved: below, float32 has
-/// 20 bits and more for it anyway.
-constexpr double kFar = 16;
-
-struct Bounds {
-  DVec3 low{std::numeric_limits<double>::infinity()};
-  DVec3 high{-std::numeric_limits<double>::infinity()};
-
-  void add(const DVec3& p) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-};
 
 /// f(point) for each point by which the shape's place is given, of whatever constness; whether
 /// those are all that the place is given by.
@@ -52,25 +37,10 @@ bool for_each_point_of_shapes(AnyScene& scene, const F& f) {
   });
 }
 
-/// How far to move: by multiples of a power of two above the scene's size.
-DVec3 way_to_origin(const Bounds& bounds) {
-  const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;
-  const double size = std::max({half.x, half.y, half.z});
-  DVec3 way(0);
-  if (!(size > 0 && size < 0x1p60)) return way;
-  int exponent = 0;
-  std::frexp(size, &exponent);
-  const double step = std::ldexp(1.0, exponent);
-  for (int k = 0; k < 3; ++k) {
-    if (std::abs(middle[k]) > kFar * size) way[k] = -step * std::round(middle[k] / step);
-  }
-  return way;
-}
-
 }  // namespace
 
 std::optional<PlacedScene> recentred(const Scene& scene, const Camera& camera) {
-  Bounds bounds;
+  PointBounds bounds;
   std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
   if (!for_each_point_of_shapes(scene, [&](const Vec3& p) { bounds.add(DVec3(p)); }))
     return std::nullopt;

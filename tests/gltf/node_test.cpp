@@ -66,6 +66,42 @@ TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
   EXPECT_EQ(loaded.scene.objects[0].name, "top/above/node0/mesh0");
 }
 
+// 6 000 km away float32 has a number every half metre.
+TEST(GltfNode, FarFromTheOriginNothingIsCoarser) {
+  AssetBuilder asset = triangle();
+  const DVec3 far(-2694044.4111565403, -4266368.805493665, 3888310.602231939);
+  asset.json["nodes"][0]["translation"] = {far.x, far.y, far.z};
+  asset.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+  asset.json["nodes"].push_back({{"camera", 0}, {"translation", {far.x, far.y + 1, far.z + 4}}});
+  asset.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  asset.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  asset.json["nodes"].push_back({{"translation", {far.x + 2, far.y, far.z}},
+                                 {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  asset.json["scenes"][0]["nodes"] = {0, 1, 2};
+  const std::string bytes = asset.embedded();
+  const Scene scene = io::GltfFile(bytes, "test.gltf", "nowhere").at(std::nullopt).scene;
+  const auto expect_there = [&](const DVec3& p, const DVec3& expected) {
+    EXPECT_LT(glm::distance(p + scene.origin, far + expected), 1e-6);
+  };
+  const auto triangle = triangles_of(scene.objects.at(0)).at(0);
+  expect_there(DVec3(triangle[0]), {0, 0, 0});
+  expect_there(DVec3(triangle[1]), {1, 0, 0});
+  expect_there(DVec3(triangle[2]), {0, 2, 0});
+  expect_there(std::get<PerspectiveCamera>(scene.cameras.at(0).camera).pose.position, {0, 1, 4});
+  expect_there(std::get<PointLight>(scene.lights.at(0).light).position, {2, 0, 0});
+}
+
+TEST(GltfNode, WhatIsLargeBesideItsDistanceStaysWhereItIs) {
+  AssetBuilder asset = triangle();
+  asset.json["nodes"][0]["translation"] = {15, 0, 0};
+  std::string bytes = asset.embedded();
+  EXPECT_EQ(io::GltfFile(bytes, "test.gltf", "nowhere").at(std::nullopt).scene.origin, DVec3(0));
+  asset.json["nodes"][0]["translation"] = {1e6, 0, 0};
+  asset.json["nodes"][0]["scale"] = {1, 1e6, 1};
+  bytes = asset.embedded();
+  EXPECT_EQ(io::GltfFile(bytes, "test.gltf", "nowhere").at(std::nullopt).scene.origin, DVec3(0));
+}
+
 TEST(GltfNode, MirroringTurnsTrianglesOver) {
   AssetBuilder asset = triangle();
   asset.json["nodes"][0]["scale"] = {-1, 1, 1};

@@ -88,6 +88,18 @@ TEST(Aov, DepthOfAWallIsItsDistanceAlongTheView) {
   }
 }
 
+TEST(Aov, PositionsAreTheWorlds) {
+  Scene scene = scene_of({Plane{{0, 0, -4}, {0, 0, 2}}});
+  const Film here = drawn(scene, PerspectiveCamera{});
+  scene.origin = {1024, -2048, 512};
+  const Film there = drawn(scene, PerspectiveCamera{});
+  for (std::size_t i = 0; i < floats(here, "depth.Z").size(); ++i) {
+    const DVec3 expected = triple(here, "position", i) + scene.origin;
+    EXPECT_LT(glm::distance(triple(there, "position", i), expected), 3e-4);
+  }
+  EXPECT_EQ(floats(there, "depth.Z"), floats(here, "depth.Z"));
+}
+
 TEST(Aov, DepthOfOtherCameras) {
   const OrthographicCamera parallel{.pose = {.position = {3, 4, 1}}};
   const Film flat = drawn(scene_of({Plane{{0, 0, -4}, {0, 0, -1}}}), parallel);

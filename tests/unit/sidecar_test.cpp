@@ -59,6 +59,21 @@ TEST(Sidecar, TellsOfObjectsAndWhereTheyAreSeen) {
   EXPECT_EQ(sidecar["materials"], json::array({{{"id", 1}, {"name", "\tgold"}}}));
 }
 
+TEST(Sidecar, SpeaksOfTheWorldWhereverCoordinatesBegin) {
+  Scene scene = odd_scene();
+  scene.origin = {1e6, -2e6, 0.25};
+  const PerspectiveCamera camera{.pose = {.position = {4, 5, 6}}};
+  const json sidecar =
+      json::parse(describe_picture(scene, camera, Film({.width = 4, .height = 2}), "a.exr"));
+  EXPECT_EQ(sidecar["objects"][0]["world_box"],
+            json({{"min", {1000000.5, -1999998.5, 2.75}}, {"max", {1000001.5, -1999997.5, 3.75}}}));
+  const json& matrix = sidecar["camera"]["world_from_camera"];
+  EXPECT_EQ(matrix[0][3], 1000004.0);
+  EXPECT_EQ(matrix[1][3], -1999995.0);
+  EXPECT_EQ(matrix[2][3], 6.25);
+  EXPECT_EQ(sidecar["camera"]["camera_from_world"][0][3], -1000004.0);
+}
+
 TEST(Sidecar, WithoutIdsSaysNothingOfPixels) {
   Film film({.width = 4, .height = 2});
   const json sidecar =

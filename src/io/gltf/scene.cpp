@@ -16,118 +16,25 @@
 #include "io/gltf/materials.hpp"
 #include "io/gltf/model.hpp"
 #include "io/gltf/nodes.hpp"
+#include "io/gltf/object_maker.hpp"
+#include "io/gltf/placed_bounds.hpp"
 #include "io/gltf/posing.hpp"
 #include "io/gltf/surfaces.hpp"
 #include "io/gltf/textures.hpp"
 #include "io/gltf/variants.hpp"
 #include "io/load_clock.hpp"
-#include "scene/support.hpp"
+#include "scene/way_to_origin.hpp"
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <utility>
 
-#include <glm/matrix.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace microtrace::io {
 namespace {
 
-using gltf::Asset, gltf::Element, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
-
-bool is_finite(const Mesh& mesh) {
-  return std::ranges::all_of(mesh.positions,
-                             [](const Vec3& p) { return microtrace::is_finite(p); });
-}
-
-class SceneMaker {
- public:
-  SceneMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
-             const std::vector<std::vector<Surface>>& surfaces, const gltf::Instances& instances,
-             gltf::Poser& poser)
-      : asset_(asset),
-        model_(model),
-        tree_(tree),
-        surfaces_(surfaces),
-        instances_(instances),
-        poser_(poser) {}
-
-  /// Throws Error (limit) before memory is taken for too many instances.
-  void check_size(const std::vector<PlacedNode>& nodes) const {
-    std::size_t triangles = 0, vertices = 0;
-    for (const PlacedNode& placed : nodes) {
-      const int mesh = model_.nodes[placed.node].mesh;
-      if (mesh < 0 || !placed.visible) continue;
-      const std::vector<DMat4>* instances = instances_.of(placed.node);
-      const std::size_t times = instances != nullptr ? instances->size() : 1;
-      for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
-        const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
-        triangles += times * (surface.mesh.triangles.size() + 2 * segments);
-        vertices += times * (surface.mesh.positions.size() + 4 * segments);
-      }
-      if (std::max(triangles, vertices) <= gltf::max_elements) continue;
-      asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
-                  "brings the scene to more than 2^27 triangles or vertices, the most that is read",
-                  ErrorKind::limit);
-    }
-  }
-
-  void add_mesh(const PlacedNode& placed) {
-    if (model_.nodes[placed.node].mesh < 0 || !placed.visible) return;
-    const std::string path = tree_.path(placed.node);
-    const std::vector<DMat4>* instances = instances_.of(placed.node);
-    if (instances != nullptr && poser_.has_skin(placed.node)) {
-      asset_.warn(asset_.element("nodes", placed.node),
-                  "has instances of a skinned mesh, all in the place of its joints; one is drawn");
-      instances = nullptr;
-    }
-    if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
-    for (std::size_t i = 0; i < instances->size(); ++i) {
-      add_mesh(placed.node, placed.world_from_node * (*instances)[i],
-               path + "[" + std::to_string(i) + "]");
-    }
-  }
-
-  [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
-
- private:
-  void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path) {
-    const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
-    for (const Surface& surface : surfaces_[index]) {
-      Mesh world = poser_.posed(node, surface, world_from_mesh);
-      if (!is_finite(world)) {
-        asset_.warn(primitive(index, surface),
-                    "has vertices that are not finite in the world; triangles with them are not "
-                    "drawn");
-      }
-      objects_.push_back({.name = names_.make(name(path, index, surface)),
-                          .shape = std::move(world),
-                          .material = surface.material});
-    }
-  }
-
-  [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const {
-    return asset_.element("meshes", mesh).member("primitives").item(surface.number);
-  }
-
-  [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
-                                 const Surface& surface) const {
-    const tinygltf::Mesh& source = model_.meshes[mesh];
-    std::string result = path + "/";
-    result += source.name.empty() ? "mesh" + std::to_string(mesh) : gltf::head(source.name, 64);
-    if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);
-    return result;
-  }
-
-  Asset& asset_;
-  const tinygltf::Model& model_;
-  const NodeTree& tree_;
-  const std::vector<std::vector<Surface>>& surfaces_;
-  const gltf::Instances& instances_;
-  gltf::Poser& poser_;
-  std::vector<Object> objects_;
-  gltf::UniqueNames names_;
-};
+using gltf::Asset, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
 
 /// Runs a part of the reading; whatever it throws becomes an Error.
 template <typename Part>
@@ -207,6 +114,32 @@ struct GltfFile::Content {
     return player->at(time);
   }
 
+  gltf::PosedNodes pose(std::optional<double> time) {
+    return time ? pose_at(*time) : gltf::PosedNodes{};
+  }
+
+  LoadedScene scene(const gltf::PosedNodes& pose, const DMat4& world_from_asset) {
+    LoadClock lap(times);
+    Asset own = asset;  // each pose adds warnings of its own
+    const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose);
+    gltf::Poser poser(own, model, reader, tree, pose, world_from_asset);
+    gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser);
+    maker.check_size(nodes);
+    for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
+    LoadedScene result;
+    result.scene.objects = maker.take();
+    result.scene.materials = materials;
+    result.scene.textures = textures;
+    result.scene.images = images;
+    result.scene.cameras = gltf::make_cameras(own, model, tree, nodes);
+    result.scene.lights = gltf::make_lights(own, model, tree, nodes);
+    if (result.scene.objects.empty())
+      own.warn(own.root(), "nothing to draw: no triangles, lines or points");
+    result.warnings = own.warnings();
+    lap.lap(&LoadTimes::bake);
+    return result;
+  }
+
   const gltf::BufferViews& checked_views() {
     clock.lap(&LoadTimes::bake);
     gltf::check_data(asset, model, views);
@@ -252,37 +185,28 @@ GltfFile::~GltfFile() = default;
 GltfFile::GltfFile(GltfFile&& other) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
 
-LoadedScene GltfFile::at(std::optional<double> time, const DMat4& world_from_asset) {
+LoadedScene GltfFile::at(std::optional<double> time) {
   return guarded(content_->name, [&] {
-    const gltf::PosedNodes pose = time ? content_->pose_at(*time) : gltf::PosedNodes{};
-    LoadClock clock(content_->times);
-    Asset asset = content_->asset;  // each pose adds warnings of its own
-    const tinygltf::Model& model = content_->model;
-    const NodeTree& tree = content_->tree;
-    const std::vector<PlacedNode> nodes = tree.place(asset, world_from_asset, pose);
-    gltf::Poser poser(asset, model, content_->reader, tree, pose, world_from_asset);
-    SceneMaker maker(asset, model, tree, content_->surfaces, content_->instances, poser);
-    maker.check_size(nodes);
-    for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
-    LoadedScene result;
-    result.scene.objects = maker.take();
-    result.scene.materials = content_->materials;
-    result.scene.textures = content_->textures;
-    result.scene.images = content_->images;
-    result.scene.cameras = gltf::make_cameras(asset, model, tree, nodes);
-    result.scene.lights = gltf::make_lights(asset, model, tree, nodes);
-    if (result.scene.objects.empty())
-      asset.warn(asset.root(), "nothing to draw: no triangles, lines or points");
-    result.warnings = asset.warnings();
-    clock.lap(&LoadTimes::bake);
+    const gltf::PosedNodes pose = content_->pose(time);
+    Asset unheard = content_->asset;
+    const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose);
+    const DVec3 way = way_to_origin(
+        gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
+    LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way));
+    result.scene.origin = -way;
     return result;
   });
+}
+
+LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from_asset) {
+  return guarded(content_->name,
+                 [&] { return content_->scene(content_->pose(time), world_from_asset); });
 }
 
 LoadedScene load_gltf(std::string_view bytes, const std::string& name,
                       const std::filesystem::path& folder, const DMat4& world_from_asset,
                       const LoadOptions& options) {
-  return GltfFile(bytes, name, folder, options).at(options.time, world_from_asset);
+  return GltfFile(bytes, name, folder, options).placed(options.time, world_from_asset);
 }
 
 }  // namespace microtrace::io

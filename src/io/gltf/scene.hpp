@@ -26,17 +26,20 @@ class GltfFile {
   GltfFile(GltfFile&& other) noexcept;
   GltfFile& operator=(GltfFile&& other) noexcept;
 
-  /// The scene at a time, as LoadOptions says. Node transforms are composed in float64,
-  /// `world_from_asset` (affine) first, and each vertex is rounded once to float32. Throws Error.
-  [[nodiscard]] LoadedScene at(std::optional<double> time,
-                               const DMat4& world_from_asset = DMat4(1));
+  /// The scene at a time, as LoadOptions says. Node transforms are composed in float64 and each
+  /// vertex is rounded once to float32, next to Scene::origin. Throws Error.
+  [[nodiscard]] LoadedScene at(std::optional<double> time);
+
+  /// The same as part of another scene, whose origin is its own: `world_from_asset` (affine) comes
+  /// first.
+  [[nodiscard]] LoadedScene placed(std::optional<double> time, const DMat4& world_from_asset);
 
  private:
   struct Content;
   std::unique_ptr<Content> content_;
 };
 
-/// Reads one asset and poses it at options.time, as GltfFile does.
+/// Reads one asset and poses it at options.time, as GltfFile::placed does.
 [[nodiscard]] LoadedScene load_gltf(std::string_view bytes, const std::string& name,
                                     const std::filesystem::path& folder,
                                     const DMat4& world_from_asset = DMat4(1),

@@ -56,9 +56,10 @@ DMat4 inverse(const DMat4& rigid) {
   return result;
 }
 
-std::string camera_text(const Camera& camera, ImageSize size) {
+std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origin) {
   constexpr std::array kTypes = {"perspective", "orthographic", "environment"};
-  const CameraModel model = RayGenerator(camera, size).model();
+  CameraModel model = RayGenerator(camera, size).model();
+  model.world_from_camera[3] += DVec4(origin, 0);
   std::string text = "{\n    \"type\": \"";
   text.append(kTypes.at(camera.index())).append("\",\n");
   text.append("    \"axes\": \"x right, y up, z backward\",\n");
@@ -85,7 +86,8 @@ std::string_view type_of(const Shape& shape) {
   return kTypes[shape.index()];
 }
 
-std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen) {
+std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen,
+                        const DVec3& origin) {
   std::string text = "{\"id\": " + std::to_string(id);
   text.append(", \"name\": ").append(quoted(object.name));
   text.append(", \"type\": \"").append(type_of(object.shape)).append("\"");
@@ -99,8 +101,8 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
   }
   text.append(", \"world_box\": ");
   if (const auto extent = extent_of(object.shape)) {
-    text.append("{\"min\": ").append(array(extent->low));
-    text.append(", \"max\": ").append(array(extent->high)).append("}");
+    text.append("{\"min\": ").append(array(origin + DVec3(extent->low)));
+    text.append(", \"max\": ").append(array(origin + DVec3(extent->high))).append("}");
   } else {
     text.append("null");
   }
@@ -129,10 +131,10 @@ std::string describe_picture(const Scene& scene, const Camera& camera, const Fil
   text.append(",\n  \"height\": ").append(number(film.whole.height));
   text.append(",\n  \"crop\": ");
   text.append(array({film.x0, film.y0, film.x0 + size.width, film.y0 + size.height}));
-  text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole));
+  text.append(",\n  \"camera\": ").append(camera_text(camera, film.whole, scene.origin));
   text.append(",\n  \"objects\": ");
   text.append(list(scene.objects.size(), [&](std::size_t i) {
-    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr);
+    return object_text(scene.objects[i], i + 1, seen ? &(*seen)[i] : nullptr, scene.origin);
   }));
   text.append(",\n  \"materials\": ");
   text.append(list(scene.materials.size(), [&](std::size_t i) {

@@ -1,0 +1,56 @@
+#pragma once
+/// From nodes to the objects of a scene.
+
+#include "io/gltf/asset.hpp"
+#include "io/gltf/instances.hpp"
+#include "io/gltf/model.hpp"
+#include "io/gltf/nodes.hpp"
+#include "io/gltf/posing.hpp"
+#include "io/gltf/surfaces.hpp"
+
+#include <microtrace/scene.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+class ObjectMaker {
+ public:
+  /// All must outlive it.
+  ObjectMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
+              const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
+              Poser& poser)
+      : asset_(asset),
+        model_(model),
+        tree_(tree),
+        surfaces_(surfaces),
+        instances_(instances),
+        poser_(poser) {}
+
+  /// Throws Error (limit) before memory is taken for too many instances.
+  void check_size(const std::vector<PlacedNode>& nodes) const;
+
+  /// An object for each surface of the node's mesh, if it has one and is seen.
+  void add_mesh(const PlacedNode& placed);
+
+  [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }
+
+ private:
+  void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path);
+  [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
+  [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
+                                 const Surface& surface) const;
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  const NodeTree& tree_;
+  const std::vector<std::vector<Surface>>& surfaces_;
+  const Instances& instances_;
+  Poser& poser_;
+  std::vector<Object> objects_;
+  UniqueNames names_;
+};
+
+}  // namespace microtrace::io::gltf
