@@ -52,10 +52,10 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
       const std::size_t size = std::min<std::size_t>(count - first, kShadingLanes);
       for (std::size_t i = 0; i < size; ++i) {
         if (batch.is_full()) trace();
-        const auto [x, y] = pixels[first + i];
+        const Pixel pixel = pixels[first + i];
         const PixelOffset offset = filter_(u[i], v[i]);
-        const SampleId id{.x = x, .y = y, .index = k, .key = keys[first + i]};
-        batch.add(first + i, id, [&] { return ray_(x + offset.x, y + offset.y); });
+        const SampleId id{.x = pixel.x, .y = pixel.y, .index = k, .key = keys[first + i]};
+        batch.add(first + i, id, [&] { return ray_(pixel.x + offset.x, pixel.y + offset.y); });
       }
     }
   }

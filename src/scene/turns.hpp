@@ -39,6 +39,7 @@ struct SineCosine {
 /// Of an angle in [0, 1] turns, to 2^-23.
 [[nodiscard]] inline SineCosine sin_cos_turns(float turns) {
   const float quarters = 4 * turns;
+  // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const int quadrant = static_cast<int>(quarters + 0.5F);
   const float f = quarters - static_cast<float>(quadrant), z = f * f;  // f in [-1/2, 1/2], exact
   const float s = f * ((1.5707964F - 0.6459635F * z) + (0.07968022F - 0.004602163F * z) * (z * z));

@@ -127,11 +127,11 @@ TEST(Lighting, PointsOfALampAreSpreadEvenly) {
   const Receiver receiver{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
-  constexpr int samples = 100000, side = 10;
+  constexpr int samples = 100000, side = 10, half = side / 2;
   // The triangle is chosen by its light at the receiver, so each is counted alone: two cells of
   // equal area for each square of the grid over the parallelogram.
-  std::array<std::vector<double>, 2> counts{std::vector<double>(side * side / 2),
-                                            std::vector<double>(side * side / 2)};
+  std::array<std::vector<double>, 2> counts{std::vector<double>(side * half),
+                                            std::vector<double>(side * half)};
   std::array<double, 2> all{};
   for (int i = 0; i < samples; ++i) {
     const Vec2 place(u(random), u(random));
@@ -144,7 +144,7 @@ TEST(Lighting, PointsOfALampAreSpreadEvenly) {
     const double low = triangle == 0 ? b : a, high = triangle == 0 ? a : b;
     const double s = std::clamp(high * high, 0.0, 1 - 1e-9),
                  t = std::clamp(low / high, 0.0, 1 - 1e-9);
-    ++counts[triangle][std::size_t(s * side) * (side / 2) + std::size_t(t * (side / 2))];
+    ++counts[triangle][std::size_t(s * side) * half + std::size_t(t * half)];
     ++all[triangle];
   }
   for (std::size_t i = 0; i < 2; ++i) {

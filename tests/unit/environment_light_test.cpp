@@ -207,7 +207,7 @@ TEST(EnvironmentLight, SamplesOfASunBringAllTheSame) {
 // Pearson's test: how often directions fall into cells of equal solid angle, against the integral
 // of the density over them.
 TEST_P(Maps, SamplesFollowTheDensity) {
-  constexpr std::uint32_t kRows = 8, kColumns = 16, kSamples = 100000;
+  constexpr std::size_t kRows = 8, kColumns = 16, kSamples = 100000;
   const auto cell = [](const Vec3& d) {
     const double h = std::clamp((1 - double{d.y}) / 2, 0.0, 1 - 1e-9);
     const double u = std::atan2(double{d.z}, double{d.x}) / (2 * kPi) + 0.5;

@@ -53,7 +53,7 @@ TEST(FixedSum, TermsAreCutOffMultiplesOfTheUnit) {
   __extension__ using Wide = __int128;
   std::mt19937_64 random(2);
   for (int i = 0; i < 100000; ++i) {
-    const double mantissa = static_cast<double>(static_cast<std::int64_t>(random()));
+    const auto mantissa = static_cast<double>(static_cast<std::int64_t>(random()));
     const double x = std::ldexp(mantissa, -static_cast<int>(random() % 140));
     if (std::abs(x) >= 0x1p62) continue;
     const auto expected = static_cast<Wide>(std::ldexp(x, 64));

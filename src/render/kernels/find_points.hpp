@@ -33,7 +33,7 @@ inline void find_place(HitLanes& lanes, int i, LaneFloats& area) {
   const D t = dot(a - o, n) / slope;
   const D hit_t = widened<N>(lanes.t + i);
   const D one = zero + 1;
-  narrowed<N>((square > 0) & (magnitude(t - hit_t) <= 0x1p-20 * hit_t) ? one : zero,
+  narrowed<N>(((square > 0) & (magnitude(t - hit_t) <= 0x1p-20 * hit_t)) ? one : zero,
               lanes.is_sure + i);
   const auto p = o + t * d, from_a = p - a;
   const D inverse = 1 / square;

@@ -21,7 +21,8 @@ struct UnitPair {
 
 /// Of u turns, u in [0, 1]. Errors below 2^-22.
 inline UnitPair unit_pair(float u) {
-  const float quarter = static_cast<float>(static_cast<int>(4 * u + 0.5F));
+  // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+  const auto quarter = static_cast<float>(static_cast<int>(4 * u + 0.5F));
   const float x = (u - quarter * 0.25F) * 6.28318530717958648F;  // in [-pi/4, pi/4]
   const float z = x * x;
   // Taylor polynomials; the first term left out is below 2^-23 there.

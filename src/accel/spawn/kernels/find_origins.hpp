@@ -42,7 +42,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
     const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D);
-    for (int k = 0; k < 3; ++k) q.v[k] = open & (axis == k) ? moved : q.v[k];
+    for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
   narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
