@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How long microtrace and Mitsuba 3 take to the same error, that of Mitsuba's picture of the helmet at 64 spp.
 
-usage: equal_error.py FOLDER MICROTRACE [--env constant|sky] [--size WxH] [--reference N] [--variant NAME]
+usage: equal_error.py FOLDER MICROTRACE [--env constant|sky] [--size WxH] [--reference N] [--variant NAME] [--seeds N]
 Each picture is held against a long one by the same program with another seed, since the two programs' materials
 differ. The error is the root of the mean square over all pixels and channels, linear radiance.
 """
@@ -20,8 +20,8 @@ def read(path):
     return np.array(mi.Bitmap(str(path)).convert(component_format=mi.Struct.Type.Float32))[..., :3].astype(float)
 
 
-def rmse(a, b):
-    return float(np.sqrt(np.mean((a - b) ** 2)))
+def mean_error(pictures, reference):
+    return float(np.sqrt(np.mean([(picture - reference) ** 2 for picture in pictures])))
 
 
 def main():
@@ -32,6 +32,7 @@ def main():
     parser.add_argument("--size", default="160x120")
     parser.add_argument("--reference", type=int, default=4096)
     parser.add_argument("--variant", default="llvm_ad_rgb")
+    parser.add_argument("--seeds", type=int, default=1, help="pictures for each error, the root of their mean square")
     options = parser.parse_args()
     mi.set_variant("scalar_rgb")
     folder, program = options.folder, str(pathlib.Path(options.program).resolve())
@@ -47,17 +48,17 @@ def main():
         return np.load(folder / f"{variant}.npy")[..., :3].astype(float), seconds
 
     reference = theirs(256, options.reference // 256, 1000, "llvm_ad_rgb")[0]
-    goal = rmse(theirs(64, 1, 1, options.variant)[0], reference)
+    goal = mean_error([theirs(64, 1, 1 + seed, options.variant)[0] for seed in range(options.seeds)], reference)
     seconds = theirs(64, 2, 1, options.variant)[1]
     print(f"{options.variant}: 64 spp, {options.size}: error {goal:.5f}, {seconds:.2f} s")
 
     reference = ours(options.reference, 1)[0]
     errors, times = [], []
     for spp in SAMPLES:
-        picture, time = ours(spp, 0)
-        errors.append(rmse(picture, reference))
-        times.append(time)
-        print(f"microtrace: {spp} spp: error {errors[-1]:.5f}, {time:.2f} s")
+        pictures, seconds_ours = zip(*(ours(spp, seed) for seed in range(2, 2 + options.seeds)))
+        errors.append(mean_error(pictures, reference))
+        times.append(float(np.mean(seconds_ours)))
+        print(f"microtrace: {spp} spp: error {errors[-1]:.5f}, {times[-1]:.2f} s")
     # Both are about straight over logarithms.
     spp = np.exp(np.interp(-np.log(goal), -np.log(errors), np.log(SAMPLES)))
     time = times[-1] * spp / SAMPLES[-1]

@@ -56,7 +56,8 @@ EnvironmentLight::EnvironmentLight(const Environment& environment)
         static_cast<float>(distribution_->sampled_luminance() * double{intensity_});
   } else {
     uniform_ = intensity_ * std::get<Vec3>(environment.content);
-    mean_luminance_ = sampled_luminance_ = luminance(uniform_);
+    mean_luminance_ = luminance(uniform_);
+    sampled_luminance_ = mean_luminance_ * MapDistribution::kLeastPart;
   }
 }
 

@@ -39,7 +39,8 @@ class EnvironmentLight {
 
   /// The mean of the luminance over all directions, in the unit of radiance.
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
-  /// The same of what sample() is for: what surfaces do not find as well by themselves.
+  /// The same of what sample() is for: what surfaces do not find as well by themselves. Of a
+  /// uniform one as much as of a map that is the same all over.
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:

@@ -50,6 +50,9 @@ template <class T>
 /// of the numbers of 24 bits that fall to a cell are its probability exactly.
 class MapDistribution {
  public:
+  /// Of luminance below the mean, the part that is sampled.
+  static constexpr float kLeastPart = 0.125F;
+
   /// The map must outlive this.
   explicit MapDistribution(const RadianceMap& map);
 
@@ -79,10 +82,10 @@ class MapDistribution {
                     ///< angle to the axis, at a pole by solid angle
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
-  /// By solid angle; of luminance below the mean, and little above it, an eighth is sampled.
+  /// By solid angle.
   [[nodiscard]] float weight(float luminance) const {
     const float relative = luminance * scale_;
-    return std::max(relative - 1, relative * 0.125F);
+    return std::max(relative - 1, relative * kLeastPart);
   }
   /// At the corners of a cell, by longitude and angle to the axis.
   [[nodiscard]] std::array<float, 4> weights(const Row& row,
