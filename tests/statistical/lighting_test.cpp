@@ -30,7 +30,7 @@ std::size_t cell_of(const Vec3& d) {
 }
 
 /// Lamps on all sides of the origin: one-sided and two-sided, facing it or not, a large one close
-/// by; a map with a bright spot.
+/// by, shapes of their own; a map with a bright spot.
 Scene lamps(bool with_map) {
   Scene scene;
   scene.materials = {{.double_sided = false, .emissive = Vec3(3)}, {.emissive = Vec3(1)}};
@@ -46,6 +46,11 @@ Scene lamps(bool with_map) {
   }
   scene.objects.push_back(
       {.name = "close", .shape = parallelogram({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}), .material = 1});
+  scene.objects.push_back({.name = "ball", .shape = Sphere{{2, 2, 1}, 0.8F}, .material = 0});
+  scene.objects.push_back(
+      {.name = "disc", .shape = Disc{{1, 2, -3}, {-0.2F, -0.5F, 2}, 0.9F}, .material = 1});
+  scene.objects.push_back(
+      {.name = "triangle", .shape = Triangle{{-3, 1, 1}, {-3, 2, 0}, {-2, 2, 1}}, .material = 1});
   RadianceMap map{.width = 16, .height = 8};
   for (std::uint32_t i = 0; i < 16 * 8; ++i) map.pixels.emplace_back(i == 37 ? 40.0F : 0.5F);
   scene.environment = Environment{.content = Vec3(0)};

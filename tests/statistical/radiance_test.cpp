@@ -142,27 +142,102 @@ TEST(Radiance, RoomOfShiningWhiteWalls) {
   }
 }
 
-// The same lamp as a mesh, which is sampled, and as triangles of their own, which paths must meet:
-// light sampling with its weights against the material's samples alone.
+// A ball as a quadric, which paths must meet, and as shapes that are sampled: light sampling with
+// its weights against the material's samples alone.
 TEST(Radiance, LampsThatAreSampledAndLampsThatAreMet) {
   const Shot shot{.size = kSize, .samples = 64};
   for (const Material& material : {kMatt, kShiny}) {
-    Floor sampled(material);
-    sampled.camera.height = 8;
-    sampled.camera.pose.position = {0, 9, 0};
-    sampled.scene.materials.push_back({.base_color = {0.5F, 0.5F, 0.5F, 1}, .emissive = Vec3(2)});
-    Floor met = sampled;
-    const Vec3 corner(-1, 1, -2), along(2, 0.5F, 0), up(0, 0.3F, 3), top = corner + along + up;
-    sampled.scene.objects.push_back(
-        {.name = "lamp", .shape = parallelogram(corner, along, up), .material = 1});
-    met.scene.objects.push_back(
-        {.name = "a", .shape = Triangle{corner, corner + along, top}, .material = 1});
-    met.scene.objects.push_back(
-        {.name = "b", .shape = Triangle{corner, top, corner + up}, .material = 1});
-    const Estimate a = estimate(sampled.scene, sampled.camera, shot, kSeeds);
-    const Estimate b = estimate(met.scene, met.camera, shot, kSeeds);
-    EXPECT_NEAR(a.mean, b.mean, kFar * std::hypot(a.deviation, b.deviation));
-    EXPECT_LT(a.deviation, b.deviation);
+    const auto lit = [&](const Shape& lamp) {
+      Floor floor(material);
+      floor.camera.height = 8;
+      floor.camera.pose.position = {0, 9, 0};
+      floor.scene.materials.push_back({.base_color = {0.5F, 0.5F, 0.5F, 1}, .emissive = Vec3(2)});
+      floor.scene.objects.push_back({.name = "lamp", .shape = lamp, .material = 1});
+      return estimate(floor.scene, floor.camera, shot, kSeeds);
+    };
+    const Estimate met = lit(Quadric{.a = 1, .b = 1, .c = 1, .h = -4, .j = 3});  // about (0, 2, 0)
+    for (const Shape& shape : {Shape{Sphere{{0, 2, 0}, 1}}, Shape{ball({0, 2, 0}, 1)}}) {
+      const Estimate sampled = lit(shape);
+      EXPECT_NEAR(sampled.mean, met.mean,
+                  kFar * std::hypot(sampled.deviation, met.deviation) + 2e-3 * met.mean);
+      EXPECT_LT(sampled.deviation, met.deviation);
+    }
+  }
+}
+
+/// A lamp of a shape of its own above the floor, where it is seen up to that angle from the zenith.
+struct Lamp {
+  Shape shape;
+  double cosine;
+};
+
+class LampShapes : public testing::TestWithParam<Lamp> {};
+
+// One sample of each pixel is nearly enough: found by chance, lamps of this size would leave it off
+// by more than its mean.
+TEST_P(LampShapes, OfShapesOfTheirOwnSendWhatTheyShould) {
+  for (const Material& material : {kMatt, kShiny}) {
+    Floor floor(material);
+    floor.scene.materials.push_back({.double_sided = false, .emissive = Vec3(5)});
+    floor.scene.objects.push_back({.name = "lamp", .shape = GetParam().shape, .material = 1});
+    const double expected =
+        lit_by(material, [](double cosine) { return cosine > GetParam().cosine ? 5.0 : 0.0; });
+    const Estimate got =
+        estimate(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}, kSeeds);
+    EXPECT_NEAR(got.mean, expected, kFar * got.deviation + 2e-3 * expected) << got.deviation;
+    EXPECT_LT(got.deviation * std::sqrt(double{kSeeds} * 16 * 64), 0.5 * expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LampShapes,
+                         testing::Values(Lamp{Sphere{{0, 4, 0}, 0.5F}, std::sqrt(1 - 1.0 / 64)},
+                                         Lamp{Sphere{{0, 2, 0}, 1.9F}, std::sqrt(1 - 0.95 * 0.95)},
+                                         Lamp{Disc{{0, 2, 0}, {0, -3, 0}, 0.5F},
+                                              2 / std::sqrt(4.25)}));
+
+// Irradiance of a sphere that is not overhead: pi L (r / d)^2 cos.
+TEST(Radiance, OfASphereAtASlant) {
+  const Material material{
+      .base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1, .specular = Specular{.factor = 0}};
+  Floor floor(material);
+  floor.scene.materials.push_back({.emissive = Vec3(3)});
+  floor.scene.objects.push_back({.name = "lamp", .shape = Sphere{{4, 3, 0}, 1}, .material = 1});
+  const double expected = 0.5 * 3 / 25 * 0.6;
+  expect_mean(
+      estimate(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}, kSeeds),
+      expected);
+}
+
+// A triangle is the same lamp as in a mesh.
+TEST(Radiance, OfATriangleOutsideAMesh) {
+  const Vec3 a(-1, 2, -1), b(1, 2, -1), c(0.5F, 2.5F, 1);
+  std::vector<double> means;
+  for (const Shape& shape : {Shape{Triangle{a, b, c}},
+                             Shape{Mesh{.positions = {a, b, c}, .triangles = {{{0, 1, 2}}}}}}) {
+    Floor floor(kMatt);
+    floor.scene.materials.push_back({.emissive = Vec3(3)});
+    floor.scene.objects.push_back({.name = "lamp", .shape = shape, .material = 1});
+    means.push_back(
+        mean_of(shoot(floor.scene, floor.camera, {.size = kSize, .samples = 16, .max_depth = 2}))
+            .y);
+  }
+  EXPECT_NEAR(means[0], means[1], 1e-4 * means[1]);
+}
+
+// A lamp that is half there shines half as much, however it is found.
+TEST(Radiance, OfALampThatIsHalfThere) {
+  const auto lit = [](float alpha, const Shape& shape) {
+    Floor floor(kShiny);
+    floor.scene.materials.push_back(
+        {.base_color = {0, 0, 0, alpha}, .alpha_mode = AlphaMode::blend, .emissive = Vec3(3)});
+    floor.scene.objects.push_back({.name = "lamp", .shape = shape, .material = 1});
+    return estimate(floor.scene, floor.camera, {.size = kSize, .samples = 64, .max_depth = 2},
+                    kSeeds);
+  };
+  for (const Shape& shape : {Shape{parallelogram({-1, 2, -1}, {2, 0, 0}, {0, 0, 2})},
+                             Shape{Disc{{0, 2, 0}, {0, 1, 0}, 1}}, Shape{Sphere{{0, 3, 0}, 1}}}) {
+    const Estimate whole = lit(1, shape), half = lit(0.5F, shape);
+    EXPECT_NEAR(half.mean, whole.mean / 2, kFar * (half.deviation + whole.deviation / 2));
   }
 }
 

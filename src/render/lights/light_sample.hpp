@@ -14,7 +14,7 @@ struct LightSample {
   Vec3 light{0};      ///< radiance / density; of lights without size the irradiance of a surface
                       ///< that faces them, over the share of samples that they get
   float density = 0;  ///< per solid angle; 0 for lights without size, which no path can meet
-  std::optional<PrimitiveId> target{};  ///< what shines, if it is a triangle of the scene
+  std::optional<PrimitiveId> target{};  ///< what shines, if it is a surface
 
   /// Makes it one of several that are chosen among, by the share of samples that it gets.
   void take_share(float share) {

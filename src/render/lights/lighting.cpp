@@ -1,6 +1,7 @@
 #include "render/lights/lighting.hpp"
 
 #include "render/lights/punctual.hpp"
+#include "render/lights/shape_light.hpp"
 #include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
 
@@ -23,6 +24,11 @@ double area_of(const Triangle& t) {
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
+/// Whether the back is seen, as Shading::coverage() has it.
+bool shines_back(const Material& material) {
+  return material.double_sided || encloses_medium(material);
+}
+
 }  // namespace
 
 Lighting::Lighting(const Scene& scene, const Shading& shading) : scene_(scene), shading_(shading) {
@@ -32,7 +38,7 @@ Lighting::Lighting(const Scene& scene, const Shading& shading) : scene_(scene), 
     environment_.emplace(Environment{.content = Studio{}});
   }
   std::vector<LightBounds> bounds;
-  add_triangles(shading, bounds);
+  add_surfaces(bounds);
   add_lights(bounds);
   if (!bounds.empty()) tree_.emplace(bounds);
   if (environment_) environment_light_ = environment_->sampled_luminance() / bsdf::kInversePi;
@@ -43,7 +49,8 @@ Lighting::Lighting(const Scene& scene, const Shading& shading) : scene_(scene), 
 }
 
 // About in proportion to what each brings, but none too seldom. A uniform environment gets its
-// share of samples too, which are none.
+// share of samples too, which are none, of those that lamps would bring little to; a small one, for
+// in a room none of it may come.
 Lighting::Shares Lighting::shares(const Receiver& receiver) const {
   constexpr float least = 0.1F;
   const float tree = tree_ ? tree_->importance(receiver.p, receiver.n) : 0;
@@ -55,42 +62,57 @@ Lighting::Shares Lighting::shares(const Receiver& receiver) const {
                    .far = part(!far_lights_.empty(), far_light_),
                    .tree = part(tree_.has_value(), tree)};
   const float all = raw.environment + raw.far + raw.tree;
+  if (all == 0) return {};
   return {.environment = raw.environment / all, .far = raw.far / all, .tree = raw.tree / all};
 }
 
-void Lighting::add_triangles(const Shading& shading, std::vector<LightBounds>& bounds) {
+void Lighting::add_surfaces(std::vector<LightBounds>& bounds) {
   PrimitiveId id = 0;
   for (const Object& object : scene_.objects) {
-    const std::size_t count = primitive_count(object.shape);
+    const auto count = static_cast<PrimitiveId>(primitive_count(object.shape));
     const Material& material = material_of(scene_, object);
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    const bool shines = mesh != nullptr && material.emissive != Vec3(0) && !material.unlit;
-    for (std::size_t i = 0; shines && i < count; ++i) {
-      const auto number = static_cast<PrimitiveId>(id + i);
-      const Triangle t = triangle_of(*mesh, i);
-      const auto area = static_cast<float>(area_of(t));
-      // Filtered over about the triangle.
-      const ShadingPoint middle =
-          shading.point_on(number, Vec3(1 / 3.0F), true, std::sqrt(area) * 0.75F);
-      const float power = area * luminance(shading.emission(middle));
-      if (!(power > 0)) continue;
-      emitters_.push_back({.id = number, .light = kNone, .area = area});
-      bounds.push_back({.low = glm::min(t.a, glm::min(t.b, t.c)),
-                        .high = glm::max(t.a, glm::max(t.b, t.c)),
-                        .power = power,
-                        .cone = {.axis = middle.at.n},
-                        .two_sided = material.double_sided});
+    if (material.emissive != Vec3(0) && !material.unlit) {
+      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
+        for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(*mesh, i), bounds);
+      } else {
+        add_shape(id, object.shape, bounds);
+      }
     }
-    id += static_cast<PrimitiveId>(count);
+    id += count;
   }
-  triangles_ = emitters_.size();
+  surfaces_ = emitters_.size();
+}
+
+void Lighting::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
+  const auto area = static_cast<float>(area_of(t));
+  // Filtered over about the triangle.
+  const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, std::sqrt(area) * 0.75F);
+  const float power = area * luminance(shading_.emission(middle));
+  if (!(power > 0)) return;
+  emitters_.push_back({.id = id, .area = area});
+  bounds.push_back({.low = glm::min(t.a, glm::min(t.b, t.c)),
+                    .high = glm::max(t.a, glm::max(t.b, t.c)),
+                    .power = power,
+                    .cone = {.axis = middle.at.n},
+                    .two_sided = shines_back(*middle.look->material)});
+}
+
+void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBounds>& bounds) {
+  std::optional<LightBounds> light = shape_bounds(shape);
+  if (!light) return;
+  const ShadingPoint point = shading_.point_on(id, Vec3(0), true, 0);
+  light->power *= luminance(shading_.emission(point));
+  if (!(light->power > 0)) return;
+  light->two_sided = shines_back(*point.look->material);
+  emitters_.push_back({.id = id, .shape = &shape});
+  bounds.push_back(*light);
 }
 
 void Lighting::add_lights(std::vector<LightBounds>& bounds) {
   for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
     if (const auto light = punctual_bounds(scene_.lights[i].light)) {
       if (!(light->power > 0)) continue;
-      emitters_.push_back({.id = 0, .light = i, .area = 0});
+      emitters_.push_back({.light = i});
       bounds.push_back(*light);
     } else {
       far_lights_.push_back(i);
@@ -108,13 +130,28 @@ std::optional<LightSample> Lighting::of_triangle(const Emitter& emitter, const V
   const Vec3 wi = way / std::sqrt(square);
   const float cosine = -glm::dot(wi, point.at.n);
   point.at.front = cosine > 0;
-  if (cosine == 0 || (!point.at.front && !point.look->material->double_sided)) return std::nullopt;
-  const float density = square / (emitter.area * std::abs(cosine));
+  if (cosine == 0) return std::nullopt;
+  return of_point(point, emitter.id, way, wi, square / (emitter.area * std::abs(cosine)));
+}
+
+std::optional<LightSample> Lighting::of_shape(const Emitter& emitter, const Vec3& p,
+                                              const Vec2& u) const {
+  const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
+  if (!sample) return std::nullopt;
+  const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
+  return of_point(point, emitter.id, sample->way, sample->wi, sample->density);
+}
+
+std::optional<LightSample> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
+                                              const Vec3& way, const Vec3& wi,
+                                              float density) const {
+  const float coverage = shading_.coverage(point);
+  if (coverage == 0) return std::nullopt;
   return LightSample{.way = way,
                      .wi = wi,
-                     .light = shading_.emission(point) / density,
+                     .light = shading_.emission(point) * (coverage / density),
                      .density = density,
-                     .target = emitter.id};
+                     .target = id};
 }
 
 std::optional<LightSample> Lighting::of_far(const Receiver& receiver, float choice) const {
@@ -130,9 +167,13 @@ std::optional<LightSample> Lighting::of_tree(const Receiver& receiver, const Vec
   const std::optional<LightTree::Choice> chosen = tree_->choose(receiver.p, receiver.n, choice);
   if (!chosen) return std::nullopt;
   const Emitter& emitter = emitters_[chosen->light];
-  std::optional<LightSample> result =
-      emitter.light == kNone ? of_triangle(emitter, receiver.p, u)
-                             : of_punctual(scene_.lights[emitter.light].light, receiver.p);
+  std::optional<LightSample> result;
+  if (emitter.light != kNone) {
+    result = of_punctual(scene_.lights[emitter.light].light, receiver.p);
+  } else {
+    result = emitter.shape != nullptr ? of_shape(emitter, receiver.p, u)
+                                      : of_triangle(emitter, receiver.p, u);
+  }
   if (result) result->take_share(chosen->share);
   return result;
 }
@@ -170,12 +211,14 @@ EnvironmentLight::Look Lighting::environment(const Receiver& receiver, const Vec
 
 float Lighting::emitter_density(PrimitiveId id, const Receiver& receiver, float distance,
                                 float cosine) const {
-  const auto end = emitters_.begin() + static_cast<std::ptrdiff_t>(triangles_);
+  const auto end = emitters_.begin() + static_cast<std::ptrdiff_t>(surfaces_);
   const auto place = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
   if (place == end || place->id != id || !(cosine > 0)) return 0;
   const auto light = static_cast<std::size_t>(place - emitters_.begin());
-  return shares(receiver).tree * tree_->share(light, receiver.p, receiver.n) * distance * distance /
-         (place->area * cosine);
+  const float density = place->shape != nullptr
+                            ? shape_density(*place->shape, receiver.p, distance, cosine)
+                            : distance * distance / (place->area * cosine);
+  return shares(receiver).tree * tree_->share(light, receiver.p, receiver.n) * density;
 }
 
 }  // namespace microtrace

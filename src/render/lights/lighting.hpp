@@ -51,27 +51,31 @@ class Lighting {
   /// receiver.
   [[nodiscard]] EnvironmentLight::Look environment(const Receiver& receiver, const Vec3& wi) const;
 
-  /// The same of a point of a triangle that shines, for a path that came to it from the receiver
-  /// over `distance`; `cosine` is that of the angle between the path and the triangle's normal.
+  /// The same of a point of a surface that shines, for a path that came to it from the receiver
+  /// over `distance`; `cosine` is that of the angle between the path and the surface's normal.
   [[nodiscard]] float emitter_density(PrimitiveId id, const Receiver& receiver, float distance,
                                       float cosine) const;
 
  private:
-  /// A triangle, or a light of Scene::lights with a place.
-  struct Emitter {
-    PrimitiveId id;
-    std::uint32_t light;  ///< kNone: a triangle
-    float area;
-  };
   static constexpr std::uint32_t kNone = ~0U;
+
+  /// A mesh's triangle, a shape of its own, or a light of Scene::lights with a place.
+  struct Emitter {
+    PrimitiveId id = 0;
+    std::uint32_t light = kNone;   ///< kNone: a surface
+    float area = 0;                ///< of a mesh's triangle
+    const Shape* shape = nullptr;  ///< of its own
+  };
 
   /// Of samples at a place: the environment's, that of all far lights together, the tree's.
   struct Shares {
-    float environment, far, tree;
+    float environment = 0, far = 0, tree = 0;
   };
   [[nodiscard]] Shares shares(const Receiver& receiver) const;
 
-  void add_triangles(const Shading& shading, std::vector<LightBounds>& bounds);
+  void add_surfaces(std::vector<LightBounds>& bounds);
+  void add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds);
+  void add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBounds>& bounds);
   void add_lights(std::vector<LightBounds>& bounds);
   [[nodiscard]] bool samples_environment() const {
     return environment_ && !environment_->is_uniform();
@@ -81,13 +85,19 @@ class Lighting {
                                                    float choice) const;
   [[nodiscard]] std::optional<LightSample> of_triangle(const Emitter& emitter, const Vec3& p,
                                                        const Vec2& u) const;
+  [[nodiscard]] std::optional<LightSample> of_shape(const Emitter& emitter, const Vec3& p,
+                                                    const Vec2& u) const;
+  /// What comes from a point, as a sample of that density.
+  [[nodiscard]] std::optional<LightSample> of_point(const ShadingPoint& point, PrimitiveId id,
+                                                    const Vec3& way, const Vec3& wi,
+                                                    float density) const;
 
   const Scene& scene_;
   const Shading& shading_;
   std::optional<EnvironmentLight> environment_;
   std::vector<std::uint32_t> far_lights_;  // of Scene::lights those without a place
-  std::vector<Emitter> emitters_;          // triangles first, by id
-  std::size_t triangles_ = 0;
+  std::vector<Emitter> emitters_;          // surfaces first, by id
+  std::size_t surfaces_ = 0;
   std::optional<LightTree> tree_;                // of the emitters
   float environment_light_ = 0, far_light_ = 0;  // about what falls on a surface
 };

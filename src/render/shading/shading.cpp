@@ -57,7 +57,9 @@ ShadingPoint Shading::point(const Ray& ray, const Hit& hit) const {
 ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                float width) const {
   const Entry& entry = entries_[primitives_.object_index(id)];
-  return {.at = surface_point(*entry.mesh, id - entry.first_id, barycentrics, front),
+  return {.at = entry.mesh == nullptr
+                    ? SurfacePoint{.front = front}
+                    : surface_point(*entry.mesh, id - entry.first_id, barycentrics, front),
           .look = &looks_[entry.look],
           .width = width};
 }

@@ -85,7 +85,8 @@ class Shading {
               std::span<const std::optional<Hit>> hits, HitLanes& lanes,
               std::span<ShadingPoint> points) const;
 
-  /// A point of a mesh's triangle, without a ray: for what shines.
+  /// A point of a mesh's triangle, without a ray: for what shines. A shape of its own is the same
+  /// all over: its point has a side alone.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
 
