@@ -31,15 +31,8 @@ struct SobolLanes {
   SobolLanes(const std::uint32_t* keys, const std::uint32_t* indices)
       : key(load<N>(keys)), index(reversed_bits(load<N>(indices))) {}
 
-  static U mixed(U x) {
-    x ^= x >> 16;
-    x *= 0x7feb352dU;
-    x ^= x >> 15;
-    x *= 0x846ca68bU;
-    x ^= x >> 16;
-    return x;
-  }
-  static std::uint32_t mixed_one(std::uint32_t x) {
+  template <class Numbers>
+  static Numbers mixed(Numbers x) {
     x ^= x >> 16;
     x *= 0x7feb352dU;
     x ^= x >> 15;
@@ -48,7 +41,7 @@ struct SobolLanes {
     return x;
   }
   static U hash(const U& key, std::uint32_t value) {
-    return mixed(key ^ mixed_one(value + 0x9e3779b9U));
+    return mixed(key ^ mixed(value + 0x9e3779b9U));
   }
   static U reversed_bits(U x) {
     x = (x & 0x55555555U) << 1 | (x >> 1 & 0x55555555U);
