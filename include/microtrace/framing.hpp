@@ -15,14 +15,15 @@ namespace microtrace {
 struct View {
   double azimuth = 30;    ///< degrees about +y: 0 is +z, 90 is +x; finite
   double elevation = 25;  ///< degrees above the level, in [-90, 90]; at 90 up is -z for azimuth 0
+  double vertical_fov = 45;  ///< of the camera: the full opening angle in degrees, in (0, 180)
 };
 
-/// Finds a perspective camera for the picture's size, with a vertical angle of 45 degrees. All
-/// bounded shapes lie in the inner 96 % of the picture and touch the edges of that part on two
-/// opposite sides, in the middle of the others; unless that would bring the camera nearer than 1/64
-/// of their bounding box's diagonal to the nearest point, measured along the view. Planes, quadrics
-/// other than ellipsoids, and vertices that are not finite do not count. Where all is one point the
-/// distance is 1; where there is nothing, that point is the origin. The same bits everywhere: only
+/// Finds a perspective camera for the picture's size. All bounded shapes lie in the inner 96 % of
+/// the picture and touch the edges of that part on two opposite sides, in the middle of the others;
+/// unless that would bring the camera nearer than 1/64 of their bounding box's diagonal to the
+/// nearest point, measured along the view. Planes, quadrics other than ellipsoids, and vertices
+/// that are not finite do not count. Where all is one point the distance is 1; where there is
+/// nothing, that point is the origin. The same bits everywhere: only
 /// + - * / and sqrt.
 class Framing {
  public:
@@ -33,12 +34,22 @@ class Framing {
 
   [[nodiscard]] PerspectiveCamera camera() const;
 
+  /// The camera that looks at the target from so far away, whatever it sees. distance > 0.
+  [[nodiscard]] PerspectiveCamera camera_around(const DVec3& target, double distance) const;
+
+  /// Of the bounding box; the origin where there is nothing.
+  [[nodiscard]] DVec3 center() const;
+
  private:
   void add(const DVec3& point);
   template <class Support>
   void add_support(const Support& support);
 
+  [[nodiscard]] bool is_empty() const { return !(low_.x <= high_.x); }
+  [[nodiscard]] PerspectiveCamera camera_at(const DVec3& position) const;
+
   DVec3 right_, up_, back_;  // orthonormal
+  double vertical_fov_;      // radians
   double slope_x_, slope_y_;
   // Four normals of the frustum's sides, outward, and back; and how far the shapes reach along
   // each.

@@ -36,13 +36,11 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
 
 /// The words in which --help speaks of options' values, and the options' order.
 void name_values(CLI::App& app) {
-  constexpr std::array<std::pair<const char*, const char*>, 17> kNames{{
+  constexpr std::array<std::pair<const char*, const char*>, 15> kNames{{
       {"SCENE", "FILE"},
       {"--output", "FILE"},
       {"--size", "WxH"},
       {"--crop", "RECT"},
-      {"--camera", "NAME"},
-      {"--view", "VIEW"},
       {"--integrator", "NAME"},
       {"--aov", "LIST"},
       {"--sidecar", "FILE"},
@@ -70,7 +68,7 @@ Parsed parse_arguments(int argc, char** argv) {
   CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
   app.footer(kFooter);
   set_help_format(app);
-  std::string output, size, crop, view, integrator, aovs, sidecar, time, frames, fps, statistics;
+  std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -83,12 +81,7 @@ Parsed parse_arguments(int argc, char** argv) {
       "the whole picture; 0,0 is its upper left corner");
   add_light_options(app, a.surroundings, a.exposure);
   add_sampling_options(app, a.sampling);
-  app.add_option("-c,--camera", a.camera, "camera, by name or by number from 0 [the first]");
-  app.add_option("--view", view,
-                 "look at the whole scene from front, back, left, right, top, bottom, iso or "
-                 "AZIMUTH,ELEVATION in degrees: 0,0 is +z, the front, 90,0 is +x [30,25 where the "
-                 "scene has no camera]")
-      ->excludes("--camera");
+  add_camera_options(app, a.viewpoint);
   app.add_option("--integrator", integrator,
                  "what the picture shows: flat (colours without light), path (with light, by path "
                  "tracing), or a quantity as --aov has them [glTF: path, JSON: flat]");
@@ -150,7 +143,7 @@ Parsed parse_arguments(int argc, char** argv) {
     if (app.count("--integrator") > 0) a.wanted = parse_integrator(integrator);
     finish_sampling(app, a.sampling);
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
-    if (app.count("--view") > 0) a.view = parse_view(view);
+    finish_camera(app, a.viewpoint);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
     if (app.count("--time") > 0) a.load.time = parse_number("--time", time);
     if (app.count("--frames") > 0) a.frames = parse_frames(frames);
@@ -171,24 +164,6 @@ Parsed parse_arguments(int argc, char** argv) {
     parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
   }
   return parsed;
-}
-
-Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size) {
-  const std::string& wanted = arguments.camera;
-  if (arguments.view) return frame(scene, *arguments.view, size);
-  if (wanted.empty()) return default_camera(scene, size);
-  for (const NamedCamera& camera : scene.cameras) {
-    if (camera.name == wanted) return camera.camera;
-  }
-  const auto index = whole_number(wanted);
-  if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
-  std::string message = "--camera: there is no camera " + wanted + "; the scene has";
-  if (scene.cameras.empty()) message += " none: leave --camera out, or use --view";
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    message += i == 0 ? " " : ", ";
-    message += std::to_string(i) + " (" + scene.cameras[i].name + ")";
-  }
-  throw Error(ErrorKind::usage, "", message);
 }
 
 void settle(Arguments& a, SceneFormat format) {

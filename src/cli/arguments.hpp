@@ -1,12 +1,12 @@
 #pragma once
 /// The command line.
 
+#include "cli/arguments_camera.hpp"
 #include "cli/arguments_light.hpp"
 #include "cli/arguments_sampling.hpp"
 #include "cli/frames.hpp"
 #include "cli/option_values.hpp"
 
-#include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/path.hpp>
 
@@ -37,8 +37,7 @@ struct Arguments {
   std::uint32_t max_depth = PathOptions{}.max_depth;
   Channels aovs{};
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
-  std::string camera;             ///< a name or an index; empty: the default
-  std::optional<View> view{};
+  Viewpoint viewpoint{};
   unsigned threads = 0;
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
@@ -56,10 +55,6 @@ struct Parsed {
   std::optional<int> exit_code{};
 };
 [[nodiscard]] Parsed parse_arguments(int argc, char** argv);
-
-/// The camera that --camera or --view asks for, else the scene's default. Throws Error (usage) with
-/// the names there are.
-[[nodiscard]] Camera choose_camera(const Scene& scene, const Arguments& arguments, ImageSize size);
 
 /// Fills in what is left to the scene's format: glTF assets are drawn with light, over grey, JSON
 /// scenes flat. Throws Error (usage) where options make no sense then.

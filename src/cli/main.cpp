@@ -47,19 +47,20 @@ LoadOptions load_options(const cli::Arguments& arguments) {
   return options;
 }
 
-/// The camera that frames the poses of all frames, where one is to frame the scene.
+/// The camera of all frames, which frames all poses, where it is none of the scene's.
 std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& arguments,
                                  const cli::FrameRange& frames) {
   LoadedScene posed = file.at(frames.time(frames.first));
-  const bool has_own = !posed.scene.cameras.empty() || !arguments.camera.empty();
-  if (!arguments.view && has_own) return std::nullopt;
-  Framing framing(arguments.view.value_or(View{}), arguments.size.value_or(posed.scene.size));
+  const cli::Viewpoint& viewpoint = arguments.viewpoint;
+  const bool has_own = !posed.scene.cameras.empty() || !viewpoint.camera.empty();
+  if (viewpoint.is_of_scene() && has_own) return std::nullopt;
+  Framing framing = cli::framing_for(viewpoint, arguments.size.value_or(posed.scene.size));
   framing.add(posed.scene);
   for (std::uint32_t frame = frames.first + 1; frame <= frames.last; ++frame) {
     posed = file.at(frames.time(frame));
     framing.add(posed.scene);
   }
-  return framing.camera();
+  return cli::camera_of(framing, viewpoint);
 }
 
 /// The file is read once.
@@ -89,7 +90,7 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     report(warnings, arguments);
     cli::surround(scene, environment, arguments.surroundings);
     const ImageSize size = arguments.size.value_or(scene.size);
-    const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments, size);
+    const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments.viewpoint, size);
     watch.loaded(std::exchange(times, {}));
     if (arguments.validate) continue;
 
@@ -118,7 +119,7 @@ void run(cli::Arguments arguments) {
   report(warnings, arguments);
   cli::surround(scene, environment, arguments.surroundings);
   const ImageSize size = arguments.size.value_or(scene.size);
-  const Camera camera = cli::choose_camera(scene, arguments, size);
+  const Camera camera = cli::choose_camera(scene, arguments.viewpoint, size);
   watch.loaded(times);
   if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 

@@ -37,6 +37,17 @@ std::optional<Number> read(std::string_view text, Format... format) {
   return value;
 }
 
+/// Finite numbers with commas between; none where the text is something else.
+std::vector<double> read_all(std::string_view text) {
+  std::vector<double> numbers;
+  for (const std::string_view part : split(text)) {
+    const auto number = read<double>(part);
+    if (!number || !std::isfinite(*number)) return {};
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::string aov_names() {
   std::string names;
   for (const Aov aov : kAovs) names.append(names.empty() ? "" : ", ").append(name_of(aov));
@@ -110,22 +121,29 @@ PixelRect parse_crop(const std::string& text) {
   return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
 }
 
-View parse_view(const std::string& text) {
+OrbitView parse_view(const std::string& text) {
   for (const auto& [name, view] : kViews) {
-    if (name == text) return view;
+    if (name == text) return {.view = view};
   }
-  const std::vector<std::string_view> parts = split(text);
-  if (parts.size() == 2) {
-    const auto azimuth = read<double>(parts[0]), elevation = read<double>(parts[1]);
-    if (azimuth && elevation && std::isfinite(*azimuth) && std::abs(*elevation) <= 90)
-      return {.azimuth = *azimuth, .elevation = *elevation};
+  const std::vector<double> numbers = read_all(text);
+  const bool is_round = numbers.size() == 2 || (numbers.size() == 3 && numbers[2] > 0);
+  if (is_round && std::abs(numbers[1]) <= 90) {
+    OrbitView orbit{.view = {.azimuth = numbers[0], .elevation = numbers[1]}};
+    if (numbers.size() == 3) orbit.distance = numbers[2];
+    return orbit;
   }
   std::string names;
   for (const auto& [name, view] : kViews) names.append(name).append(", ");
   throw CLI::ValidationError("--view", "wants " + names +
                                            "or AZIMUTH,ELEVATION in degrees, elevation from -90 "
-                                           "to 90, not " +
+                                           "to 90, or both and a distance above 0, not " +
                                            text);
+}
+
+DVec3 parse_point(const char* option, const std::string& text) {
+  const std::vector<double> numbers = read_all(text);
+  if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
+  throw CLI::ValidationError(option, "wants three numbers x,y,z, not " + text);
 }
 
 Background parse_background(const std::string& text) {

@@ -25,8 +25,17 @@ namespace microtrace::cli {
 [[nodiscard]] ImageSize parse_size(const std::string& text);
 /// x0,y0,x1,y1
 [[nodiscard]] PixelRect parse_crop(const std::string& text);
-/// A side's name, or AZIMUTH,ELEVATION in degrees
-[[nodiscard]] View parse_view(const std::string& text);
+
+/// Where --view looks from.
+struct OrbitView {
+  View view{};
+  std::optional<double> distance{};  ///< from what is looked at; absent: the whole scene is framed
+};
+
+/// A side's name, or AZIMUTH,ELEVATION in degrees, or with a distance AZIMUTH,ELEVATION,DISTANCE
+[[nodiscard]] OrbitView parse_view(const std::string& text);
+/// Three finite numbers
+[[nodiscard]] DVec3 parse_point(const char* option, const std::string& text);
 /// A finite number
 [[nodiscard]] double parse_number(const char* option, const std::string& text);
 

@@ -47,8 +47,11 @@ std::string images_of(const Scene& scene) {
 }
 
 std::string camera_of(const Arguments& arguments, const Scene& scene) {
-  if (arguments.view) return "framed, as --view asks";
-  if (!arguments.camera.empty()) return arguments.camera;
+  const Viewpoint& viewpoint = arguments.viewpoint;
+  if (viewpoint.eye) return "at --eye";
+  if (viewpoint.orbit)
+    return viewpoint.orbit->distance ? "as --view asks" : "framed, as --view asks";
+  if (!viewpoint.camera.empty()) return viewpoint.camera;
   if (scene.cameras.empty()) return "framed, for the scene has none";
   return scene.cameras[0].name + ", the first of " + std::to_string(scene.cameras.size());
 }

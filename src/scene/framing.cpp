@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -27,7 +26,8 @@ Framing::Framing(const View& view, ImageSize size) : low_(kInfinity), high_(-kIn
   right_ = {cos_a, 0, -sin_a};
   up_ = {-sin_e * sin_a, cos_e, -sin_e * cos_a};
   back_ = {cos_e * sin_a, sin_e, cos_e * cos_a};
-  slope_y_ = kFilled * (std::sqrt(2.0) - 1);  // tan(45 degrees / 2)
+  vertical_fov_ = radians_from_degrees(view.vertical_fov);
+  slope_y_ = kFilled * sin_degrees(view.vertical_fov / 2) / cos_degrees(view.vertical_fov / 2);
   slope_x_ = slope_y_ * size.width / size.height;
   directions_ = {right_ + slope_x_ * back_, slope_x_ * back_ - right_, up_ + slope_y_ * back_,
                  slope_y_ * back_ - up_, back_};
@@ -69,9 +69,8 @@ void Framing::add(const Scene& scene) {
 // s z - x. Both hold for all points with the least z where both are equalities.
 PerspectiveCamera Framing::camera() const {
   const FloatEnvironment environment;
-  const bool empty = !(low_.x <= high_.x);
-  const bool point = empty || low_ == high_;
-  DVec3 position = empty ? back_ : low_ + back_;
+  const bool point = is_empty() || low_ == high_;
+  DVec3 position = is_empty() ? back_ : low_ + back_;
   if (!point) {
     const double diagonal = std::sqrt(glm::dot(high_ - low_, high_ - low_));
     const double x = (reach_[0] - reach_[1]) / 2, y = (reach_[2] - reach_[3]) / 2;
@@ -80,8 +79,22 @@ PerspectiveCamera Framing::camera() const {
                   (reach_[2] + reach_[3]) / (2 * slope_y_), reach_[4] + diagonal / 64});
     position = right_ * x + up_ * y + back_ * z;
   }
+  return camera_at(position);
+}
+
+PerspectiveCamera Framing::camera_around(const DVec3& target, double distance) const {
+  const FloatEnvironment environment;
+  return camera_at(target + distance * back_);
+}
+
+PerspectiveCamera Framing::camera_at(const DVec3& position) const {
   return {.pose = {.position = position, .direction = -back_, .up = up_},
-          .vertical_fov = std::numbers::pi / 4};
+          .vertical_fov = vertical_fov_};
+}
+
+DVec3 Framing::center() const {
+  const FloatEnvironment environment;
+  return is_empty() ? DVec3(0) : low_ / 2.0 + high_ / 2.0;
 }
 
 PerspectiveCamera frame(const Scene& scene, const View& view, ImageSize size) {

@@ -6,6 +6,7 @@ usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 
 import base64
 import json
+import math
 import os
 import resource
 import signal
@@ -143,13 +144,55 @@ class CommandLine(ProgramTest):
             self.assertEqual(pictures[None], pictures["30,25"])
             self.assertNotEqual(pictures["front"], pictures["right"])
         self.assertNotEqual(self.picture(SCENE, "--view", "top"), self.picture(SCENE))
-        for view in ("sideways", "1", "1,2,3", "0,91", "nan,0", "1;2", ","):
+        for view in ("sideways", "1", "1,2,0", "1,2,-3", "1,91,3", "1,2,3,4", "1,2,inf", "0,91", "nan,0", "1;2", ","):
             self.assertEqual(self.run_program(cube, "--view", view).returncode, 2, view)
         self.assertEqual(self.run_program(SCENE, "--view", "top", "-c", "0").returncode, 2)
         none = self.run_program(cube, "-c", "0")
         self.assertEqual(none.returncode, 2)
         self.assertIn(b"--view", none.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def camera(self, scene, *options):
+        """Position, the directions to the right, up and back, and the focal length in picture heights."""
+        result = self.run_program(scene, "--integrator", "flat", "--size", "40x30", "--sidecar", "s.json", "-o", "s.ppm", *options)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        camera = json.loads((self.folder / "s.json").read_text())["camera"]
+        columns = [[row[k] for row in camera["world_from_camera"]] for k in (3, 0, 1, 2)]
+        return [columns[0][:3], *[c[:3] for c in columns[1:]], camera["fy"] / 30]
+
+    def assert_near(self, numbers, expected):
+        for number, wanted in zip(numbers, expected, strict=True):
+            self.assertAlmostEqual(number, wanted, places=9)
+
+    def test_a_camera_around_a_target(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        theta, phi, r, target = 0.5, 1.1, 4.0, (1.0, -2.0, 0.5)
+        position, _, up, back, focal = self.camera(
+            cube, "--view", f"{math.degrees(theta)},{90 - math.degrees(phi)},{r}",
+            "--target", ",".join(map(str, target)), "--fov", "60")
+        away = (math.sin(phi) * math.sin(theta), math.cos(phi), math.sin(phi) * math.cos(theta))
+        self.assert_near(back, away)
+        self.assert_near(position, [t + r * a for t, a in zip(target, away)])
+        self.assertGreater(up[1], 0)
+        self.assertAlmostEqual(focal, 0.5 / math.tan(math.radians(30)), places=9)
+        # Without a target the middle of the box, by any way to say the view.
+        middle = self.camera(cube, "--view", "90,0,7")[0]
+        self.assert_near(self.camera(cube, "--view", "-270,0,9")[0], [middle[0] + 2, *middle[1:]])
+
+    def test_a_camera_at_a_point(self):
+        cube = SOURCE / "scenes/gltf/cube.glb"
+        position, right, up, back, focal = self.camera(cube, "--eye", "1,2,3", "--target", "1,2,-5")
+        self.assertEqual((position, right, up, back), ([1, 2, 3], [1, 0, 0], [0, 1, 0], [0, 0, 1]))
+        self.assertAlmostEqual(focal, 0.5 / math.tan(math.radians(22.5)), places=9)
+        down = self.camera(cube, "--eye", "0,9,0", "--target", "0,0,0", "--up", "1,0,0", "--fov", "90")
+        self.assert_near([*down[1], *down[2], down[4]], [0, 0, 1, 1, 0, 0, 0.5])
+        for options in (["--eye", "0,9,0", "--target", "0,0,0"], ["--eye", "1,1,1", "--target", "1,1,1"], ["--eye", "1,1"],
+                        ["--eye", "1,1,nan"], ["--eye", "1,1,5", "--view", "front"], ["--target", "0,0,0"],
+                        ["--view", "front", "--target", "0,0,0"], ["--view", "1,2,3", "--up", "0,0,1"], ["--fov", "30"],
+                        ["--view", "front", "--fov", "180"], ["--view", "front", "--fov", "0"]):
+            wrong = self.run_program(cube, "-o", "a.ppm", *options)
+            self.assertEqual(wrong.returncode, 2, (options, wrong.stderr))
+            self.assertFalse((self.folder / "a.ppm").exists())
 
     def test_backgrounds(self):
         cube = SOURCE / "scenes/gltf/cube.glb"

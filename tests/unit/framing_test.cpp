@@ -98,6 +98,29 @@ TEST(Framing, RandomPointsFillOneAxis) {
   }
 }
 
+TEST(Framing, AnyAngleIsFilled) {
+  const std::vector<Vec3> points = {{-1, -2, -3}, {1, 0, 2}, {0, 3, 1}, {4, 1, 0}};
+  const ImageSize size{640, 480};
+  for (const double degrees : {1.0, 20.0, 45.0, 90.0, 150.0}) {
+    const PerspectiveCamera camera = frame(cloud(points), {.vertical_fov = degrees}, size);
+    EXPECT_NEAR(camera.vertical_fov, degrees * std::numbers::pi / 180, 1e-14);
+    const Extent extent = seen(widened(points), camera, size);
+    // A wide angle's camera keeps its distance instead.
+    if (degrees < 100) expect_tight(extent);
+    EXPECT_GT(extent.nearest, 0);
+  }
+}
+
+TEST(Framing, StandsAroundATarget) {
+  Framing framing({.azimuth = 90, .elevation = 0}, {640, 480});
+  EXPECT_EQ(framing.center(), DVec3(0));
+  framing.add(cloud({{1, 2, 3}, {3, 8, -1}}));
+  EXPECT_EQ(framing.center(), DVec3(2, 5, 1));
+  const PerspectiveCamera camera = framing.camera_around({4, 5, 6}, 10);
+  EXPECT_EQ(camera.pose.position, DVec3(14, 5, 6));
+  EXPECT_EQ(camera.pose.direction, framing.camera().pose.direction);
+}
+
 TEST(Framing, RoomOnTheOtherAxisIsEqual) {
   const std::vector<Vec3> wide = {{-100, 0, 0}, {100, 0, 0}, {0, 1, 0}, {0, 3, 0}};
   const ImageSize size{640, 480};
