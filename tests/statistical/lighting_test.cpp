@@ -65,7 +65,7 @@ double density(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
   const Ray ray{.o = receiver.p, .t_min = 0, .d = d};
   for (std::optional<Hit> hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) {
     const ShadingPoint point = shading.point(ray, *hit);
-    if (shading.emission(point) == Vec3(0) || shading.coverage(point) == 0) continue;
+    if (shading.emission(point) == Vec3(0) || shading.coverage(point, false) == 0) continue;
     const float cosine = std::abs(glm::dot(d, point.at.n));
     sum += double{lighting.emitter_density(hit->id, receiver, point.at.distance, cosine)};
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -97,6 +98,29 @@ TEST(Radiance, ShiningBallOverFloor) {
     // The mesh lies within the sphere, by up to 1 - cos(pi / 40).
     EXPECT_NEAR(mesh.mean, expected, kFar * mesh.deviation + 0.008 * expected);
   }
+}
+
+// The back of what is one-sided is not there for the camera, but keeps light away.
+TEST(Radiance, OneSidedWalls) {
+  const double edge = std::sqrt(1 - 1 / 9.0);
+  Floor floor(kMatt);
+  floor.scene.environment = Environment{.content = Vec3(1)};
+  floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .double_sided = false});
+  Mesh inside_out = ball({0, 3, 0}, 1);
+  for (auto& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  floor.scene.objects.push_back({.name = "ball", .shape = inside_out, .material = 1});
+  const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
+  const Estimate shaded = estimate(floor.scene, floor.camera, shot, kSeeds);
+  const double expected = lit_by(kMatt, [&](double c) { return c > edge ? 0.0 : 1.0; });
+  EXPECT_NEAR(shaded.mean, expected, kFar * shaded.deviation + 0.004 * expected);
+
+  // Faces the floor, between it and the camera.
+  floor.scene.objects.back().shape = parallelogram({-50, 0.5, -50}, {100, 0, 0}, {0, 0, 100});
+  floor.scene.materials[0].emissive = Vec3(2);
+  const Shot seen{.size = kSize, .samples = 4, .max_depth = 1};
+  EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 2, 1e-5);
+  floor.scene.materials[1].double_sided = true;
+  EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 0, 1e-5);
 }
 
 // A map that grows linearly from the horizon to the zenith; bilinear between its rows.

@@ -28,7 +28,7 @@ float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::option
              const std::optional<PrimitiveId>& target) {
   float passed = 1;
   while (hit && hit->id != target) {
-    passed *= 1 - shading.coverage(shading.point(ray, *hit));
+    passed *= 1 - shading.coverage(shading.point(ray, *hit), false);
     if (passed == 0) return 0;
     hit = bvh.next(ray, *hit);
   }

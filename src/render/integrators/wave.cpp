@@ -107,13 +107,14 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   const Ray& ray = rays_[i];
   PathState& path = paths_[i];
   std::optional<Hit> hit = hits_[i];
+  const bool from_camera = path.density == 0;
   for (std::uint32_t layer = 0;; ++layer) {
     if (!hit) return escape(ray, path);
     if (layer > 0) {
       point = shading_->point(ray, *hit);
       prepare(i, point);
     }
-    const float coverage = shading_->coverage(point);
+    const float coverage = shading_->coverage(point, from_camera);
     if (coverage == 1) break;
     const std::uint32_t number =
         step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
@@ -122,7 +123,6 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   }
   if (path.absorption != Vec3(0))
     path.throughput *= transmittance(path.absorption, point.at.distance);
-  const bool from_camera = path.density == 0;
   if (from_camera) alphas_[path.slot] = 1;
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
     const Vec3 d = bsdf::unit(ray.d);

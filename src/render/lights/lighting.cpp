@@ -24,7 +24,7 @@ double area_of(const Triangle& t) {
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
-/// Whether the back is seen, as Shading::coverage() has it.
+/// Whether the back shines, as Shading::emission() has it.
 bool shines_back(const Material& material) {
   return material.double_sided || encloses_medium(material);
 }
@@ -145,11 +145,12 @@ std::optional<LightSample> Lighting::of_shape(const Emitter& emitter, const Vec3
 std::optional<LightSample> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
                                               const Vec3& way, const Vec3& wi,
                                               float density) const {
-  const float coverage = shading_.coverage(point);
-  if (coverage == 0) return std::nullopt;
+  const float coverage = shading_.coverage(point, false);
+  const Vec3 emission = shading_.emission(point);
+  if (coverage == 0 || emission == Vec3(0)) return std::nullopt;
   return LightSample{.way = way,
                      .wi = wi,
-                     .light = shading_.emission(point) * (coverage / density),
+                     .light = emission * (coverage / density),
                      .density = density,
                      .target = id};
 }

@@ -21,6 +21,18 @@ float head_on_reflectance(float ior) {
   return r * r;
 }
 
+/// Whether light passes the back whatever it is: thin glass that is one-sided is one wall to a path
+/// that goes in and out, not two, as it is to an eye.
+bool has_open_back(const Material& m) {
+  return !m.double_sided && m.transmission && !encloses_medium(m);
+}
+
+/// The back of what is one-sided, unless it encloses a medium and is seen from within.
+bool is_missing_back(const ShadingPoint& point) {
+  const Material& material = *point.look->material;
+  return !point.at.front && !material.double_sided && !encloses_medium(material);
+}
+
 /// KHR_materials_dispersion: of red, green and blue.
 float dispersed(float ior, float dispersion, int channel) {
   const float half_spread = (ior - 1) * 0.025F * dispersion;
@@ -42,7 +54,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives)
                         .look = object.material.value_or(none)});
     first += static_cast<PrimitiveId>(primitive_count(object.shape));
     const Material& material = material_of(scene, object);
-    all_cover_ &= material.double_sided && material.alpha_mode == AlphaMode::opaque;
+    all_cover_ &= !has_open_back(material) && material.alpha_mode == AlphaMode::opaque;
   }
 }
 
@@ -78,10 +90,9 @@ Vec4 Shading::base_color(const ShadingPoint& point) const {
   return point.look->material->base_color * point.at.color() * point.look->base_color.at(point);
 }
 
-float Shading::coverage(const ShadingPoint& point) const {
+float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
   const Material& material = *point.look->material;
-  // The back of what encloses a medium is seen from within.
-  if (!point.at.front && !material.double_sided && !encloses_medium(material)) return 0;
+  if (is_missing_back(point) && (from_camera || has_open_back(material))) return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
   const float alpha = base_color(point).w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;
@@ -91,6 +102,7 @@ float Shading::coverage(const ShadingPoint& point) const {
 Vec3 Shading::emission(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
   if (look.material->unlit) return Vec3(base_color(point));
+  if (is_missing_back(point)) return Vec3(0);
   const Vec3 color = look.material->emissive;
   return color == Vec3(0) ? color : color * Vec3(look.emissive.at(point));
 }

@@ -98,14 +98,17 @@ class Shading {
   /// they have there.
   static void find_place(ShadingPoint& point);
 
-  /// How much of the surface is there: 0 on a side that it lacks; by the base colour's alpha where
-  /// the material says so.
-  [[nodiscard]] float coverage(const ShadingPoint& point) const;
+  /// How much of the surface is there: by the base colour's alpha where the material says so. What
+  /// is one-sided has no back for camera rays; all other light meets both sides, so that walls
+  /// which are seen from within keep the sun out.
+  [[nodiscard]] float coverage(const ShadingPoint& point, bool from_camera) const;
 
-  /// Whether coverage() is 1 for every point of all materials, from both sides.
+  /// Whether coverage() is 1 for every point of all materials, from both sides, save for the
+  /// camera.
   [[nodiscard]] bool all_cover() const { return all_cover_; }
 
-  /// Radiance that leaves the point to the side of the ray. Unlit materials leave their colour.
+  /// Radiance that leaves the point to the side of the ray, none at the back of what is one-sided.
+  /// Unlit materials leave their colour.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
   /// On the ray's side, in the coordinates of frame(); `channel` is the one that a path through
