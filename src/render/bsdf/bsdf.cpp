@@ -1,6 +1,7 @@
 #include "render/bsdf/bsdf.hpp"
 
 #include "render/bsdf/frame.hpp"
+#include "render/bsdf/glass_albedo.hpp"
 #include "render/bsdf/thin_film.hpp"
 #include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
@@ -28,6 +29,12 @@ Vec3 mirrored(const Vec3& w) {
   return {w.x, w.y, -w.z};
 }
 
+/// Facets without direction that return about as much.
+Ggx mean_facets(const Parameters& p) {
+  if (p.anisotropy == 0) return Ggx(p.roughness);
+  return Ggx(AnisotropicGgx(p.roughness, p.anisotropy, p.along).mean_roughness());
+}
+
 template <typename Microfacets>
 Microfacets microfacets(const Parameters& p) {
   if constexpr (std::is_same_v<Microfacets, Ggx>) {
@@ -43,7 +50,7 @@ template <typename Microfacets>
 BasicBsdf<Microfacets>::BasicBsdf(const Parameters& p, const Vec3& wo)
     : wo_(wo),
       ggx_(microfacets<Microfacets>(p)),
-      albedo_(Ggx(p.roughness)),
+      albedo_(mean_facets(p)),
       specular_{.f0 = p.dielectric.f0 + p.metallic * (p.base_color - p.dielectric.f0),
                 .f90 = p.dielectric.f90 + p.metallic * (1 - p.dielectric.f90)},
       film_(p.film),
@@ -54,16 +61,28 @@ BasicBsdf<Microfacets>::BasicBsdf(const Parameters& p, const Vec3& wo)
   const Albedo mean = albedo_.mean(), there = albedo_.at(wo.z);
   returned_ = returned_later(greatest_.f0, greatest_.f90, mean.white);
   constexpr bool is_isotropic = std::is_same_v<Microfacets, Ggx>;
-  multiple_ = Vec3(0);
-  if (is_isotropic) {
-    multiple_ = returned_later(f0, specular_.f90, mean.white) *
-                (kInversePi / std::max(1 - mean.white, 1e-6F) * (1 - there.white));
-  }
+  multiple_ = returned_later(f0, specular_.f90, mean.white) *
+              (kInversePi / std::max(1 - mean.white, 1e-6F) * (1 - there.white));
+  if constexpr (!is_isotropic) multiple_ *= ggx_.evenness();
   const float dielectric = 1 - p.metallic, mean_left = std::max(left_over(mean), 1e-6F);
-  const Vec3 diffuse(dielectric * (1 - p.transmission) * kInversePi * left_over(there) / mean_left);
+  float left = left_over(there);
+  // From within a medium most light is reflected in all; the rest alone meets what is diffuse.
+  if (eta_ && *eta_ < 1) left = std::min(left, 1 - luminance(fresnel(wo.z)));
+  const Vec3 diffuse(dielectric * (1 - p.transmission) * kInversePi * left / mean_left);
   diffuse_ = (1 - p.diffuse_transmission) * diffuse * p.base_color;
   diffuse_below_ = p.diffuse_transmission * diffuse * p.diffuse_transmission_color;
   transmitted_ = dielectric * p.transmission * p.base_color;
+  if (eta_) {
+    // In and out together the base colour counts once, as in renderers that see no walls.
+    transmitted_ = dielectric * p.transmission * glm::sqrt(p.base_color);
+    // What several scatterings would return goes where one does: all light for wo is there, though
+    // wi and wo are no equals then.
+    const float glass = dielectric * p.transmission;
+    const float gain = 1 / glass_albedo(*eta_, p.roughness, wo.z);
+    transmitted_ *= gain;
+    reflected_gain_ = 1 + glass * (gain - 1);
+    multiple_ *= 1 - glass;
+  }
   // A thin wall lets through all that the specular part leaves over, not only what comes through
   // after one scattering.
   if (!eta_ && is_isotropic && !film_)
@@ -126,8 +145,8 @@ Evaluation BasicBsdf<Microfacets>::above(const Vec3& wi, const Vec3& h) const {
   const float d = ggx_.distribution(h);
   const Albedo there = albedo_.at(wi.z);
   const Vec3 reflectance = fresnel(cosine);
-  const Vec3 f = reflectance * (d * ggx_.visibility(wo_, wi)) + diffuse_ * left_over(there) +
-                 multiple_ * (1 - there.white);
+  const Vec3 f = reflectance * (reflected_gain_ * d * ggx_.visibility(wo_, wi)) +
+                 diffuse_ * left_over(there) + multiple_ * (1 - there.white);
   return {.value = f * wi.z,
           .density = facet_share_ * reflected_share(reflectance) * ggx_.reflected_density(wo_, d) +
                      (1 - facet_share_) * (1 - below_share_) * kInversePi * wi.z};

@@ -63,9 +63,11 @@ struct DirectionSample {
 /// importance sampling, 2001). So it is reciprocal, and white returns all light.
 ///
 /// Light that is refracted (B. Walter et al., Microfacet models for refraction, 2007) is counted
-/// without the square of the index: radiance divided by it stays the same on its way in and out.
+/// without the square of the index: radiance divided by it stays the same on its way in and out. Of
+/// rough glass both parts are scaled to return all light (E. Turquin, Practical multiple scattering
+/// compensation for microfacet models, 2019), which is not reciprocal.
 ///
-/// Microfacets is Ggx, or AnisotropicGgx: then what takes several reflections is left out.
+/// Microfacets is Ggx, or AnisotropicGgx: then part of what takes several reflections is left out.
 template <typename Microfacets>
 class BasicBsdf {
  public:
@@ -113,6 +115,7 @@ class BasicBsdf {
   // through.
   Vec3 diffuse_, diffuse_below_, multiple_, transmitted_;
   std::optional<float> eta_;
+  float reflected_gain_ = 1;  ///< of single reflections, at walls of rough glass
   // Of samples: by a facet's normal, and of the others those below.
   float facet_share_, below_share_;
 };

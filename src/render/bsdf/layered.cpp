@@ -30,11 +30,12 @@ LayeredBsdf::LayeredBsdf(const Parameters& base, const Layers& layers, const Vec
       coat_albedo_(coat_),
       coat_frame_(Frame::about(layers.coat_normal)) {
   if (layers_.side == Layers::Side::below) return;
-  passed_ = passed(wo);
+  coat_passed_ = through_coat(wo);
+  sheen_passed_ = through_sheen(wo);
   // About what each returns, and neither too rarely.
   if (greatest_sheen_ > 0)
     sheen_share_ = std::max(0.5F * greatest_sheen_ * sheen_.albedo(wo.z), 0.1F);
-  if (layers_.coat > 0) coat_share_ = std::max(0.8F * (1 - through_coat(wo)), 0.1F);
+  if (layers_.coat > 0) coat_share_ = std::max(0.8F * (1 - coat_passed_), 0.1F);
   sheen_share_ *= 1 - coat_share_;
 }
 
@@ -44,9 +45,12 @@ float LayeredBsdf::through_coat(const Vec3& w) const {
   return 1 - layers_.coat * (kCoat.f0.x * (albedo.white - albedo.edge) + albedo.edge);
 }
 
+float LayeredBsdf::through_sheen(const Vec3& w) const {
+  return greatest_sheen_ > 0 ? 1 - greatest_sheen_ * sheen_.albedo(w.z) : 1;
+}
+
 float LayeredBsdf::passed(const Vec3& w) const {
-  const float through = through_coat(w);
-  return greatest_sheen_ > 0 ? through * (1 - greatest_sheen_ * sheen_.albedo(w.z)) : through;
+  return through_coat(w) * through_sheen(w);
 }
 
 Evaluation LayeredBsdf::base(const Vec3& wi) const {
@@ -55,8 +59,7 @@ Evaluation LayeredBsdf::base(const Vec3& wi) const {
 
 void LayeredBsdf::add_sheen(const Vec3& wi, const Vec3& h, Evaluation& e) const {
   if (greatest_sheen_ == 0) return;
-  const float through = std::min(through_coat(wo_), through_coat(wi));
-  e.value += layers_.sheen * (sheen_.reflectance(wo_, wi, h) * through * wi.z);
+  e.value += layers_.sheen * (sheen_.reflectance(wo_, wi, h) * coat_passed_ * wi.z);
   e.density += sheen_share_ * kInversePi * wi.z;
 }
 
@@ -75,13 +78,14 @@ Evaluation LayeredBsdf::evaluate(const Vec3& wi) const {
   e.density *= 1 - coat_share_ - sheen_share_;
   const Layers::Side side = layers_.side;
   if (wi.z > 0 && side != Layers::Side::below) {
-    e.value *= std::min(passed_, passed(wi));
+    e.value *= coat_passed_ * std::min(sheen_passed_, through_sheen(wi));
     const Vec3 h = unit(wo_ + wi);
     add_sheen(wi, h, e);
     add_coat(wi, h, e);
   } else if (wi.z < 0) {
     const Vec3 mirrored(wi.x, wi.y, -wi.z);
-    e.value *= side == Layers::Side::above ? passed_ : std::min(passed_, passed(mirrored));
+    const float out = coat_passed_ * sheen_passed_;
+    e.value *= side == Layers::Side::above ? out : std::min(out, passed(mirrored));
   }
   return e;
 }

@@ -26,9 +26,10 @@ struct Layers {
   Side side = Side::both;
 };
 
-/// What covers another lets pass what it does not reflect in all, to wo or from wi, whichever is
-/// less: so layers never return more than comes, and are reciprocal. Some of what facets turn aside
-/// is lost.
+/// A coat lets pass what it does not reflect in all to wo, as KHR_materials_clearcoat has it: no
+/// light is lost, and none is won, but wi and wo are no equals. Sheen lets pass what it does not
+/// reflect to wo or from wi, whichever is less, as KHR_materials_sheen has it; so do all layers
+/// where light goes through.
 class LayeredBsdf {
  public:
   /// wo.z > 0.
@@ -43,8 +44,10 @@ class LayeredBsdf {
   [[nodiscard]] Evaluation base(const Vec3& wi) const;
   void add_sheen(const Vec3& wi, const Vec3& h, Evaluation& e) const;
   void add_coat(const Vec3& wi, const Vec3& h, Evaluation& e) const;
-  /// The share of light that passes the coat, or all layers, to or from a direction above.
+  /// The share of light that passes the coat, the sheen, or all layers, to or from a direction
+  /// above.
   [[nodiscard]] float through_coat(const Vec3& w) const;
+  [[nodiscard]] float through_sheen(const Vec3& w) const;
   [[nodiscard]] float passed(const Vec3& w) const;
 
   std::variant<Bsdf, AnisotropicBsdf> base_;
@@ -55,8 +58,8 @@ class LayeredBsdf {
   Ggx coat_;
   GgxAlbedo coat_albedo_;
   Frame coat_frame_;
-  float passed_ = 1;                        // to wo
-  float sheen_share_ = 0, coat_share_ = 0;  // of samples
+  float coat_passed_ = 1, sheen_passed_ = 1;  // to wo
+  float sheen_share_ = 0, coat_share_ = 0;    // of samples
 };
 
 }  // namespace microtrace::bsdf
