@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 namespace microtrace {
 
@@ -29,7 +30,8 @@ class Framing {
  public:
   Framing(const View& view, ImageSize size);
 
-  /// Takes a scene's shapes, beside those of scenes before it: the poses of an animation, say.
+  /// Takes a scene's shapes, beside those of scenes before it: the poses of an animation, say. All
+  /// points that this class speaks of are in the first one's coordinates.
   void add(const Scene& scene);
 
   [[nodiscard]] PerspectiveCamera camera() const;
@@ -37,13 +39,16 @@ class Framing {
   /// The camera that looks at the target from so far away, whatever it sees. distance > 0.
   [[nodiscard]] PerspectiveCamera camera_around(const DVec3& target, double distance) const;
 
-  /// Of the bounding box; the origin where there is nothing.
+  /// Of the bounding box; (0, 0, 0) where there is nothing.
   [[nodiscard]] DVec3 center() const;
+
+  /// The first scene's origin.
+  [[nodiscard]] DVec3 origin() const { return origin_.value_or(DVec3(0)); }
 
  private:
   void add(const DVec3& point);
   template <class Support>
-  void add_support(const Support& support);
+  void add_support(const Support& support, const DVec3& shift);
 
   [[nodiscard]] bool is_empty() const { return !(low_.x <= high_.x); }
   [[nodiscard]] PerspectiveCamera camera_at(const DVec3& position) const;
@@ -56,6 +61,7 @@ class Framing {
   std::array<DVec3, 5> directions_;
   std::array<double, 5> reach_;
   DVec3 low_, high_;  // the bounding box
+  std::optional<DVec3> origin_;
 };
 
 [[nodiscard]] PerspectiveCamera frame(const Scene& scene, const View& view, ImageSize size);

@@ -66,15 +66,15 @@ Framing framing_for(const Viewpoint& viewpoint, ImageSize size) {
   return {viewpoint.orbit.value_or(OrbitView{}).view, size};
 }
 
-Camera camera_of(const Framing& framing, const Viewpoint& viewpoint) {
-  const DVec3 target = viewpoint.target.value_or(framing.center());
+PerspectiveCamera camera_of(const Framing& framing, const Viewpoint& viewpoint) {
+  const DVec3 target = viewpoint.target ? *viewpoint.target - framing.origin() : framing.center();
   if (viewpoint.orbit && viewpoint.orbit->distance)
     return framing.camera_around(target, *viewpoint.orbit->distance);
   if (!viewpoint.eye) return framing.camera();
-  const PerspectiveCamera camera{.pose = {.position = *viewpoint.eye,
-                                          .direction = target - *viewpoint.eye,
-                                          .up = viewpoint.up},
-                                 .vertical_fov = radians_from_degrees(viewpoint.vertical_fov)};
+  const DVec3 eye = *viewpoint.eye - framing.origin();
+  const PerspectiveCamera camera{
+      .pose = {.position = eye, .direction = target - eye, .up = viewpoint.up},
+      .vertical_fov = radians_from_degrees(viewpoint.vertical_fov)};
   if (const auto problem = validate(camera)) {
     const bool is_same = problem->field == "direction";
     throw Error(ErrorKind::usage, "",

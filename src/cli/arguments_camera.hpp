@@ -36,8 +36,9 @@ void finish_camera(const CLI::App& app, Viewpoint& viewpoint);
 /// What a camera that is none of the scene's is to see; scenes are then added.
 [[nodiscard]] Framing framing_for(const Viewpoint& viewpoint, ImageSize size);
 
-/// The camera that --view or --eye asks for, else the scenes framed. Throws Error (usage).
-[[nodiscard]] Camera camera_of(const Framing& framing, const Viewpoint& viewpoint);
+/// The camera that --view or --eye asks for, else the scenes framed, in the framing's coordinates.
+/// Throws Error (usage).
+[[nodiscard]] PerspectiveCamera camera_of(const Framing& framing, const Viewpoint& viewpoint);
 
 /// The camera that the options ask for, else the scene's default. Throws Error (usage) with the
 /// names there are.

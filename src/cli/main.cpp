@@ -47,9 +47,10 @@ LoadOptions load_options(const cli::Arguments& arguments) {
   return options;
 }
 
-/// The camera of all frames, which frames all poses, where it is none of the scene's.
-std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& arguments,
-                                 const cli::FrameRange& frames) {
+/// The camera of all frames, which frames all poses, where it is none of the scene's; in the
+/// world's coordinates.
+std::optional<PerspectiveCamera> framing_of(SceneFile& file, const cli::Arguments& arguments,
+                                            const cli::FrameRange& frames) {
   LoadedScene posed = file.at(frames.time(frames.first));
   const cli::Viewpoint& viewpoint = arguments.viewpoint;
   const bool has_own = !posed.scene.cameras.empty() || !viewpoint.camera.empty();
@@ -60,7 +61,9 @@ std::optional<Camera> framing_of(SceneFile& file, const cli::Arguments& argument
     posed = file.at(frames.time(frame));
     framing.add(posed.scene);
   }
-  return cli::camera_of(framing, viewpoint);
+  PerspectiveCamera camera = cli::camera_of(framing, viewpoint);
+  camera.pose.position += framing.origin();
+  return camera;
 }
 
 /// The file is read once.
@@ -74,7 +77,7 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   cli::settle(arguments, file.format());
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
-  std::optional<Camera> framing;
+  std::optional<PerspectiveCamera> framing;
   if (!arguments.validate) {
     cli::check_outputs(arguments, frame_path(output, frames.first),
                        frame_path(sidecar, frames.first));
@@ -90,7 +93,14 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     report(warnings, arguments);
     cli::surround(scene, environment, arguments.surroundings);
     const ImageSize size = arguments.size.value_or(scene.size);
-    const Camera camera = framing ? *framing : cli::choose_camera(scene, arguments.viewpoint, size);
+    Camera camera;
+    if (framing) {
+      PerspectiveCamera still = *framing;
+      still.pose.position -= scene.origin;
+      camera = still;
+    } else {
+      camera = cli::choose_camera(scene, arguments.viewpoint, size);
+    }
     watch.loaded(std::exchange(times, {}));
     if (arguments.validate) continue;
 

@@ -43,24 +43,26 @@ void Framing::add(const DVec3& point) {
 }
 
 template <class Support>
-void Framing::add_support(const Support& support) {
+void Framing::add_support(const Support& support, const DVec3& shift) {
   for (std::size_t k = 0; k < reach_.size(); ++k) {
-    reach_[k] = std::max(reach_[k], support(directions_[k]));
+    reach_[k] = std::max(reach_[k], support(directions_[k]) + glm::dot(directions_[k], shift));
   }
   for (glm::length_t axis = 0; axis < 3; ++axis) {
     DVec3 unit(0);
     unit[axis] = 1;
-    high_[axis] = std::max(high_[axis], support(unit));
-    low_[axis] = std::min(low_[axis], -support(-unit));
+    high_[axis] = std::max(high_[axis], support(unit) + shift[axis]);
+    low_[axis] = std::min(low_[axis], -support(-unit) + shift[axis]);
   }
 }
 
 void Framing::add(const Scene& scene) {
   const FloatEnvironment environment;
+  if (!origin_) origin_ = scene.origin;
+  const DVec3 shift = scene.origin - *origin_;
   for (const Object& object : scene.objects) {
     visit_extent(
-        object.shape, [this](const DVec3& point) { add(point); },
-        [this](const auto& support) { add_support(support); });
+        object.shape, [&](const DVec3& point) { add(point + shift); },
+        [&](const auto& support) { add_support(support, shift); });
   }
 }
 

@@ -18,13 +18,13 @@ sys.dont_write_bytecode = True
 from program import PROGRAM, ProgramTest
 
 
-def moving_square():
-    """A glTF file: a square of side 1 that moves from x = 0 to 4 in two seconds; then another animation, "up", in y."""
+def moving_square(start=0, way=4):
+    """A glTF file: a square of side 1 that moves from x = start by a way in two seconds; then another animation, "up", in y."""
     parts = [
         struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
         struct.pack("<6H", 0, 1, 2, 2, 1, 3),
         struct.pack("<2f", 0, 2),
-        struct.pack("<6f", 0, 0, 0, 4, 0, 0),
+        struct.pack("<6f", start, 0, 0, start + way, 0, 0),
         struct.pack("<6f", 0, 0, 0, 0, 4, 0),
     ]
     views, data = [], b""
@@ -185,6 +185,19 @@ class Animation(ProgramTest):
         self.assertTrue(0 < left[0] < 4, left)
         self.assertAlmostEqual(left[1] - left[0], 31, delta=1)
         self.assertAlmostEqual(left[2] - left[1], 31, delta=1)
+
+    def test_a_camera_stands_still_while_far_things_move(self):
+        asset = json.loads(moving_square(start=1e6, way=64))
+        asset["scenes"][0]["nodes"] = [0]
+        (self.folder / "move.gltf").write_text(json.dumps(asset))
+        for camera in (["--view", "front"], ["--view", "0,0,60", "--fov", "50", "--target", "1000032.5,0.5,0"],
+                       ["--eye", "1000032.5,0.5,60", "--fov", "50", "--target", "1000032.5,0.5,0"]):
+            self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", *camera).returncode, 0)
+            left = [lower_left((self.folder / f"move_000{k}.ppm").read_bytes())[0] for k in range(3)]
+            self.assertLess(left[0], 12, camera)
+            self.assertAlmostEqual(left[1], 39, delta=2)
+            self.assertAlmostEqual(left[2] - left[1], left[1] - left[0], delta=1)
+            self.assertGreater(left[2], 65)
 
     def test_progress_is_that_of_all_frames(self):
         result = self.frames("--frames", "0:9", "--progress", "json")
