@@ -45,6 +45,20 @@ struct Sample {
   float alpha = 0;  ///< the part of the background that is hidden: 0 none of it, 1 all
 };
 
+/// Rays by what they were for, and the seconds of processor time that they took in all threads.
+struct RayCounts {
+  struct Kind {
+    std::uint64_t rays = 0;
+    double seconds = 0;
+  };
+  Kind camera{};
+  Kind path{};               ///< on from surfaces
+  Kind shadow{};             ///< from surfaces to lights; with the seconds of what these meet
+  std::uint64_t beyond = 0;  ///< hits behind hits, where surfaces let paths or light through
+
+  RayCounts& operator+=(const RayCounts& other);
+};
+
 /// The most rays that an integrator is asked about at once, if its answers are random and if not.
 inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
 
@@ -66,6 +80,10 @@ class Integrator {
   /// Whether answers are random: then rays go through random places of their pixels too, and as
   /// many come at a time as can.
   [[nodiscard]] virtual bool is_random() const { return false; }
+
+  /// The rays of all calls of trace() so far; none where they are not counted. The numbers depend
+  /// on the picture alone, the seconds do not.
+  [[nodiscard]] virtual RayCounts ray_counts() const { return {}; }
 
   /// How 8-bit formats should show the finished film.
   [[nodiscard]] virtual Display display(const Film& /*film*/) const { return {}; }

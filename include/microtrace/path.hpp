@@ -27,6 +27,7 @@ class PathIntegrator final : public Integrator {
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;
   [[nodiscard]] bool is_random() const override { return true; }
+  [[nodiscard]] RayCounts ray_counts() const override;
   [[nodiscard]] Display display(const Film& /*film*/) const override {
     return {.tone_map = ToneMap::khronos_pbr_neutral};
   }

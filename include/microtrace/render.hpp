@@ -5,6 +5,7 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/render_cache.hpp>
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
@@ -30,6 +31,7 @@ struct RenderCounts {
   std::uint64_t samples = 0;            ///< camera rays traced, of all pixels
   std::uint64_t invalid_samples = 0;    ///< of random integrators, no numbers: counted as black
   std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
+  RayCounts rays{};                     ///< the integrator's, of all its pictures so far
 };
 
 /// How the samples around a pixel's centre weigh in its colour. They lie as dense as the filter is
@@ -76,6 +78,7 @@ struct RenderOptions {
   /// one.
   std::optional<Passes> passes{};
   RenderCounts* counts = nullptr;  ///< if given, set at the end
+  RenderCache* cache = nullptr;    ///< if given, spares work that an earlier picture did
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};
@@ -87,9 +90,9 @@ struct RenderOptions {
 };
 
 /// Colours by the integrator, over scene.background where it leaves some; rays hit only in
-/// (scene.epsilon, infinity). Threads, progress and times have no influence on the picture. Throws
-/// Error: usage where samples, passes, crop or aovs are not as above, an integrator of data is
-/// asked for more than one sample, or one that is not random for passes; limit where memory or
+/// (scene.epsilon, infinity). Threads, progress, times and cache have no influence on the picture.
+/// Throws Error: usage where samples, passes, crop or aovs are not as above, an integrator of data
+/// is asked for more than one sample, or one that is not random for passes; limit where memory or
 /// primitive numbers run out.
 [[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
                           const RenderOptions& options = {});

@@ -87,6 +87,7 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   const auto environment = cli::load_environment(arguments.surroundings, light_warnings);
   report(light_warnings, arguments);
   std::set<std::string> reported;
+  RenderCache cache;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
     auto [scene, warnings] = file.at(frames.time(frame));
     std::erase_if(warnings, [&](const Diagnostic& w) { return !reported.insert(w.text()).second; });
@@ -106,9 +107,10 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
 
     const cli::PictureFiles files{.picture = frame_path(output, frame),
                                   .sidecar = frame_path(sidecar, frame)};
-    cli::make_picture(std::move(scene), camera, size, arguments, files, watch, [&](double share) {
+    const auto tell = [&](double share) {
       if (progress) progress((frame - frames.first + share) / frames.count());
-    });
+    };
+    cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, tell);
   }
   if (arguments.validate)
     cli::print_valid(arguments.scene, reported.size() + light_warnings.size());
@@ -138,7 +140,8 @@ void run(cli::Arguments arguments) {
   std::optional<cli::SampleFiles> samples;
   if (arguments.sampling.keeps_samples())
     files.samples = &samples.emplace(arguments, digest->value());
-  cli::make_picture(std::move(scene), camera, size, arguments, files, watch,
+  RenderCache cache;
+  cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch,
                     cli::progress_of(arguments));
 }
 

@@ -55,7 +55,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 }
 
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                  const PictureFiles& files, Stopwatch& watch,
+                  const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
                   const std::function<void(double)>& progress) {
   if (arguments.verbose) tell_of_scene(arguments, scene, size);
   widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
@@ -71,6 +71,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .filter = arguments.sampling.filter,
       .seed = arguments.sampling.seed,
       .counts = &counts,
+      .cache = &cache,
       .crop = arguments.crop,
       .aovs = arguments.aovs.exact,
       .sampled_aovs = arguments.aovs.sampled,

@@ -30,7 +30,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 /// Draws a picture of a scene with the surroundings that the arguments ask for and writes it, with
 /// its sidecar if that has a name; of a shard the samples alone. Tells the watch.
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                  const PictureFiles& files, Stopwatch& watch,
+                  const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
                   const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

@@ -12,6 +12,28 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+void report_rays(const RayCounts& counts, bool is_json) {
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  const auto tell = [&](const char* name, const RayCounts::Kind& kind) {
+    if (is_json) {
+      std::fprintf(stderr, R"("%s": {"rays": %llu, "s": %.6f}, )", name, number(kind.rays),
+                   kind.seconds);
+    } else if (kind.rays > 0) {
+      std::fprintf(stderr, "  %-10s %llu in %.6f s, %.0f/s\n", name, number(kind.rays),
+                   kind.seconds, static_cast<double>(kind.rays) / kind.seconds);
+    }
+  };
+  if (is_json) std::fputs(R"(, "rays_by_kind": {)", stderr);
+  tell("camera", counts.camera);
+  tell("path", counts.path);
+  tell("shadow", counts.shadow);
+  if (is_json) {
+    std::fprintf(stderr, "\"beyond\": %llu}}\n", number(counts.beyond));
+  } else if (counts.beyond > 0) {
+    std::fprintf(stderr, "  beyond     %llu\n", number(counts.beyond));
+  }
+}
+
 }  // namespace
 
 double Stopwatch::lap() {
@@ -32,18 +54,17 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
           ? R"({"objects": %zu, "primitives": %zu, "width": %u, "height": %u, "threads": %u, )"
             R"("load_s": %.6f, "read_s": %.6f, "validate_s": %.6f, "bake_s": %.6f, )"
             R"("build_s": %.6f, "trace_s": %.6f, "render_s": %.6f, "write_s": %.6f, )"
-            R"("samples_per_pixel": %u, "rays": %.0f, )"
-            R"("rays_per_s": %.0f, "peak_memory_mib": %.1f})"
-            "\n"
+            R"("peak_memory_mib": %.1f, "samples_per_pixel": %u, "rays": %.0f, "rays_per_s": %.0f)"
           : "objects      %zu\nprimitives   %zu\npicture      %u x %u\nthreads      %u\n"
             "load         %.6f s\n  read       %.6f s\n  validate   %.6f s\n  bake       %.6f s\n"
             "build tree   %.6f s\ntrace        %.6f s\nrender       %.6f s\n"
-            "write        %.6f s\nsamples      %u a pixel\nrays         %.0f\n"
-            "rays/s       %.0f\npeak memory  %.1f MiB\n";
+            "write        %.6f s\npeak memory  %.1f MiB\nsamples      %u a pixel\n"
+            "rays         %.0f\nrays/s       %.0f\n";
   std::fprintf(stderr, format, scene.objects.size(), primitives, size.width, size.height, threads,
                load_, load_times_.read, load_times_.validate, load_times_.bake, times_.build,
-               times_.trace, render_, write_, counts.samples_per_pixel, rays, rays / render_,
-               peak_memory_mib());
+               times_.trace, render_, write_, peak_memory_mib(), counts.samples_per_pixel, rays,
+               rays / render_);
+  report_rays(counts.rays, kind == Statistics::json);
 }
 
 }  // namespace microtrace::cli

@@ -144,7 +144,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   std::optional<Lighting> lighting;
   if (integrator.is_random()) {
     world.shading = &shading.emplace(scene, bvh.primitives());
-    world.lighting = &lighting.emplace(scene, *shading);
+    world.lighting = &lighting.emplace(scene, *shading, options.cache);
   }
   Film film =
       make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
@@ -176,6 +176,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
                          .samples_per_pixel = options.samples};
     }
   }
+  if (options.counts != nullptr) options.counts->rays = integrator.ray_counts();
   film.display = integrator.display(film);
   if (options.times != nullptr)
     *options.times = {.build = seconds(start, built), .trace = seconds(built, Clock::now())};

@@ -279,6 +279,29 @@ class CommandLine(ProgramTest):
         self.assertEqual(numbers["threads"], 2)
         self.assertIn(b"rays/s", self.run_program(SCENE, "-o", "a.ppm", "--stats").stderr)
 
+    def test_rays_are_counted_by_kind(self):
+        def kinds(scene, *options):
+            result = self.run_program(scene, "-o", "a.ppm", "--size", "50x40", "--spp", "3", "--integrator", "path", "-q",
+                                      "--stats=json", *options)
+            return json.loads(result.stderr)["rays_by_kind"]
+
+        rays = lambda kinds: {name: kind["rays"] if name != "beyond" else kind for name, kind in kinds.items()}
+        ball, textures = self.folder / "ball.json", SOURCE / "scenes/gltf/textures.glb"
+        ball.write_text(json.dumps({"version": 1, "materials": {"matt": {}}, "objects": [
+            {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "matt"}]}))
+        for scene in (ball, textures):
+            self.assertEqual(rays(kinds(scene, "-t", "1")), rays(kinds(scene, "-t", "2")))
+        found = kinds(ball)
+        self.assertEqual(found["camera"]["rays"], 50 * 40 * 3)
+        for name in ("camera", "path", "shadow"):
+            self.assertGreater(found[name]["rays"], 0)
+            self.assertGreater(found[name]["s"], 0)
+        self.assertGreater(kinds(textures)["beyond"], 0)  # what is cut out lets rays through
+        short = rays(kinds(ball, "--max-depth", "1"))
+        self.assertEqual((short["path"], short["shadow"]), (0, 0))
+        text = self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--spp", "1", "--integrator", "path", "-q", "--stats").stderr
+        self.assertIn(b"\n  shadow ", text)
+
     def test_verbose_tells_what_is_drawn(self):
         result = self.run_program(SOURCE / "scenes/gltf/textures.glb", "-o", "a.ppm", "-v", "--integrator", "flat")
         self.assertEqual(result.returncode, 0, result.stderr)

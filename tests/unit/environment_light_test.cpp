@@ -281,6 +281,21 @@ TEST(EnvironmentLight, KeepsDimLightBesideASun) {
   EXPECT_NEAR(dim, 0.01 * 4 * kPi, 0.001 * 4 * kPi * 0.3);
 }
 
+TEST(RenderCache, KeepsTheTablesOfOneMap) {
+  RenderCache cache;
+  const Environment studio{.content = Studio{}};
+  const auto map = sunny_map(32, 16), other = sunny_map(32, 16);
+  const auto first = cache.tables_of({.content = map});
+  EXPECT_EQ(cache.tables_of({.content = map, .rotation = 1, .intensity = 3}), first);
+  EXPECT_NE(cache.tables_of({.content = other}), first);
+  const auto room = cache.tables_of(studio);
+  EXPECT_EQ(cache.tables_of(studio), room);
+  EXPECT_NE(cache.tables_of({.content = map}), room);
+  EXPECT_EQ(cache.tables_of({.content = map})->map, map);
+  const EnvironmentLight with({.content = map}, &cache), without({.content = map});
+  EXPECT_EQ(with.sample({0.3F, 0.6F}).wi, without.sample({0.3F, 0.6F}).wi);
+}
+
 TEST(Studio, IsGreyAndTheSameOnBothSides) {
   const EnvironmentLight light({.content = Studio{}});
   for_sphere(64, [&](const Vec3& d, double) {

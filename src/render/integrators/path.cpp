@@ -23,13 +23,32 @@ class PathIntegrator::Waves {
 
   void give(std::unique_ptr<Wave> wave) {
     const std::scoped_lock lock(mutex_);
+    counts_ += wave->take_counts();
     idle_.push_back(std::move(wave));
+  }
+
+  RayCounts counts() {
+    const std::scoped_lock lock(mutex_);
+    return counts_;
   }
 
  private:
   std::mutex mutex_;
+  RayCounts counts_{};
   std::vector<std::unique_ptr<Wave>> idle_;
 };
+
+RayCounts& RayCounts::operator+=(const RayCounts& other) {
+  const auto add = [](Kind& kind, const Kind& more) {
+    kind.rays += more.rays;
+    kind.seconds += more.seconds;
+  };
+  add(camera, other.camera);
+  add(path, other.path);
+  add(shadow, other.shadow);
+  beyond += other.beyond;
+  return *this;
+}
 
 PathIntegrator::PathIntegrator(const PathOptions& options)
     : options_(options), waves_(std::make_unique<Waves>()) {}
@@ -40,6 +59,10 @@ void PathIntegrator::trace(const World& world, std::span<const Ray> rays,
   std::unique_ptr<Wave> wave = waves_->take();
   wave->trace(world, options_, rays, ids, samples);
   waves_->give(std::move(wave));
+}
+
+RayCounts PathIntegrator::ray_counts() const {
+  return waves_->counts();
 }
 
 }  // namespace microtrace

@@ -23,32 +23,36 @@ void ShadowRays::Group::add(const Ray& ray, const Vec3& color, std::size_t slot,
 
 namespace {
 
-/// The share of the light that passes all that is before t_max or the target.
+/// The share of the light that passes all that is before t_max or the target; `beyond` counts the
+/// hits behind hits.
 float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::optional<Hit> hit,
-             const std::optional<PrimitiveId>& target) {
+             const std::optional<PrimitiveId>& target, std::uint64_t& beyond) {
   float passed = 1;
   while (hit && hit->id != target) {
     passed *= 1 - shading.coverage(shading.point(ray, *hit), false);
     if (passed == 0) return 0;
     hit = bvh.next(ray, *hit);
+    ++beyond;
   }
   return hit || !target ? passed : 0;
 }
 
 }  // namespace
 
-void ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
-                             std::span<Vec3> colors) {
+std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
+                                      std::span<Vec3> colors) {
+  std::uint64_t beyond = 0;
   std::array<std::optional<Hit>, kRandomBatch> hits;
   bvh.intersect(std::span(group.rays).first(group.count), std::span(hits).first(group.count));
   for (std::size_t i = 0; i < group.count; ++i) {
     colors[group.slots[i]] +=
-        passed(bvh, shading, group.rays[i], hits[i], group.targets[i]) * group.light[i];
+        passed(bvh, shading, group.rays[i], hits[i], group.targets[i], beyond) * group.light[i];
   }
   group.count = 0;
+  return beyond;
 }
 
-void ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
+std::uint64_t ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
   std::array<bool, kRandomBatch> occluded;
   bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
@@ -59,8 +63,8 @@ void ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> 
     }
   }
   free_.count = 0;
-  pass_layers(bvh, shading, met_, colors);
-  pass_layers(bvh, shading, aimed_, colors);
+  const std::uint64_t beyond = pass_layers(bvh, shading, met_, colors);
+  return beyond + pass_layers(bvh, shading, aimed_, colors);
 }
 
 }  // namespace microtrace

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -21,8 +22,11 @@ class ShadowRays {
   /// kRandomBatch.
   void add(const Vec3& origin, const LightSample& light, const Vec3& color, std::size_t slot);
 
-  /// Adds what arrives to the colours and forgets the rays.
-  void arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors);
+  [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
+
+  /// Adds what arrives to the colours and forgets the rays. Returns how many hits behind hits were
+  /// asked for.
+  std::uint64_t arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors);
 
  private:
   /// Those that end at a triangle that shines, or those that end nowhere else.
@@ -37,7 +41,8 @@ class ShadowRays {
              const std::optional<PrimitiveId>& target);
   };
 
-  void pass_layers(const Bvh& bvh, const Shading& shading, Group& group, std::span<Vec3> colors);
+  static std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
+                                   std::span<Vec3> colors);
 
   Group free_, aimed_;
   Group met_;  ///< of the free ones those that meet something that may let light through

@@ -4,6 +4,7 @@
 #include "scene/exponential.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -27,6 +28,20 @@ Vec3 transmittance(const Vec3& absorption, float distance) {
   }
   return left;
 }
+
+/// Counts rays, and the time until its end.
+class RayTimer {
+ public:
+  RayTimer(RayCounts::Kind& kind, std::size_t rays) : kind_(kind) { kind.rays += rays; }
+  ~RayTimer() { kind_.seconds += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  RayTimer(const RayTimer&) = delete;
+  RayTimer& operator=(const RayTimer&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  RayCounts::Kind& kind_;
+  Clock::time_point start_ = Clock::now();
+};
 
 }  // namespace
 
@@ -52,10 +67,14 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
   begin(world, rays, ids);
   max_depth_ = options.max_depth;
   for (; count_ > 0; ++step_.depth) {
-    world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
+    {
+      const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
+      world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
+    }
     step();
     count_ = departures_.set_off(world_->bvh, shadow_rays_, rays_, paths_);
-    shadow_rays_.arrive(world_->bvh, *shading_, colors_);
+    const RayTimer timer(counts_.shadow, shadow_rays_.count());
+    counts_.beyond += shadow_rays_.arrive(world_->bvh, *shading_, colors_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
@@ -120,6 +139,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
         step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
     if (coverage > 0 && path.sobol.one(number) < coverage) break;
     hit = world_->bvh.next(ray, *hit);
+    ++counts_.beyond;
   }
   if (path.absorption != Vec3(0))
     path.throughput *= transmittance(path.absorption, point.at.distance);

@@ -20,6 +20,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 namespace microtrace {
 
@@ -31,6 +32,9 @@ class Wave {
   /// Follows a path for each ray to its end; at most kRandomBatch.
   void trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
              std::span<const SampleId> ids, std::span<Sample> samples);
+
+  /// Of the rays since it was last called.
+  [[nodiscard]] RayCounts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
@@ -60,6 +64,7 @@ class Wave {
   [[nodiscard]] static Vec3 one_channel(const Vertex& vertex, const PathState& path);
 
   // Of the present batch:
+  RayCounts counts_{};
   const World* world_ = nullptr;
   const Shading* shading_ = nullptr;
   const Lighting* lighting_ = nullptr;

@@ -33,27 +33,40 @@ float part_of_turn(double radians) {
   return part < 1 ? part : 0;
 }
 
-std::shared_ptr<const RadianceMap> map_of(const Environment& environment) {
-  if (std::holds_alternative<Studio>(environment.content))
-    return std::make_shared<const RadianceMap>(make_studio());
-  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
-  return map != nullptr ? *map : nullptr;
+/// A uniform environment has none.
+std::shared_ptr<const MapTables> tables_of(const Environment& environment, RenderCache* cache) {
+  if (std::holds_alternative<Vec3>(environment.content)) return nullptr;
+  RenderCache own;
+  return (cache != nullptr ? *cache : own).tables_of(environment);
 }
 
 }  // namespace
 
-EnvironmentLight::EnvironmentLight(const Environment& environment)
-    : map_(map_of(environment)),
+RenderCache::RenderCache() = default;
+RenderCache::~RenderCache() = default;
+
+std::shared_ptr<const MapTables> RenderCache::tables_of(const Environment& environment) {
+  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  const bool is_same = map != nullptr ? last_ && last_->map == *map : is_studio_;
+  if (!is_same) {
+    last_ = std::make_shared<const MapTables>(
+        map != nullptr ? *map : std::make_shared<const RadianceMap>(make_studio()));
+    is_studio_ = map == nullptr;
+  }
+  return last_;
+}
+
+EnvironmentLight::EnvironmentLight(const Environment& environment, RenderCache* cache)
+    : tables_(tables_of(environment, cache)),
       intensity_(environment.intensity),
       turn_(part_of_turn(environment.rotation)),
       back_turn_(part_of_turn(-std::numbers::pi - environment.rotation)) {
-  if (map_) {
-    distribution_.emplace(*map_);
-    width_ = static_cast<float>(map_->width);
-    height_ = static_cast<float>(map_->height);
-    mean_luminance_ = static_cast<float>(distribution_->mean_luminance() * double{intensity_});
-    sampled_luminance_ =
-        static_cast<float>(distribution_->sampled_luminance() * double{intensity_});
+  if (tables_) {
+    const MapDistribution& distribution = tables_->distribution;
+    width_ = static_cast<float>(tables_->map->width);
+    height_ = static_cast<float>(tables_->map->height);
+    mean_luminance_ = static_cast<float>(distribution.mean_luminance() * double{intensity_});
+    sampled_luminance_ = static_cast<float>(distribution.sampled_luminance() * double{intensity_});
   } else {
     uniform_ = intensity_ * std::get<Vec3>(environment.content);
     mean_luminance_ = luminance(uniform_);
@@ -69,36 +82,36 @@ MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
   // Precise at the poles, as acos(y) is not.
   const float y = clamped(2 * height_ * atan2_turns(axis_range, d.y), height_) + 0.5F;
   const auto column = static_cast<std::uint32_t>(x), line = static_cast<std::uint32_t>(y);
-  return {.column = column < map_->width ? column : 0,
+  return {.column = column < tables_->map->width ? column : 0,
           .line = line,
           .x = x - static_cast<float>(column),
           .y = y - static_cast<float>(line)};
 }
 
 EnvironmentLight::Look EnvironmentLight::look(const Vec3& direction) const {
-  if (!map_) return {.radiance = uniform_, .pdf = kUniformPdf};
+  if (!tables_) return {.radiance = uniform_, .pdf = kUniformPdf};
   const float axis_range = axis_range_of(direction);
   const MapPlace place = place_of(direction, axis_range);
-  const auto corners = corners_of(*map_, place);
+  const auto corners = corners_of(*tables_->map, place);
   return {.radiance = intensity_ * bilinear(corners, place.x, place.y),
-          .pdf = distribution_->density(place, corners, axis_range)};
+          .pdf = tables_->distribution.density(place, corners, axis_range)};
 }
 
 Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
-  if (!map_) return uniform_;
+  if (!tables_) return uniform_;
   const MapPlace place = place_of(direction, axis_range_of(direction));
-  return intensity_ * bilinear(corners_of(*map_, place), place.x, place.y);
+  return intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y);
 }
 
 EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
-  if (!map_) {
+  if (!tables_) {
     const float h = u.y, r = 2 * std::sqrt(h * (1 - h));
     const SineCosine angle = sin_cos_turns(u.x);
     return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
             .radiance = uniform_,
             .pdf = kUniformPdf};
   }
-  const MapDistribution::Point point = distribution_->sample(u);
+  const MapDistribution::Point point = tables_->distribution.sample(u);
   const MapPlace& place = point.place;
   const float column = static_cast<float>(place.column) + (place.x - 0.5F);
   float turns = column / width_ + back_turn_;  // in [-1/2, 2]
@@ -106,7 +119,7 @@ EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
   turns += chosen(turns < 0, 1, 0);
   const SineCosine angle = sin_cos_turns(turns);
   return {.wi = {point.axis_range * angle.cosine, point.height, point.axis_range * angle.sine},
-          .radiance = intensity_ * bilinear(corners_of(*map_, place), place.x, place.y),
+          .radiance = intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y),
           .pdf = point.density};
 }
 

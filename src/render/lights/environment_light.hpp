@@ -5,23 +5,33 @@
 
 #include <microtrace/environment.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/render_cache.hpp>
 
 #include <memory>
-#include <optional>
+#include <utility>
 
 namespace microtrace {
+
+/// A map and how it is sampled.
+struct MapTables {
+  std::shared_ptr<const RadianceMap> map;
+  MapDistribution distribution;
+
+  explicit MapTables(std::shared_ptr<const RadianceMap> m)
+      : map(std::move(m)), distribution(*map) {}
+};
 
 /// Directions are world space, of about unit length, and lead away from what is lit. Made once for
 /// a picture; any number of threads may ask.
 class EnvironmentLight {
  public:
-  explicit EnvironmentLight(const Environment& environment);
+  explicit EnvironmentLight(const Environment& environment, RenderCache* cache = nullptr);
 
   /// Linear Rec. 709, W / (sr m^2) or cd / m^2 as the environment has it.
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;
 
   /// The same from everywhere: sampling it has no use beside sampling the surface.
-  [[nodiscard]] bool is_uniform() const { return !distribution_; }
+  [[nodiscard]] bool is_uniform() const { return !tables_; }
 
   struct Sample {
     Vec3 wi;
@@ -47,9 +57,8 @@ class EnvironmentLight {
   [[nodiscard]] MapPlace place_of(const Vec3& direction, float axis_range) const;
 
   Vec3 uniform_{0};
-  std::shared_ptr<const RadianceMap> map_{};  ///< null: uniform_
-  std::optional<MapDistribution> distribution_{};
-  float width_ = 0, height_ = 0;  ///< of the map
+  std::shared_ptr<const MapTables> tables_{};  ///< null: uniform_
+  float width_ = 0, height_ = 0;               ///< of the map
   float intensity_;
   float turn_;       ///< added to a direction's longitude, in [0, 1)
   float back_turn_;  ///< added to u of the map for a longitude, in [0, 1)

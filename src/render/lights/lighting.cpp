@@ -31,11 +31,12 @@ bool shines_back(const Material& material) {
 
 }  // namespace
 
-Lighting::Lighting(const Scene& scene, const Shading& shading) : scene_(scene), shading_(shading) {
+Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cache)
+    : scene_(scene), shading_(shading) {
   if (scene.environment) {
-    environment_.emplace(*scene.environment);
+    environment_.emplace(*scene.environment, cache);
   } else if (scene.lights.empty()) {
-    environment_.emplace(Environment{.content = Studio{}});
+    environment_.emplace(Environment{.content = Studio{}}, cache);
   }
   std::vector<LightBounds> bounds;
   add_surfaces(bounds);

@@ -25,8 +25,9 @@ struct Receiver {
 /// Made once for a picture; any number of threads may ask it.
 class Lighting {
  public:
-  /// All must outlive this. A scene with neither lights nor an environment gets the studio.
-  Lighting(const Scene& scene, const Shading& shading);
+  /// Scene and shading must outlive this. A scene with neither lights nor an environment gets the
+  /// studio.
+  Lighting(const Scene& scene, const Shading& shading, RenderCache* cache = nullptr);
 
   /// Light chosen at random for a point: `choice` says which, u where on it. Nothing if there is
   /// none to be chosen: what a uniform environment sends is found as soon by paths that meet it.
