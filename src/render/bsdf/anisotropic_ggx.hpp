@@ -13,25 +13,17 @@
 
 namespace microtrace::bsdf {
 
+class AnisotropicGgxAlbedo;
+
 class AnisotropicGgx {
  public:
+  using DirectionalAlbedo = AnisotropicGgxAlbedo;
+
   /// As KHR_materials_anisotropy has it: `along`, of unit length, is the direction of the rougher
   /// alpha, which strength leads from that of the roughness to 1.
   AnisotropicGgx(float roughness, float strength, const Vec2& along)
       : along_(along), across_alpha_(Ggx(roughness).alpha()) {
     alpha_ = across_alpha_ + (1 - across_alpha_) * strength * strength;
-  }
-
-  /// That of the root mean square of both alphas: for light to or from near the normal it returns
-  /// as much, within 0.04.
-  [[nodiscard]] float mean_roughness() const {
-    return std::sqrt(std::sqrt((alpha_ * alpha_ + across_alpha_ * across_alpha_) / 2));
-  }
-
-  /// 1 for equal alphas, 1/2 for greatly different ones: so much of what mean_roughness() says is
-  /// lost is lost at least in any direction.
-  [[nodiscard]] float evenness() const {
-    return 1 - 0.5F * (alpha_ - across_alpha_) / (alpha_ + across_alpha_);
   }
 
   [[nodiscard]] float distribution(const Vec3& h) const {
@@ -58,6 +50,15 @@ class AnisotropicGgx {
   [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {
     const Vec3 h = bsdf::visible_normal(alpha_, across_alpha_, turned(wo), u);
     return {along_.x * h.x - along_.y * h.y, along_.y * h.x + along_.x * h.y, h.z};
+  }
+
+  /// Of the slopes along, across and towards the azimuth of w.
+  [[nodiscard]] float along_alpha() const { return alpha_; }
+  [[nodiscard]] float across_alpha() const { return across_alpha_; }
+  [[nodiscard]] float alpha(const Vec3& w) const {
+    const Vec3 v = turned(w);
+    const float x = v.x * alpha_, y = v.y * across_alpha_, square = v.x * v.x + v.y * v.y;
+    return square > 0 ? std::sqrt((x * x + y * y) / square) : alpha_;
   }
 
  private:

@@ -33,10 +33,14 @@ inline Vec3 visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const V
   return h / std::sqrt(glm::dot(h, h));
 }
 
+class GgxAlbedo;
+
 /// Isotropic. With z = cos(theta): root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) occurs in all of
 /// masking: G1(z) = 2 z / (z + root(z)).
 class Ggx {
  public:
+  using DirectionalAlbedo = GgxAlbedo;
+
   explicit Ggx(float roughness)
       : alpha_(std::max(roughness * roughness, kLeastAlpha)), square_(alpha_ * alpha_) {}
 
@@ -87,7 +91,8 @@ struct Albedo {
 /// Directional albedos for one roughness.
 class GgxAlbedo {
  public:
-  explicit GgxAlbedo(const Ggx& ggx) : alpha_(ggx.alpha()), row_(std::sqrt(alpha_)) {}
+  explicit GgxAlbedo(const Ggx& ggx) : GgxAlbedo(ggx.alpha()) {}
+  explicit GgxAlbedo(float alpha) : alpha_(alpha), row_(std::sqrt(alpha)) {}
 
   /// Of light to or from z = cos(theta), in [0, 1].
   [[nodiscard]] Albedo at(float z) const {
@@ -97,6 +102,10 @@ class GgxAlbedo {
             .edge = row_.mixed(edge.mixed(kEdgeAlbedo[row_.first]),
                                edge.mixed(kEdgeAlbedo[row_.first + 1]))};
   }
+
+  // By directions, as AnisotropicGgxAlbedo has them.
+  [[nodiscard]] Albedo at(const Vec3& w) const { return at(w.z); }
+  [[nodiscard]] Albedo around(float z) const { return at(z); }
 
   /// The cosine-weighted mean of all directions.
   [[nodiscard]] Albedo mean() const {

@@ -32,8 +32,8 @@ class Scattering {
 
   static Model model(const Parameters& parameters, const std::optional<Layers>& layers,
                      const Vec3& wo) {
-    if (!layers && parameters.anisotropy == 0) return Bsdf(parameters, wo);
-    return LayeredBsdf(parameters, layers.value_or(Layers{}), wo);
+    if (!layers && parameters.is_plain()) return Bsdf(parameters, wo);
+    return LayeredBsdf(parameters, layers, wo);
   }
 
   Model model_;

@@ -1,0 +1,205 @@
+// In a room that shines white from everywhere, what absorbs nothing shows no different from the
+// room, and nothing shows brighter.
+
+#include "render/bsdf/scattering.hpp"
+#include "render/sampling/sobol.hpp"
+#include "support/direction_density.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace microtrace::bsdf {
+namespace {
+
+/// The share of white light from all around that goes to wo.
+DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Vec3& wo,
+              std::uint32_t samples) {
+  const Scattering bsdf(p, layers, wo);
+  DVec3 sum(0);
+  for (std::uint32_t k = 0; k < samples; ++k) {
+    const sampling::Sobol sobol(7, k);
+    if (const auto s = bsdf.sample(sobol.pair(0), sobol.one(1))) sum += DVec3(s->weight);
+  }
+  return sum / double(samples);
+}
+
+/// With what is left of the samples' noise.
+constexpr double kMost = 1.003;
+
+/// All but `loss` of the light comes back at any angle and roughness.
+void expect_white(const char* what, Parameters p, const std::optional<Layers>& layers, double loss,
+                  double azimuth = 0.3, double most = kMost) {
+  for (const float roughness : {0.05F, 0.25F, 0.45F, 0.7F, 1.0F}) {
+    p.roughness = roughness;
+    for (const double theta : {0.05, 0.5, 0.9, 1.2, 1.4, 1.5}) {
+      // Of few samples, first.
+      const Vec3 wo = direction(theta, azimuth);
+      double white = furnace(p, layers, wo, 1U << 14U).x;
+      if (white < 1 - loss || white > 1.001) white = furnace(p, layers, wo, 1U << 17U).x;
+      const std::string place =
+          std::string(what) + " " + std::to_string(roughness) + " " + std::to_string(theta);
+      EXPECT_GT(white, 1 - loss) << place;
+      EXPECT_LT(white, most) << place;
+    }
+  }
+}
+
+const Parameters kMetal{.base_color = Vec3(1), .metallic = 1};
+const Parameters kWhite{.base_color = Vec3(1)};
+
+TEST(Furnace, ClearCoat) {
+  for (const float roughness : {0.0F, 0.2F, 0.6F}) {
+    for (const float coat : {0.5F, 1.0F}) {
+      const Layers layers{.coat = coat, .coat_roughness = roughness};
+      expect_white("coat on metal", kMetal, layers, 0.004);
+      expect_white("coat on a dielectric", kWhite, layers, 0.004);
+    }
+  }
+}
+
+TEST(Furnace, Sheen) {
+  for (const float roughness : {0.3F, 0.6F, 1.0F}) {
+    const Layers layers{.sheen = Vec3(1), .sheen_roughness = roughness};
+    expect_white("sheen on metal", kMetal, layers, 0.006);
+    expect_white("sheen on a dielectric", kWhite, layers, 0.006);
+  }
+  for (const float roughness : {0.0F, 0.1F, 0.2F}) {
+    const Layers layers{.sheen = Vec3(1), .sheen_roughness = roughness};
+    expect_white("smooth sheen", kWhite, layers, 0.04);
+  }
+}
+
+TEST(Furnace, ThinWall) {
+  Parameters wall = kWhite;
+  for (const float transmission : {0.5F, 1.0F}) {
+    wall.transmission = transmission;
+    expect_white("thin wall", wall, {}, 0.004);
+    wall.film = ThinFilm{};
+    if (transmission == 1) expect_white("thin wall under a film", wall, {}, 0.004);
+    wall.film.reset();
+  }
+  wall.diffuse_transmission = 0.5F;
+  expect_white("paper", wall, {}, 0.004);
+}
+
+TEST(Furnace, Glass) {
+  Parameters glass = kWhite;
+  glass.transmission = 1;
+  for (const float ior : {1.1F, 1.33F, 1.5F, 1.8F, 2.4F}) {
+    const float r = (ior - 1) / (ior + 1);
+    glass.dielectric.f0 = Vec3(r * r);
+    glass.eta = ior;
+    expect_white("glass", glass, {}, 0.01);
+    glass.eta = 1 / ior;
+    expect_white("glass from within", glass, {}, 0.02);
+  }
+  glass.eta = 1.0F;
+  glass.dielectric = {.f0 = Vec3(0), .f90 = 0};
+  expect_white("a body of air", glass, {}, 0.02);
+}
+
+TEST(Furnace, Anisotropic) {
+  Parameters metal = kMetal, dielectric = kWhite, wall = kWhite;
+  for (const float strength : {0.3F, 0.6F, 0.8F}) {
+    for (const double azimuth : {0.0, 0.7, 1.5}) {
+      metal.anisotropy = dielectric.anisotropy = wall.anisotropy = strength;
+      wall.transmission = 1;
+      expect_white("brushed metal", metal, {}, 0.02, azimuth);
+      expect_white("brushed dielectric", dielectric, {}, 0.2, azimuth, 1.01);
+      expect_white("brushed wall", wall, {}, 0.02, azimuth);
+    }
+  }
+}
+
+/// Any material, and more often than not at a corner of what is allowed.
+class AnyMaterial {
+ public:
+  explicit AnyMaterial(unsigned seed) : random_(seed) {}
+
+  float number() { return std::uniform_real_distribution<float>(0, 1)(random_); }
+  bool chance(float p) { return number() < p; }
+  float factor() { return chance(0.4F) ? static_cast<float>(chance(0.5F)) : number(); }
+  Vec3 color() { return chance(0.5F) ? Vec3(1) : Vec3(factor(), factor(), factor()); }
+
+  Parameters parameters() {
+    Parameters p{
+        .base_color = color(), .metallic = chance(0.4F) ? 0 : factor(), .roughness = factor()};
+    const float ior = chance(0.2F) ? 1 : 1 + 1.5F * number(), r = (ior - 1) / (ior + 1);
+    const float specular = chance(0.6F) ? 1 : factor();
+    const Vec3 tint = chance(0.6F) ? Vec3(1) : 5.0F * Vec3(number(), number(), number());
+    p.dielectric = {.f0 = glm::min(r * r * tint, Vec3(1)) * specular, .f90 = specular};
+    if (chance(0.5F)) p.transmission = factor();
+    if (p.transmission > 0 && chance(0.5F)) p.eta = chance(0.5F) ? ior : 1 / ior;
+    if (chance(0.2F)) p.diffuse_transmission = factor();
+    if (chance(0.3F)) p.anisotropy = factor();
+    const double turn = 6.28 * number();
+    p.along = Vec2(std::cos(turn), std::sin(turn));
+    if (chance(0.3F))
+      p.film =
+          ThinFilm{.share = number(), .ior = 1 + 1.5F * number(), .thickness = 1000 * number()};
+    return p;
+  }
+
+  std::optional<Layers> layers(const Parameters& base) {
+    if (chance(0.5F)) return std::nullopt;
+    Layers l;
+    if (chance(0.6F)) l.coat = factor();
+    if (chance(0.6F)) l.sheen = color();
+    l.coat_roughness = factor();
+    l.sheen_roughness = factor();
+    if (chance(0.3F)) l.coat_normal = direction(0.5 * number(), 6.28 * number());
+    if (base.eta) l.side = *base.eta > 1 ? Layers::Side::above : Layers::Side::below;
+    return l;
+  }
+
+  Vec3 above() { return direction(std::min(std::acos(number()), 1.56F), 6.28 * number()); }
+
+ private:
+  std::mt19937 random_;
+};
+
+TEST(Furnace, NothingReturnsMoreThanComes) {
+  AnyMaterial any(1);
+  for (int i = 0; i < 1500; ++i) {
+    const Parameters p = any.parameters();
+    auto layers = any.layers(p);
+    const Vec3 wo = any.above();
+    if (layers && !(glm::dot(layers->coat_normal, wo) > 0.01F)) layers->coat_normal = {0, 0, 1};
+    DVec3 sum = furnace(p, layers, wo, 1U << 11U);
+    if (std::max({sum.x, sum.y, sum.z}) > kMost) sum = furnace(p, layers, wo, 1U << 17U);
+    // Of facets that are longer one way and of films, bounds are not strict.
+    const double bound = p.anisotropy > 0 || p.film ? 1.01 : kMost;
+    for (int c = 0; c < 3; ++c)
+      EXPECT_LT(sum[c], bound) << i << ": " << p.roughness << ' ' << p.metallic << ' '
+                               << p.transmission << ' ' << p.eta.value_or(0) << ' ' << p.anisotropy
+                               << ' ' << (p.film ? p.film->share : 0) << ' ' << wo.z;
+  }
+}
+
+// Densities of random materials integrate to one at most.
+TEST(Furnace, DensitiesAreThoseOfTheSamples) {
+  AnyMaterial any(2);
+  std::mt19937 random(3);
+  for (int i = 0; i < 40; ++i) {
+    Parameters p = any.parameters();
+    p.roughness = 0.35F + 0.65F * p.roughness;
+    // Where nothing is bent, cells are too wide.
+    if (p.eta) p.eta = *p.eta > 1 ? std::max(*p.eta, 1.2F) : std::min(*p.eta, 0.8F);
+    auto layers = any.layers(p);
+    if (layers) layers->coat_roughness = 0.35F + 0.65F * layers->coat_roughness;
+    const Vec3 wo = direction(0.9F * any.number());
+    const DensityTest test =
+        test_density(Scattering(p, layers, wo),
+                     {.rows = 16, .columns = 12, .fine = 32, .samples = 50'000}, random);
+    EXPECT_LT(test.mass, 1.003) << i;
+    EXPECT_LT(test.excess, 5) << i;
+  }
+}
+
+}  // namespace
+}  // namespace microtrace::bsdf
