@@ -145,6 +145,21 @@ TEST(DecodeImage, WebpLosslessAndLossy) {
   EXPECT_FALSE(decode_image(kLosslessWebp.substr(0, 50)).image);
 }
 
+// libwebp would take what follows for a picture without container, of any size.
+TEST(DecodeImage, WebpWithoutAPictureIsRefusedBeforeMemoryIsTaken) {
+  const auto made = [](std::string_view kind) {
+    std::string file = kLosslessWebp;
+    file.replace(12, 4, kind);
+    return decode_image(file);
+  };
+  EXPECT_TRUE(made("VP8L").image);
+  EXPECT_FALSE(made("/P8X").image);
+  EXPECT_THAT(made("/P8X").complaint, HasSubstr("header is damaged"));
+  EXPECT_THAT(decode_image(kLosslessWebp.substr(0, 14)).complaint, HasSubstr("header is damaged"));
+  const std::string found = gltf::decode_base64("UklGRj4BAABXRUJQL1A4WAoAAAA6AAAAEQAACgAA").value();
+  EXPECT_THAT(decode_image(found).complaint, HasSubstr("header is damaged"));
+}
+
 TEST(DecodeImage, OtherFilesAreNone) {
   EXPECT_THAT(decode_image("GIF89a").complaint, HasSubstr("neither PNG, JPEG nor WebP"));
   EXPECT_FALSE(decode_image("").image);

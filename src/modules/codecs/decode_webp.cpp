@@ -1,8 +1,20 @@
 #include "modules/codecs/codecs.hpp"
 
+#include <string_view>
 #include <webp/decode.h>
 
 // libwebp's decoder is integer arithmetic, and its SIMD code gives the samples of the plain one.
+
+namespace {
+
+/// RFC 9649, sections 2.5 to 2.7. Of other first chunks libwebp takes what follows for a picture
+/// without container, of whatever size its first bytes come to.
+bool begins_with_a_picture(std::string_view bytes) {
+  const std::string_view kind = bytes.substr(12, 4);
+  return kind == "VP8 " || kind == "VP8L" || kind == "VP8X";
+}
+
+}  // namespace
 
 int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink) {
   WebPBitstreamFeatures features{};
@@ -10,7 +22,9 @@ int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceIm
     sink.complain(sink.context, reason);
     return 0;
   };
-  if (WebPGetFeatures(bytes, size, &features) != VP8_STATUS_OK) {
+  const std::string_view file(reinterpret_cast<const char*>(bytes), size);
+  if (size < 16 || !begins_with_a_picture(file) ||
+      WebPGetFeatures(bytes, size, &features) != VP8_STATUS_OK) {
     return fail("the WebP header is damaged");
   }
   if (features.has_animation != 0) return fail("is an animation, which textures can't be");
