@@ -193,9 +193,11 @@ TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
   expect_header(kLossyWebp, ImageFormat::webp, 4, 3);
   EXPECT_EQ(read_image_header("BM").format, ImageFormat::unknown);
   for (const std::string_view nonsense :
-       {"\xFF\xD8\xFF\xD9\0\0"sv, "\xFF\xD8\xFF\xDA\0\0"sv, "\x89PNG\r\n\x1a\n\0\0\0\x0dIDAT"sv}) {
+       {"\xFF\xD8\xFF\xD9\0\0"sv, "\xFF\xD8\xFF\xDA\0\0"sv, "\xFF\xD8\xFF\0\0\0\0\0"sv,
+        "\x89PNG\r\n\x1a\n\0\0\0\x0dIDAT"sv}) {
     EXPECT_EQ(read_image_header(nonsense).state, ImageHeader::State::damaged);
   }
+  EXPECT_EQ(read_image_header(kJpeg.substr(0, 30)).state, ImageHeader::State::cut_off);
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ std::optional<Size> png_size(std::string_view bytes) {
 }
 
 /// JPEG (ITU-T T.81), annex B: segments follow each other up to the frame header, SOFn. Bytes
-/// between them are passed over as libjpeg does it.
+/// between them are passed over as libjpeg does it, but where the first is no segment and none is a
+/// frame it is nonsense.
 std::optional<Size> jpeg_size(std::string_view bytes) {
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
     const std::uint32_t marker = byte(bytes, at + 1);
@@ -58,6 +59,7 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
     const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
     at += alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U);
   }
+  if (bytes.size() > 3 && byte(bytes, 3) == 0) return no_size;
   return std::nullopt;
 }
 
