@@ -12,6 +12,7 @@ struct Parabola {
 
   Parabola(float x, std::size_t n) {
     const float step = x * static_cast<float>(n - 1);
+    // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const auto nearest = static_cast<std::size_t>(step + 0.5F);
     first = std::min(std::max(nearest, std::size_t{1}) - 1, n - 3);
     const float p = step - static_cast<float>(first);

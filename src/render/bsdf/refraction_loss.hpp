@@ -47,7 +47,8 @@ class RefractionLoss {
     return mixed(outside_, std::sqrt(z) * (kLossColumns - 1));
   }
   [[nodiscard]] float within(float z) const {
-    constexpr float half = (kLossColumns - 1) / 2;
+    constexpr std::size_t middle = (kLossColumns - 1) / 2;
+    constexpr auto half = static_cast<float>(middle);
     if (z < critical_) return mixed(within_, half * std::sqrt(z / critical_));
     return mixed(within_, half + half * std::sqrt((z - critical_) / (1 - critical_)));
   }
