@@ -142,6 +142,24 @@ TEST(Invariance, FarFromTheOriginExactQuantitiesStay) {
   }
 }
 
+// An integrator that has drawn lamps draws a scene without any as if it had not.
+TEST(Invariance, LightOfAnotherSceneIsForgotten) {
+  Scene lit = blocks(Vec3(0)), unlit = lit;
+  lit.lights.push_back(
+      {.name = "lamp", .light = PointLight{.position = {0, 15, 9}, .intensity = 500}});
+  unlit.materials[2].emissive = Vec3(0);
+  const PerspectiveCamera camera{
+      .pose = {.position = {6, 14, 32}, .direction = {-6, -11, -32}, .up = {0, 1, 0}}};
+  const ImageSize size{.width = 32, .height = 24};
+  const PathIntegrator used, fresh;
+  const auto pixels = [&](const Scene& scene, const PathIntegrator& path) {
+    return pixels_of(
+        render(scene, camera, size, {.threads = 1, .integrator = &path, .samples = 4}));
+  };
+  ASSERT_NE(pixels(lit, used), pixels(unlit, fresh));
+  EXPECT_EQ(pixels(unlit, used), pixels(unlit, fresh));
+}
+
 // Lamps, a map, blending, smooth and rough surfaces: any number of threads and any window.
 TEST(Invariance, ThreadsAndCropsKeepAllBytes) {
   Scene scene = blocks(Vec3(0));

@@ -35,6 +35,12 @@ ScatterSetup scatter_setup(const WaveStep& step) {
 
 PlainVertices::PlainVertices() : kernels_(&best_shading_kernels()) {}
 
+void PlainVertices::begin(const Lighting& lighting) {
+  lighting_ = &lighting;
+  // Where no light is asked, none may be left over from another scene.
+  std::memset(scatter_.light, 0, sizeof scatter_.light);
+}
+
 void PlainVertices::add(const WaveStep& step, const Shading& shading, const Ray& ray,
                         const Hit& hit, const ShadingPoint& point, const PathState& path,
                         Departures& departures) {

@@ -22,7 +22,7 @@ class PlainVertices {
  public:
   PlainVertices();
 
-  void begin(const Lighting& lighting) { lighting_ = &lighting; }
+  void begin(const Lighting& lighting);
 
   /// All of a step are on shading.is_plain(); `path` and `ray` stay until finish().
   void add(const WaveStep& step, const Shading& shading, const Ray& ray, const Hit& hit,
