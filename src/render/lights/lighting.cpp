@@ -24,11 +24,6 @@ double area_of(const Triangle& t) {
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
-/// Whether the back shines, as Shading::emission() has it.
-bool shines_back(const Material& material) {
-  return material.double_sided || encloses_medium(material);
-}
-
 }  // namespace
 
 Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cache)
@@ -95,7 +90,7 @@ void Lighting::add_triangle(PrimitiveId id, const Triangle& t, std::vector<Light
                     .high = glm::max(t.a, glm::max(t.b, t.c)),
                     .power = power,
                     .cone = {.axis = middle.at.n},
-                    .two_sided = shines_back(*middle.look->material)});
+                    .two_sided = has_back(*middle.look->material)});
 }
 
 void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBounds>& bounds) {
@@ -104,7 +99,7 @@ void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBo
   const ShadingPoint point = shading_.point_on(id, Vec3(0), true, 0);
   light->power *= luminance(shading_.emission(point));
   if (!(light->power > 0)) return;
-  light->two_sided = shines_back(*point.look->material);
+  light->two_sided = has_back(*point.look->material);
   emitters_.push_back({.id = id, .shape = &shape});
   bounds.push_back(*light);
 }

@@ -24,13 +24,11 @@ float head_on_reflectance(float ior) {
 /// Whether light passes the back whatever it is: thin glass that is one-sided is one wall to a path
 /// that goes in and out, not two, as it is to an eye.
 bool has_open_back(const Material& m) {
-  return !m.double_sided && m.transmission && !encloses_medium(m);
+  return m.transmission && !has_back(m);
 }
 
-/// The back of what is one-sided, unless it encloses a medium and is seen from within.
 bool is_missing_back(const ShadingPoint& point) {
-  const Material& material = *point.look->material;
-  return !point.at.front && !material.double_sided && !encloses_medium(material);
+  return !point.at.front && !has_back(*point.look->material);
 }
 
 /// KHR_materials_dispersion: of red, green and blue.

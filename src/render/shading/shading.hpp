@@ -68,6 +68,11 @@ struct ShadingPoint {
   return m.transmission && m.volume && m.volume->thickness > 0;
 }
 
+/// Whether the material has a back to be seen: from behind, or from within what it encloses.
+[[nodiscard]] inline bool has_back(const Material& m) {
+  return m.double_sided || encloses_medium(m);
+}
+
 class TextureMaps;
 
 /// Made once for a picture; any number of threads may ask it.
