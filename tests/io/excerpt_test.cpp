@@ -1,5 +1,7 @@
 #include "io/json/excerpt.hpp"
 
+#include "base/printable.hpp"
+
 #include <string>
 
 #include <gmock/gmock.h>

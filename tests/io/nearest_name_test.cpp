@@ -1,4 +1,4 @@
-#include "io/json/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
 #include <array>
 #include <string>

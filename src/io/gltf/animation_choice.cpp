@@ -1,6 +1,6 @@
+#include "base/printable.hpp"
 #include "io/gltf/animations.hpp"
 #include "io/gltf/index_text.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <string>

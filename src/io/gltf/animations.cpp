@@ -1,8 +1,8 @@
 #include "io/gltf/animations.hpp"
 
+#include "base/printable.hpp"
 #include "io/gltf/extension.hpp"
 #include "io/gltf/index_text.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <array>

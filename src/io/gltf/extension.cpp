@@ -1,6 +1,6 @@
 #include "io/gltf/extension.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 
 #include <cmath>
 #include <string>

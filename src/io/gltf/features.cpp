@@ -1,6 +1,6 @@
 #include "io/gltf/features.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
 #include "io/gltf/images.hpp"
 
+#include "base/printable.hpp"
 #include "io/gltf/resource.hpp"
 #include "io/gltf/uri.hpp"
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
-#include "io/json/excerpt.hpp"
 #include "scene/material_textures.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #include "io/gltf/resource.hpp"
 
+#include "base/printable.hpp"
 #include "io/file.hpp"
 #include "io/gltf/uri.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <system_error>

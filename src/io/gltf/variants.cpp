@@ -1,7 +1,7 @@
 #include "io/gltf/variants.hpp"
 
+#include "base/printable.hpp"
 #include "io/gltf/extension.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <cstddef>

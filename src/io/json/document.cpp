@@ -1,5 +1,6 @@
 #include "io/json/document.hpp"
 
+#include "base/printable.hpp"
 #include "io/json/excerpt.hpp"
 #include "io/json/syntax.hpp"
 #include "io/json/token.hpp"

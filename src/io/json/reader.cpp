@@ -1,7 +1,7 @@
 #include "io/json/reader.hpp"
 
-#include "io/json/excerpt.hpp"
-#include "io/json/nearest_name.hpp"
+#include "base/nearest_name.hpp"
+#include "base/printable.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "io/json/syntax.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "io/scene_json/light.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 #include "io/scene_json/path.hpp"
 #include "scene/trigonometry.hpp"
 

@@ -1,8 +1,8 @@
 #include "io/scene_json/mesh.hpp"
 
+#include "base/printable.hpp"
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
-#include "io/json/excerpt.hpp"
 #include "io/scene_json/path.hpp"
 #include "scene/trigonometry.hpp"
 

@@ -1,6 +1,6 @@
 #include "io/scene_json/names.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 
 namespace microtrace::io {
 

@@ -1,5 +1,6 @@
 #include "io/gltf/check/schema.hpp"
 
+#include "base/printable.hpp"
 #include "io/json/excerpt.hpp"
 
 #include <algorithm>

@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-namespace microtrace::io {
+namespace microtrace {
 
 /// What to add to a message about `name`: `; did you mean "radius"?` if a known name is near by
 /// edit distance, else `; known are "a", "b"`, or nothing where none is known.
 [[nodiscard]] std::string suggestion(std::string_view name,
                                      std::span<const std::string_view> known);
 
-}  // namespace microtrace::io
+}  // namespace microtrace

@@ -1,13 +1,13 @@
-#include "io/json/nearest_name.hpp"
+#include "base/nearest_name.hpp"
 
-#include "io/json/excerpt.hpp"
+#include "base/printable.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 #include <vector>
 
-namespace microtrace::io {
+namespace microtrace {
 namespace {
 
 constexpr std::size_t listed = 20;  // names, at most
@@ -58,4 +58,4 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
   return known.size() > listed ? out.append(" and more") : out;
 }
 
-}  // namespace microtrace::io
+}  // namespace microtrace

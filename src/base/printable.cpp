@@ -1,0 +1,89 @@
+#include "base/printable.hpp"
+
+#include <algorithm>
+
+namespace microtrace {
+namespace {
+
+struct CodePoint {
+  char32_t value = 0;
+  std::size_t length = 0;  ///< in bytes, 0 if the bytes are not UTF-8
+};
+
+/// The code point that `text`, not empty, starts with.
+CodePoint decode(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text[0]);
+  if (lead < 0x80) return {lead, 1};
+  const std::size_t length = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || text.size() < length) return {};
+  char32_t value = lead & (0xFFU >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if (!continues_character(text[i])) return {};
+    value = (value << 6U) | (static_cast<unsigned char>(text[i]) & 0x3FU);
+  }
+  const bool overlong = (length == 3 && value < 0x800) || (length == 4 && value < 0x10000);
+  const bool surrogate = value >= 0xD800 && value <= 0xDFFF;
+  if (overlong || surrogate || value > 0x10FFFF) return {};
+  return {value, length};
+}
+
+/// Control characters, and those without width or that turn the reading order.
+bool is_dangerous(char32_t c) {
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200B && c <= 0x200F) ||
+         (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF;
+}
+
+void show_bytes(std::string_view bytes, PrintableText& out) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    out.text += {'\\', 'x', digits[byte >> 4U], digits[byte & 15U]};
+    out.columns += 4;
+  }
+}
+
+}  // namespace
+
+bool continues_character(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+}
+
+PrintableText make_printable(std::string_view text) {
+  PrintableText out;
+  while (!text.empty()) {
+    const CodePoint c = decode(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(c.length, 1));
+    if (text[0] == '\t') {
+      out.text += ' ';
+      ++out.columns;
+    } else if (c.length == 0 || is_dangerous(c.value)) {
+      show_bytes(bytes, out);
+    } else {
+      out.text += bytes;
+      ++out.columns;
+    }
+    text.remove_prefix(bytes.size());
+  }
+  return out;
+}
+
+std::string_view whole_characters(std::string_view text) {
+  std::size_t end = text.size();
+  while (end > 0 && text.size() - end < 3 && continues_character(text[end - 1])) --end;
+  // An unfinished last character starts at end - 1.
+  if (end > 0 && decode(text.substr(end - 1)).length == 0) return text.substr(0, end - 1);
+  return text;
+}
+
+std::string in_quotes(std::string_view name) {
+  constexpr std::size_t limit = 60;
+  std::string out = "\"";
+  if (name.size() <= limit) return out.append(make_printable(name).text).append("\"");
+  return out.append(make_printable(whole_characters(name.substr(0, limit))).text).append("...\"");
+}
+
+std::string printable(std::string_view text) {
+  return make_printable(text).text;
+}
+
+}  // namespace microtrace
