@@ -34,8 +34,7 @@ std::size_t difference(std::size_t a, std::size_t b) {
 
 }  // namespace
 
-std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
-  if (known.empty()) return {};
+std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
   // Two slips are allowed, and a third of a long name; lengths that differ more can't be that near.
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   std::string_view nearest;
@@ -46,6 +45,12 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
     least = distance;
     nearest = candidate;
   }
+  return nearest;
+}
+
+std::string suggestion(std::string_view name, std::span<const std::string_view> known) {
+  if (known.empty()) return {};
+  const std::string_view nearest = nearest_name(name, known);
   if (!nearest.empty())
     return std::string("; did you mean ").append(in_quotes(nearest)).append("?");
 

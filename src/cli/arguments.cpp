@@ -3,6 +3,7 @@
 #include "cli/arguments_sampling.hpp"
 #include "cli/help.hpp"
 #include "cli/option_values.hpp"
+#include "cli/usage_error.hpp"
 
 #include <microtrace/render.hpp>
 
@@ -31,7 +32,7 @@ Examples:
 
 std::filesystem::path default_output(const std::string& scene, bool has_frames) {
   if (scene == "-") throw CLI::RequiredError("--output, where the scene is standard input,");
-  return std::filesystem::path(scene).stem() += has_frames ? "_%04d.ppm" : ".ppm";
+  return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
 }
 
 /// The words in which --help speaks of options' values, and the options' order.
@@ -65,7 +66,8 @@ void name_values(CLI::App& app) {
 Parsed parse_arguments(int argc, char** argv) {
   Parsed parsed;
   Arguments& a = parsed.arguments;
-  CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere"};
+  CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere",
+               "microtrace"};
   app.footer(kFooter);
   set_help_format(app);
   std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics;
@@ -73,7 +75,7 @@ Parsed parse_arguments(int argc, char** argv) {
       ->required();
   app.add_option("-o,--output", output,
                  "picture; its ending tells the kind (.ppm, .png, .exr, ...); - writes PPM to "
-                 "standard output [SCENE's name with .ppm, in this folder]");
+                 "standard output [SCENE's name with .png, in this folder]");
   app.add_option("--size", size, "WIDTHxHEIGHT in pixels [as the scene says, or 640x480]");
   app.add_option(
       "--crop", crop,
@@ -132,13 +134,15 @@ Parsed parse_arguments(int argc, char** argv) {
           {"none", Progress::none}, {"bar", Progress::bar}, {"json", Progress::json}}));
   app.add_flag("--strict", a.strict, "warnings are errors: exit 3, no picture");
   app.add_flag("--validate", a.validate, "check the scene, print the verdict, draw nothing");
-  app.add_flag("-q,--quiet", a.quiet, "no warnings and no progress bar");
+  app.add_flag("-q,--quiet", a.quiet,
+               "no warnings, no progress bar, no line about what was written");
   app.add_flag("-v,--verbose", a.verbose, "what was read, how it is drawn and what was written")
       ->excludes("--quiet");
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
   name_values(app);
   try {
     app.parse(argc, argv);
+    refuse_empty_values(app);
     if (app.count("--size") > 0) a.size = parse_size(size);
     if (app.count("--integrator") > 0) a.wanted = parse_integrator(integrator);
     finish_sampling(app, a.sampling);
@@ -161,7 +165,7 @@ Parsed parse_arguments(int argc, char** argv) {
     if (a.frames && !a.output.empty()) check_pattern("--output", a.output.string());
     if (a.frames && !a.sidecar.empty()) check_pattern("--sidecar", a.sidecar.string());
   } catch (const CLI::ParseError& error) {
-    parsed.exit_code = app.exit(error) == 0 ? 0 : static_cast<int>(ErrorKind::usage);
+    parsed.exit_code = report(app, error);
   }
   return parsed;
 }

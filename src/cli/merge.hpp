@@ -16,6 +16,7 @@ struct MergeArguments {
   std::filesystem::path output;
   Exposure exposure{};  ///< what is not given is as the first checkpoint says
   PpmEncoding ppm = PpmEncoding::binary;
+  bool is_partial = false;  ///< a picture is wanted though samples are missing
   bool quiet = false;
 };
 
@@ -29,7 +30,8 @@ struct ParsedMerge {
 };
 [[nodiscard]] ParsedMerge parse_merge(int argc, char** argv);
 
-/// Writes the picture; warns of samples that are in none of the files. Throws Error.
+/// Writes the picture. Throws Error, usage where samples are in none of the files and is_partial
+/// does not allow it.
 void merge_samples(const MergeArguments& arguments);
 
 }  // namespace microtrace::cli

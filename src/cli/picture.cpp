@@ -2,6 +2,7 @@
 
 #include "cli/progress_bar.hpp"
 #include "cli/verbose.hpp"
+#include "cli/written.hpp"
 
 #include <microtrace/render.hpp>
 #include <microtrace/segments.hpp>
@@ -28,9 +29,12 @@ void save_picture(const Arguments& arguments, const Scene& scene, const Camera& 
   if (has_ids_for_sidecar_alone(arguments, files))
     std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
   save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &beside);
-  if (!arguments.verbose) return;
-  tell_of_file(files.picture);
-  if (!files.sidecar.empty()) tell_of_file(files.sidecar);
+}
+
+/// Programs that read standard error as JSON get nothing else there.
+bool tells_of_files(const Arguments& arguments) {
+  return !arguments.quiet && arguments.statistics != Statistics::json &&
+         arguments.progress != Progress::json;
 }
 
 }  // namespace
@@ -97,6 +101,12 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
   if (files.samples != nullptr) files.samples->save();
   if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
   watch.written();
+  if (tells_of_files(arguments)) {
+    report_written(
+        {.main = arguments.sampling.shard ? arguments.sampling.checkpoint : files.picture,
+         .sidecar = files.sidecar},
+        film.size(), counts.samples_per_pixel, watch.seconds());
+  }
   watch.report(arguments.statistics, scene, film.size(), counts, options.threads);
 }
 

@@ -24,6 +24,9 @@ class Stopwatch {
   }
   void written() { write_ = lap(); }
 
+  /// Of loading, rendering and writing together.
+  [[nodiscard]] double seconds() const { return load_ + render_ + write_; }
+
   /// Times in seconds, rays, and memory, to standard error.
   void report(Statistics kind, const Scene& scene, ImageSize size, const RenderCounts& counts,
               unsigned threads) const;

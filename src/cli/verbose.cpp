@@ -77,8 +77,4 @@ void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize siz
        subject_of(arguments));
 }
 
-void tell_of_file(const std::filesystem::path& file) {
-  tell("written: " + (file == "-" ? "standard output" : file.string()));
-}
-
 }  // namespace microtrace::cli

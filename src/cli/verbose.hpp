@@ -5,14 +5,9 @@
 
 #include <microtrace/scene.hpp>
 
-#include <filesystem>
-
 namespace microtrace::cli {
 
 /// What was read, and how it is about to be drawn.
 void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize size);
-
-/// What was written.
-void tell_of_file(const std::filesystem::path& file);
 
 }  // namespace microtrace::cli

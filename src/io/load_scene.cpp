@@ -8,6 +8,7 @@
 #include <microtrace/io.hpp>
 
 #include <algorithm>
+#include <array>
 #include <unistd.h>
 #include <utility>
 #include <variant>
@@ -23,6 +24,25 @@ std::string lower_case_ending(const std::filesystem::path& path) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
   return ending;
+}
+
+/// Formats that users of renderers try, by the endings of their files.
+constexpr std::array<std::string_view, 17> foreign_endings{
+    ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
+    ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
+
+/// Throws if the ending names another format and the bytes are neither JSON's nor a GLB file's.
+void refuse_foreign_format(const std::string& ending, std::string_view first,
+                           const std::string& name) {
+  if (std::ranges::find(foreign_endings, ending) == foreign_endings.end()) return;
+  const std::size_t start = first.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first.starts_with(glb_magic) || (start != std::string_view::npos && first[start] == '{'))
+    return;
+  throw Error(ErrorKind::unsupported, name,
+              "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + ending +
+                  "; convert the file, for example with Blender (File > Export > glTF 2.0) or with "
+                  "assimp (assimp export in" +
+                  ending + " out.glb)");
 }
 
 /// Throws if a JSON text can't start like this, as its whole would; garbage need not be read on.
@@ -84,6 +104,7 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const std::string ending = lower_case_ending(path);
   const std::string name = standard_input ? "(standard input)" : path.string();
   const auto inspect = [&](std::string_view first) {
+    refuse_foreign_format(ending, first, name);
     if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
   };
   io::LoadClock clock(options.times);

@@ -113,7 +113,9 @@ class Animation(ProgramTest):
 
     def test_frames_are_the_pictures_of_their_times(self):
         result = self.frames("--frames", "2:5", "--fps", "4", "-o", "out_%03d.ppm")
-        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual([line.split(b":")[0] for line in result.stderr.splitlines()],
+                         [f"wrote out_{k:03}.ppm".encode() for k in range(2, 6)])
         self.assertEqual(sorted(os.listdir(self.folder)),
                          ["move.gltf", *(f"out_{k:03}.ppm" for k in range(2, 6))])
         for k in range(2, 6):
@@ -122,9 +124,9 @@ class Animation(ProgramTest):
 
     def test_frames_by_default(self):
         self.assertEqual(self.frames("--frames", "24:24").returncode, 0)
-        self.assertEqual(sorted(os.listdir(self.folder)), ["move.gltf", "move_0024.ppm"])
-        self.assertEqual((self.folder / "move_0024.ppm").read_bytes(),
-                         self.frames("--time", "1", "-o", "-").stdout)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["move.gltf", "move_0024.png"])
+        self.frames("--time", "1", "-o", "single.png")
+        self.assertEqual((self.folder / "move_0024.png").read_bytes(), (self.folder / "single.png").read_bytes())
 
     def test_frames_to_standard_output_follow_each_other(self):
         result = self.frames("--frames", "0:2", "--fps", "1", "--animation", "up", "-o", "-")
@@ -179,7 +181,7 @@ class Animation(ProgramTest):
         asset = json.loads((self.folder / "move.gltf").read_text())
         asset["scenes"][0]["nodes"] = [0]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
-        self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", "--view", "front").returncode, 0)
+        self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", "--view", "front", "-o", "move_%04d.ppm").returncode, 0)
         # The square goes from the left side of the framed part to the right, five squares wide.
         left = [lower_left((self.folder / f"move_000{k}.ppm").read_bytes())[0] for k in range(3)]
         self.assertTrue(0 < left[0] < 4, left)
@@ -192,7 +194,7 @@ class Animation(ProgramTest):
         (self.folder / "move.gltf").write_text(json.dumps(asset))
         for camera in (["--view", "front"], ["--view", "0,0,60", "--fov", "50", "--target", "1000032.5,0.5,0"],
                        ["--eye", "1000032.5,0.5,60", "--fov", "50", "--target", "1000032.5,0.5,0"]):
-            self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", *camera).returncode, 0)
+            self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", "-o", "move_%04d.ppm", *camera).returncode, 0)
             left = [lower_left((self.folder / f"move_000{k}.ppm").read_bytes())[0] for k in range(3)]
             self.assertLess(left[0], 12, camera)
             self.assertAlmostEqual(left[1], 39, delta=2)
@@ -206,7 +208,8 @@ class Animation(ProgramTest):
         self.assertEqual(shares[-1], 1)
 
     def test_an_interrupt_leaves_whole_frames_only(self):
-        process = subprocess.Popen([PROGRAM, "move.gltf", *FLAT, "--size", "800x600", "--frames", "0:9999"],
+        process = subprocess.Popen([PROGRAM, "move.gltf", *FLAT, "--size", "800x600", "--frames", "0:9999",
+                                    "-o", "move_%04d.ppm"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 30
         while not (self.folder / "move_0003.ppm").exists() and time.monotonic() < deadline:

@@ -79,7 +79,7 @@ class CommandLine(ProgramTest):
 
     def test_default_output_is_named_after_the_scene(self):
         self.assertEqual(self.run_program(SCENE, "--size", "8x6").returncode, 0)
-        self.assertEqual(os.listdir(self.folder), ["perspective1.ppm"])
+        self.assertEqual(os.listdir(self.folder), ["perspective1.png"])
 
     def test_standard_streams(self):
         with open(SCENE, "rb") as scene:
@@ -307,7 +307,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = result.stderr.decode().splitlines()
         for text in (": 5 objects: 10 triangles in meshes, 0 other shapes", "6 materials, 3 textures, 3 images, 3",
-                     "camera: Front, the first of 1", "picture: 640 x 480, flat", "written: a.ppm"):
+                     "camera: Front, the first of 1", "picture: 640 x 480, flat"):
             self.assertTrue(any(line.startswith("info: ") and text in line for line in lines), (text, lines))
         self.assertEqual(self.run_program(SCENE, "-v", "-q").returncode, 2)
 
@@ -327,8 +327,47 @@ class CommandLine(ProgramTest):
         self.assertEqual(shares, sorted(shares))
         self.assertEqual(shares[-1], 1)
         self.assertGreaterEqual(lines[-1]["seconds"], 0)
-        self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=none").stderr, b"")
+        self.assertNotIn(b"%", self.run_program(SCENE, "-o", "a.ppm", "--progress=none").stderr)
         self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=dots").returncode, 2)
+
+    def test_says_what_was_written(self):
+        result = self.run_program(SCENE, "-o", "a.png", "--sidecar", "b.json", "--size", "20x10")
+        self.assertRegex(result.stderr.decode(),
+                         r"^wrote a\.png and b\.json: 20 x 10 pixels, 1 sample each, in \d+\.\d+ s\n$")
+        for quiet in (["-q", "-o", "a.png"], ["-o", "-"]):
+            self.assertEqual(self.run_program(SCENE, "--size", "20x10", *quiet).stderr, b"", quiet)
+
+    def test_mistyped_options_get_the_nearest_one(self):
+        for wrong, right in (("--smaples", "--samples"), ("--smaples=4", "--samples"), ("--treads", "--threads"),
+                             ("--outptu", "--output")):
+            result = self.run_program(SCENE, wrong, "4")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"error: unknown option {wrong.split('=')[0]}; did you mean {right}?\n", result.stderr.decode())
+        # Without SCENE too, which CLI11 would complain of first.
+        self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
+        for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
+                                   (["b.json"], 'error: unexpected argument "b.json"\n'),
+                                   (["--spp"], "error: --spp wants a value\n"),
+                                   (["-o", ""], "error: --output: wants a value, is empty\n"),
+                                   (["--camera="], "error: --camera wants a value\n"),
+                                   (["--evil\x1b[31m"], "error: unknown option --evil\\x1b[31m\n")):
+            result = self.run_program(SCENE, *arguments)
+            self.assertEqual((result.returncode, result.stdout), (2, b""))
+            self.assertTrue(result.stderr.decode().startswith(message), result.stderr)
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_other_formats_get_a_word_of_what_to_do(self):
+        obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+        for name, content in (("a.obj", obj), ("a.OBJ", obj), ("a.stl", b"solid a\nendsolid a\n"), ("a.ply", b"ply\n"),
+                              ("a.usd", b"PXR-USDC"), ("a.fbx", b"Kaydara FBX Binary  \0"), ("a.obj", b"")):
+            self.write(name, content)
+            result = self.run_program(name)
+            self.assertEqual(result.returncode, 4, name)
+            message = result.stderr.decode()
+            self.assertIn(f"error: {name}: microtrace reads JSON scenes and glTF (.gltf, .glb), not .{name[2:].lower()}; convert", message)
+        # What is a scene all the same is drawn.
+        self.write("scene.obj", minimal())
+        self.assertEqual(self.run_program("scene.obj", "-q", "-o", "a.ppm").returncode, 0)
 
     def test_validate_prints_the_verdict_and_draws_nothing(self):
         result = self.run_program(SCENE, "--validate")

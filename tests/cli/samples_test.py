@@ -97,15 +97,20 @@ class Samples(ProgramTest):
         self.assertEqual(sorted(os.listdir(self.folder)), ["part1", "part2", "part3", "whole.ppm"])
         for order in ("123", "312"):
             result = self.run_program("merge", *(f"part{i}" for i in order), "-o", "merged.ppm")
-            self.assertEqual((result.returncode, result.stderr), (0, b""))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stderr, rb"^wrote merged\.ppm: 32 x 20 pixels, 50 samples each, in [0-9.]+ s\n$")
             self.assertEqual(self.bytes_of("merged.ppm"), whole)
         # Shown in another way.
         self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
         self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
-        # One is missing: the picture is there, and so is a warning; a run can fill the gap.
-        result = self.run_program("merge", "part1", "part3", "-o", "merged.ppm")
+        # One is missing: no picture unless --partial asks for it; a run can fill the gap.
+        result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(b"error: samples 16 to 32 of 50 are in none of the files; ", result.stderr)
+        self.assertFalse((self.folder / "none.ppm").exists())
+        result = self.run_program("merge", "part1", "part3", "-o", "merged.ppm", "--partial")
         self.assertEqual(result.returncode, 0)
-        self.assertIn(b"samples 16 to 32 of 50 are in none of the files", result.stderr)
+        self.assertIn(b"warning: samples 16 to 32 of 50 are in none of the files\n", result.stderr)
         self.assertNotEqual(self.bytes_of("merged.ppm"), whole)
         self.render("--spp", "50", "--resume", "part1", "--resume", "part3", "-o", "filled.ppm")
         self.assertEqual(self.bytes_of("filled.ppm"), whole)

@@ -2,7 +2,6 @@
 
 #include "io/gltf/draco_abi.hpp"
 #include "io/gltf/extension.hpp"
-#include "io/json/excerpt.hpp"
 #include "io/module_function.hpp"
 
 #include <algorithm>

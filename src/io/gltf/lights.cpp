@@ -1,7 +1,6 @@
 #include "io/gltf/lights.hpp"
 
 #include "io/gltf/extension.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,7 +1,6 @@
 #include "io/gltf/check/schema.hpp"
 
 #include "base/printable.hpp"
-#include "io/json/excerpt.hpp"
 
 #include <algorithm>
 #include <array>

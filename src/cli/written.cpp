@@ -1,0 +1,23 @@
+#include "cli/written.hpp"
+
+#include "base/printable.hpp"
+
+#include <cstdio>
+#include <string>
+
+namespace microtrace::cli {
+
+void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
+                    double seconds) {
+  std::string names;
+  for (const std::filesystem::path& file : {files.main, files.sidecar}) {
+    if (file.empty() || file == "-") continue;
+    names.append(names.empty() ? "" : " and ").append(printable(file.string()));
+  }
+  if (names.empty()) return;
+  std::fprintf(stderr, "wrote %s: %u x %u pixels, %u sample%s each, in %.*f s\n", names.c_str(),
+               size.width, size.height, samples, samples == 1 ? "" : "s", seconds < 1 ? 3 : 1,
+               seconds);
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,21 @@
+#pragma once
+/// The line on standard error that says what a run has written.
+
+#include <microtrace/film.hpp>
+
+#include <cstdint>
+#include <filesystem>
+
+namespace microtrace::cli {
+
+struct WrittenFiles {
+  std::filesystem::path main;     ///< a picture or a checkpoint; "-" is standard output
+  std::filesystem::path sidecar;  ///< or empty
+};
+
+/// "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Says nothing of standard output,
+/// whose reader knows.
+void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
+                    double seconds);
+
+}  // namespace microtrace::cli
