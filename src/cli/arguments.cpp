@@ -61,16 +61,17 @@ void name_values(CLI::App& app) {
   }
 }
 
-}  // namespace
+/// Values that are read when all options are known.
+struct Texts {
+  std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics;
+};
 
-Parsed parse_arguments(int argc, char** argv) {
-  Parsed parsed;
-  Arguments& a = parsed.arguments;
-  CLI::App app{"microtrace: renders a JSON or glTF scene, exactly and the same everywhere",
-               "microtrace"};
+void add_options(CLI::App& app, Arguments& a, Texts& texts) {
+  auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics] = texts;
+  app.name("microtrace");
+  app.description("microtrace: renders a JSON or glTF scene, exactly and the same everywhere");
   app.footer(kFooter);
   set_help_format(app);
-  std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics;
   app.add_option("SCENE", a.scene, "scene file (.json, .gltf, .glb), or - for standard input")
       ->required();
   app.add_option("-o,--output", output,
@@ -140,6 +141,36 @@ Parsed parse_arguments(int argc, char** argv) {
       ->excludes("--quiet");
   app.set_version_flag("--version", "microtrace " MICROTRACE_VERSION);
   name_values(app);
+}
+
+}  // namespace
+
+std::vector<OptionHelp> list_options() {
+  CLI::App app;
+  Arguments arguments;
+  Texts texts;
+  add_options(app, arguments, texts);
+  std::vector<OptionHelp> options;
+  for (const CLI::Option* option : app.get_options()) {
+    if (!option->nonpositional()) continue;
+    OptionHelp& help = options.emplace_back();
+    for (const std::string& name : option->get_snames()) help.names.push_back("-" + name);
+    for (const std::string& name : option->get_lnames()) help.names.push_back("--" + name);
+    help.has_value = option->get_items_expected_min() > 0 && option->get_type_size() > 0;
+    if (help.has_value) help.value = value_name(*option);
+    help.text = option->get_description();
+  }
+  return options;
+}
+
+Parsed parse_arguments(int argc, char** argv) {
+  Parsed parsed;
+  Arguments& a = parsed.arguments;
+  CLI::App app;
+  Texts texts;
+  add_options(app, a, texts);
+  const auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics] =
+      texts;
   try {
     app.parse(argc, argv);
     refuse_empty_values(app);

@@ -56,6 +56,16 @@ struct Parsed {
 };
 [[nodiscard]] Parsed parse_arguments(int argc, char** argv);
 
+/// An option as --help describes it.
+struct OptionHelp {
+  std::vector<std::string> names{};  ///< with their dashes, short ones first
+  bool has_value = false;            ///< one must follow
+  std::string value{};               ///< its kind, in the words of --help
+  std::string text{};
+};
+/// All options of parse_arguments().
+[[nodiscard]] std::vector<OptionHelp> list_options();
+
 /// Fills in what is left to the scene's format: glTF assets are drawn with light, over grey, JSON
 /// scenes flat. Throws Error (usage) where options make no sense then.
 void settle(Arguments& arguments, SceneFormat format);

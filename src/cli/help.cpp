@@ -33,10 +33,8 @@ class HelpFormat : public CLI::Formatter {
     return wrapped(option->get_description());
   }
 
-  /// The kind of value alone, without what the program checks of it.
   std::string make_option_opts(const CLI::Option* option) const override {
-    const std::string kind = option->get_type_name();
-    return option->get_type_size() == 0 ? "" : " " + kind.substr(0, kind.find(':'));
+    return option->get_type_size() == 0 ? "" : " " + value_name(*option);
   }
 };
 
@@ -44,6 +42,11 @@ class HelpFormat : public CLI::Formatter {
 
 void set_help_format(CLI::App& app) {
   app.formatter(std::make_shared<HelpFormat>());
+}
+
+std::string value_name(const CLI::Option& option) {
+  const std::string kind = option.get_type_name();
+  return kind.substr(0, kind.find(':'));
 }
 
 }  // namespace microtrace::cli

@@ -1,4 +1,5 @@
 #include "cli/arguments.hpp"
+#include "cli/completion.hpp"
 #include "cli/merge.hpp"
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
@@ -171,6 +172,7 @@ int main(int argc, char** argv) {
   // A closed pipe and a file size limit are errors of the write, with a message.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
   if (cli::is_merge(argc, argv)) {
     const cli::ParsedMerge merge = cli::parse_merge(argc, argv);
     if (merge.exit_code) return *merge.exit_code;

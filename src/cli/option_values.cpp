@@ -196,4 +196,24 @@ double parse_number(const char* option, const std::string& text) {
   return *value;
 }
 
+std::vector<std::string> words_of(std::string_view option) {
+  std::vector<std::string> words;
+  const auto add_names = [&](const auto& values) {
+    for (const auto value : values) words.emplace_back(name_of(value));
+  };
+  if (option == "--integrator") words = {"flat", "path"};
+  if (option == "--integrator" || option == "--aov") add_names(kAovs);
+  if (option == "--aov") add_names(kSampledAovs);
+  if (option == "--tonemap") add_names(kToneMaps);
+  if (option == "--view") {
+    for (const auto& [name, view] : kViews) words.emplace_back(name);
+  }
+  if (option == "--background") words = {"env", "transparent"};
+  if (option == "--env") words = {"studio"};
+  if (option == "--filter") words = {"box", "blackman-harris"};
+  if (option == "--ppm") words = {"binary", "ascii"};
+  if (option == "--progress") words = {"bar", "json", "none"};
+  return words;
+}
+
 }  // namespace microtrace::cli

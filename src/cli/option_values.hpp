@@ -68,4 +68,7 @@ struct Channels {
 /// Names of quantities with commas between them, each once
 [[nodiscard]] Channels parse_aovs(const std::string& text);
 
+/// The words that an option takes, of which shells offer a choice; none for free text.
+[[nodiscard]] std::vector<std::string> words_of(std::string_view option);
+
 }  // namespace microtrace::cli

@@ -1,0 +1,19 @@
+#pragma once
+/// microtrace completion SHELL: a script by which a shell completes the command line.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace microtrace::cli {
+
+/// Whether the command line begins with the word.
+[[nodiscard]] bool is_completion(int argc, char** argv);
+
+/// Prints the script to standard output; returns the exit code.
+[[nodiscard]] int print_completion(int argc, char** argv);
+
+/// The script for bash, zsh or fish; nothing for another shell.
+[[nodiscard]] std::optional<std::string> completion_script(std::string_view shell);
+
+}  // namespace microtrace::cli

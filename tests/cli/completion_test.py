@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Completion as the shells do it.
+
+usage: completion_test.py PROGRAM [unittest arguments]
+"""
+
+import re
+import shlex
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+from program import PROGRAM, ProgramTest
+
+
+class Completion(ProgramTest):
+    def script(self, shell):
+        result = self.run_program("completion", shell)
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        path = self.folder / f"script.{shell}"
+        path.write_bytes(result.stdout)
+        return path
+
+    def run_shell(self, *command):
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), command)
+        return result.stdout
+
+    def help_options(self):
+        text = self.run_program("--help").stdout.decode()
+        return set(re.findall(r"(?m)^  (?:-\w,)*(--[a-z-]+)", text)) | set(re.findall(r"(?m)^  -\w,(?:-\w,)*(--[a-z-]+)", text))
+
+    def complete_in_bash(self, *words):
+        script = self.script("bash")
+        command = (f"source {shlex.quote(str(script))}; COMP_WORDS=({' '.join(map(shlex.quote, words))}); "
+                   f"COMP_CWORD={len(words) - 1}; _microtrace; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+        return set(self.run_shell("bash", "--norc", "-c", command).split("\n")) - {""}
+
+    def test_bash(self):
+        for name in ("my scene.json", "model.glb", "notes.txt"):
+            (self.folder / name).write_text("")
+        (self.folder / "folder").mkdir()
+        self.assertEqual(self.complete_in_bash("microtrace", "--samp"), {"--samples"})
+        self.assertLessEqual(self.help_options(), self.complete_in_bash("microtrace", "-"))
+        self.assertGreater(len(self.help_options()), 30)
+        self.assertEqual(self.complete_in_bash("microtrace", "--tonemap", "a"), {"aces", "agx"})
+        self.assertEqual(self.complete_in_bash("microtrace", "m"), {"my scene.json", "model.glb"})
+        self.assertIn("folder", self.complete_in_bash("microtrace", ""))
+        self.assertNotIn("notes.txt", self.complete_in_bash("microtrace", ""))
+        self.assertIn("notes.txt", self.complete_in_bash("microtrace", "-o", "n"))
+        self.assertEqual(self.complete_in_bash("microtrace", "--size", ""), set())
+        self.assertEqual(self.complete_in_bash("microtrace", "--env", "s") & {"studio"}, {"studio"})
+
+    def test_fish(self):
+        script = self.script("fish")
+
+        def complete(line):
+            answer = self.run_shell("fish", "--no-config", "-c", f"source {script}; complete -C {shlex.quote(line)}")
+            return {row.split("\t")[0] for row in answer.splitlines()}
+
+        self.assertEqual(complete("microtrace --samp"), {"--samples"})
+        self.assertLessEqual(self.help_options(), complete("microtrace --"))
+        self.assertEqual(complete("microtrace --tonemap a"), {"aces", "agx"})
+
+    def test_zsh(self):
+        script = self.script("zsh")
+        self.run_shell("zsh", "-f", "-n", str(script))
+        text = script.read_text()
+        for option in self.help_options():
+            self.assertIn(f"){option}", text)
+
+    def test_offered_words_are_taken(self):
+        for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",
+                       "--progress"):
+            words = self.complete_in_bash("microtrace", option, "") - {"script.bash"}
+            self.assertGreater(len(words), 0, option)
+            for word in words:
+                message = self.run_program("missing.json", option, word, "-o", "a.exr").stderr.decode()
+                self.assertIn("missing.json: can't be opened", message, (option, word))
+
+    def test_usage(self):
+        for arguments in ([], ["tcsh"], ["bash", "zsh"]):
+            result = self.run_program("completion", *arguments)
+            self.assertEqual((result.returncode, result.stdout), (2, b""))
+        with open("/dev/full", "w") as full:
+            self.assertEqual(subprocess.run([PROGRAM, "completion", "bash"], stdout=full, stderr=subprocess.DEVNULL).returncode, 5)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])
