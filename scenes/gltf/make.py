@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb.
+"""Writes the glTF scenes of this folder: cube.glb, knot.glb and textures.glb, and those of lit.py.
 
 knot.glb is a (2, 3) torus knot of 8 x 96 quadrilaterals in four colours over a floor. textures.glb has four rectangles
 before an orthographic camera: a repeated texture magnified, another minified by mip maps, a mask before grey, and one that
 leans back, so that its footprints are long.
 """
 
-import json
 import math
 import pathlib
-import struct
-import zlib
+
+import lit
+from asset import Asset, cross, png, subtract, unit
 
 MATERIALS = {
     "red": (0.80, 0.05, 0.04),
@@ -21,96 +21,8 @@ MATERIALS = {
 }
 
 
-class Asset:
-    """Collects the JSON and the buffer of one asset."""
-
-    def __init__(self, colours):
-        self.buffer = b""
-        self.colours = list(colours)
-        self.json = {
-            "asset": {"version": "2.0", "generator": "microtrace scenes/gltf/make.py"},
-            "extensionsUsed": ["KHR_materials_unlit"],
-            "scene": 0,
-            "scenes": [{"nodes": []}],
-            "nodes": [],
-            "meshes": [],
-            "materials": [
-                {
-                    "name": name,
-                    "pbrMetallicRoughness": {"baseColorFactor": [*MATERIALS[name], 1]},
-                    "extensions": {"KHR_materials_unlit": {}},
-                }
-                for name in self.colours
-            ],
-            "accessors": [],
-            "bufferViews": [],
-        }
-
-    def add(self, array, item):
-        self.json.setdefault(array, []).append(item)
-        return len(self.json[array]) - 1
-
-    def view(self, data, target):
-        self.buffer += b"\0" * (-len(self.buffer) % 4)
-        view = {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(data), "target": target}
-        self.buffer += data
-        return self.add("bufferViews", view)
-
-    def numbers(self, kind, tuples):
-        data = b"".join(struct.pack(f"<{len(t)}f", *t) for t in tuples)
-        return self.add("accessors", {"bufferView": self.view(data, 34962), "componentType": 5126, "type": kind,
-                                      "count": len(tuples)})
-
-    def texture(self, name, png, sampler):
-        self.buffer += b"\0" * (-len(self.buffer) % 4)
-        view = self.add("bufferViews", {"buffer": 0, "byteOffset": len(self.buffer), "byteLength": len(png)})
-        self.buffer += png
-        image = self.add("images", {"name": name, "mimeType": "image/png", "bufferView": view})
-        return self.add("textures", {"name": name, "source": image, "sampler": self.add("samplers", sampler)})
-
-    def positions(self, points):
-        data = b"".join(struct.pack("<3f", *p) for p in points)
-        stored = [struct.unpack_from("<3f", data, 12 * i) for i in range(len(points))]
-        return self.add("accessors", {
-            "bufferView": self.view(data, 34962), "componentType": 5126, "type": "VEC3",
-            "count": len(points),
-            "min": [min(p[k] for p in stored) for k in range(3)],
-            "max": [max(p[k] for p in stored) for k in range(3)],
-        })
-
-    def indices(self, triangles):
-        flat = [i for t in triangles for i in t]
-        data = struct.pack(f"<{len(flat)}H", *flat)
-        return self.add("accessors", {
-            "bufferView": self.view(data, 34963), "componentType": 5123, "type": "SCALAR",
-            "count": len(flat),
-        })
-
-    def mesh(self, name, points, triangles_by_colour):
-        positions = self.positions(points)
-        primitives = [
-            {"attributes": {"POSITION": positions}, "indices": self.indices(triangles),
-             "material": self.colours.index(colour)}
-            for colour, triangles in triangles_by_colour.items()
-        ]
-        mesh = self.add("meshes", {"name": name, "primitives": primitives})
-        self.node({"name": name, "mesh": mesh})
-
-    def node(self, node):
-        self.json["scenes"][0]["nodes"].append(self.add("nodes", node))
-
-    def write(self, path):
-        self.json["buffers"] = [{"byteLength": len(self.buffer)}]
-        text = json.dumps(self.json, separators=(",", ":")).encode()
-        text += b" " * (-len(text) % 4)
-        data = self.buffer + b"\0" * (-len(self.buffer) % 4)
-        chunks = struct.pack("<I4s", len(text), b"JSON") + text
-        chunks += struct.pack("<I4s", len(data), b"BIN\0") + data
-        path.write_bytes(struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks)
-
-
 def cube():
-    asset = Asset(["red", "green", "blue"])
+    asset = Asset({name: MATERIALS[name] for name in ("red", "green", "blue")})
     points = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
     sides = {
         "red": [(0, 4, 6, 2), (1, 3, 7, 5)],
@@ -118,8 +30,8 @@ def cube():
         "blue": [(0, 2, 3, 1), (4, 5, 7, 6)],
     }
     triangles = {
-        colour: [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-        for colour, quads in sides.items()
+        color: [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        for color, quads in sides.items()
     }
     asset.mesh("Cube", points, triangles)
     return asset
@@ -131,21 +43,8 @@ def knot_point(t):
     return (r * math.cos(2 * t), r * math.sin(2 * t), -math.sin(3 * t))
 
 
-def subtract(a, b):
-    return tuple(x - y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def unit(v):
-    length = math.sqrt(sum(x * x for x in v))
-    return tuple(x / length for x in v)
-
-
 def knot(rings=96, sides=8, radius=0.55):
-    asset = Asset(["red", "green", "blue", "gold", "grey"])
+    asset = Asset(MATERIALS)
     points = []
     for i in range(rings):
         t = 2 * math.pi * i / rings
@@ -157,13 +56,13 @@ def knot(rings=96, sides=8, radius=0.55):
             c, s = math.cos(2 * math.pi * k / sides), math.sin(2 * math.pi * k / sides)
             points.append(tuple(p + radius * (c * n + s * b)
                                 for p, n, b in zip(center, normal, binormal)))
-    bands = {colour: [] for colour in asset.colours[:4]}
+    bands = {color: [] for color in list(asset.flat)[:4]}
     for i in range(rings):
         for k in range(sides):
             a, b = i * sides + k, i * sides + (k + 1) % sides
             c, d = (a + sides) % len(points), (b + sides) % len(points)
             # Four bands wind along the tube, eight turns in all, and so close where it does.
-            band = bands[asset.colours[(k // 2 + i // 3) % 4]]
+            band = bands[list(bands)[(k // 2 + i // 3) % 4]]
             band += [(a, b, d), (a, d, c)]
     asset.mesh("Knot", points, bands)
     floor = [(-6, -4, -6), (6, -4, -6), (6, -4, 4), (-6, -4, 4)]
@@ -180,19 +79,8 @@ def knot(rings=96, sides=8, radius=0.55):
     return asset
 
 
-def png(size, channels, pixel):
-    """A square PNG file of pixel(x, y), 8 bits a channel."""
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(size)) for y in range(size))
-    header = struct.pack(">IIBBBBB", size, size, 8, {3: 2, 4: 6}[channels], 0, 0, 0)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9))
-            + chunk(b"IEND", b""))
-
-
 def textures():
-    asset = Asset([])
+    asset = Asset()
     repeat, mirrored, linear, mip_maps = 10497, 33648, 9729, 9987
     patches = png(8, 3, lambda x, y: ((37 * x + 91 * y) % 256, (151 * x + 53 * y) % 256, 40 * ((x + y) % 2) + 30 * y))
     waves = png(64, 3, lambda x, y: (
@@ -236,6 +124,9 @@ def main():
     cube().write(folder / "cube.glb")
     knot().write(folder / "knot.glb")
     textures().write(folder / "textures.glb")
+    for name, make in lit.SCENES.items():
+        make().write(folder / f"{name}.glb")
+    (folder.parent / "sky.hdr").write_bytes(lit.sky())
 
 
 if __name__ == "__main__":

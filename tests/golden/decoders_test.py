@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Decodes the images of images/ with each kind of vector code and without any, and compares the samples with the SHA-256 of
+images/sha256.txt.
+
+usage: decoders_test.py DECODE_IMAGES MODULE [--update]
+
+DECODE_IMAGES may be a script that runs the program of another machine. libjpeg-turbo and libwebp leave open how chroma is
+upsampled, so another version of theirs may have other samples: --update writes the list anew.
+"""
+
+import hashlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+IMAGES = Path(__file__).with_name("images")
+LIST = IMAGES / "sha256.txt"
+WAYS = {
+    "as users": ({}, []),
+    "SSE2": ({"JSIMD_FORCESSE2": "1"}, []),
+    "no vectors": ({"JSIMD_FORCENONE": "1"}, ["--plain"]),
+}
+
+
+def decode(image, environment, options):
+    result = subprocess.run([os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), image, *options],
+                            env=dict(os.environ, **environment), capture_output=True, check=False)
+    if result.returncode != 0 or result.stderr:
+        sys.exit(f"{image}: exit code {result.returncode}, {result.stderr.decode()}")
+    return hashlib.sha256(result.stdout).hexdigest()
+
+
+def main():
+    images = sorted(image for image in IMAGES.rglob("*") if image.suffix in (".jpg", ".png", ".webp"))
+    if "--update" in sys.argv[3:]:
+        LIST.write_text("".join(f"{decode(image, {}, [])}  {image.relative_to(IMAGES)}\n" for image in images))
+    pins = {name: digest for digest, name in (line.split() for line in LIST.read_text().splitlines())}
+    assert len(pins) == len(images) > 30
+    faults = 0
+    for image in images:
+        for way, (environment, options) in WAYS.items():
+            if decode(image, environment, options) != pins[str(image.relative_to(IMAGES))]:
+                faults += 1
+                print(f"DIFFERENT  {image.relative_to(IMAGES)}: {way}")
+    print(f"{len(images)} images, {len(WAYS)} ways each")
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+#!/usr/bin/env python3
+"""Asks a program all questions of questions.txt and compares the answers with the SHA-256 that stand there.
+
+usage: pinned_test.py PROGRAM [--update] [--threads N,...] [--skip TEXT]... [--first-only]
+
+PROGRAM may be a script that runs it elsewhere or under an emulator. --update writes the answers into the list instead.
+--skip leaves out questions whose command line has TEXT. --first-only ends at the first difference.
+The exit status is 1 if an answer differs.
+"""
+
+import argparse
+import os
+import sys
+
+import questions
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program", type=os.path.abspath)
+    parser.add_argument("--update", action="store_true")
+    parser.add_argument("--threads", default="1,2,7")
+    parser.add_argument("--skip", action="append", default=[])
+    parser.add_argument("--first-only", action="store_true")
+    arguments = parser.parse_args()
+    head, listed = questions.read()
+    differing = 0
+    for question in listed:
+        if any(text in question.text for text in arguments.skip):
+            print(f"left out   {question.text}")
+            continue
+        if arguments.update:
+            question.pins = questions.ask(arguments.program, question)
+            continue
+        for threads in map(int, arguments.threads.split(",")):
+            # With a checkpoint samples come in passes over the picture, without one tile by tile.
+            answer = questions.ask(arguments.program, question, threads, with_samples=threads < 7)
+            wrong = [name for name, digest in answer.items() if question.pins.get(name) != digest]
+            print(f"{'DIFFERENT' if wrong else 'the same '}  {question.text}, threads {threads}", *wrong, flush=True)
+            differing += bool(wrong)
+        if differing and arguments.first_only:
+            break
+    if arguments.update:
+        questions.write(head, listed)
+    elif not listed:
+        sys.exit("the list is empty")
+    sys.exit(1 if differing else 0)
+
+
+if __name__ == "__main__":
+    main()
