@@ -28,6 +28,13 @@ template <int N>
 using Float = typename FloatVector<N>::type;
 
 template <int N>
+struct UnsignedVector {
+  typedef std::uint32_t type __attribute__((vector_size(4 * N)));
+};
+template <int N>
+using Unsigned = typename UnsignedVector<N>::type;
+
+template <int N>
 struct DoubleVector {
   typedef double type __attribute__((vector_size(8 * N)));
   typedef std::int64_t bits_type __attribute__((vector_size(8 * N)));

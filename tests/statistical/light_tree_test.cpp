@@ -68,7 +68,7 @@ TEST(LightTree, ChoosesEachByItsShare) {
     for (int k = 0; k < samples; ++k) {
       const auto choice = tree.choose(p, n, (float(k) + 0.5F) / samples);
       ASSERT_TRUE(choice);
-      EXPECT_FLOAT_EQ(choice->share, tree.share(choice->light, p, n));
+      EXPECT_EQ(choice->share, tree.share(choice->light, p, n));
       ++chosen[choice->light];
     }
     for (std::size_t light = 0; light < count; ++light)

@@ -1,6 +1,7 @@
 #include "io/gltf/lights.hpp"
 
 #include "io/gltf/extension.hpp"
+#include "io/gltf/properties.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -35,10 +36,10 @@ Common common_of(const Asset& asset, const Element& light) {
       if (item.kind != JsonValue::Kind::number || item.number < 0) {
         asset.fail(color.item(static_cast<std::size_t>(i)), "must be a number of at least 0");
       }
-      result.color[i] = static_cast<float>(item.number);
+      result.color[i] = finite_float(item.number);
     }
   }
-  result.intensity = static_cast<float>(number(asset, light, "intensity", 1, 0));
+  result.intensity = finite_float(number(asset, light, "intensity", 1, 0));
   result.range = number(asset, light, "range", infinity, std::numeric_limits<double>::min());
   return result;
 }

@@ -8,13 +8,6 @@ namespace microtrace {
 namespace {
 
 template <int N>
-struct UnsignedVector {
-  typedef std::uint32_t type __attribute__((vector_size(4 * N)));
-};
-template <int N>
-using Unsigned = typename UnsignedVector<N>::type;
-
-template <int N>
 inline Unsigned<N> load(const std::uint32_t* p) {
   Unsigned<N> v;
   __builtin_memcpy(&v, p, sizeof v);

@@ -10,8 +10,13 @@
 #include <numbers>
 #include <variant>
 
+#include <glm/common.hpp>
+
 namespace microtrace {
 namespace {
+
+/// With the greatest radiance that files may have, at most kBrightest.
+constexpr float kGreatestIntensity = kBrightest / 0x1p30F;
 
 constexpr float kUniformPdf = static_cast<float>(0.25 / std::numbers::pi);
 
@@ -58,7 +63,7 @@ std::shared_ptr<const MapTables> RenderCache::tables_of(const Environment& envir
 
 EnvironmentLight::EnvironmentLight(const Environment& environment, RenderCache* cache)
     : tables_(tables_of(environment, cache)),
-      intensity_(environment.intensity),
+      intensity_(std::min(environment.intensity, kGreatestIntensity)),
       turn_(part_of_turn(environment.rotation)),
       back_turn_(part_of_turn(-std::numbers::pi - environment.rotation)) {
   if (tables_) {
@@ -68,7 +73,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, RenderCache* 
     mean_luminance_ = static_cast<float>(distribution.mean_luminance() * double{intensity_});
     sampled_luminance_ = static_cast<float>(distribution.sampled_luminance() * double{intensity_});
   } else {
-    uniform_ = intensity_ * std::get<Vec3>(environment.content);
+    uniform_ = glm::min(intensity_ * std::get<Vec3>(environment.content), Vec3(kBrightest));
     mean_luminance_ = luminance(uniform_);
     sampled_luminance_ = mean_luminance_ * MapDistribution::kLeastPart;
   }

@@ -18,6 +18,13 @@ namespace {
 constexpr unsigned kDeepest = 24;
 constexpr int kBuckets = 12;
 
+/// Of the samples at a node the least that a child gets from which light may come: what seems to
+/// bring most may be hidden.
+constexpr float kLeastShare = 0x1p-12F;
+
+/// Below the square of all distances but 0 between places in float32.
+constexpr double kLeastSquare = 0x1p-300;
+
 /// An angle in [0, pi].
 struct Angle {
   float cosine, sine;
@@ -52,8 +59,8 @@ LightCone united(const LightCone& a, const LightCone& b) {
   return cone;
 }
 
-float half_area(const Vec3& low, const Vec3& high) {
-  const Vec3 d = high - low;
+double half_area(const Vec3& low, const Vec3& high) {
+  const DVec3 d = DVec3(high) - DVec3(low);
   return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
@@ -71,7 +78,7 @@ struct Bucket {
     count += other.count;
   }
   /// Power and box decide; one light's box may be flat or a point.
-  [[nodiscard]] float cost(float least_area) const {
+  [[nodiscard]] double cost(double least_area) const {
     return bounds.power * (half_area(bounds.low, bounds.high) + least_area);
   }
 };
@@ -86,25 +93,26 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
           .two_sided = a.two_sided || b.two_sided};
 }
 
-float LightBounds::importance(const Vec3& p, const Vec3& n) const {
-  const Vec3 way = p - (low + high) * 0.5F, diagonal = high - low;
-  const float radius_square = glm::dot(diagonal, diagonal) * 0.25F;
-  const float square = glm::dot(way, way);
-  if (!(square > 0)) return power / std::max(radius_square, std::numeric_limits<float>::min());
-  const Vec3 direction = way / std::sqrt(square);
+double LightBounds::importance(const Vec3& p, const Vec3& n) const {
+  const DVec3 from(low), to(high), way = DVec3(p) - (from + to) * 0.5, diagonal = to - from;
+  const double radius_square = glm::dot(diagonal, diagonal) * 0.25;
+  const double square = glm::dot(way, way);
+  if (!(square > 0)) return power / std::max(radius_square, kLeastSquare);
+  const Vec3 direction(way / std::sqrt(square));
   const float along = glm::dot(cone.axis, direction);
   const Angle to_point(std::min(two_sided ? std::abs(along) : along, 1.0F));
   // The angle under which the box's sphere is seen.
-  const Angle box = square <= radius_square ? Angle(-1, 0)
-                                            : Angle(std::sqrt(1 - radius_square / square),
-                                                    std::sqrt(radius_square / square));
+  const auto sine_square = static_cast<float>(std::min(radius_square / square, 1.0));
+  const Angle box = square <= radius_square
+                        ? Angle(-1, 0)
+                        : Angle(std::sqrt(1 - sine_square), std::sqrt(sine_square));
   const Angle off_cone = less(to_point, Angle(cone.cos_o));
   const Angle least = box.cosine == -1 ? Angle(1, 0) : less(off_cone, box);
   if (least.cosine < cone.cos_e) return 0;
   const Angle arriving(std::min(std::abs(glm::dot(direction, n)), 1.0F));
   const Angle least_arriving = box.cosine == -1 ? Angle(1, 0) : less(arriving, box);
-  return power * std::max(least.cosine, 0.0F) * std::max(least_arriving.cosine, 0.0F) /
-         std::max(square, radius_square);
+  const float cosines = std::max(least.cosine, 0.0F) * std::max(least_arriving.cosine, 0.0F);
+  return power * double{cosines} / std::max(square, radius_square);
 }
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) : trails_(lights.size()) {
@@ -123,35 +131,37 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
     trails_[order[begin]] = trail;
     return;
   }
-  const auto centre = [&](std::uint32_t i) { return (lights[i].low + lights[i].high) * 0.5F; };
-  Vec3 low = centre(order[begin]), high = low;
+  const auto centre = [&](std::uint32_t i) {
+    return (DVec3(lights[i].low) + DVec3(lights[i].high)) * 0.5;
+  };
+  DVec3 low = centre(order[begin]), high = low;
   for (std::size_t i = begin + 1; i < end; ++i) {
     nodes_[place].bounds = united(nodes_[place].bounds, lights[order[i]]);
     low = glm::min(low, centre(order[i]));
     high = glm::max(high, centre(order[i]));
   }
-  const Vec3 extent = high - low;
+  const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
   // The cheapest of the bucket borders; without one, or too deep, the middle of the order.
   std::size_t middle = begin + (end - begin) / 2;
   if (extent[axis] > 0 && depth < kDeepest) {
-    const float scale = kBuckets / extent[axis];
+    const double scale = kBuckets / extent[axis];
     const auto bucket_of = [&](std::uint32_t i) {
       return std::min(static_cast<int>((centre(i)[axis] - low[axis]) * scale), kBuckets - 1);
     };
     std::array<Bucket, kBuckets> buckets;
     for (std::size_t i = begin; i < end; ++i)
       buckets[static_cast<std::size_t>(bucket_of(order[i]))].add(lights[order[i]]);
-    const float least_area = extent[axis] * extent[axis] * 1e-4F;
+    const double least_area = extent[axis] * extent[axis] * 1e-4;
     int best = 0;
-    float best_cost = std::numeric_limits<float>::infinity();
+    double best_cost = std::numeric_limits<double>::infinity();
     for (int border = 1; border < kBuckets; ++border) {
       Bucket left, right;
       for (int b = 0; b < border; ++b) left.add(buckets[static_cast<std::size_t>(b)]);
       for (int b = border; b < kBuckets; ++b) right.add(buckets[static_cast<std::size_t>(b)]);
       if (left.count == 0 || right.count == 0) continue;
-      const float cost = left.cost(least_area) + right.cost(least_area);
+      const double cost = left.cost(least_area) + right.cost(least_area);
       if (cost < best_cost) best = border, best_cost = cost;
     }
     if (best > 0) {
@@ -169,38 +179,40 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
 }
 
 float LightTree::first_share(const Node& node, const Vec3& p, const Vec3& n) const {
-  const float first = (&node + 1)->bounds.importance(p, n);
-  const float second = nodes_[node.second].bounds.importance(p, n);
-  return first + second > 0 ? first / (first + second) : -1;
+  const double first = (&node + 1)->bounds.importance(p, n);
+  const double second = nodes_[node.second].bounds.importance(p, n);
+  if (first > 0 && second > 0)
+    return std::clamp(static_cast<float>(first / (first + second)), kLeastShare, 1 - kLeastShare);
+  return first > 0 ? 1.0F : second > 0 ? 0.0F : -1.0F;
 }
 
 std::optional<LightTree::Choice> LightTree::choose(const Vec3& p, const Vec3& n, float u) const {
-  float share = 1;
+  double share = 1;
   const Node* node = nodes_.data();
   while (!node->is_leaf) {
     const float first = first_share(*node, p, n);
     if (first < 0) return std::nullopt;
     if (u < first) {
       u = sampling::reused(u, 0, first);
-      share *= first;
+      share *= double{first};
       node = node + 1;
     } else {
       u = sampling::reused(u, first, 1 - first);
-      share *= 1 - first;
+      share *= double{1 - first};
       node = &nodes_[node->second];
     }
   }
   return Choice{.light = node->light, .share = share};
 }
 
-float LightTree::share(std::size_t light, const Vec3& p, const Vec3& n) const {
-  float share = 1;
+double LightTree::share(std::size_t light, const Vec3& p, const Vec3& n) const {
+  double share = 1;
   const Node* node = nodes_.data();
   for (std::uint64_t trail = trails_[light]; !node->is_leaf; trail >>= 1U) {
     const float first = first_share(*node, p, n);
     if (first < 0) return 0;
     const bool is_second = (trail & 1U) != 0;
-    share *= is_second ? 1 - first : first;
+    share *= double{is_second ? 1 - first : first};
     node = is_second ? &nodes_[node->second] : node + 1;
   }
   return share;

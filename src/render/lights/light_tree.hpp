@@ -7,8 +7,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
+
+#include <glm/common.hpp>
 
 namespace microtrace {
 
@@ -20,17 +23,24 @@ struct LightCone {
   float cos_e = 0;
 };
 
-/// Where light comes from, and how much.
+/// Where light comes from, and how much. What is made of it is float64: float32 has no place for
+/// squares and products of many of its own numbers.
 struct LightBounds {
   Vec3 low{0}, high{0};  ///< world space
-  float power = 0;
+  double power = 0;
   LightCone cone{};
   bool two_sided = false;  ///< shines about -axis too
 
   /// At least the light at p, but for the surface there and a constant; `n` is its unit normal, on
   /// either side.
-  [[nodiscard]] float importance(const Vec3& p, const Vec3& n) const;
+  [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const;
 };
+
+/// The nearest place that float32 has.
+[[nodiscard]] inline Vec3 finite_point(const DVec3& p) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return Vec3(glm::clamp(p, DVec3(-most), DVec3(most)));
+}
 
 /// The bounds of both.
 [[nodiscard]] LightBounds united(const LightBounds& a, const LightBounds& b);
@@ -42,19 +52,19 @@ class LightTree {
   explicit LightTree(const std::vector<LightBounds>& lights);
 
   /// Of all together.
-  [[nodiscard]] float importance(const Vec3& p, const Vec3& n) const {
+  [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const {
     return nodes_.front().bounds.importance(p, n);
   }
 
   struct Choice {
     std::size_t light;
-    float share;  ///< of samples at that place
+    double share;  ///< of samples at that place, above 0
   };
   /// u in [0, 1). Nothing if none reaches that point.
   [[nodiscard]] std::optional<Choice> choose(const Vec3& p, const Vec3& n, float u) const;
 
   /// With which choose() gives that light there.
-  [[nodiscard]] float share(std::size_t light, const Vec3& p, const Vec3& n) const;
+  [[nodiscard]] double share(std::size_t light, const Vec3& p, const Vec3& n) const;
 
  private:
   struct Node {

@@ -37,7 +37,8 @@ Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cach
   add_surfaces(bounds);
   add_lights(bounds);
   if (!bounds.empty()) tree_.emplace(bounds);
-  if (environment_) environment_light_ = environment_->sampled_luminance() / bsdf::kInversePi;
+  if (environment_)
+    environment_light_ = double{environment_->sampled_luminance() / bsdf::kInversePi};
   for (const std::uint32_t i : far_lights_) {
     if (const auto light = of_punctual(scene.lights[i].light, Vec3(0)))
       far_light_ += luminance(light->light);
@@ -49,10 +50,10 @@ Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cach
 // in a room none of it may come.
 Lighting::Shares Lighting::shares(const Receiver& receiver) const {
   constexpr float least = 0.1F;
-  const float tree = tree_ ? tree_->importance(receiver.p, receiver.n) : 0;
-  const float sum = environment_light_ + far_light_ + tree;
-  const auto part = [&](bool is_there, float light) {
-    return is_there ? std::max(sum > 0 ? light / sum : 0, least) : 0;
+  const double tree = tree_ ? tree_->importance(receiver.p, receiver.n) : 0;
+  const double sum = environment_light_ + far_light_ + tree;
+  const auto part = [&](bool is_there, double light) {
+    return is_there ? std::max(sum > 0 ? static_cast<float>(light / sum) : 0, least) : 0;
   };
   const Shares raw{.environment = part(environment_light_ > 0, environment_light_),
                    .far = part(!far_lights_.empty(), far_light_),
@@ -80,10 +81,11 @@ void Lighting::add_surfaces(std::vector<LightBounds>& bounds) {
 }
 
 void Lighting::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
-  const auto area = static_cast<float>(area_of(t));
+  const double area = area_of(t);
   // Filtered over about the triangle.
-  const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, std::sqrt(area) * 0.75F);
-  const float power = area * luminance(shading_.emission(middle));
+  const auto width = static_cast<float>(std::sqrt(area) * 0.75);
+  const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, width);
+  const double power = area * luminance(DVec3(shading_.emission(middle)));
   if (!(power > 0)) return;
   emitters_.push_back({.id = id, .area = area});
   bounds.push_back({.low = glm::min(t.a, glm::min(t.b, t.c)),
@@ -97,7 +99,7 @@ void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBo
   std::optional<LightBounds> light = shape_bounds(shape);
   if (!light) return;
   const ShadingPoint point = shading_.point_on(id, Vec3(0), true, 0);
-  light->power *= luminance(shading_.emission(point));
+  light->power *= luminance(DVec3(shading_.emission(point)));
   if (!(light->power > 0)) return;
   light->two_sided = has_back(*point.look->material);
   emitters_.push_back({.id = id, .shape = &shape});
@@ -116,87 +118,79 @@ void Lighting::add_lights(std::vector<LightBounds>& bounds) {
   }
 }
 
-std::optional<LightSample> Lighting::of_triangle(const Emitter& emitter, const Vec3& p,
-                                                 const Vec2& u) const {
+std::optional<FoundLight> Lighting::of_triangle(const Emitter& emitter, const Vec3& p,
+                                                const Vec2& u) const {
   const Vec3 weights = corner_weights(u);
   ShadingPoint point = shading_.point_on(emitter.id, weights, true, 0);
-  const Vec3 way = point.at.p - p;
-  const float square = glm::dot(way, way);
-  if (!(square > 0)) return std::nullopt;
-  const Vec3 wi = way / std::sqrt(square);
+  const DVec3 way = DVec3(point.at.p) - DVec3(p);
+  const double square = glm::dot(way, way);
+  if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
+  const Vec3 wi(way / std::sqrt(square));
   const float cosine = -glm::dot(wi, point.at.n);
   point.at.front = cosine > 0;
   if (cosine == 0) return std::nullopt;
-  return of_point(point, emitter.id, way, wi, square / (emitter.area * std::abs(cosine)));
+  return of_point(point, emitter.id, way, wi, square / (emitter.area * double{std::abs(cosine)}));
 }
 
-std::optional<LightSample> Lighting::of_shape(const Emitter& emitter, const Vec3& p,
-                                              const Vec2& u) const {
+std::optional<FoundLight> Lighting::of_shape(const Emitter& emitter, const Vec3& p,
+                                             const Vec2& u) const {
   const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
   if (!sample) return std::nullopt;
   const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
   return of_point(point, emitter.id, sample->way, sample->wi, sample->density);
 }
 
-std::optional<LightSample> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
-                                              const Vec3& way, const Vec3& wi,
-                                              float density) const {
+std::optional<FoundLight> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
+                                             const DVec3& way, const Vec3& wi,
+                                             double density) const {
   const float coverage = shading_.coverage(point, false);
   const Vec3 emission = shading_.emission(point);
   if (coverage == 0 || emission == Vec3(0)) return std::nullopt;
-  return LightSample{.way = way,
-                     .wi = wi,
-                     .light = emission * (coverage / density),
-                     .density = density,
-                     .target = id};
+  return FoundLight{.way = way,
+                    .wi = wi,
+                    .light = DVec3(emission) * (double{coverage} / density),
+                    .density = density,
+                    .target = id};
 }
 
-std::optional<LightSample> Lighting::of_far(const Receiver& receiver, float choice) const {
+std::optional<LightSample> Lighting::of_far(const Receiver& receiver, float choice,
+                                            double share) const {
   const auto count = static_cast<float>(far_lights_.size());
   const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
-  std::optional<LightSample> result = of_punctual(scene_.lights[far_lights_[i]].light, receiver.p);
-  if (result) result->take_share(1 / count);
-  return result;
+  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, receiver.p);
+  if (!found) return std::nullopt;
+  return found->with_share(share / double{count});
 }
 
-std::optional<LightSample> Lighting::of_tree(const Receiver& receiver, const Vec2& u,
-                                             float choice) const {
+std::optional<LightSample> Lighting::of_tree(const Receiver& receiver, const Vec2& u, float choice,
+                                             double share) const {
   const std::optional<LightTree::Choice> chosen = tree_->choose(receiver.p, receiver.n, choice);
   if (!chosen) return std::nullopt;
   const Emitter& emitter = emitters_[chosen->light];
-  std::optional<LightSample> result;
-  if (emitter.light != kNone) {
-    result = of_punctual(scene_.lights[emitter.light].light, receiver.p);
-  } else {
-    result = emitter.shape != nullptr ? of_shape(emitter, receiver.p, u)
-                                      : of_triangle(emitter, receiver.p, u);
-  }
-  if (result) result->take_share(chosen->share);
-  return result;
+  const std::optional<FoundLight> found =
+      emitter.light != kNone     ? of_punctual(scene_.lights[emitter.light].light, receiver.p)
+      : emitter.shape != nullptr ? of_shape(emitter, receiver.p, u)
+                                 : of_triangle(emitter, receiver.p, u);
+  if (!found) return std::nullopt;
+  return found->with_share(share * chosen->share);
 }
 
 std::optional<LightSample> Lighting::sample(const Receiver& receiver, const Vec2& u,
                                             float choice) const {
   const Shares share = shares(receiver);
-  std::optional<LightSample> result;
   if (choice < share.environment) {
     if (!samples_environment()) return std::nullopt;
     const EnvironmentLight::Sample s = environment_->sample(u);
-    result = {
-        .way = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / s.pdf, .density = s.pdf};
-    result->take_share(share.environment);
-    return result;
+    const float density = s.pdf * share.environment;
+    return LightSample{
+        .way = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / density, .density = density};
   }
   choice -= share.environment;
   if (share.tree == 0 || choice < share.far) {
     if (share.far == 0) return std::nullopt;
-    result = of_far(receiver, choice / share.far);
-    if (result) result->take_share(share.far);
-  } else {
-    result = of_tree(receiver, u, sampling::reused(choice, share.far, share.tree));
-    if (result) result->take_share(share.tree);
+    return of_far(receiver, choice / share.far, double{share.far});
   }
-  return result;
+  return of_tree(receiver, u, sampling::reused(choice, share.far, share.tree), double{share.tree});
 }
 
 EnvironmentLight::Look Lighting::environment(const Receiver& receiver, const Vec3& wi) const {
@@ -212,10 +206,12 @@ float Lighting::emitter_density(PrimitiveId id, const Receiver& receiver, float 
   const auto place = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
   if (place == end || place->id != id || !(cosine > 0)) return 0;
   const auto light = static_cast<std::size_t>(place - emitters_.begin());
-  const float density = place->shape != nullptr
-                            ? shape_density(*place->shape, receiver.p, distance, cosine)
-                            : distance * distance / (place->area * cosine);
-  return shares(receiver).tree * tree_->share(light, receiver.p, receiver.n) * density;
+  const double length = distance;
+  const double density = place->shape != nullptr
+                             ? shape_density(*place->shape, receiver.p, distance, cosine)
+                             : length * length / (place->area * double{cosine});
+  const double share = double{shares(receiver).tree} * tree_->share(light, receiver.p, receiver.n);
+  return share > 0 ? limited_density(density * share) : 0;
 }
 
 }  // namespace microtrace

@@ -64,7 +64,7 @@ class Lighting {
   struct Emitter {
     PrimitiveId id = 0;
     std::uint32_t light = kNone;   ///< kNone: a surface
-    float area = 0;                ///< of a mesh's triangle
+    double area = 0;               ///< of a mesh's triangle
     const Shape* shape = nullptr;  ///< of its own
   };
 
@@ -81,17 +81,19 @@ class Lighting {
   [[nodiscard]] bool samples_environment() const {
     return environment_ && !environment_->is_uniform();
   }
-  [[nodiscard]] std::optional<LightSample> of_far(const Receiver& receiver, float choice) const;
+  /// `share` is that of all far lights, or of the tree.
+  [[nodiscard]] std::optional<LightSample> of_far(const Receiver& receiver, float choice,
+                                                  double share) const;
   [[nodiscard]] std::optional<LightSample> of_tree(const Receiver& receiver, const Vec2& u,
-                                                   float choice) const;
-  [[nodiscard]] std::optional<LightSample> of_triangle(const Emitter& emitter, const Vec3& p,
-                                                       const Vec2& u) const;
-  [[nodiscard]] std::optional<LightSample> of_shape(const Emitter& emitter, const Vec3& p,
-                                                    const Vec2& u) const;
+                                                   float choice, double share) const;
+  [[nodiscard]] std::optional<FoundLight> of_triangle(const Emitter& emitter, const Vec3& p,
+                                                      const Vec2& u) const;
+  [[nodiscard]] std::optional<FoundLight> of_shape(const Emitter& emitter, const Vec3& p,
+                                                   const Vec2& u) const;
   /// What comes from a point, as a sample of that density.
-  [[nodiscard]] std::optional<LightSample> of_point(const ShadingPoint& point, PrimitiveId id,
-                                                    const Vec3& way, const Vec3& wi,
-                                                    float density) const;
+  [[nodiscard]] std::optional<FoundLight> of_point(const ShadingPoint& point, PrimitiveId id,
+                                                   const DVec3& way, const Vec3& wi,
+                                                   double density) const;
 
   const Scene& scene_;
   const Shading& shading_;
@@ -99,8 +101,8 @@ class Lighting {
   std::vector<std::uint32_t> far_lights_;  // of Scene::lights those without a place
   std::vector<Emitter> emitters_;          // surfaces first, by id
   std::size_t surfaces_ = 0;
-  std::optional<LightTree> tree_;                // of the emitters
-  float environment_light_ = 0, far_light_ = 0;  // about what falls on a surface
+  std::optional<LightTree> tree_;                 // of the emitters
+  double environment_light_ = 0, far_light_ = 0;  // about what falls on a surface
 };
 
 }  // namespace microtrace

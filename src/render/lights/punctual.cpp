@@ -5,12 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include <glm/geometric.hpp>
 
 namespace microtrace {
 namespace {
+
+/// Numbers that float32 has not are infinite in it.
+double finite(float intensity) {
+  return std::min(intensity, std::numeric_limits<float>::max());
+}
 
 /// The extension's window: from 1 down to 0 at the range.
 double window(double distance, double range) {
@@ -19,42 +25,44 @@ double window(double distance, double range) {
   return std::isfinite(range) ? w : 1;
 }
 
-std::optional<LightSample> from_place(const DVec3& place, const Vec3& p, const Vec3& color,
-                                      double intensity, double range) {
+std::optional<FoundLight> from_place(const DVec3& place, const Vec3& p, const Vec3& color,
+                                     double intensity, double range) {
   const DVec3 way = place - DVec3(p);
   const double square = glm::dot(way, way);
   if (!(square > 0)) return std::nullopt;
   const double distance = std::sqrt(square);
   const double irradiance = intensity * window(distance, range) / square;
-  if (!(irradiance > 0)) return std::nullopt;
-  return LightSample{.way = Vec3(way),
-                     .wi = Vec3(way / distance),
-                     .light = static_cast<float>(irradiance) * color};
+  if (!(irradiance > 0) || !std::isfinite(distance)) return std::nullopt;
+  return FoundLight{.way = way, .wi = Vec3(way / distance), .light = irradiance * DVec3(color)};
 }
 
-std::optional<LightSample> sample(const DirectionalLight& light, const Vec3&) {
-  const Vec3 wi(-light.direction);
-  return LightSample{.way = wi, .is_far = true, .wi = wi, .light = light.intensity * light.color};
+std::optional<FoundLight> sample(const DirectionalLight& light, const Vec3&) {
+  const DVec3 wi = -light.direction;
+  return FoundLight{.way = wi,
+                    .is_far = true,
+                    .wi = Vec3(wi),
+                    .light = finite(light.intensity) * DVec3(light.color)};
 }
 
-std::optional<LightSample> sample(const PointLight& light, const Vec3& p) {
-  return from_place(light.position, p, light.color, light.intensity, light.range);
+std::optional<FoundLight> sample(const PointLight& light, const Vec3& p) {
+  return from_place(light.position, p, light.color, finite(light.intensity), light.range);
 }
 
-std::optional<LightSample> sample(const SpotLight& light, const Vec3& p) {
+std::optional<FoundLight> sample(const SpotLight& light, const Vec3& p) {
   const DVec3 way = DVec3(p) - light.position;
   const double square = glm::dot(way, way);
   if (!(square > 0)) return std::nullopt;
   const double cosine = glm::dot(way, light.direction) / std::sqrt(square);
   const double inner = cos_radians(light.inner_angle), outer = cos_radians(light.outer_angle);
   const double inside = std::clamp((cosine - outer) / std::max(inner - outer, 1e-9), 0.0, 1.0);
-  return from_place(light.position, p, light.color, light.intensity * inside * inside, light.range);
+  return from_place(light.position, p, light.color, finite(light.intensity) * inside * inside,
+                    light.range);
 }
 
 LightBounds bounds_at(const DVec3& place, const Vec3& color, float intensity,
                       const LightCone& cone) {
-  return {
-      .low = Vec3(place), .high = Vec3(place), .power = intensity * luminance(color), .cone = cone};
+  const Vec3 p = finite_point(place);
+  return {.low = p, .high = p, .power = finite(intensity) * luminance(DVec3(color)), .cone = cone};
 }
 
 std::optional<LightBounds> bounds(const DirectionalLight&) {
@@ -76,7 +84,7 @@ std::optional<LightBounds> punctual_bounds(const Light& light) {
   return std::visit([](const auto& l) { return bounds(l); }, light);
 }
 
-std::optional<LightSample> of_punctual(const Light& light, const Vec3& p) {
+std::optional<FoundLight> of_punctual(const Light& light, const Vec3& p) {
   return std::visit([&](const auto& l) { return sample(l, p); }, light);
 }
 

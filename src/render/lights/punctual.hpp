@@ -15,6 +15,6 @@ namespace microtrace {
 [[nodiscard]] std::optional<LightBounds> punctual_bounds(const Light& light);
 
 /// Nothing where none of it comes.
-[[nodiscard]] std::optional<LightSample> of_punctual(const Light& light, const Vec3& p);
+[[nodiscard]] std::optional<FoundLight> of_punctual(const Light& light, const Vec3& p);
 
 }  // namespace microtrace

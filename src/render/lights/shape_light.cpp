@@ -19,63 +19,68 @@ template <class S>
 constexpr bool kIsSampled =
     std::is_same_v<S, Sphere> || std::is_same_v<S, Disc> || std::is_same_v<S, Triangle>;
 
-constexpr auto kPi = static_cast<float>(std::numbers::pi);
+constexpr double kPi = std::numbers::pi;
 
 /// A part of a plane; `n` is the unit normal of its front.
 struct Flat {
   Vec3 n{0, 0, 1};
-  float area = 0;
+  double area = 0;
 };
 
 /// Without area where v has no direction.
 Flat flat(const DVec3& v, double area) {
   const double length = std::sqrt(glm::dot(v, v));
   if (!(length > 0) || !std::isfinite(length)) return {};
-  return {.n = Vec3(v / length), .area = static_cast<float>(area)};
+  return {.n = Vec3(v / length), .area = area};
 }
 Flat flat_of(const Disc& s) {
-  return flat(DVec3(s.normal), std::numbers::pi * double{s.radius} * double{s.radius});
+  return flat(DVec3(s.normal), kPi * double{s.radius} * double{s.radius});
 }
 Flat flat_of(const Triangle& s) {
   const DVec3 v = glm::cross(DVec3(s.b) - DVec3(s.a), DVec3(s.c) - DVec3(s.a));
   return flat(v, std::sqrt(glm::dot(v, v)) / 2);
 }
 
-Vec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
+DVec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
   const auto [cosine, sine] = sampling::unit_pair(u.x);
-  const float r = s.radius * std::sqrt(u.y);
-  return s.center + bsdf::Frame::about(n).to_world({r * cosine, r * sine, 0});
+  const float r = std::sqrt(u.y);
+  return DVec3(s.center) +
+         double{s.radius} * DVec3(bsdf::Frame::about(n).to_world({r * cosine, r * sine, 0}));
 }
-Vec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
-  const Vec2 w = sampling::triangle_weights(u);
-  return w.x * s.a + w.y * s.b + std::max(1 - w.x - w.y, 0.0F) * s.c;
+DVec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
+  const DVec2 w(sampling::triangle_weights(u));
+  return w.x * DVec3(s.a) + w.y * DVec3(s.b) + std::max(1 - w.x - w.y, 0.0) * DVec3(s.c);
 }
 
-float density_of(const Flat& flat, float square, float cosine) {
-  return square / (flat.area * cosine);
+double density_of(const Flat& flat, double square, float cosine) {
+  return square / (flat.area * double{cosine});
 }
 
 /// What p sees of a sphere: directions within an angle of the way to its centre.
 struct Cone {
   Vec3 axis{0, 0, 1};
-  float distance = 0;  ///< of the centre
-  float height = 0;    ///< 1 - cos(angle); 0: p is not outside
+  double distance = 0;  ///< of the centre
+  double height = 0;    ///< 1 - cos(angle); 0: p is not outside
 
   Cone(const Sphere& s, const Vec3& p) {
-    const Vec3 way = s.center - p;
-    const float square = glm::dot(way, way), ratio = s.radius * s.radius / square;
+    const DVec3 way = DVec3(s.center) - DVec3(p);
+    const double square = glm::dot(way, way);
+    const double ratio = double{s.radius} * double{s.radius} / square;
     if (!(ratio < 1)) return;
     distance = std::sqrt(square);
-    axis = way / distance;
+    axis = Vec3(way / distance);
     height = ratio / (1 + std::sqrt(1 - ratio));
   }
-  [[nodiscard]] float density() const { return height > 0 ? 1 / (2 * kPi * height) : 0; }
+  [[nodiscard]] double density() const { return height > 0 ? 1 / (2 * kPi * height) : 0; }
 };
 
+LightBounds box(const Vec3& center, const DVec3& reach) {
+  return {.low = finite_point(DVec3(center) - reach), .high = finite_point(DVec3(center) + reach)};
+}
 LightBounds bounds_of(const Disc& s, const Flat& flat) {
   // Along each axis as far as the disc's edge goes.
-  const Vec3 reach = s.radius * glm::sqrt(glm::max(Vec3(1) - flat.n * flat.n, Vec3(0)));
-  return {.low = s.center - reach, .high = s.center + reach};
+  const Vec3 part = glm::sqrt(glm::max(Vec3(1) - flat.n * flat.n, Vec3(0)));
+  return box(s.center, double{s.radius} * DVec3(part));
 }
 LightBounds bounds_of(const Triangle& s, const Flat&) {
   return {.low = glm::min(s.a, glm::min(s.b, s.c)), .high = glm::max(s.a, glm::max(s.b, s.c))};
@@ -90,19 +95,20 @@ LightBounds bounds(const FlatShape& s) {
   return result;
 }
 LightBounds bounds(const Sphere& s) {
-  return {.low = s.center - s.radius,
-          .high = s.center + s.radius,
-          .power = kPi * s.radius * s.radius,
-          .cone = {.cos_o = -1}};
+  const double r = s.radius;
+  LightBounds result = box(s.center, DVec3(r));
+  result.power = kPi * r * r;
+  result.cone.cos_o = -1;
+  return result;
 }
 
 template <class FlatShape>
 std::optional<ShapeSample> sample(const FlatShape& s, const Vec3& p, const Vec2& u) {
   const Flat flat = flat_of(s);
-  const Vec3 way = point_of(s, flat.n, u) - p;
-  const float square = glm::dot(way, way);
+  const DVec3 way = point_of(s, flat.n, u) - DVec3(p);
+  const double square = glm::dot(way, way);
   if (!(square > 0)) return std::nullopt;
-  const Vec3 wi = way / std::sqrt(square);
+  const Vec3 wi(way / std::sqrt(square));
   const float cosine = -glm::dot(wi, flat.n);
   if (cosine == 0) return std::nullopt;
   return ShapeSample{.way = way,
@@ -113,13 +119,15 @@ std::optional<ShapeSample> sample(const FlatShape& s, const Vec3& p, const Vec2&
 std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u) {
   const Cone cone(s, p);
   if (cone.height == 0) return std::nullopt;
-  const float h = u.y * cone.height, sine = std::sqrt(h * (2 - h));
+  const double h = double{u.y} * cone.height, sine = std::sqrt(h * (2 - h));
   const auto [cos_phi, sin_phi] = sampling::unit_pair(u.x);
-  const Vec3 wi = bsdf::Frame::about(cone.axis).to_world({sine * cos_phi, sine * sin_phi, 1 - h});
-  const float off_centre = cone.distance * sine;
-  const float half_chord = std::sqrt(std::max(s.radius * s.radius - off_centre * off_centre, 0.0F));
-  return ShapeSample{
-      .way = wi * (cone.distance * (1 - h) - half_chord), .wi = wi, .density = cone.density()};
+  const Vec3 local(DVec3(sine * double{cos_phi}, sine * double{sin_phi}, 1 - h));
+  const Vec3 wi = bsdf::Frame::about(cone.axis).to_world(local);
+  const double off_centre = cone.distance * sine, r = s.radius;
+  const double half_chord = std::sqrt(std::max(r * r - off_centre * off_centre, 0.0));
+  return ShapeSample{.way = DVec3(wi) * (cone.distance * (1 - h) - half_chord),
+                     .wi = wi,
+                     .density = cone.density()};
 }
 }  // namespace
 
@@ -144,12 +152,13 @@ std::optional<ShapeSample> sample_shape(const Shape& shape, const Vec3& p, const
   return result;
 }
 
-float shape_density(const Shape& shape, const Vec3& p, float distance, float cosine) {
+double shape_density(const Shape& shape, const Vec3& p, float distance, float cosine) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return Cone(*sphere, p).density();
   Flat flat;
   if (const auto* disc = std::get_if<Disc>(&shape)) flat = flat_of(*disc);
   if (const auto* triangle = std::get_if<Triangle>(&shape)) flat = flat_of(*triangle);
-  return flat.area > 0 && cosine > 0 ? density_of(flat, distance * distance, cosine) : 0;
+  return flat.area > 0 && cosine > 0 ? density_of(flat, double{distance} * double{distance}, cosine)
+                                     : 0;
 }
 
 }  // namespace microtrace

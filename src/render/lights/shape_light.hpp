@@ -16,10 +16,10 @@ namespace microtrace {
 
 /// A point of a shape as another point sees it.
 struct ShapeSample {
-  Vec3 way{0};        ///< to it
-  Vec3 wi{0, 0, 1};   ///< its direction, of unit length
-  bool front = true;  ///< whether the front side is seen
-  float density = 0;  ///< per solid angle
+  DVec3 way{0};        ///< to it
+  Vec3 wi{0, 0, 1};    ///< its direction, of unit length
+  bool front = true;   ///< whether the front side is seen
+  double density = 0;  ///< per solid angle
 };
 
 /// Of a shape that has bounds; u in [0, 1)^2. Spheres are sampled evenly over the solid angle under
@@ -30,6 +30,6 @@ struct ShapeSample {
 
 /// The density with which sample_shape() gives a point at that distance, where the shape's normal
 /// has that cosine with the way, above 0. Not 0 for shapes that have bounds alone.
-[[nodiscard]] float shape_density(const Shape& shape, const Vec3& p, float distance, float cosine);
+[[nodiscard]] double shape_density(const Shape& shape, const Vec3& p, float distance, float cosine);
 
 }  // namespace microtrace

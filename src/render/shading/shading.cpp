@@ -1,5 +1,6 @@
 #include "render/shading/shading.hpp"
 
+#include "render/luminance.hpp"
 #include "render/shading/normals.hpp"
 #include "render/shading/texture_slots.hpp"
 
@@ -102,7 +103,8 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
   if (look.material->unlit) return Vec3(base_color(point));
   if (is_missing_back(point)) return Vec3(0);
   const Vec3 color = look.material->emissive;
-  return color == Vec3(0) ? color : color * Vec3(look.emissive.at(point));
+  if (color == Vec3(0)) return color;
+  return glm::min(color, Vec3(kBrightest)) * Vec3(look.emissive.at(point));
 }
 
 bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {

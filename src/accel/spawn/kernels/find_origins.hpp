@@ -7,10 +7,10 @@ namespace {
 /// neighbour() of floats.
 template <int N>
 inline Float<N> neighbours(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
-  using Bits = typename FloatVector<N>::bits_type;
+  using Bits = Unsigned<N>;  // those of -0 and NaN, in lanes that do not count, wrap around
   const Bits bits = (Bits)x, one = Bits{} + 1;
   const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
-  const Bits from_zero = up != 0 ? one : one | INT32_MIN;
+  const Bits from_zero = up != 0 ? one : one | 0x80000000U;
   return (Float<N>)(x == 0 ? from_zero : away);
 }
 
