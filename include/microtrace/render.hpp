@@ -32,6 +32,7 @@ struct RenderCounts {
   std::uint64_t invalid_samples = 0;    ///< of random integrators, no numbers: counted as black
   std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
   RayCounts rays{};                     ///< the integrator's, of all its pictures so far
+  std::uint32_t missing_threads = 0;    ///< threads that the system refused to start
 };
 
 /// How the samples around a pixel's centre weigh in its colour. They lie as dense as the filter is

@@ -4,6 +4,7 @@
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
 #include "cli/verdict.hpp"
+#include "float_environment.hpp"
 
 #include <microtrace/digest.hpp>
 #include <microtrace/framing.hpp>
@@ -167,6 +168,7 @@ int exit_code_of(const Work& work) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const FloatEnvironment environment;
   std::signal(SIGINT, stop_at_once);
   std::signal(SIGTERM, stop_at_once);
   // A closed pipe and a file size limit are errors of the write, with a message.

@@ -98,6 +98,13 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
     std::fprintf(stderr, "warning: %llu samples were no numbers and count as black\n",
                  static_cast<unsigned long long>(counts.invalid_samples));
   }
+  if (counts.missing_threads > 0 && !arguments.quiet) {
+    std::fprintf(
+        stderr,
+        "warning: the system refused to start %u of %u threads, by a limit on processes or "
+        "memory: the picture is the same, but took longer\n",
+        counts.missing_threads, options.threads);
+  }
   if (files.samples != nullptr) files.samples->save();
   if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
   watch.written();

@@ -1,5 +1,7 @@
 #include "io/module_function.hpp"
 
+#include "float_environment.hpp"
+
 #include <cstdlib>
 #include <dlfcn.h>
 #include <system_error>
@@ -35,6 +37,7 @@ std::string last_complaint(const std::string& otherwise) {
 }  // namespace
 
 Module open_module(const char* file) {
+  const FloatEnvironment environment;  // libraries make tables when they are loaded
   Module result;
   for (const fs::path& folder : module_folders()) {
     const fs::path path = folder / file;

@@ -1,6 +1,8 @@
 #pragma once
 /// Pictures by integrators whose answers are random.
 
+#include "render/tiles.hpp"
+
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/render.hpp>
@@ -15,7 +17,7 @@ struct RandomDrawing {
   const Integrator& integrator;
   const RenderOptions& options;
   const PixelRect& window;
-  unsigned threads;
+  Threads& threads;
   std::chrono::steady_clock::time_point start;  ///< from which a time limit counts
 };
 

@@ -66,7 +66,7 @@ class Stops {
 }  // namespace
 
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
-                std::chrono::steady_clock::time_point start, unsigned threads,
+                std::chrono::steady_clock::time_point start, Threads& threads,
                 const std::function<void(double)>& progress, SampleSums& sums) {
   std::uint32_t to_do = 0, done = 0;
   for (const SampleRange& range : sums.missing(wanted)) to_do += range.size();

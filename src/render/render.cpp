@@ -113,7 +113,7 @@ Film render_recentred(const PlacedScene& near, const Scene& scene, const Camera&
 
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
-  const FloatEnvironment environment;  // new threads inherit it
+  const FloatEnvironment environment;
   if (has_segments(scene)) {
     Scene widened = scene;
     widen_segments(widened, camera, size);
@@ -125,9 +125,9 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
       return render_recentred(*near, scene, camera, size, options);
   }
   const PixelRect window = window_of(size, options.crop);
-  const unsigned threads = options.threads != 0 ? options.threads : default_threads();
+  Threads threads{.wanted = options.threads != 0 ? options.threads : default_threads()};
   const auto start = Clock::now();
-  const Bvh bvh(scene, {.threads = threads});
+  const Bvh bvh(scene, {.threads = threads.wanted});
   const auto built = Clock::now();
   const RayGenerator rays(camera, size);
   const FlatIntegrator flat;
@@ -176,7 +176,10 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
                          .samples_per_pixel = options.samples};
     }
   }
-  if (options.counts != nullptr) options.counts->rays = integrator.ray_counts();
+  if (options.counts != nullptr) {
+    options.counts->rays = integrator.ray_counts();
+    options.counts->missing_threads = threads.missing;
+  }
   film.display = integrator.display(film);
   if (options.times != nullptr)
     *options.times = {.build = seconds(start, built), .trace = seconds(built, Clock::now())};

@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "render/film_pixel.hpp"
 #include "render/luminance.hpp"
 
@@ -10,6 +11,7 @@
 
 namespace microtrace {
 bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
+  const FloatEnvironment environment;
   ++count;
   // Rays that hit nothing, which are many, add at most the background's luminance.
   if (sample == Vec3(0) && sample_alpha == 0) {
@@ -47,6 +49,7 @@ PixelSum& PixelSum::operator+=(const PixelSum& other) {
 }
 
 Vec3 PixelSum::mean_color() const {
+  const FloatEnvironment environment;
   if (count == 0) return Vec3(0);
   const auto n = static_cast<double>(count);
   return {static_cast<float>(color[0].value() / n), static_cast<float>(color[1].value() / n),
@@ -54,10 +57,12 @@ Vec3 PixelSum::mean_color() const {
 }
 
 float PixelSum::mean_alpha() const {
+  const FloatEnvironment environment;
   return count == 0 ? 0 : static_cast<float>(alpha.value() / count);
 }
 
 double PixelSum::mean_luminance(const Vec3& background) const {
+  const FloatEnvironment environment;
   if (count == 0) return 0;
   const DVec3 sum(color[0].value(), color[1].value(), color[2].value());
   const auto n = static_cast<double>(count);
@@ -65,6 +70,7 @@ double PixelSum::mean_luminance(const Vec3& background) const {
 }
 
 double PixelSum::variance(const Vec3& background) const {
+  const FloatEnvironment environment;
   if (count < 2) return 0;
   const auto n = static_cast<double>(count);
   const double mean = mean_luminance(background);

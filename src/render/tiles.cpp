@@ -1,11 +1,12 @@
 #include "render/tiles.hpp"
 
+#include "base/start_threads.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 namespace microtrace {
@@ -35,13 +36,14 @@ PixelRect tile_at(std::size_t index, const PixelRect& window) {
           .y1 = std::min(y0 + kTileEdge, window.y1)};
 }
 
-void for_each_tile(const PixelRect& window, unsigned threads,
+void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<void(double)>& progress) {
   const std::uint64_t count = tile_count(window);
   // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
   // enough to share evenly.
-  const std::uint64_t run = std::clamp<std::uint64_t>(count / (std::uint64_t{threads} * 32), 1, 64);
+  const std::uint64_t run =
+      std::clamp<std::uint64_t>(count / (std::uint64_t{threads.wanted} * 32), 1, 64);
   std::atomic<std::uint64_t> next{0}, done{0};
   std::mutex report;
   std::exception_ptr failure;
@@ -65,8 +67,9 @@ void for_each_tile(const PixelRect& window, unsigned threads,
   };
 
   {
-    std::vector<std::jthread> helpers;
-    for (unsigned i = 1; i < threads && i < count; ++i) helpers.emplace_back(work);
+    const auto helpers = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count)) - 1;
+    const std::vector<std::jthread> started = start_threads(helpers, work);
+    threads.missing = std::max(threads.missing, helpers - static_cast<unsigned>(started.size()));
     work();
   }
   if (failure) std::rethrow_exception(failure);

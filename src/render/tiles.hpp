@@ -26,10 +26,15 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
          (tile.x0 - window.x0) / kTileEdge;
 }
 
-/// Calls draw once for every tile of the window, on that many threads, the caller's among them;
-/// then progress with the share done. The first exception that draw throws stops the work and is
-/// thrown here.
-void for_each_tile(const PixelRect& window, unsigned threads,
+/// Threads that share the tiles, the caller's among them.
+struct Threads {
+  unsigned wanted = 1;   ///< at least 1
+  unsigned missing = 0;  ///< the most of them that the system ever refused to start
+};
+
+/// Calls draw once for every tile of the window, on those threads; then progress with the share
+/// done. The first exception that draw throws stops the work and is thrown here.
+void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<void(double)>& progress);
 

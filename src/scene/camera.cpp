@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "scene/trigonometry.hpp"
 
 #include <microtrace/camera.hpp>
@@ -37,6 +38,7 @@ float at_least_above_zero(double t) {
 }  // namespace
 
 RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
+  const FloatEnvironment environment;
   const Pose& pose = std::visit([](const auto& c) -> const Pose& { return c.pose; }, camera);
   const Frame frame = frame_of(pose);
   position_ = pose.position;
@@ -66,6 +68,7 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
 }
 
 Ray RayGenerator::operator()(double x, double y) const {
+  const FloatEnvironment environment;
   Ray ray;
   switch (kind_) {
     case Kind::perspective: {
@@ -97,11 +100,13 @@ Ray RayGenerator::operator()(double x, double y) const {
 }
 
 double RayGenerator::depth(const DVec3& point) const {
+  const FloatEnvironment environment;
   const DVec3 way = point - position_;
   return kind_ == Kind::environment ? std::sqrt(glm::dot(way, way)) : glm::dot(way, forward_);
 }
 
 CameraModel RayGenerator::model() const {
+  const FloatEnvironment environment;
   const DVec3 right = glm::normalize(right_), up = -glm::normalize(down_);
   const double step = kind_ == Kind::environment ? 0 : glm::length(right_);  // from pixel to pixel
   return {.world_from_camera =
@@ -112,6 +117,7 @@ CameraModel RayGenerator::model() const {
 }
 
 RayDifferential RayGenerator::differential(const Ray& ray) const {
+  const FloatEnvironment environment;
   const DVec3 d(ray.d);
   switch (kind_) {
     case Kind::perspective: {

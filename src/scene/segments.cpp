@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "scene/segment_widener.hpp"
 
 #include <microtrace/segments.hpp>
@@ -72,6 +73,7 @@ bool has_segments(const Scene& scene) {
 }
 
 void widen_segments(Scene& scene, const Camera& camera, ImageSize size) {
+  const FloatEnvironment environment;
   const SegmentWidener widened(camera, size);
   for (Object& object : scene.objects) {
     auto* mesh = std::get_if<Mesh>(&object.shape);

@@ -1,5 +1,5 @@
-// A host's rounding mode and its flushing of subnormal numbers change no answer, and are the host's
-// again afterwards.
+// A host's rounding mode, precision, traps and flushing of subnormal numbers change no answer, and
+// are the host's again afterwards.
 
 #include "float_environment.hpp"
 
@@ -7,12 +7,19 @@
 #include "support/generated_meshes.hpp"
 
 #include <microtrace/bvh.hpp>
+#include <microtrace/camera.hpp>
+#include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/sample_sums.hpp>
 
 #include <algorithm>
 #include <cfenv>
 #include <cstdint>
+#include <limits>
+#include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -25,11 +32,28 @@ bool is_flushing() {
   return least * 1.0F == 0;
 }
 
+#if defined(__x86_64__)
+/// Of the x87: how long double is rounded, and to how many bits.
+std::uint16_t x87_control() {
+  std::uint16_t control = 0;
+  __asm__ volatile("fnstcw %0" : "=m"(control));
+  return control;
+}
+
+/// 24 bits, or all 64.
+void set_x87_precision(bool is_short) {
+  const auto control =
+      static_cast<std::uint16_t>((x87_control() & ~0x300U) | (is_short ? 0U : 0x300U));
+  __asm__ volatile("fldcw %0" : : "m"(control));
+}
+#endif
+
 void flush_subnormals(bool flush) {
 #if defined(__x86_64__)
   const std::uint32_t bits = (1U << 6U) | (1U << 15U);
   const std::uint32_t now = __builtin_ia32_stmxcsr();
   __builtin_ia32_ldmxcsr(flush ? now | bits : now & ~bits);
+  set_x87_precision(flush);
 #else
   std::uint64_t now;
   __asm__ volatile("mrs %0, fpcr" : "=r"(now));
@@ -47,6 +71,9 @@ class HostRules : public testing::TestWithParam<int> {
   void expect_kept() {
     EXPECT_EQ(std::fegetround(), GetParam());
     EXPECT_TRUE(is_flushing());
+#if defined(__x86_64__)
+    EXPECT_EQ(x87_control() & 0x300U, 0U);
+#endif
   }
   void TearDown() override {
     std::fesetround(FE_TONEAREST);
@@ -75,6 +102,134 @@ TEST_P(HostRules, ChangeNoPicture) {
     TearDown();
     EXPECT_TRUE(actual == expected) << name;
   }
+}
+
+// Decimals that no binary number equals, lights and materials of many kinds, and no camera: all
+// steps from the text to the picture's bytes compute.
+constexpr const char* kLit = R"({
+  "version": 1,
+  "image": {"width": 24, "height": 18},
+  "materials": {
+    "floor": {"base_color": [0.61, 0.58, 0.55], "roughness": 0.83},
+    "glass": {"roughness": 0.1, "transmission": 0.9, "ior": 1.52,
+              "volume": {"attenuation_distance": 1.3, "attenuation_color": [0.9, 0.6, 0.3]}},
+    "coat": {"base_color": [0.5, 0.04, 0.08], "roughness": 0.47, "clearcoat": {"factor": 0.9, "roughness": 0.1},
+             "sheen": {"color": [0.6, 0.5, 0.9], "roughness": 0.4}},
+    "film": {"metallic": 1, "roughness": 0.17, "iridescence": {"factor": 0.7, "thickness": 353}},
+    "lamp": {"base_color": [0, 0, 0], "emissive": [6.1, 5.3, 4.7]}
+  },
+  "lights": [
+    {"type": "directional", "direction": [-0.5, -1, -0.6], "color": [1, 0.95, 0.85], "intensity": 1.2},
+    {"type": "spot", "position": [2.1, 4.3, 3], "direction": [-0.1, -1, -0.8], "inner_angle": 8.3,
+     "outer_angle": 40.7, "intensity": 41}
+  ],
+  "environment": {"type": "studio", "intensity": 0.7},
+  "objects": [
+    {"type": "disc", "center": [0.1, -1.1, 0], "normal": [0.1, 1, 0.1], "radius": 4.3, "material": "floor"},
+    {"type": "sphere", "center": [-1.9, 0.1, 0.3], "radius": 0.93, "material": "glass"},
+    {"type": "quadric", "coefficients": {"a": 1.1, "b": 0.9, "c": 1.3, "d": 0.1, "j": -0.7}, "material": "coat"},
+    {"type": "mesh", "file": "gltf/cube.glb", "material": "film",
+     "transform": {"translation": [2.3, -0.4, 0.2], "rotation": {"axis": [0.3, 1, 0.2], "angle": 29.3},
+                   "scale": 0.57}},
+    {"type": "triangle", "a": [-1.2, 2.6, -0.7], "b": [1.3, 2.7, -0.9], "c": [0.1, 2.4, 0.8], "material": "lamp"}
+  ]
+})";
+
+std::string lit_ppm(const Scene& scene) {
+  const PathIntegrator light;
+  const Film film = render(scene, default_camera(scene, {24, 18}), {24, 18},
+                           {.threads = 2, .integrator = &light, .samples = 4});
+  return encode_ppm(film);
+}
+
+std::string lit_json_ppm() {
+  return lit_ppm(parse_scene(kLit, "lit.json", MICROTRACE_SOURCE_DIR "/scenes").scene);
+}
+
+std::string lit_gltf_ppm() {
+  return lit_ppm(load_scene(MICROTRACE_SOURCE_DIR "/scenes/gltf/textures.glb").scene);
+}
+
+TEST_P(HostRules, ChangeNoPictureWithLight) {
+  for (const auto& draw : {lit_json_ppm, lit_gltf_ppm}) {
+    const std::string expected = draw();
+    set();
+    const std::string actual = draw();
+    expect_kept();
+    TearDown();
+    EXPECT_TRUE(actual == expected);
+  }
+}
+
+// Steps that a program may take on its own.
+TEST_P(HostRules, ChangeNoStep) {
+  const auto steps = [] {
+    const Scene scene = parse_scene(kLit, "lit.json", MICROTRACE_SOURCE_DIR "/scenes").scene;
+    const RayGenerator rays(default_camera(scene, {24, 18}), {24, 18});
+    std::vector<double> numbers;
+    const auto add = [&](const auto& vector) {
+      numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
+    };
+    for (int i = 0; i < 10; ++i) {
+      const Ray ray = rays(0.3 * i, 0.7 * i);
+      add(ray.o);
+      add(ray.d);
+      add(rays.differential(ray).d_dx);
+      numbers.push_back(rays.depth(DVec3(ray.d)));
+    }
+    PixelSum sum;
+    for (const float x : {0.1F, 0.7F, 3.3F}) sum.add(Vec3(x), 0.3F, Vec3(0.2F));
+    add(sum.mean_color());
+    numbers.insert(numbers.end(),
+                   {sum.mean_alpha(), sum.variance(Vec3(0.2F)), sum.mean_luminance(Vec3(0.2F))});
+    return numbers;
+  };
+  const std::vector<double> expected = steps();
+  set();
+  const std::vector<double> actual = steps();
+  expect_kept();
+  TearDown();
+  EXPECT_EQ(actual, expected);
+}
+
+// The C library's strtod rounds as the x87 does.
+TEST_P(HostRules, ChangeNoNumberOfAssets) {
+  const auto camera = [] {
+    const Scene scene =
+        parse_scene(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"camera": 0, "translation": [0.1, 0.3, 0.7]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.3, "znear": 0.01}}]})",
+                    "camera.gltf", "")
+            .scene;
+    return std::get<PerspectiveCamera>(scene.cameras.at(0).camera);
+  };
+  const PerspectiveCamera expected = camera();
+  set();
+  const PerspectiveCamera actual = camera();
+  expect_kept();
+  TearDown();
+  EXPECT_EQ(actual.vertical_fov, expected.vertical_fov);
+  EXPECT_EQ(actual.depth.near, expected.depth.near);
+  EXPECT_EQ(actual.pose.position, expected.pose.position);
+}
+
+// A host that stops at its own divisions by zero is not stopped at the library's.
+TEST_P(HostRules, TrapsOfTheHostAreItsOwn) {
+  const std::string expected = lit_json_ppm();
+  set();
+#if defined(__x86_64__)
+  constexpr int kTrapped = FE_DIVBYZERO | FE_INVALID | FE_INEXACT | FE_OVERFLOW | FE_UNDERFLOW;
+  std::feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(kTrapped);
+  const std::string actual = lit_json_ppm();
+  EXPECT_EQ(fegetexcept(), kTrapped);
+  fedisableexcept(FE_ALL_EXCEPT);
+#else
+  const std::string actual = lit_json_ppm();
+#endif
+  expect_kept();
+  TearDown();
+  EXPECT_TRUE(actual == expected);
 }
 
 // A triangle smaller than the least normal number: flushed, it would be a point.

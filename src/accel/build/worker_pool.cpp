@@ -1,14 +1,14 @@
 #include "accel/build/worker_pool.hpp"
 
-#include <microtrace/threads.hpp>
+#include "base/start_threads.hpp"
 
-#include <algorithm>
+#include <microtrace/threads.hpp>
 
 namespace microtrace::build {
 
 WorkerPool::WorkerPool(unsigned threads) {
   if (threads == 0) threads = default_threads();
-  for (unsigned i = 1; i < threads; ++i) threads_.emplace_back([this] { work(); });
+  threads_ = start_threads(threads - 1, [this] { work(); });
 }
 
 WorkerPool::~WorkerPool() {

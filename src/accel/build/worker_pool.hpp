@@ -10,10 +10,10 @@
 
 namespace microtrace::build {
 
-/// Threads that share loops; the caller's is one of them.
+/// Threads that share loops, the caller's among them.
 class WorkerPool {
  public:
-  /// 0: as many as the machine runs at once.
+  /// 0: as many as the machine runs at once. Fewer where the system starts no more.
   explicit WorkerPool(unsigned threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;

@@ -1,9 +1,11 @@
 #include "io/image/module.hpp"
 
+#include "base/start_threads.hpp"
 #include "io/image/module_picture.hpp"
 #include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>
+#include <microtrace/threads.hpp>
 
 #include <dlfcn.h>
 #include <utility>
@@ -11,7 +13,11 @@
 namespace microtrace::io {
 namespace {
 
+/// log4cplus starts four.
+constexpr unsigned kThreadsOfLibraries = 4;
+
 void* load_module(const std::string& file) {
+  require_threads_of_image_module(file);
   const Module module = open_module(module_file_name);
   if (module.handle != nullptr) return module.handle;
   if (!module.path.empty()) {
@@ -60,6 +66,19 @@ void take_reason(void* context, const char* bytes, std::size_t size) {
 }
 
 }  // namespace
+
+void require_threads_of_image_module(const std::string& file) {
+  const auto require = [&] {
+    // OpenImageIO itself starts one for each processor.
+    if (can_start_threads(kThreadsOfLibraries + default_threads())) return true;
+    throw Error(ErrorKind::limit, file,
+                "needs OpenImageIO, whose libraries start more threads than the limits on "
+                "processes and memory allow; raise these, or use .ppm and .png");
+  };
+  // Threads that run already are not needed twice; a failure is thrown again if it is met again.
+  static const bool is_granted = require();
+  static_cast<void>(is_granted);
+}
 
 ImageModule::ImageModule(std::string file) : file_(std::move(file)) {
   void* module = load_module(file_);

@@ -12,6 +12,11 @@
 
 namespace microtrace::io {
 
+/// To be called before the OpenImageIO module is loaded for `file`. Libraries that Debian's
+/// OpenImageIO depends on start threads while they are loaded, and end the process where they
+/// can't. Throws Error (limit) where the system would refuse these threads.
+void require_threads_of_image_module(const std::string& file);
+
 class ImageModule {
  public:
   /// Loads the module, once in a process. `file` stands in messages.

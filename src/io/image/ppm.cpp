@@ -1,5 +1,6 @@
 #include "io/image/ppm.hpp"
 
+#include "float_environment.hpp"
 #include "io/image/eight_bits.hpp"
 
 #include <microtrace/error.hpp>
@@ -47,6 +48,7 @@ void append_ppm_row(const Film& film, std::uint32_t y, PpmEncoding encoding, std
 }  // namespace io
 
 std::string encode_ppm(const Film& film, PpmEncoding ppm) {
+  const FloatEnvironment environment;
   if (film.has_alpha()) throw Error(ErrorKind::usage, "", "a picture with alpha can't be PPM");
   std::string bytes = io::ppm_header(film.size(), ppm);
   for (std::uint32_t y = 0; y < film.size().height; ++y) io::append_ppm_row(film, y, ppm, bytes);

@@ -1,4 +1,6 @@
+#include "float_environment.hpp"
 #include "io/file.hpp"
+#include "io/image/module.hpp"
 #include "io/image/module_abi.hpp"
 #include "io/module_function.hpp"
 #include "scene/srgb.hpp"
@@ -66,6 +68,7 @@ std::string ending_of(const std::filesystem::path& path) {
 }
 
 Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
+  io::require_threads_of_image_module(path.string());
   const io::ModuleFunction function =
       io::find_module_function(io::module_file_name, io::decode_colors_name);
   if (function.address == nullptr) {
@@ -134,6 +137,7 @@ std::size_t clamp_pixels(std::vector<Vec3>& pixels) {
 }  // namespace
 
 LoadedRadianceMap load_radiance_map(const std::filesystem::path& path) {
+  const FloatEnvironment environment;
   const Decoded decoded = decode(io::read_file(path, io::max_file_size), path);
   const MicrotraceColors& colors = *decoded.colors;
   RadianceMap map{.width = colors.width, .height = colors.height};

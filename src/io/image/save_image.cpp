@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "io/image/atomic_file.hpp"
 #include "io/image/module.hpp"
 #include "io/image/png.hpp"
@@ -103,6 +104,7 @@ void check_sidecar_path(const std::filesystem::path& path, const std::filesystem
 
 void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm,
                 const Sidecar* sidecar) {
+  const FloatEnvironment environment;
   const std::string ending = format_ending(path);
   const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
   const Writer writer(path, ending);

@@ -51,6 +51,7 @@ TypeDesc type_of(MicrotraceNumber number) {
 void decode(const void* bytes, std::size_t size, const std::string& ending,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);                                    // none but the caller's
   OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // which only reads
   const std::string name = "picture." + ending;
   ImageSpec config;

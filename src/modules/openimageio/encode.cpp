@@ -26,6 +26,8 @@ using OIIO::TypeDesc;
 
 /// The writer for an ending if it can write to memory, else null.
 std::unique_ptr<ImageOutput> find_writer(const std::string& ending) {
+  OIIO::attribute("threads", 1);
+  OIIO::attribute("exr_threads", -1);  // none but the caller's
   std::unique_ptr<ImageOutput> writer = ImageOutput::create(ending);
   // A failure leaves a message behind, which OpenImageIO would print at exit if nobody asked for
   // it.
@@ -130,7 +132,6 @@ bool write_block_by_block(ImageOutput& writer, const ImageSpec& spec,
 
 /// Returns the bytes of the file, or throws the reason as a std::runtime_error.
 std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& ending) {
-  OIIO::attribute("threads", 1);
   const std::unique_ptr<ImageOutput> writer = find_writer(ending);
   if (!writer) throw std::runtime_error("OpenImageIO has no such writer");
   const std::span channels(picture.channels, picture.channel_count);

@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "render/aov_value.hpp"
 
 #include <microtrace/aov.hpp>
@@ -94,6 +95,7 @@ void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
 }
 
 Display AovIntegrator::display(const Film& film) const {
+  const FloatEnvironment environment;
   switch (aov_) {
     case Aov::depth:
     case Aov::distance:

@@ -1,5 +1,6 @@
 #include "render/lights/environment_light.hpp"
 
+#include "float_environment.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
 #include "scene/turns.hpp"
@@ -51,6 +52,7 @@ RenderCache::RenderCache() = default;
 RenderCache::~RenderCache() = default;
 
 std::shared_ptr<const MapTables> RenderCache::tables_of(const Environment& environment) {
+  const FloatEnvironment float_environment;
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
   const bool is_same = map != nullptr ? last_ && last_->map == *map : is_studio_;
   if (!is_same) {
