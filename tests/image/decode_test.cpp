@@ -161,7 +161,7 @@ TEST(DecodeImage, WebpWithoutAPictureIsRefusedBeforeMemoryIsTaken) {
 }
 
 TEST(DecodeImage, OtherFilesAreNone) {
-  EXPECT_THAT(decode_image("GIF89a").complaint, HasSubstr("neither PNG, JPEG nor WebP"));
+  EXPECT_THAT(decode_image("GIF89a").complaint, HasSubstr("neither PNG, JPEG, WebP nor KTX2"));
   EXPECT_FALSE(decode_image("").image);
 }
 

@@ -39,7 +39,7 @@ LIBRARIES = {
     r"tiny_gltf|nlohmann/": ["src/io", "tests"],
     r"OpenImageIO/": ["src/modules", "tests/image"],
     r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],
-    r"png\.h|jpeglib\.h|webp/": ["src/modules/codecs"],
+    r"png\.h|jpeglib\.h|webp/|zstd\.h": ["src/modules/codecs"],
     r"CLI/": ["src/cli"],
     r"embree|benchmark/": ["bench"],
     r"\w*mmintrin\.h": ["src/simd/vectors.hpp", "src/accel/kernels/simd.hpp"],

@@ -22,8 +22,8 @@ struct MicrotraceImageSink {
   void (*complain)(void* context, const char* text);
 };
 
-/// Decodes a PNG, JPEG or WebP file: 1 if there is an image now, else 0. ICC profiles and gamma
-/// are ignored.
+/// Decodes a PNG, JPEG, WebP or KTX2 file: 1 if there is an image now, else 0. ICC profiles and
+/// gamma are ignored.
 using MicrotraceDecode = int (*)(const void* bytes, std::size_t size,
                                  const MicrotraceImageSink* sink);
 

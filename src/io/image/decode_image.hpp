@@ -20,9 +20,9 @@ struct DecodedImage {
   bool no_module = false;        ///< the module of decoders is not installed
 };
 
-/// PNG, JPEG or WebP, by the module of decoders, which is loaded at the first call. The size that
-/// the file claims is checked before memory is taken for it. The same bytes give the same pixels
-/// on every machine.
+/// PNG, JPEG, WebP or KTX2, by the module of decoders, which is loaded at the first call. The size
+/// that the file claims is checked before memory is taken for it. The same bytes give the same
+/// pixels on every machine.
 [[nodiscard]] DecodedImage decode_image(std::string_view bytes);
 
 }  // namespace microtrace::io

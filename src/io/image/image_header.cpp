@@ -78,6 +78,12 @@ std::optional<Size> webp_size(std::string_view bytes) {
   return no_size;
 }
 
+/// KTX File Format Specification 2.0, section 2: the header and the first entry of the level index.
+std::optional<Size> ktx2_size(std::string_view bytes) {
+  if (bytes.size() < 104) return std::nullopt;
+  return Size{little_endian(bytes, 20, 4), little_endian(bytes, 24, 4)};
+}
+
 ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
   using State = ImageHeader::State;
   if (!size) return {.format = format, .state = State::cut_off};
@@ -92,6 +98,9 @@ ImageHeader read_image_header(std::string_view bytes) {
   if (bytes.starts_with("\xff\xd8\xff"sv)) return header(ImageFormat::jpeg, jpeg_size(bytes));
   if (bytes.starts_with("RIFF"sv) && bytes.substr(0, 12).ends_with("WEBP"sv)) {
     return header(ImageFormat::webp, webp_size(bytes));
+  }
+  if (bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n"sv)) {
+    return header(ImageFormat::ktx2, ktx2_size(bytes));
   }
   return {};
 }

@@ -6,7 +6,7 @@
 
 namespace microtrace::io {
 
-enum class ImageFormat { unknown, png, jpeg, webp };
+enum class ImageFormat { unknown, png, jpeg, webp, ktx2 };
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::unknown;

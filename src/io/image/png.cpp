@@ -61,10 +61,11 @@ void take_reason(void* context, const char* text) {
 PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
   const ModuleFunction function = find_module_function(codec_module_file_name, encode_png_name);
   if (function.address == nullptr) {
-    throw Error(ErrorKind::unsupported, file_,
-                "no PNG can be written: " + function.complaint +
-                    "; install libpng-dev, libjpeg-dev and libwebp-dev and build the target "
-                    "microtrace_codecs, set MICROTRACE_MODULE_PATH to its folder, or write .ppm");
+    throw Error(
+        ErrorKind::unsupported, file_,
+        "no PNG can be written: " + function.complaint +
+            "; install libpng-dev, libjpeg-dev, libwebp-dev and libzstd-dev and build the target "
+            "microtrace_codecs, set MICROTRACE_MODULE_PATH to its folder, or write .ppm");
   }
   encode_ = reinterpret_cast<MicrotraceEncodePng>(function.address);
 }

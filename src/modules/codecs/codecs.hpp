@@ -9,4 +9,5 @@
 int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int decode_jpeg(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
+int decode_ktx2(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int encode_png(const MicrotracePng& picture);

@@ -1,6 +1,6 @@
-/// Decodes PNG, JPEG and WebP, and encodes PNG, behind the C interface of io/image/codec_abi.hpp.
-/// Loaded when a scene has images or a picture is PNG; small libraries, for OpenImageIO would cost
-/// a quarter of a second and 130 MB.
+/// Decodes PNG, JPEG, WebP and KTX2, and encodes PNG, behind the C interface of
+/// io/image/codec_abi.hpp. Loaded when a scene has images or a picture is PNG; small libraries, for
+/// OpenImageIO would cost a quarter of a second and 130 MB.
 
 #include "modules/codecs/codecs.hpp"
 
@@ -25,7 +25,8 @@ __attribute__((visibility("default"))) int microtrace_decode_v1(const void* data
   if (begins(bytes, size, 0, "RIFF") && begins(bytes, size, 8, "WEBP")) {
     return decode_webp(bytes, size, *sink);
   }
-  sink->complain(sink->context, "is neither PNG, JPEG nor WebP");
+  if (begins(bytes, size, 0, "\xabKTX 20\xbb\r\n\x1a\n")) return decode_ktx2(bytes, size, *sink);
+  sink->complain(sink->context, "is neither PNG, JPEG, WebP nor KTX2");
   return 0;
 }
 

@@ -1,0 +1,74 @@
+#include "modules/codecs/basis/etc1s.hpp"
+#include "modules/codecs/basis/ktx2.hpp"
+#include "modules/codecs/basis/texels.hpp"
+#include "modules/codecs/basis/uastc.hpp"
+#include "modules/codecs/codecs.hpp"
+
+#include <new>
+#include <vector>
+#include <zstd.h>
+
+// All of it is integer arithmetic.
+
+namespace basis {
+namespace {
+
+/// The blocks, of which there are `size` bytes; `storage` holds them if they were compressed.
+Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char>& storage) {
+  if (!ktx2.is_zstd) return ktx2.level;
+  // Zstandard's frame says how much it holds before memory is taken.
+  if (ZSTD_getFrameContentSize(ktx2.level.data(), ktx2.level.size()) != size) {
+    throw Damage("the Zstandard data does not have the size of the blocks");
+  }
+  storage.resize(size);
+  if (ZSTD_decompress(storage.data(), size, ktx2.level.data(), ktx2.level.size()) != size) {
+    throw Damage("the Zstandard data is damaged");
+  }
+  return storage;
+}
+
+void decode_uastc(const Ktx2& ktx2, const Texels& texels) {
+  std::vector<unsigned char> storage;
+  const std::size_t row = std::size_t{texels.blocks_x()} * uastc_block_size;
+  const Bytes blocks = uastc_blocks(ktx2, row * texels.blocks_y(), storage);
+  for (std::uint32_t y = 0; y < texels.blocks_y(); ++y) {
+    for (std::uint32_t x = 0; x < texels.blocks_x(); ++x) {
+      const Bytes block = blocks.subspan(y * row + x * uastc_block_size, uastc_block_size);
+      texels.set_block(x, y, decode_uastc_block(block), 0, texels.channels);
+    }
+  }
+}
+
+void decode_etc1s(const Ktx2& ktx2, const Texels& texels) {
+  const Codebooks books = read_codebooks(ktx2);
+  decode_color_slice(books, texels);
+  if (ktx2.has_alpha) decode_alpha_slice(books, texels);
+}
+
+bool decode(Bytes file, const MicrotraceImageSink& sink) {
+  const Ktx2 ktx2 = read_ktx2(file);
+  const MicrotraceImageHeader header{ktx2.width, ktx2.height, ktx2.has_alpha ? 4U : 3U, 8};
+  auto* samples = static_cast<unsigned char*>(sink.begin(sink.context, &header));
+  if (samples == nullptr) return false;
+  const Texels texels{samples, header.width, header.height, header.channels};
+  if (ktx2.format == TexelFormat::uastc) {
+    decode_uastc(ktx2, texels);
+  } else {
+    decode_etc1s(ktx2, texels);
+  }
+  return true;
+}
+
+}  // namespace
+}  // namespace basis
+
+int decode_ktx2(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink) {
+  try {
+    return basis::decode(basis::Bytes(bytes, size), sink) ? 1 : 0;
+  } catch (const basis::Damage& damage) {
+    sink.complain(sink.context, damage.what());
+  } catch (const std::bad_alloc&) {
+    sink.complain(sink.context, "needs more memory than there is");
+  }
+  return 0;
+}

@@ -1,0 +1,41 @@
+#pragma once
+/// ETC1S with BasisLZ: KTX File Format Specification 2.0, appendices "BasisLZ Global Data" and
+/// "BasisLZ/ETC1S Bitstream Specification".
+
+#include "modules/codecs/basis/huffman.hpp"
+#include "modules/codecs/basis/ktx2.hpp"
+#include "modules/codecs/basis/texels.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace basis {
+
+/// A base color of 5 bits a channel, and a row of ETC1's table of modifiers.
+struct Endpoint {
+  std::array<std::uint8_t, 3> color;
+  std::uint8_t intensity;
+};
+
+/// For each row of a block four values of 2 bits, the left one lowest.
+using Selector = std::array<std::uint8_t, 4>;
+
+/// What the blocks of all levels refer to, and the codes of the references.
+struct Codebooks {
+  std::vector<Endpoint> endpoints;
+  std::vector<Selector> selectors;
+  HuffmanTable predictions, endpoint_deltas, selector_symbols, history_runs;
+  std::uint32_t history_size = 0;
+  Bytes color_slice{}, alpha_slice{};  ///< of the base level; without alpha the latter is empty
+};
+
+/// Throws Damage.
+[[nodiscard]] Codebooks read_codebooks(const Ktx2& ktx2);
+
+/// Writes the colors. Throws Damage.
+void decode_color_slice(const Codebooks& books, const Texels& texels);
+/// Writes alpha, which is the slice's green. Throws Damage.
+void decode_alpha_slice(const Codebooks& books, const Texels& texels);
+
+}  // namespace basis

@@ -1,0 +1,40 @@
+#pragma once
+/// Canonical Huffman codes of BasisLZ: KTX File Format Specification 2.0, appendix "BasisLZ/ETC1S
+/// Bitstream Specification", section "Compressed Huffman Tables"; codes as in RFC 1951, 3.2.2.
+
+#include "modules/codecs/basis/bit_reader.hpp"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace basis {
+
+class HuffmanTable {
+ public:
+  /// The lengths of the symbols' codes, 0 for symbols without one. Throws Damage unless the codes
+  /// are complete or there is at most one.
+  explicit HuffmanTable(std::span<const std::uint8_t> lengths);
+
+  /// Throws Damage.
+  std::uint32_t decode(BitReader& bits) const {
+    const Entry entry = entries_[bits.peek(longest_)];
+    if (entry.length == 0) throw Damage("a Huffman code stands for no symbol");
+    bits.skip(entry.length);
+    return entry.symbol;
+  }
+
+ private:
+  struct Entry {
+    std::uint16_t symbol = 0;
+    std::uint8_t length = 0;
+  };
+
+  unsigned longest_ = 0;        // bits
+  std::vector<Entry> entries_;  // by the next longest_ bits
+};
+
+/// A table as the file holds it. Throws Damage.
+[[nodiscard]] HuffmanTable read_huffman_table(BitReader& bits);
+
+}  // namespace basis

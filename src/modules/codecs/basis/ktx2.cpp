@@ -1,0 +1,137 @@
+#include "modules/codecs/basis/ktx2.hpp"
+
+#include "modules/codecs/basis/texels.hpp"
+#include "modules/codecs/basis/uastc.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <string>
+#include <string_view>
+
+namespace basis {
+namespace {
+
+enum Scheme : std::uint32_t { none = 0, basis_lz = 1, zstandard = 2, zlib = 3 };
+
+// Color models and channels of the Khronos Data Format Specification.
+constexpr std::uint32_t model_etc1s = 163, model_uastc = 166;
+constexpr std::uint32_t etc1s_rgb = 0, etc1s_rrr = 3, etc1s_aaa = 15;
+constexpr std::uint32_t uastc_rgb = 0, uastc_rgba = 3, uastc_rrr = 4;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Damage("is KTX2 " + what +
+               "; only 2D textures in ETC1S with BasisLZ or in UASTC are decoded "
+               "(KHR_texture_basisu)");
+}
+
+void check_shape(Bytes file) {
+  constexpr const char* damaged = "the KTX2 header is damaged";
+  const std::uint32_t width = u32_at(file, 20), height = u32_at(file, 24);
+  const std::uint32_t depth = u32_at(file, 28), layers = u32_at(file, 32);
+  const std::uint32_t faces = u32_at(file, 36), levels = u32_at(file, 40);
+  if (const std::uint32_t format = u32_at(file, 12); format != 0) {
+    refuse("in Vulkan format " + std::to_string(format));
+  }
+  if (width == 0) throw Damage(damaged);
+  if (height == 0) refuse("of one dimension");
+  if (depth != 0) refuse("of three dimensions");
+  if (layers != 0) refuse("with layers");
+  if (faces != 1) refuse("with " + std::to_string(faces) + " faces");
+  if (levels > static_cast<std::uint32_t>(std::bit_width(std::max(width, height)))) {
+    throw Damage(damaged);
+  }
+}
+
+/// The basic block of the data format descriptor.
+void read_descriptor(Bytes file, Ktx2& ktx2) {
+  constexpr const char* damaged = "the data format descriptor is damaged";
+  const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), damaged);
+  constexpr std::size_t heads = 28, sample_size = 16;  // bytes before the samples, and of each
+  if (dfd.size() < heads + sample_size || u32_at(dfd, 4) != 0) throw Damage(damaged);
+  const std::uint32_t block_size = u32_at(dfd, 8) >> 16U;
+  if (block_size < heads - 4 + sample_size || block_size > dfd.size() - 4) throw Damage(damaged);
+  const std::size_t samples = (block_size - (heads - 4)) / sample_size;
+  const auto channel = [&](std::size_t i) { return dfd[heads + i * sample_size + 3] & 0xFU; };
+
+  const std::uint32_t model = dfd[12];
+  if (model == model_etc1s) {
+    ktx2.format = TexelFormat::etc1s;
+    ktx2.has_alpha = samples > 1;
+    if (samples > 2 || (channel(0) != etc1s_rgb && channel(0) != etc1s_rrr) ||
+        (samples == 2 && channel(1) != etc1s_aaa)) {
+      refuse("with channels other than RGB or RGBA");
+    }
+  } else if (model == model_uastc) {
+    ktx2.format = TexelFormat::uastc;
+    ktx2.has_alpha = channel(0) == uastc_rgba;
+    if (samples != 1 || (!ktx2.has_alpha && channel(0) != uastc_rgb && channel(0) != uastc_rrr)) {
+      refuse("with channels other than RGB or RGBA");
+    }
+  } else {
+    refuse("in color model " + std::to_string(model));
+  }
+}
+
+/// Of one entry of the metadata; the values end with a null byte.
+void check_entry(Bytes entry) {
+  const std::string_view text(reinterpret_cast<const char*>(entry.data()), entry.size());
+  const std::size_t end = text.find('\0');
+  if (end == std::string_view::npos) throw Damage("the metadata is damaged");
+  const std::string_view key = text.substr(0, end);
+  std::string_view value = text.substr(end + 1);
+  if (value.ends_with('\0')) value.remove_suffix(1);
+  if (key == "KTXorientation" && value != "rd") {
+    refuse("whose first texel is not the upper left one (KTXorientation)");
+  }
+  if (key == "KTXswizzle" && value != "rgba") refuse("with swizzled channels (KTXswizzle)");
+}
+
+void check_metadata(Bytes file) {
+  constexpr const char* damaged = "the metadata is damaged";
+  Bytes left = part_of(file, u32_at(file, 56), u32_at(file, 60), damaged);
+  while (left.size() >= 4) {
+    const std::uint32_t size = u32_at(left, 0);
+    check_entry(part_of(left, 4, size, damaged));
+    const std::uint64_t padded = (std::uint64_t{size} + 3) / 4 * 4;
+    left = left.subspan(std::min<std::size_t>(left.size(), 4 + padded));
+  }
+}
+
+/// The first level is the largest one.
+void read_level(Bytes file, Ktx2& ktx2) {
+  constexpr std::size_t level_index = 80;
+  ktx2.levels = std::max(u32_at(file, 40), 1U);
+  ktx2.level = part_of(file, number_at(file, level_index, 8), number_at(file, level_index + 8, 8),
+                       "the base level is cut off");
+  const std::uint32_t scheme = u32_at(file, 44);
+  if (ktx2.format == TexelFormat::etc1s) {
+    if (scheme != basis_lz) refuse("in ETC1S without BasisLZ");
+    ktx2.global =
+        part_of(file, number_at(file, 64, 8), number_at(file, 72, 8), "the global data is cut off");
+    return;
+  }
+  if (scheme == zlib) refuse("in UASTC compressed by zlib");
+  if (scheme != none && scheme != zstandard) {
+    refuse("in UASTC with supercompression scheme " + std::to_string(scheme));
+  }
+  ktx2.is_zstd = scheme == zstandard;
+  const std::uint64_t size =
+      std::uint64_t{blocks_along(ktx2.width)} * blocks_along(ktx2.height) * uastc_block_size;
+  if (number_at(file, level_index + 16, 8) != size ||
+      (!ktx2.is_zstd && ktx2.level.size() != size)) {
+    throw Damage("the base level does not have the size of its blocks");
+  }
+}
+
+}  // namespace
+
+Ktx2 read_ktx2(Bytes file) {
+  check_shape(file);
+  Ktx2 ktx2{.width = u32_at(file, 20), .height = u32_at(file, 24)};
+  read_descriptor(file, ktx2);
+  check_metadata(file);
+  read_level(file, ktx2);
+  return ktx2;
+}
+
+}  // namespace basis

@@ -1,0 +1,43 @@
+#pragma once
+/// Where decoded blocks go.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace basis {
+
+using Color = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
+using Block = std::array<Color, 16>;        ///< 4 x 4 texels, row by row
+
+/// Blocks along a side of so many texels.
+constexpr std::uint32_t blocks_along(std::uint32_t texels) {
+  return texels / 4 + (texels % 4 != 0 ? 1 : 0);
+}
+
+/// Rows of 8-bit samples; blocks at the right and lower edge are cut.
+struct Texels {
+  unsigned char* samples;
+  std::uint32_t width, height, channels;  ///< 3 or 4 channels
+
+  [[nodiscard]] std::uint32_t blocks_x() const { return blocks_along(width); }
+  [[nodiscard]] std::uint32_t blocks_y() const { return blocks_along(height); }
+
+  /// Writes channels `first` to `end` - 1 of the texels.
+  void set_block(std::uint32_t block_x, std::uint32_t block_y, const Block& block,
+                 std::uint32_t first, std::uint32_t end) const {
+    const std::uint32_t columns = std::min(width - 4 * block_x, 4U);
+    const std::uint32_t rows = std::min(height - 4 * block_y, 4U);
+    for (std::uint32_t y = 0; y < rows; ++y) {
+      unsigned char* texel =
+          samples + (std::size_t{4 * block_y + y} * width + 4 * block_x) * channels;
+      for (std::uint32_t x = 0; x < columns; ++x, texel += channels) {
+        const Color& color = block[4 * y + x];
+        std::copy(color.begin() + first, color.begin() + end, texel + first);
+      }
+    }
+  }
+};
+
+}  // namespace basis

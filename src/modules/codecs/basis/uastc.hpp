@@ -1,0 +1,17 @@
+#pragma once
+/// UASTC LDR 4x4: "UASTC LDR 4x4 Texture Specification" (Basis Universal, Binomial LLC), which
+/// builds on ASTC (Khronos Data Format Specification 1.3, chapter 23).
+
+#include "modules/codecs/basis/bytes.hpp"
+#include "modules/codecs/basis/texels.hpp"
+
+#include <cstddef>
+
+namespace basis {
+
+inline constexpr std::size_t uastc_block_size = 16;  // bytes
+
+/// Decodes a block of uastc_block_size bytes to linear 8-bit texels. Throws Damage.
+[[nodiscard]] Block decode_uastc_block(Bytes bytes);
+
+}  // namespace basis

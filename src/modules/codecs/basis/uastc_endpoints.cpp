@@ -1,0 +1,77 @@
+#include "modules/codecs/basis/uastc_endpoints.hpp"
+
+#include <algorithm>
+
+namespace basis {
+namespace {
+
+/// Trits and quints come in groups, whose last one may be short, as the digits of a number.
+struct Digits {
+  std::size_t group;
+  std::array<unsigned, 6> bits;  ///< of a group of so many digits
+};
+constexpr Digits trits = {5, {0, 2, 4, 5, 7, 8}};
+constexpr Digits quints = {3, {0, 3, 5, 7}};
+
+/// ASTC's multipliers C of the trit or quint (Khronos Data Format Specification, table "ASTC color
+/// unquantization parameters"), by the number of bits below it.
+constexpr std::array<std::uint32_t, 7> trit_scales = {0, 204, 93, 44, 22, 11, 5};
+constexpr std::array<std::uint32_t, 6> quint_scales = {0, 113, 54, 26, 13, 6};
+
+/// The table's B: nine bits that repeat those of the value but the lowest.
+std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
+  const std::uint32_t bits = value >> 1U;
+  const bool is_trit = range.values == 3;
+  switch (range.bits) {
+    case 2:
+      return is_trit ? bits << 8U | bits << 4U | bits << 2U | bits << 1U
+                     : bits << 8U | bits << 3U | bits << 2U;
+    case 3:
+      return bits << 7U | (is_trit ? bits << 2U | bits : bits << 1U | bits >> 1U);
+    case 4:
+      return bits << 6U | (is_trit ? bits : bits >> 1U);
+    case 5:
+      return bits << 5U | (is_trit ? bits >> 2U : bits >> 3U);
+    default:  // 6, of a trit; none of 1
+      return bits << 4U | bits >> 4U;
+  }
+}
+
+/// ASTC, section "Endpoint Unquantization".
+std::uint8_t unquantize(std::uint32_t digit, std::uint32_t value, const EndpointRange& range) {
+  if (range.values == 1) {
+    std::uint32_t result = value << (8 - range.bits);
+    for (unsigned size = range.bits; size < 8; size *= 2) result |= result >> size;
+    return static_cast<std::uint8_t>(result);
+  }
+  const std::uint32_t scale =
+      range.values == 3 ? trit_scales[range.bits] : quint_scales[range.bits];
+  const std::uint32_t flip = (value & 1U) != 0 ? 0x1FF : 0;
+  const std::uint32_t result = (digit * scale + repeated_bits(value, range)) ^ flip;
+  return static_cast<std::uint8_t>((flip & 0x80U) | result >> 2U);
+}
+
+}  // namespace
+
+std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(BitReader& bits,
+                                                                   const EndpointRange& range,
+                                                                   std::size_t count) {
+  std::array<std::uint32_t, max_endpoint_values> digits{};
+  if (range.values != 1) {
+    const Digits& form = range.values == 3 ? trits : quints;
+    for (std::size_t i = 0; i < count; i += form.group) {
+      const std::size_t size = std::min(form.group, count - i);
+      std::uint32_t number = bits.read(form.bits[size]);
+      for (std::size_t j = 0; j < size; ++j, number /= range.values) {
+        digits[i + j] = number % range.values;
+      }
+    }
+  }
+  std::array<std::uint8_t, max_endpoint_values> result{};
+  for (std::size_t i = 0; i < count; ++i) {
+    result[i] = unquantize(digits[i], bits.read(range.bits), range);
+  }
+  return result;
+}
+
+}  // namespace basis

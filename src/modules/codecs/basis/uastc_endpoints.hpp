@@ -1,0 +1,18 @@
+#pragma once
+/// The numbers between which UASTC's weights mix.
+
+#include "modules/codecs/basis/bit_reader.hpp"
+#include "modules/codecs/basis/uastc_mode.hpp"
+
+#include <array>
+#include <cstdint>
+
+namespace basis {
+
+inline constexpr std::size_t max_endpoint_values = 18;
+
+/// `count` numbers from 0 to 255. Throws Damage.
+[[nodiscard]] std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(
+    BitReader& bits, const EndpointRange& range, std::size_t count);
+
+}  // namespace basis
