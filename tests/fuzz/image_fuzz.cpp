@@ -1,4 +1,5 @@
-// libFuzzer's entry for images: the decoders of PNG, JPEG and WebP behind the module's interface.
+// libFuzzer's entry for images: the decoders of PNG, JPEG, WebP and KTX2 behind the module's
+// interface.
 
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"

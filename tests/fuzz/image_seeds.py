@@ -1,4 +1,4 @@
-"""Small JPEG and WebP files of 18 x 11 pixels, as base64; PNG files are made by make_seeds.py."""
+"""Small JPEG and WebP files of 18 x 11 pixels, as base64; make_seeds.py makes PNG files, and takes KTX2 files from tests/image/ktx2."""
 
 import base64
 

@@ -161,6 +161,16 @@ def embedded_image():
     return asset
 
 
+def basisu(project):
+    asset = Asset()
+    asset.uses("KHR_texture_basisu", required=True)
+    ktx2 = (project / "tests/image/ktx2/uastc_linear_4x4.ktx2").read_bytes()
+    asset.add("images", {"bufferView": asset.view(ktx2), "mimeType": "image/ktx2"})
+    asset.add("textures", {"extensions": {"KHR_texture_basisu": {"source": 0}}})
+    asset.primitive["material"] = asset.add("materials", {"normalTexture": {"index": 0}})
+    return asset
+
+
 def animated():
     asset = Asset()
     times = asset.accessor("f", "SCALAR", [(0,), (1,)])
@@ -280,13 +290,17 @@ def main():
         (folder / "gltf" / make.__name__).write_bytes(make().packed())
         if make in (plain, embedded_image):
             (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())
+    (folder / "gltf" / "basisu").write_bytes(basisu(project).packed())
     shutil.copy(project / "scenes/gltf/cube.glb", folder / "gltf" / "cube.glb")
     (folder / "gltf.dict").write_text(dictionary(GLTF_WORDS.split()))
     for name, data in images().items():
         (folder / "image" / name).write_bytes(data)
+    for path in project.glob("tests/image/ktx2/*.ktx2"):
+        shutil.copy(path, folder / "image" / path.name)
     # Markers of JPEG, chunks of WebP; those of PNG carry checksums.
     words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]
     words += ["RIFF", "WEBP", "VP8 ", "VP8L", "VP8X", "ALPH", "ANIM", "ICCP", "IDAT", "PLTE", "tRNS"]
+    words += ["KTX 20", "KTXorientation", "KTXswizzle", "rgba", "\\x28\\xb5\\x2f\\xfd"]
     (folder / "image.dict").write_text("".join(f'"{word}"\n' for word in words))
 
 

@@ -28,7 +28,7 @@ AssetBuilder folded() {
        {"material", 0}});
   asset.add("materials", {{"normalTexture", {{"index", 0}}}});
   asset.add("textures", {{"source", 0}});
-  asset.add("images", {{"uri", "data:image/ktx2;base64," + base64("\xABKTX 20\xBB")}});
+  asset.add("images", {{"uri", "data:image/avif;base64," + base64("ftypavif")}});
   return asset;
 }
 

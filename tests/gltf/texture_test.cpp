@@ -107,7 +107,7 @@ TEST(GltfTexture, OversizedImagesAreRefusedBeforeMemoryIsTaken) {
 
 TEST(GltfTexture, OtherKindsOfImagesAreWhiteWithAWarning) {
   AssetBuilder asset = textured();
-  asset.json["images"][0] = {{"uri", "data:image/ktx2;base64," + base64("\xABKTX 20\xBB")}};
+  asset.json["images"][0] = {{"uri", "data:image/avif;base64," + base64("ftypavif")}};
   const LoadedScene loaded = load(asset);
   EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/images/0: is neither PNG")));
   EXPECT_EQ(loaded.scene.images.at(0), nullptr);
@@ -133,7 +133,7 @@ TEST(GltfTexture, DataUrisSayWhatTheyHold) {
     EXPECT_THAT(error_of(asset).what(), HasSubstr("is image/png")) << type;
   }
   asset.json["images"][0] = {{"uri", "data:image/png;base64,AAAA"}};
-  EXPECT_THAT(error_of(asset).what(), HasSubstr("neither PNG, JPEG nor WebP"));
+  EXPECT_THAT(error_of(asset).what(), HasSubstr("neither PNG, JPEG, WebP nor KTX2"));
   asset.json["images"][0] = {{"uri", "data:Image/PNG;base64," + png}};
   EXPECT_THAT(load(asset).scene.images.at(0), NotNull());
 }
@@ -150,7 +150,7 @@ TEST(GltfTexture, OnlyImagesThatArePicturedAreDecoded) {
   EXPECT_THAT(load(asset).scene.images.at(1), NotNull());
 }
 
-TEST(GltfTexture, WebpComesBeforeItsFallbackAndBasisLeavesWhite) {
+TEST(GltfTexture, WebpComesBeforeItsFallbackAndOthersLeaveWhite) {
   AssetBuilder asset = textured();
   asset.json["extensionsUsed"] = {"EXT_texture_webp"};
   asset.add("images", {{"uri",
@@ -159,12 +159,12 @@ TEST(GltfTexture, WebpComesBeforeItsFallbackAndBasisLeavesWhite) {
   asset.json["textures"][0]["extensions"]["EXT_texture_webp"] = {{"source", 1}};
   EXPECT_EQ(load(asset).scene.textures.at(0).image, 1U);
   EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
-  asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
-  asset.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
+  asset.json["extensionsUsed"] = {"EXT_texture_avif"};
+  asset.json["textures"][0] = {{"extensions", {{"EXT_texture_avif", {{"source", 0}}}}}};
   const LoadedScene loaded = load(asset);
   EXPECT_EQ(loaded.scene.textures.at(0).image, std::nullopt);
   EXPECT_THAT(texts(loaded.warnings), testing::Contains(HasSubstr("it is white")));
-  asset.json["extensionsRequired"] = {"KHR_texture_basisu"};
+  asset.json["extensionsRequired"] = {"EXT_texture_avif"};
   EXPECT_EQ(error_of(asset).kind(), ErrorKind::unsupported);
 }
 

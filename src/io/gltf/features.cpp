@@ -12,7 +12,7 @@ namespace microtrace::io::gltf {
 namespace {
 
 /// Light has no influence on flat pictures; what it needs is read all the same.
-constexpr std::array<std::string_view, 23> honoured = {
+constexpr std::array<std::string_view, 24> honoured = {
     "KHR_animation_pointer",  // of nodes; other pointers are warned of where they are played
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -35,6 +35,7 @@ constexpr std::array<std::string_view, 23> honoured = {
     "KHR_materials_volume",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 };
 

@@ -5,6 +5,7 @@
 #include "io/gltf/uri.hpp"
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
+#include "io/image/ktx2_colors.hpp"
 #include "scene/material_textures.hpp"
 
 #include <algorithm>
@@ -22,7 +23,8 @@ namespace {
 constexpr std::size_t max_image_bytes = std::size_t{1} << 30U;
 
 std::string_view media_type(ImageFormat format) {
-  constexpr std::array<std::string_view, 4> types = {"", "image/png", "image/jpeg", "image/webp"};
+  constexpr std::array<std::string_view, 5> types = {"", "image/png", "image/jpeg", "image/webp",
+                                                     "image/ktx2"};
   return types[static_cast<std::size_t>(format)];
 }
 
@@ -44,8 +46,7 @@ std::string small_letters(std::string_view text) {
 /// A data URI must say what it holds (glTF 2.0, section 2.8; so the Khronos validator has it too).
 /// image/jpg, which is no media type, is widespread.
 void check_media_type(const Asset& asset, const Element& uri, ImageFormat format) {
-  constexpr std::array<std::string_view, 3> not_decoded = {"image/ktx2", "image/avif",
-                                                           "image/vnd-ms.dds"};
+  constexpr std::array<std::string_view, 2> not_decoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
   const bool is_right =
       format == ImageFormat::unknown
@@ -53,7 +54,7 @@ void check_media_type(const Asset& asset, const Element& uri, ImageFormat format
           : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
   if (is_right) return;
   asset.fail(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
-                      (format == ImageFormat::unknown ? "neither PNG, JPEG nor WebP"
+                      (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
                                                       : std::string(media_type(format))));
 }
 
@@ -62,7 +63,7 @@ class ImageLoader {
   ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
       : asset_(asset), views_(views), folders_(folders) {}
 
-  std::shared_ptr<const Image> load(const Element& at, bool wanted) {
+  std::shared_ptr<const Image> load(const Element& at, ImageUse use) {
     std::string storage;
     const std::optional<std::string_view> bytes = bytes_of(at, storage);
     if (!bytes) {
@@ -74,7 +75,7 @@ class ImageLoader {
       check_media_type(asset_, at.member("uri"), header.format);
     }
     if (header.format == ImageFormat::unknown) {
-      asset_.warn(at, "is neither PNG, JPEG nor WebP; textures of it are white");
+      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; textures of it are white");
       return nullptr;
     }
     if (header.state == ImageHeader::State::damaged) {
@@ -89,7 +90,8 @@ class ImageLoader {
       asset_.warn(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
                           std::string(media_type(header.format)));
     }
-    return wanted ? decode(at, header, *bytes) : nullptr;
+    if (header.format == ImageFormat::ktx2) check_ktx2(at, header, *bytes, use);
+    return use.is_wanted() ? decode(at, header, *bytes) : nullptr;
   }
 
  private:
@@ -102,6 +104,29 @@ class ImageLoader {
                   ? decode_data_uri(asset_, uri)
                   : read_resource(asset_, uri, folders_, "image", max_image_bytes);
     return storage;
+  }
+
+  /// What KHR_texture_basisu demands of files that can be decoded nevertheless. The decoder refuses
+  /// others.
+  void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
+                  ImageUse use) {
+    if (header.width % 4 != 0 || header.height % 4 != 0) {
+      asset_.warn(at, "has sides that are no multiples of 4, as KHR_texture_basisu demands");
+    }
+    const std::optional<Ktx2Colors> colors = read_ktx2_colors(bytes);
+    if (!colors) return;
+    if (colors->is_premultiplied) {
+      asset_.warn(at, "says that alpha is multiplied into its colors; they are taken as they are");
+    }
+    // An image may hold colors and a number in its alpha, which is linear in either encoding.
+    const bool is_srgb = colors->encoding == ColorEncoding::srgb;
+    if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;
+    asset_.warn(at, std::string("says that its numbers are ") +
+                        (!colors->encoding ? "neither sRGB nor linear"
+                         : is_srgb         ? "sRGB"
+                                           : "linear") +
+                        ", but materials take them for " + (use.srgb ? "sRGB" : "linear") +
+                        ", which decides");
   }
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
@@ -120,7 +145,8 @@ class ImageLoader {
       asset_.fail(at, "has more pixels than its header says, or than there is memory for",
                   ErrorKind::limit);
     }
-    if (!decoded.image) asset_.fail(at, "holds a damaged image: " + decoded.complaint);
+    if (!decoded.image)
+      asset_.fail(at, "holds an image that can't be decoded: " + decoded.complaint);
     if (!decoded.complaint.empty()) {
       asset_.warn(at, "holds an image that is not whole: " + decoded.complaint);
     }
@@ -136,31 +162,33 @@ class ImageLoader {
 
 }  // namespace
 
-std::vector<bool> wanted_images(std::span<const Material> materials, const std::vector<bool>& drawn,
-                                std::span<const Texture> textures, std::size_t images,
-                                SurfaceDetail detail) {
-  std::vector<bool> wanted(images);
-  const auto want = [&](const TextureUse& use, ColorEncoding) {
-    if (textures[use.texture].image) wanted[*textures[use.texture].image] = true;
+std::vector<ImageUse> image_uses(std::span<const Material> materials,
+                                 const std::vector<bool>& drawn, std::span<const Texture> textures,
+                                 std::size_t images, SurfaceDetail detail) {
+  std::vector<ImageUse> uses(images);
+  const auto note = [&](const TextureUse& use, ColorEncoding encoding) {
+    const auto& image = textures[use.texture].image;
+    if (!image) return;
+    (encoding == ColorEncoding::srgb ? uses[*image].srgb : uses[*image].linear) = true;
   };
   for (std::size_t i = 0; i < materials.size(); ++i) {
     if (!drawn[i]) continue;
     if (detail == SurfaceDetail::all) {
-      for_each_texture(materials[i], want);
+      for_each_texture(materials[i], note);
     } else if (const auto& use = materials[i].base_color_texture) {
-      want(*use, ColorEncoding::srgb);
+      note(*use, ColorEncoding::srgb);
     }
   }
-  return wanted;
+  return uses;
 }
 
 std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const BufferViews& views,
                                                       const ResourceFolders& folders,
-                                                      const std::vector<bool>& wanted) {
+                                                      const std::vector<ImageUse>& uses) {
   ImageLoader loader(asset, views, folders);
   std::vector<std::shared_ptr<const Image>> images;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    images.push_back(loader.load(asset.element("images", i), wanted[i]));
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    images.push_back(loader.load(asset.element("images", i), uses[i]));
   }
   return images;
 }

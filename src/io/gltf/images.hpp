@@ -16,11 +16,18 @@
 
 namespace microtrace::io::gltf {
 
-/// Which of so many images those materials show that are drawn.
-[[nodiscard]] std::vector<bool> wanted_images(std::span<const Material> materials,
-                                              const std::vector<bool>& drawn,
-                                              std::span<const Texture> textures, std::size_t images,
-                                              SurfaceDetail detail);
+/// What drawn materials take an image's numbers for; neither where they do not show it.
+struct ImageUse {
+  bool srgb = false, linear = false;
+
+  [[nodiscard]] bool is_wanted() const { return srgb || linear; }
+};
+
+/// How those materials that are drawn use each of so many images.
+[[nodiscard]] std::vector<ImageUse> image_uses(std::span<const Material> materials,
+                                               const std::vector<bool>& drawn,
+                                               std::span<const Texture> textures,
+                                               std::size_t images, SurfaceDetail detail);
 
 /// By index: the pixels of those that are wanted and can be decoded, null for the others. All are
 /// looked at. Kinds of files that are not read give a warning; a header or, where it is wanted,
@@ -28,6 +35,6 @@ namespace microtrace::io::gltf {
 /// wanted ones have more than max_texture_pixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
     Asset& asset, const BufferViews& views, const ResourceFolders& folders,
-    const std::vector<bool>& wanted);
+    const std::vector<ImageUse>& uses);
 
 }  // namespace microtrace::io::gltf

@@ -73,7 +73,7 @@ struct GltfFile::Content {
         materials(gltf::make_materials(asset)),
         textures(gltf::make_textures(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, detail)),
-        images(gltf::load_images(asset, views, folders, wanted_images())),
+        images(gltf::load_images(asset, views, folders, image_uses())),
         instances(asset, model, reader),
         animations(gltf::choose_animations(asset, options.animation)) {
     gltf::warn_of_ignored_features(asset, detail);
@@ -147,12 +147,12 @@ struct GltfFile::Content {
     return views;
   }
 
-  [[nodiscard]] std::vector<bool> wanted_images() const {
+  [[nodiscard]] std::vector<gltf::ImageUse> image_uses() const {
     std::vector<bool> drawn(materials.size());
     for (const auto& mesh : surfaces) {
       for (const Surface& surface : mesh) drawn[surface.material] = true;
     }
-    return gltf::wanted_images(materials, drawn, textures, asset.array("images").size(), detail);
+    return gltf::image_uses(materials, drawn, textures, asset.array("images").size(), detail);
   }
 
   SurfaceDetail detail;

@@ -4,8 +4,10 @@
 #include "io/gltf/properties.hpp"
 #include "scene/trigonometry.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <utility>
 
@@ -42,6 +44,15 @@ Sampler make_sampler(const JsonValue& json) {
   return sampler;
 }
 
+std::optional<std::uint32_t> image_of(const JsonValue& texture) {
+  const std::array<const JsonValue*, 3> sources = {
+      extension(texture, "EXT_texture_webp"), extension(texture, "KHR_texture_basisu"), &texture};
+  for (const JsonValue* source : sources) {
+    if (source != nullptr && source->find("source") != nullptr) return index(*source, "source");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key) {
@@ -59,14 +70,10 @@ std::vector<Texture> make_textures(Asset& asset) {
   std::vector<Texture> textures;
   for (const JsonValue& json : asset.array("textures")) {
     Texture texture{.name = name_of(json)};
-    const JsonValue* webp = extension(json, "EXT_texture_webp");
-    if (webp != nullptr && webp->find("source") != nullptr) {
-      texture.image = index(*webp, "source");
-    } else if (json.find("source") != nullptr) {
-      texture.image = index(json, "source");
-    } else {
+    texture.image = image_of(json);
+    if (!texture.image) {
       asset.warn(asset.element("textures", textures.size()),
-                 "has no image in PNG, JPEG or WebP; it is white");
+                 "has no image in PNG, JPEG, WebP or KTX2; it is white");
     }
     if (const JsonValue* sampler = json.find("sampler")) {
       texture.sampler =

@@ -11,8 +11,8 @@
 
 namespace microtrace::io::gltf {
 
-/// All textures in file order; of the images that one offers the one in WebP (EXT_texture_webp)
-/// before PNG and JPEG. Warns of those that offer none of these.
+/// All textures in file order. Of the images that one offers, WebP (EXT_texture_webp) comes before
+/// KTX2 (KHR_texture_basisu), and this before PNG and JPEG. Warns of textures that offer none.
 [[nodiscard]] std::vector<Texture> make_textures(Asset& asset);
 
 /// The textureInfo of that name, if the object has one.

@@ -1,0 +1,110 @@
+#include "gltf/asset_builder.hpp"
+#include "support/png_file.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gmock/gmock.h>
+
+namespace microtrace::tests {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::NotNull;
+
+std::string ktx2_file(const std::string& name) {
+  const auto path =
+      std::filesystem::path(MICROTRACE_SOURCE_DIR) / "tests/image/ktx2" / (name + ".ktx2");
+  std::ifstream in(path, std::ios::binary);
+  EXPECT_TRUE(in) << path;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The cube with a texture of image 0, which is KTX2, and of image 1, which is PNG.
+AssetBuilder textured(const std::string& ktx2) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
+  asset.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "VEC2"}});
+  asset.add("textures", {{"source", 1}, {"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
+  asset.add("images", {{"mimeType", "image/ktx2"}, {"bufferView", asset.add_view(ktx2)}});
+  asset.add("images", {{"mimeType", "image/png"},
+                       {"bufferView", asset.add_view(png_of(1, 1, {9, 8, 7, 6}))}});
+  return asset;
+}
+
+/// The one image that is drawn.
+const Image& image_of(const Scene& scene) {
+  const Texture& texture = scene.textures.at(0);
+  EXPECT_EQ(texture.image, 0U);
+  EXPECT_THAT(scene.images.at(0), NotNull());
+  return *scene.images.at(0);
+}
+
+TEST(GltfBasisu, Ktx2ComesBeforeItsFallbackAndMayBeRequired) {
+  AssetBuilder asset = textured(ktx2_file("etc1s_runs_100x36"));
+  asset.json["extensionsRequired"] = {"KHR_texture_basisu"};
+  const LoadedScene loaded = load(asset);
+  EXPECT_THAT(texts(loaded.warnings), IsEmpty());
+  EXPECT_EQ(image_of(loaded.scene).width, 100U);
+  EXPECT_EQ(image_of(loaded.scene).height, 36U);
+  EXPECT_EQ(image_of(loaded.scene).channels, 4U);
+  const LoadedScene glb = load(asset.glb());
+  EXPECT_EQ(image_of(glb.scene).samples, image_of(loaded.scene).samples);
+  asset.json["images"][0] = {
+      {"uri", "data:image/ktx2;base64," + base64(ktx2_file("etc1s_runs_100x36"))}};
+  EXPECT_EQ(image_of(load(asset).scene).samples, image_of(loaded.scene).samples);
+}
+
+TEST(GltfBasisu, TheMaterialDecidesWhatNumbersMean) {
+  AssetBuilder color = textured(ktx2_file("uastc_linear_4x4"));
+  EXPECT_THAT(texts(load(color).warnings),
+              ElementsAre(HasSubstr("/images/0: says that its numbers are linear, but materials "
+                                    "take them for sRGB")));
+  AssetBuilder normal = textured(ktx2_file("etc1s_runs_100x36"));
+  nlohmann::json& material = normal.json["materials"][0];
+  material["normalTexture"] = material["pbrMetallicRoughness"]["baseColorTexture"];
+  EXPECT_THAT(texts(load(normal).warnings), IsEmpty()) << "it is both";
+  material["pbrMetallicRoughness"].erase("baseColorTexture");
+  EXPECT_THAT(texts(load(normal).warnings),
+              ElementsAre(HasSubstr("numbers are sRGB, but materials take them for linear")));
+  material.erase("normalTexture");
+  EXPECT_THAT(texts(load(normal).warnings), IsEmpty()) << "nobody looks";
+
+  std::string premultiplied = ktx2_file("etc1s_runs_100x36");
+  premultiplied[static_cast<unsigned char>(premultiplied[48]) + 15] = 1;
+  EXPECT_THAT(texts(load(textured(premultiplied)).warnings),
+              ElementsAre(HasSubstr("alpha is multiplied")));
+}
+
+TEST(GltfBasisu, SidesShouldBeMultiplesOfFour) {
+  const LoadedScene loaded = load(textured(ktx2_file("etc1s_3x5")));
+  EXPECT_THAT(texts(loaded.warnings), ElementsAre(HasSubstr("/images/0: has sides that are no")));
+  EXPECT_EQ(image_of(loaded.scene).height, 5U);
+}
+
+TEST(GltfBasisu, DamagedAndOtherTexturesAreErrorsWithTheirPlace) {
+  const auto expect = [](const std::string& ktx2, const char* words) {
+    try {
+      (void)load(textured(ktx2));
+      ADD_FAILURE() << words;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);
+      EXPECT_EQ(error.diagnostic().pointer, "/images/0");
+      EXPECT_THAT(error.what(), HasSubstr(words));
+    }
+  };
+  std::string ktx2 = ktx2_file("etc1s_runs_100x36");
+  expect(ktx2.substr(0, 500), "can't be decoded: the base level is cut off");
+  ktx2[36] = 6;
+  expect(ktx2, "can't be decoded: is KTX2 with 6 faces");
+  ktx2[20] = 0;
+  expect(ktx2, "header says no size");
+}
+
+}  // namespace
+}  // namespace microtrace::tests
