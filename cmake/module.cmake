@@ -1,10 +1,21 @@
-# microtrace_module(NAME SOURCE...): a part that the library loads on first need (src/io/module_function.hpp says from where).
+# Where modules lie, seen from the program's folder: the same in the build folder as installed. Seen from a shared library they
+# lie in microtrace/ (src/io/module_folders.hpp).
+file(RELATIVE_PATH microtrace_modules_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/microtrace)
+cmake_path(SET microtrace_module_dir NORMALIZE ${PROJECT_BINARY_DIR}/src/cli/${microtrace_modules_from_program})
+
+# microtrace_module(NAME SOURCE...): a part that the library loads on first need.
 function(microtrace_module name)
   set(target microtrace_${name})
   add_library(${target} MODULE ${ARGN})
   set_target_properties(${target} PROPERTIES
-    PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/lib/microtrace CXX_VISIBILITY_PRESET hidden)
+    PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${microtrace_module_dir}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PRIVATE microtrace_flags)
+  add_dependencies(microtrace_all ${target})
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
 endfunction()
+
+# Programs of this build that are not installed, tests for example, lie anywhere.
+include(${CMAKE_CURRENT_LIST_DIR}/module_folder.cmake)
+microtrace_add_module_folder(microtrace_built_modules ${microtrace_module_dir})

@@ -1,33 +1,14 @@
 #include "io/module_function.hpp"
 
 #include "float_environment.hpp"
+#include "io/elf_file.hpp"
+#include "io/module_folders.hpp"
 
-#include <cstdlib>
 #include <dlfcn.h>
 #include <system_error>
-#include <vector>
 
 namespace microtrace::io {
 namespace {
-
-namespace fs = std::filesystem;
-
-/// Where a module may lie, the most wanted folder first.
-std::vector<fs::path> module_folders() {
-  std::vector<fs::path> folders;
-  if (const char* named = std::getenv("MICROTRACE_MODULE_PATH"); named != nullptr && *named != 0) {
-    folders.emplace_back(named);
-    return folders;
-  }
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    folders.push_back((program.parent_path() / MICROTRACE_MODULES_FROM_PROGRAM).lexically_normal());
-  }
-  folders.emplace_back(MICROTRACE_INSTALLED_MODULES);
-  folders.emplace_back(MICROTRACE_BUILT_MODULES);
-  return folders;
-}
 
 std::string last_complaint(const std::string& otherwise) {
   const char* reason = ::dlerror();
@@ -39,12 +20,14 @@ std::string last_complaint(const std::string& otherwise) {
 Module open_module(const char* file) {
   const FloatEnvironment environment;  // libraries make tables when they are loaded
   Module result;
-  for (const fs::path& folder : module_folders()) {
-    const fs::path path = folder / file;
+  for (const std::filesystem::path& folder : module_folders()) {
+    const std::filesystem::path path = folder / file;
     result.sought += (result.sought.empty() ? "" : ", ") + folder.string();
     std::error_code error;
-    if (!fs::exists(path, error)) continue;
+    if (!std::filesystem::exists(path, error)) continue;
     result.path = path;
+    result.complaint = damage_of_elf_file(path);
+    if (!result.complaint.empty()) break;
     result.handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (result.handle == nullptr) result.complaint = last_complaint(path.string());
     break;

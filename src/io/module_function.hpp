@@ -9,13 +9,11 @@ namespace microtrace::io {
 struct Module {
   void* handle = nullptr;        ///< dlsym's; null if it can't be loaded
   std::filesystem::path path{};  ///< empty if there is no such file
-  std::string complaint{};       ///< of a file that can't be loaded: the reason, in dlopen's words
+  std::string complaint{};       ///< of a file that can't be loaded: the reason
   std::string sought{};          ///< the folders where there is none, with commas between
 };
 
-/// Loads the module of that file name from MICROTRACE_MODULE_PATH alone, if it is set; else from
-/// the first of these that has it: beside the program, where modules were installed, where they
-/// were built.
+/// Loads the module of that file name from the first of module_folders() that has it.
 [[nodiscard]] Module open_module(const char* file);
 
 struct ModuleFunction {

@@ -1,3 +1,4 @@
+#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
 
 #include <string>
@@ -6,8 +7,6 @@
 
 namespace microtrace::io::gltf {
 namespace {
-
-constexpr int i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, f32 = 5126;
 
 std::string text(double number) {
   return std::to_string(static_cast<unsigned long long>(number));

@@ -1,3 +1,4 @@
+#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/check/texture_infos.hpp"
 
@@ -8,8 +9,6 @@
 
 namespace microtrace::io::gltf {
 namespace {
-
-constexpr int i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126;
 
 struct Semantic {
   std::string_view name;  ///< without the number of its set

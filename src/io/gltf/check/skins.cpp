@@ -1,3 +1,4 @@
+#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
 
 #include <algorithm>
@@ -6,8 +7,6 @@
 
 namespace microtrace::io::gltf {
 namespace {
-
-constexpr int f32 = 5126;
 
 std::size_t index_of(const JsonValue& value) {
   return static_cast<std::size_t>(value.number);

@@ -1,3 +1,4 @@
+#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
 
 #include <cmath>
@@ -6,7 +7,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr double element_array_buffer = 34963, u32 = 5125, f32 = 5126;
+constexpr double element_array_buffer = 34963;
 
 void check_view(Asset& asset, const Element& at) {
   const JsonValue* stride = at.value->find("byteStride");

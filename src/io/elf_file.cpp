@@ -1,0 +1,101 @@
+#include "io/elf_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <elf.h>
+#include <fcntl.h>
+#include <link.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace microtrace::io {
+namespace {
+
+using Header = ElfW(Ehdr);
+using Segment = ElfW(Phdr);
+using Section = ElfW(Shdr);
+
+/// An open file, read at any place.
+class File {
+ public:
+  explicit File(const std::filesystem::path& path)
+      : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    struct stat status {};
+    if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+      complaint_ = std::generic_category().message(errno);
+    } else if (!S_ISREG(status.st_mode)) {
+      complaint_ = "it is no regular file";
+    } else {
+      size_ = static_cast<std::uint64_t>(status.st_size);
+    }
+  }
+  ~File() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  [[nodiscard]] const std::string& complaint() const { return complaint_; }
+
+  [[nodiscard]] bool holds(std::uint64_t offset, std::uint64_t size) const {
+    return offset <= size_ && size <= size_ - offset;
+  }
+
+  /// Fills `items` from there on, or leaves none if the file has fewer.
+  template <class T>
+  void read(std::uint64_t offset, std::vector<T>& items) const {
+    const std::size_t size = items.size() * sizeof(T);
+    const auto is_read = [&] {
+      return static_cast<std::size_t>(
+                 ::pread(descriptor_, items.data(), size, static_cast<off_t>(offset))) == size;
+    };
+    if (!holds(offset, size) || !is_read()) items.clear();
+  }
+
+ private:
+  int descriptor_;
+  std::uint64_t size_ = 0;
+  std::string complaint_;
+};
+
+bool is_of_this_machine(const Header& header) {
+  constexpr int word_size = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  return std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
+         header.e_ident[EI_CLASS] == word_size && header.e_type == ET_DYN &&
+         header.e_phentsize == sizeof(Segment) && header.e_shentsize == sizeof(Section);
+}
+
+}  // namespace
+
+std::string damage_of_elf_file(const std::filesystem::path& path) {
+  const File file(path);
+  if (!file.complaint().empty()) return file.complaint();
+  std::vector<Header> header(1);
+  file.read(0, header);
+  if (header.empty() || !is_of_this_machine(header[0])) {
+    return "it is no shared library of this machine";
+  }
+  // The sections come last in the file: all of them are there if nothing was cut off.
+  std::vector<Segment> segments(header[0].e_phnum);
+  std::vector<Section> sections(header[0].e_shnum);
+  file.read(header[0].e_phoff, segments);
+  file.read(header[0].e_shoff, sections);
+  const auto holds_segment = [&](const Segment& segment) {
+    return file.holds(segment.p_offset, segment.p_filesz);
+  };
+  const auto holds_section = [&](const Section& section) {
+    return section.sh_type == SHT_NOBITS || file.holds(section.sh_offset, section.sh_size);
+  };
+  // The first section alone is of no type; where others are, zeros were left of the file's end.
+  const auto is_null = [](const Section& section) { return section.sh_type == SHT_NULL; };
+  const bool is_whole = !segments.empty() && std::ranges::all_of(segments, holds_segment) &&
+                        std::ranges::count_if(sections, is_null) == 1 &&
+                        std::ranges::all_of(sections, holds_section);
+  return is_whole ? "" : "it is truncated or damaged";
+}
+
+}  // namespace microtrace::io

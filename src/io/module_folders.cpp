@@ -1,0 +1,56 @@
+#include "io/module_folders.hpp"
+
+#include <cstdlib>
+#include <dlfcn.h>
+#include <link.h>
+#include <string_view>
+#include <sys/auxv.h>
+#include <system_error>
+
+/// Defined in programs that are linked with the static library by CMake.
+extern "C" [[gnu::weak, gnu::visibility("hidden")]] const char microtrace_module_folder[];
+
+namespace microtrace::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Resolves symbolic links, for /usr/bin/microtrace may be one to another prefix. Empty if there is
+/// no such file.
+fs::path folder_of(const char* file) {
+  std::error_code error;
+  const fs::path path = fs::canonical(file, error);
+  return error ? fs::path() : path.parent_path();
+}
+
+/// At a fixed place relative to the program or the shared library that holds this function. The
+/// dynamic linker knows the name of the latter; that of the program it takes from argv, which may
+/// hold anything, while the kernel's is the one that was executed.
+fs::path beside_library() {
+  Dl_info info{};
+  link_map* object = nullptr;
+  const auto here = reinterpret_cast<const void*>(&module_folders);
+  const bool is_known =
+      ::dladdr1(here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+  if (is_known && *object->l_name != 0) {
+    const fs::path folder = folder_of(object->l_name);
+    return folder.empty() ? folder : folder / "microtrace";
+  }
+  const auto program = reinterpret_cast<const char*>(::getauxval(AT_EXECFN));
+  const fs::path folder = program != nullptr ? folder_of(program) : fs::path();
+  return folder.empty() ? folder : (folder / MICROTRACE_MODULES_FROM_PROGRAM).lexically_normal();
+}
+
+}  // namespace
+
+std::vector<fs::path> module_folders() {
+  if (const char* named = std::getenv("MICROTRACE_MODULE_PATH"); named != nullptr && *named != 0) {
+    return {named};
+  }
+  std::vector<fs::path> folders;
+  if (fs::path beside = beside_library(); !beside.empty()) folders.push_back(std::move(beside));
+  if (microtrace_module_folder != nullptr) folders.emplace_back(microtrace_module_folder);
+  return folders;
+}
+
+}  // namespace microtrace::io
