@@ -128,7 +128,7 @@ void TextureMap::make_levels() {
 namespace {
 
 /// Four numbers in registers: GLM's are computed one by one.
-typedef double Four __attribute__((vector_size(32)));
+typedef double FourDoubles __attribute__((vector_size(32)));
 
 /// What make_levels does where each pixel covers four. add(x, y, sum) adds to the sum a pixel of
 /// the finer level times kPart.
@@ -140,7 +140,7 @@ void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,
   std::uint16_t* to = samples.data();
   for (std::uint32_t y = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x) {
-      Four sum = Four{} + 0.5;  // rounds to the nearest
+      FourDoubles sum = FourDoubles{} + 0.5;  // rounds to the nearest
       add(2 * x, 2 * y, sum);
       add(2 * x + 1, 2 * y, sum);
       add(2 * x, 2 * y + 1, sum);
@@ -156,9 +156,10 @@ void TextureMap::halve(std::size_t finer, Level& level) const {
   const std::size_t columns = std::size_t{2} * level.width;
   if (finer > 0) {
     const std::uint16_t* from = levels_[finer - 1].samples.data();
-    const auto add = [=](std::size_t x, std::size_t y, Four& sum) {
+    const auto add = [=](std::size_t x, std::size_t y, FourDoubles& sum) {
       const std::uint16_t* s = from + (y * columns + x) * 4;
-      sum += kPart * (Four{double(s[0]), double(s[1]), double(s[2]), double(s[3])} * (1 / 65535.0));
+      sum += kPart *
+             (FourDoubles{double(s[0]), double(s[1]), double(s[2]), double(s[3])} * (1 / 65535.0));
     };
     return halve_lines(level.width, level.height, add, level.samples);
   }
@@ -167,11 +168,11 @@ void TextureMap::halve(std::size_t finer, Level& level) const {
       [&](const auto& samples) {
         const auto halve_from = [&]<std::size_t channels>() {
           const auto* from = samples.data();
-          const auto add = [=](std::size_t x, std::size_t y, Four& sum) {
+          const auto add = [=](std::size_t x, std::size_t y, FourDoubles& sum) {
             const auto* s = from + (y * columns + x) * channels;
             const double a = channels % 2 == 0 ? alpha[s[channels - 1]] : 1;
             constexpr int green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2;
-            sum += kPart * Four{color[s[0]], color[s[green]], color[s[blue]], a};
+            sum += kPart * FourDoubles{color[s[0]], color[s[green]], color[s[blue]], a};
           };
           halve_lines(level.width, level.height, add, level.samples);
         };

@@ -46,7 +46,7 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
 }
 
 /// Four numbers in one register: GLM's are computed one by one.
-typedef float Four __attribute__((vector_size(16)));
+typedef float FourFloats __attribute__((vector_size(16)));
 
 /// The four pixels around a place, weighed. fetch(index) is a pixel, row by row.
 template <class Fetch>
@@ -54,9 +54,9 @@ Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fet
   const std::size_t top = static_cast<std::size_t>(y.first) * columns;
   const std::size_t bottom = static_cast<std::size_t>(y.second) * columns;
   const auto left = static_cast<std::size_t>(x.first), right = static_cast<std::size_t>(x.second);
-  const Four upper = fetch(top + left) * (1 - x.share) + fetch(top + right) * x.share;
-  const Four lower = fetch(bottom + left) * (1 - x.share) + fetch(bottom + right) * x.share;
-  const Four all = upper * (1 - y.share) + lower * y.share;
+  const FourFloats upper = fetch(top + left) * (1 - x.share) + fetch(top + right) * x.share;
+  const FourFloats lower = fetch(bottom + left) * (1 - x.share) + fetch(bottom + right) * x.share;
+  const FourFloats all = upper * (1 - y.share) + lower * y.share;
   return {all[0], all[1], all[2], all[3]};
 }
 
@@ -68,22 +68,22 @@ Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color,
     case 1:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const float grey = color[samples[i]];
-        return Four{grey, grey, grey, 1};
+        return FourFloats{grey, grey, grey, 1};
       });
     case 2:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 2 * i;
-        return Four{color[s[0]], color[s[0]], color[s[0]], alpha[s[1]]};
+        return FourFloats{color[s[0]], color[s[0]], color[s[0]], alpha[s[1]]};
       });
     case 3:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 3 * i;
-        return Four{color[s[0]], color[s[1]], color[s[2]], 1};
+        return FourFloats{color[s[0]], color[s[1]], color[s[2]], 1};
       });
     default:
       return bilinear(x, y, columns, [=](std::size_t i) {
         const Number* s = samples + 4 * i;
-        return Four{color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]};
+        return FourFloats{color[s[0]], color[s[1]], color[s[2]], alpha[s[3]]};
       });
   }
 }
@@ -132,7 +132,7 @@ Vec4 TextureMap::sample(const Place& place) const {
     return bilinear(x, y, columns,
                     [=](std::size_t i) {
                       const std::uint16_t* s = samples + 4 * i;
-                      return Four{float(s[0]), float(s[1]), float(s[2]), float(s[3])};
+                      return FourFloats{float(s[0]), float(s[1]), float(s[2]), float(s[3])};
                     }) *
            (1 / 65535.0F);
   }
