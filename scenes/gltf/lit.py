@@ -3,7 +3,7 @@ without optimization draw it soon.
 
 materials.glb has 24 balls, one for each kind of scattering, before a checkered wall. textured.glb has a texture in every
 slot, masks and blending. lamps.glb is a room with 64 punctual lights and emissive meshes. moving.glb bends, morphs and
-rises at --time 0 to 1. far.glb stands where float32 has a number every half meter. ../sky.hdr is an environment map.
+rises at --time 0 to 1. far.glb stands where float32 has a number every half meter. ../sky.exr is an environment map.
 """
 
 import math
@@ -347,8 +347,32 @@ def far():
     return asset
 
 
+def exr(width, height, pixel):
+    """An OpenEXR file of pixel(x, y) in half floats, without compression."""
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<i", len(value)) + value
+
+    half = 1
+    channels = b"".join(name + b"\0" + struct.pack("<iB3xii", half, 0, 1, 1) for name in (b"B", b"G", b"R"))
+    window = struct.pack("<4i", 0, 0, width - 1, height - 1)
+    header = struct.pack("<ii", 20000630, 2) + b"".join([
+        attribute("channels", "chlist", channels + b"\0"), attribute("compression", "compression", b"\0"),
+        attribute("dataWindow", "box2i", window), attribute("displayWindow", "box2i", window),
+        attribute("lineOrder", "lineOrder", b"\0"), attribute("pixelAspectRatio", "float", struct.pack("<f", 1)),
+        attribute("screenWindowCenter", "v2f", struct.pack("<2f", 0, 0)),
+        attribute("screenWindowWidth", "float", struct.pack("<f", 1))]) + b"\0"
+    rows = []
+    for y in range(height):
+        colors = [pixel(x, y) for x in range(width)]
+        data = b"".join(struct.pack(f"<{width}e", *(color[c] for color in colors)) for c in (2, 1, 0))
+        rows.append(struct.pack("<ii", y, len(data)) + data)
+    start = len(header) + 8 * height
+    offsets = (start + y * len(rows[0]) for y in range(height))
+    return header + struct.pack(f"<{height}Q", *offsets) + b"".join(rows)
+
+
 def sky():
-    """An environment map of 32 x 16 as Radiance HDR: blue above, brown below, a sun of one pixel and a soft window."""
+    """An environment map of 32 x 16: blue above, brown below, a sun of one pixel and a soft window."""
     def pixel(x, y):
         height = math.cos(math.pi * (y + 0.5) / 16)
         if (x, y) == (25, 4):
@@ -357,13 +381,7 @@ def sky():
             return (1.6, 2, 2.6)
         return (0.15, 0.22, 0.3 + 0.25 * height) if height > 0 else (0.12, 0.1, 0.06)
 
-    rows = b""
-    for y in range(16):
-        for x in range(32):
-            color = pixel(x, y)
-            exponent = math.frexp(max(color))[1]
-            rows += bytes([*(int(math.ldexp(c, 8 - exponent)) for c in color), exponent + 128])
-    return b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 16 +X 32\n" + rows
+    return exr(32, 16, pixel)
 
 
 SCENES = {"materials": materials, "textured": textured, "lamps": lamps, "moving": moving, "far": far}

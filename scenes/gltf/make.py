@@ -126,7 +126,7 @@ def main():
     textures().write(folder / "textures.glb")
     for name, make in lit.SCENES.items():
         make().write(folder / f"{name}.glb")
-    (folder.parent / "sky.hdr").write_bytes(lit.sky())
+    (folder.parent / "sky.exr").write_bytes(lit.sky())
 
 
 if __name__ == "__main__":

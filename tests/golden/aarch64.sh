@@ -59,7 +59,11 @@ END
 }
 
 emulate microtrace "$folder/build/src/cli/microtrace"
+aarch64-linux-gnu-g++ -std=c++20 -O1 -I"$source/src" "$tests/decode_images.cpp" -o "$folder/decode_images.aarch64" -ldl
+emulate decode_images "$folder/decode_images.aarch64"
+
 failed=0
+python3 -B "$tests/decoders_test.py" "$folder/decode_images" "$folder/build/lib/microtrace/microtrace_codecs.so" || failed=1
 # Environment maps are decoded by OpenImageIO, whose libraries are too many to unpack.
 python3 -B "$tests/pinned_test.py" "$folder/microtrace" --threads 2 --skip sky. || failed=1
 exit "$failed"
