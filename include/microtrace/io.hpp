@@ -89,11 +89,12 @@ struct LoadedRadianceMap {
   std::vector<Diagnostic> warnings;
 };
 
-/// Reads a latitude-longitude map by OpenImageIO, whose module is loaded then. Numbers of 8 and 16
-/// bits are taken for sRGB, floating-point ones (.hdr, .exr) for linear; both for Rec. 709. One
-/// channel is grey; alpha is left out. Numbers that are negative or none become 0 and those above
-/// kMaxRadiance that, with a warning. Throws Error: io where the file can't be read or decoded,
-/// limit for one with a side above 65536 or more than 2^27 pixels, unsupported without the module.
+/// Reads a latitude-longitude map by OpenEXR (.exr) or OpenImageIO, whose module is loaded then.
+/// Numbers of 8 and 16 bits are taken for sRGB, floating-point ones (.hdr, .exr) for linear; both
+/// for Rec. 709. One channel is grey; alpha is left out. Numbers that are negative or none become 0
+/// and those above kMaxRadiance that, with a warning. Throws Error: io where the file can't be read
+/// or decoded, limit for one with a side above 65536 or more than 2^27 pixels, unsupported without
+/// the module.
 [[nodiscard]] LoadedRadianceMap load_radiance_map(const std::filesystem::path& path);
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
@@ -105,13 +106,13 @@ struct Sidecar {
 };
 
 /// Writes a picture; the kind is the ending's: .ppm by the library itself, .png by
-/// libpng, any other by OpenImageIO, whose modules are loaded then. Float formats (.exr, .hdr) hold
-/// the film's numbers, the others 8 bits as its display says. Alpha is multiplied into the colours
-/// of float formats and divided out of the others, before they are encoded. Only .exr takes further
-/// channels; there a film that is a part of a picture has the whole as its display window. The file
-/// appears whole or not at all. "-" is standard output, and takes PPM. A sidecar is written whole
-/// before either file takes its place. Throws Error: usage where the format lacks what the film
-/// has.
+/// libpng, .exr by OpenEXR, any other by OpenImageIO, whose modules are loaded then. Float formats
+/// (.exr, .hdr) hold the film's numbers, the others 8 bits as its display says. Alpha is multiplied
+/// into the colours of float formats and divided out of the others, before they are encoded. Only
+/// .exr takes further channels; there a film that is a part of a picture has the whole as its
+/// display window. The file appears whole or not at all. "-" is standard output, and takes PPM. A
+/// sidecar is written whole before either file takes its place. Throws Error: usage where the
+/// format lacks what the film has.
 void save_image(const Film& film, const std::filesystem::path& path,
                 PpmEncoding ppm = PpmEncoding::binary, const Sidecar* sidecar = nullptr);
 

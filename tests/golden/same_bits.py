@@ -43,7 +43,7 @@ def build(name, compiler, flags):
     subprocess.run(["cmake", "--build", folder, "--target", "microtrace", "microtrace_codecs"], check=True,
                    stdout=subprocess.DEVNULL)
     modules = folder / "lib/microtrace"
-    for module in Path(PROGRAM).parents[2].glob("lib/microtrace/microtrace_openimageio.so"):
+    for module in Path(PROGRAM).parents[2].glob("lib/microtrace/microtrace_open*.so"):
         link = modules / module.name
         link.unlink(missing_ok=True)
         link.symlink_to(module)

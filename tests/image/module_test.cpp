@@ -109,7 +109,7 @@ TEST(Module, MissingModuleNamesThePackage) {
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
     EXPECT_THAT(error.what(),
-                testing::AllOf(HasSubstr("libopenimageio-dev"), HasSubstr("microtrace_openimageio"),
+                testing::AllOf(HasSubstr("libopenexr-dev"), HasSubstr("microtrace_openexr"),
                                HasSubstr("nowhere")));
   }
   EXPECT_NO_THROW(save_image(gradient(), folder / "a.ppm"));
@@ -118,14 +118,15 @@ TEST(Module, MissingModuleNamesThePackage) {
 
 TEST(Module, BrokenModuleIsReported) {
   const Folder folder;
-  write_bytes(folder / "microtrace_openimageio.so", "not a library");
+  write_bytes(folder / "microtrace_openexr.so", "not a library");
   ::setenv("MICROTRACE_MODULE_PATH", (folder / "").c_str(), 1);
   try {
     save_image(gradient(), folder / "a.exr");
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
-    EXPECT_THAT(error.what(), HasSubstr("can't load"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("can't be written without the module microtrace_openexr.so: "));
   }
   ::unsetenv("MICROTRACE_MODULE_PATH");
 }

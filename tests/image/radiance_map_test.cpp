@@ -100,6 +100,42 @@ TEST(RadianceMapFile, GreyIsTakenForAllAndAlphaLeftOut) {
   expect_equal(*load_radiance_map(folder / "more.exr").map, panorama(), 0);
 }
 
+TEST(RadianceMapFile, TakesTheColorsOfAnOpenExrLayer) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  const std::string in = (folder / "a.exr").string();
+  convert(in + " --chnames beauty.R,beauty.G,beauty.B -o " + (folder / "layer.exr").string());
+  expect_equal(*load_radiance_map(folder / "layer.exr").map, panorama(), 0);
+  convert(in + " --ch R,G -o " + (folder / "two.exr").string());
+  EXPECT_EQ(kind_of(folder / "two.exr", "neither channels R, G and B nor a single one"),
+            ErrorKind::io);
+  convert(in + " --ch R,G,B --chnames Y,RY,BY -o " + (folder / "chroma.exr").string());
+  EXPECT_EQ(kind_of(folder / "chroma.exr", "luminance and chroma"), ErrorKind::io);
+}
+
+TEST(RadianceMapFile, SurvivesDamagedOpenExrFiles) {
+  const Folder folder;
+  save_image(panorama(), folder / "a.exr");
+  const std::string whole = read_bytes(folder / "a.exr");
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    std::string damaged = whole;
+    damaged[i] = static_cast<char>(damaged[i] ^ 0xFF);
+    write_bytes(folder / "b.exr", damaged);
+    try {
+      static_cast<void>(load_radiance_map(folder / "b.exr"));
+    } catch (const Error& error) {
+      EXPECT_TRUE(error.kind() == ErrorKind::io || error.kind() == ErrorKind::limit)
+          << error.what();
+    }
+  }
+  // A data window of 2^31 pixels by 3.
+  const std::size_t window = whole.find("dataWindow") + 11 + 6 + 4;
+  std::string wide = whole;
+  wide.replace(window + 8, 4, "\xff\xff\xff\x7f");
+  write_bytes(folder / "wide.exr", wide);
+  EXPECT_THAT(kind_of(folder / "wide.exr", ""), testing::AnyOf(ErrorKind::io, ErrorKind::limit));
+}
+
 TEST(RadianceMapFile, NumbersThatAreNoLightAreClampedWithAWarning) {
   const Folder folder;
   Film film = panorama();
@@ -154,7 +190,7 @@ TEST(RadianceMapFile, NamesTheMissingModule) {
   const Folder folder;
   save_image(panorama(), folder / "a.exr");
   ::setenv("MICROTRACE_MODULE_PATH", (folder / "nowhere").c_str(), 1);
-  EXPECT_EQ(kind_of(folder / "a.exr", "microtrace_openimageio"), ErrorKind::unsupported);
+  EXPECT_EQ(kind_of(folder / "a.exr", "microtrace_openexr"), ErrorKind::unsupported);
   ::unsetenv("MICROTRACE_MODULE_PATH");
 }
 

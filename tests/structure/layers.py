@@ -37,7 +37,8 @@ HIDDEN = {
 LIBRARIES = {
     r"CGAL/|gmp": ["tests/oracle"],
     r"tiny_gltf|nlohmann/": ["src/io", "tests"],
-    r"OpenImageIO/": ["src/modules", "tests/image"],
+    r"OpenImageIO/": ["src/modules/openimageio", "tests/image"],
+    r"Imf": ["src/modules/openexr"],
     r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],
     r"png\.h|jpeglib\.h|webp/|zstd\.h": ["src/modules/codecs"],
     r"CLI/": ["src/cli"],

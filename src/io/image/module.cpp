@@ -16,32 +16,25 @@ namespace {
 /// log4cplus starts four.
 constexpr unsigned kThreadsOfLibraries = 4;
 
-void* load_module(const std::string& file) {
-  require_threads_of_image_module(file);
-  const Module module = open_module(module_file_name);
+void* load_module(const FormatModule& format_module, const std::string& file) {
+  require_threads(format_module, file);
+  const Module module = open_module(format_module.file);
   if (module.handle != nullptr) return module.handle;
-  if (!module.path.empty()) {
-    throw Error(ErrorKind::unsupported, file,
-                "can't load the OpenImageIO module: " + module.complaint +
-                    "; install libopenimageio2.4, or write .ppm or .png");
-  }
-  std::string message =
-      "only .ppm and .png can be written without the OpenImageIO module; install "
-      "libopenimageio-dev and "
-      "build the target microtrace_openimageio, or set MICROTRACE_MODULE_PATH to the folder of ";
-  message += module_file_name;
-  message += " (sought in ";
-  message += module.sought;
-  message += ")";
-  throw Error(ErrorKind::unsupported, file, message);
+  std::string message = "can't be written without the module ";
+  message.append(format_module.file);
+  message += module.path.empty() ? ", sought in " + module.sought : ": " + module.complaint;
+  message.append("; install ").append(format_module.package);
+  message.append(" and build the target ").append(format_module.target);
+  throw Error(
+      ErrorKind::unsupported, file,
+      message + ", set MICROTRACE_MODULE_PATH to the module's folder, or write .ppm or .png");
 }
 
 template <typename Function>
 Function find_function(void* module, const char* name, const std::string& file) {
   if (void* address = ::dlsym(module, name)) return reinterpret_cast<Function>(address);
   throw Error(ErrorKind::unsupported, file,
-              "the OpenImageIO module belongs to another version of microtrace; install both from "
-              "one build");
+              "its module belongs to another version of microtrace; install both from one build");
 }
 
 /// What a sink writes to. An exception may not pass the module's frames, so it waits here.
@@ -67,21 +60,32 @@ void take_reason(void* context, const char* bytes, std::size_t size) {
 
 }  // namespace
 
-void require_threads_of_image_module(const std::string& file) {
+void require_threads(const FormatModule& module, const std::string& file) {
+  if (!module.starts_threads) return;
   const auto require = [&] {
     // OpenImageIO itself starts one for each processor.
     if (can_start_threads(kThreadsOfLibraries + default_threads())) return true;
     throw Error(ErrorKind::limit, file,
                 "needs OpenImageIO, whose libraries start more threads than the limits on "
-                "processes and memory allow; raise these, or use .ppm and .png");
+                "processes and memory allow; raise these, or use .ppm, .png or .exr");
   };
   // Threads that run already are not needed twice; a failure is thrown again if it is met again.
   static const bool is_granted = require();
   static_cast<void>(is_granted);
 }
 
-ImageModule::ImageModule(std::string file) : file_(std::move(file)) {
-  void* module = load_module(file_);
+const FormatModule& module_for(std::string_view ending) {
+  static constexpr FormatModule openexr{
+      .file = "microtrace_openexr.so", .package = "libopenexr-dev", .target = "microtrace_openexr"};
+  static constexpr FormatModule openimageio{.file = "microtrace_openimageio.so",
+                                            .package = "libopenimageio-dev",
+                                            .target = "microtrace_openimageio",
+                                            .starts_threads = true};
+  return ending == "exr" ? openexr : openimageio;
+}
+
+ImageModule::ImageModule(std::string file, std::string_view ending) : file_(std::move(file)) {
+  void* module = load_module(module_for(ending), file_);
   find_format_ = find_function<MicrotraceFindFormat>(module, find_format_name, file_);
   encode_ = find_function<MicrotraceEncode>(module, encode_name, file_);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The module of picture formats other than PPM and PNG. It is loaded when it is first needed, for
+/// The modules of picture formats other than PPM and PNG. Each is loaded when it is first needed:
 /// OpenImageIO and the 260 libraries it brings cost a quarter of a second and 130 MB.
 
 #include "io/image/module_abi.hpp"
@@ -12,16 +12,27 @@
 
 namespace microtrace::io {
 
-/// To be called before the OpenImageIO module is loaded for `file`. Libraries that Debian's
-/// OpenImageIO depends on start threads while they are loaded, and end the process where they
-/// can't. Throws Error (limit) where the system would refuse these threads.
-void require_threads_of_image_module(const std::string& file);
+struct FormatModule {
+  const char* file;
+  const char* package;  ///< Debian's, which it is built with
+  const char* target;   ///< CMake's, which builds it
+  /// Libraries that Debian's OpenImageIO depends on start threads while they are loaded, and end
+  /// the process where they can't.
+  bool starts_threads = false;
+};
+
+/// What writes pictures and reads environments of this ending (lower case, no dot).
+[[nodiscard]] const FormatModule& module_for(std::string_view ending);
+
+/// To be called before the module is loaded for `file`. Throws Error (limit) where it starts
+/// threads that the system would refuse.
+void require_threads(const FormatModule& module, const std::string& file);
 
 class ImageModule {
  public:
-  /// Loads the module, once in a process. `file` stands in messages.
+  /// Loads the module for this ending, once in a process. `file` stands in messages.
   /// Throws Error(unsupported) that names the places where the module was sought.
-  explicit ImageModule(std::string file);
+  ImageModule(std::string file, std::string_view ending);
 
   /// What files of this ending (small letters, no dot) hold. Throws Error(usage) where none can be
   /// written.

@@ -1,5 +1,6 @@
 #pragma once
-/// The C interface between the library and its OpenImageIO module. A change of anything here takes
+/// The C interface between the library and its modules of picture formats: OpenEXR for .exr,
+/// OpenImageIO for all others but PPM and PNG. A change of anything here takes
 /// a new number in the functions' names, so that an old module is refused instead of misread.
 
 #include <cstddef>
@@ -81,7 +82,6 @@ using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, cons
 
 namespace microtrace::io {
 
-inline constexpr char module_file_name[] = "microtrace_openimageio.so";
 inline constexpr char find_format_name[] = "microtrace_find_format_v3";
 inline constexpr char encode_name[] = "microtrace_encode_v3";
 inline constexpr char decode_colors_name[] = "microtrace_decode_colors_v1";

@@ -1,7 +1,6 @@
 #include "float_environment.hpp"
 #include "io/file.hpp"
 #include "io/image/module.hpp"
-#include "io/image/module_abi.hpp"
 #include "io/module_function.hpp"
 #include "scene/srgb.hpp"
 
@@ -68,19 +67,19 @@ std::string ending_of(const std::filesystem::path& path) {
 }
 
 Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
-  io::require_threads_of_image_module(path.string());
-  const io::ModuleFunction function =
-      io::find_module_function(io::module_file_name, io::decode_colors_name);
+  const std::string ending = ending_of(path);
+  const io::FormatModule& module = io::module_for(ending);
+  io::require_threads(module, path.string());
+  const io::ModuleFunction function = io::find_module_function(module.file, io::decode_colors_name);
   if (function.address == nullptr) {
     throw Error(ErrorKind::unsupported, path.string(),
-                function.complaint +
-                    "; install libopenimageio-dev and build the target microtrace_openimageio, "
-                    "or use an environment without a file");
+                function.complaint + "; install " + module.package + " and build the target " +
+                    module.target + ", or use an environment without a file");
   }
   Decoded decoded;
   const MicrotraceColorSink sink{&decoded, begin, complain};
   const auto decode = reinterpret_cast<MicrotraceDecodeColors>(function.address);
-  const bool is_decoded = decode(bytes.data(), bytes.size(), ending_of(path).c_str(), &sink) != 0;
+  const bool is_decoded = decode(bytes.data(), bytes.size(), ending.c_str(), &sink) != 0;
   if (decoded.is_too_large) {
     std::string message = "is too large for an environment";
     if (decoded.colors) {

@@ -64,7 +64,7 @@ class Writer {
       png_.emplace(path.string());
       format_.has_alpha = 1;
     } else {
-      others_.emplace(path.string());
+      others_.emplace(path.string(), ending);
       format_ = others_->find_format(ending);
     }
   }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <span>
@@ -37,21 +36,20 @@ std::unique_ptr<ImageOutput> find_writer(const std::string& ending) {
   return writer;
 }
 
-/// Formats made for linear light.
+/// The format made for linear light; OpenEXR has a module of its own.
 bool is_float_format(std::string_view name) {
-  return name == "openexr" || name == "hdr";
+  return name == "hdr";
 }
 
 /// Those whose alpha is known to come back as it was given; GIF's has one bit, and writers of other
 /// formats change the colours by it.
 bool holds_alpha(std::string_view name) {
-  constexpr std::array kNames = {"openexr", "png", "tiff", "targa", "webp", "bmp"};
+  constexpr std::array kNames = {"png", "tiff", "targa", "webp", "bmp"};
   return std::ranges::find(kNames, name) != kNames.end();
 }
 
 TypeDesc type_of(MicrotraceNumber number) {
-  if (number == kMicrotraceU8) return TypeDesc::UINT8;
-  return number == kMicrotraceU32 ? TypeDesc::UINT32 : TypeDesc::FLOAT;
+  return number == kMicrotraceU8 ? TypeDesc::UINT8 : TypeDesc::FLOAT;
 }
 
 ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceChannel> channels,
@@ -60,16 +58,10 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
   ImageSpec spec(static_cast<int>(picture.width), static_cast<int>(picture.height),
                  static_cast<int>(channels.size()), type_of(channels[0].number));
   spec.channelnames.clear();
-  for (const MicrotraceChannel& channel : channels) {
-    spec.channelnames.emplace_back(channel.name);
-    spec.channelformats.push_back(type_of(channel.number));
-  }
-  const bool uniform = std::ranges::all_of(
-      channels, [&](const auto& channel) { return channel.number == channels[0].number; });
-  if (uniform) spec.channelformats.clear();
+  for (const MicrotraceChannel& channel : channels) spec.channelnames.emplace_back(channel.name);
   if (channels.size() > 3 && std::string_view(channels[3].name) == "A") {
     spec.alpha_channel = 3;
-    if (!is_float_format(format)) spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
   }
   if (writer.supports("displaywindow")) {
     spec.x = static_cast<int>(picture.x0);
@@ -89,47 +81,6 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
   return spec;
 }
 
-/// Do the channels lie pixel by pixel as the file wants them?
-bool are_interleaved(std::span<const MicrotraceChannel> channels) {
-  const std::size_t size = type_of(channels[0].number).size();
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    const char* wanted = static_cast<const char*>(channels[0].first) + c * size;
-    if (channels[c].number != channels[0].number || channels[c].first != wanted ||
-        channels[c].stride != channels.size() * size)
-      return false;
-  }
-  return true;
-}
-
-bool write_block_by_block(ImageOutput& writer, const ImageSpec& spec,
-                          std::span<const MicrotraceChannel> channels) {
-  constexpr int kRows = 64;
-  const std::size_t pixel_size = spec.pixel_bytes(true);
-  const auto width = static_cast<std::size_t>(spec.width);
-  std::vector<char> block(width * kRows * pixel_size);
-  for (int row = 0; row < spec.height; row += kRows) {
-    const int rows = std::min(kRows, spec.height - row);
-    const std::size_t first = static_cast<std::size_t>(row) * width;
-    std::size_t place = 0;
-    for (const MicrotraceChannel& channel : channels) {
-      const std::size_t size = type_of(channel.number).size();
-      const char* from = static_cast<const char*>(channel.first) + first * channel.stride;
-      char* to = block.data() + place;
-      for (std::size_t i = 0; i < width * static_cast<std::size_t>(rows); ++i) {
-        std::memcpy(to, from, size);
-        from += channel.stride;
-        to += pixel_size;
-      }
-      place += size;
-    }
-    // An unknown type is the file's own.
-    if (!writer.write_scanlines(spec.y + row, spec.y + row + rows, 0, TypeDesc::UNKNOWN,
-                                block.data()))
-      return false;
-  }
-  return true;
-}
-
 /// Returns the bytes of the file, or throws the reason as a std::runtime_error.
 std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& ending) {
   const std::unique_ptr<ImageOutput> writer = find_writer(ending);
@@ -142,9 +93,8 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
   name += ending;
   bool written = writer->open(name, spec);
   if (written) {
-    written = are_interleaved(channels)
-                  ? writer->write_image(type_of(channels[0].number), channels[0].first)
-                  : write_block_by_block(*writer, spec, channels);
+    // Colors alone: they lie in memory as the file wants them.
+    written = writer->write_image(type_of(channels[0].number), channels[0].first);
   }
   if (!writer->close() || !written) throw std::runtime_error(writer->geterror());
   return std::move(memory.buffer());
@@ -162,8 +112,7 @@ __attribute__((visibility("default"))) int microtrace_find_format_v3(const char*
     const std::string_view name = writer->format_name();
     format->is_float = is_float_format(name) ? 1 : 0;
     format->has_alpha = holds_alpha(name) ? 1 : 0;
-    format->has_channels =
-        writer->supports("nchannels") != 0 && writer->supports("channelformats") != 0 ? 1 : 0;
+    format->has_channels = 0;
     return 1;
   } catch (const std::exception&) {
     return 0;

@@ -1,0 +1,112 @@
+/// Decodes pictures by OpenEXR, behind the C interface of io/image/module_abi.hpp. It reads from
+/// memory: the library alone touches the disk.
+
+#include "io/image/module_abi.hpp"
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputFile.h>
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using Imath::Box2i;
+
+constexpr int kMaxSide = 65536;  // as the library has it for environments
+
+/// A file that lies in memory.
+class MemoryFile : public Imf::IStream {
+ public:
+  MemoryFile(const char* bytes, std::size_t size)
+      : IStream("picture.exr"), bytes_(bytes), size_(size) {}
+
+  bool read(char* to, int count) override {
+    const auto wanted = static_cast<std::size_t>(count);
+    if (place_ > size_ || size_ - place_ < wanted) throw std::runtime_error("the file ends early");
+    std::memcpy(to, bytes_ + place_, wanted);
+    place_ += wanted;
+    return place_ < size_;
+  }
+  std::uint64_t tellg() override { return place_; }
+  void seekg(std::uint64_t place) override { place_ = static_cast<std::size_t>(place); }
+
+ private:
+  const char* bytes_;
+  std::size_t size_, place_ = 0;
+};
+
+/// The channels of the colors: R, G and B, without a layer or else of the first layer that has all
+/// three; or the only channel or Y, which is gray.
+std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
+  std::vector<std::string> layers{""};
+  for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+    const std::string name = channel.name();
+    if (name.ends_with(".R")) layers.push_back(name.substr(0, name.size() - 1));
+  }
+  for (const std::string& layer : layers) {
+    const std::vector<std::string> names{layer + "R", layer + "G", layer + "B"};
+    const auto is_there = [&](const std::string& name) { return channels.findChannel(name); };
+    if (std::ranges::all_of(names, is_there)) return names;
+  }
+  if (channels.findChannel("RY") != nullptr || channels.findChannel("BY") != nullptr)
+    throw std::runtime_error("its colors are luminance and chroma; convert it to R, G and B");
+  if (channels.findChannel("Y") != nullptr) return {"Y"};
+  auto first = channels.begin();
+  if (first != channels.end() && ++channels.begin() == channels.end()) return {first.name()};
+  throw std::runtime_error("it has neither channels R, G and B nor a single one");
+}
+
+void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
+  // Wider ones are refused before memory is taken for their lines.
+  Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
+  MemoryFile memory(bytes, size);
+  Imf::InputFile file(memory, 0);  // by this thread alone
+  const Imf::ChannelList& channels = file.header().channels();
+  const std::vector<std::string> names = colors_of(channels);
+  for (const std::string& name : names) {
+    const Imf::Channel& channel = channels[name];
+    if (channel.xSampling != 1 || channel.ySampling != 1)
+      throw std::runtime_error("its channel " + name + " does not have a sample for each pixel");
+  }
+  const Box2i window = file.header().dataWindow();
+  const auto width = static_cast<std::int64_t>(window.max.x) - window.min.x + 1;
+  const auto height = static_cast<std::int64_t>(window.max.y) - window.min.y + 1;
+  const MicrotraceColors colors{.width = static_cast<std::uint32_t>(width),
+                                .height = static_cast<std::uint32_t>(height),
+                                .channels = static_cast<std::uint32_t>(names.size()),
+                                .number = kMicrotraceF32};
+  auto* samples = static_cast<float*>(sink.begin(sink.context, &colors));
+  if (samples == nullptr) throw std::runtime_error("it is too large");
+  const std::size_t stride = names.size() * sizeof(float);
+  Imf::FrameBuffer pixels;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    pixels.insert(names[i],
+                  Imf::Slice::Make(Imf::FLOAT, samples + i, window, stride, stride * colors.width));
+  }
+  file.setFrameBuffer(pixels);
+  file.readPixels(window.min.y, window.max.y);
+}
+
+}  // namespace
+
+extern "C" {
+
+__attribute__((visibility("default"))) int microtrace_decode_colors_v1(
+    const void* bytes, std::size_t size, const char* /*ending*/, const MicrotraceColorSink* sink) {
+  try {
+    decode(static_cast<const char*>(bytes), size, *sink);
+    return 1;
+  } catch (const std::exception& e) {
+    sink->complain(sink->context, e.what());
+    return 0;
+  }
+}
+}
