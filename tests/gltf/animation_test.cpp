@@ -154,7 +154,7 @@ TEST(GltfAnimation, AFileIsReadOnceAndPosedOften) {
 
 TEST(GltfAnimation, ChannelsThatCannotBePlayedAreWarnedOf) {
   AssetBuilder asset = turning_cube();
-  nlohmann::json& channels = asset.json["animations"][0]["channels"];
+  Json& channels = asset.json["animations"][0]["channels"];
   channels[0]["target"]["path"] = "colour";
   EXPECT_THAT(texts(load(asset, {.time = 3}).warnings),
               testing::Contains(AllOf(HasSubstr("/animations/0/channels/0/target/path"),
@@ -169,7 +169,7 @@ TEST(GltfAnimation, PointersToNodesAreFollowed) {
   AssetBuilder asset = turning_cube();
   asset.json["extensionsUsed"] = {"KHR_animation_pointer"};
   asset.json["extensionsRequired"] = {"KHR_animation_pointer"};
-  nlohmann::json& target = asset.json["animations"][0]["channels"][1]["target"];
+  Json& target = asset.json["animations"][0]["channels"][1]["target"];
   const auto point_to = [&](const char* pointer) {
     target = {{"path", "pointer"},
               {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
@@ -201,7 +201,7 @@ TEST(GltfAnimation, WhatIsWrongWithASamplerIsRefused) {
       return error.diagnostic().pointer + ": " + error.diagnostic().message;
     }
   };
-  const auto with = [&](std::size_t accessor, const char* key, const nlohmann::json& value) {
+  const auto with = [&](std::size_t accessor, const char* key, const Json& value) {
     AssetBuilder broken = asset;
     broken.json["accessors"][first + accessor][key] = value;
     return refused(broken);

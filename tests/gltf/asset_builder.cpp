@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include <glm/common.hpp>
+#include <nlohmann/json.hpp>
 
 namespace microtrace::tests {
 namespace {
@@ -24,15 +25,14 @@ std::string narrowed(const std::vector<std::uint32_t>& numbers) {
 
 }  // namespace
 
-std::size_t AssetBuilder::add(const char* array, nlohmann::json item) {
+std::size_t AssetBuilder::add(const char* array, Json item) {
   json[array].push_back(std::move(item));
   return json[array].size() - 1;
 }
 
 std::size_t AssetBuilder::add_view(std::string_view bytes, std::size_t stride) {
   buffer = padded(std::move(buffer), '\0');
-  nlohmann::json view = {
-      {"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+  Json view = {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
   if (stride != 0) view["byteStride"] = stride;
   buffer += bytes;
   return add("bufferViews", std::move(view));
@@ -70,10 +70,10 @@ std::size_t AssetBuilder::add_accessor(const char* shape, const std::string& byt
   const std::string_view kind = shape;
   const std::size_t width = kind == "SCALAR" ? 1 : kind == "MAT4" ? 16 : kind.back() - '0';
   const std::size_t size = component_type <= u8 ? 1 : component_type <= u16 ? 2 : 4;
-  nlohmann::json accessor = {{"bufferView", add_view(bytes)},
-                             {"componentType", component_type},
-                             {"count", bytes.size() / (width * size)},
-                             {"type", shape}};
+  Json accessor = {{"bufferView", add_view(bytes)},
+                   {"componentType", component_type},
+                   {"count", bytes.size() / (width * size)},
+                   {"type", shape}};
   if (normalized) accessor["normalized"] = true;
   if (component_type == f32 && width == 1) {
     std::vector<float> numbers(bytes.size() / size);
@@ -86,7 +86,7 @@ std::size_t AssetBuilder::add_accessor(const char* shape, const std::string& byt
 
 void AssetBuilder::animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
                            std::size_t output, const char* interpolation) {
-  nlohmann::json& animation = json["animations"][index];
+  Json& animation = json["animations"][index];
   animation["channels"].push_back(
       {{"sampler", animation.contains("samplers") ? animation["samplers"].size() : 0},
        {"target", {{"node", node}, {"path", path}}}});
@@ -94,24 +94,23 @@ void AssetBuilder::animate(std::size_t index, std::size_t node, const char* path
       {{"input", input}, {"output", output}, {"interpolation", interpolation}});
 }
 
-std::size_t AssetBuilder::add_object(nlohmann::json primitive) {
-  const std::size_t mesh =
-      add("meshes", {{"primitives", nlohmann::json::array({std::move(primitive)})}});
+std::size_t AssetBuilder::add_object(Json primitive) {
+  const std::size_t mesh = add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
   const std::size_t node = add("nodes", {{"mesh", mesh}});
   if (!json.contains("scenes")) {
     json["scene"] = 0;
-    add("scenes", nlohmann::json::object());
+    add("scenes", Json::object());
   }
   json["scenes"][0]["nodes"].push_back(node);
   return node;
 }
 
-nlohmann::json AssetBuilder::with_buffer(const char* uri) const {
-  nlohmann::json result = json;
+Json AssetBuilder::with_buffer(const char* uri) const {
+  Json result = json;
   if (buffer.empty()) return result;
-  nlohmann::json object = {{"byteLength", buffer.size()}};
+  Json object = {{"byteLength", buffer.size()}};
   if (uri != nullptr) object["uri"] = uri;
-  result["buffers"] = nlohmann::json::array({object});
+  result["buffers"] = Json::array({object});
   return result;
 }
 

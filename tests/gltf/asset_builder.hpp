@@ -1,6 +1,8 @@
 #pragma once
 /// Small glTF assets made in memory, and what tests ask of them.
 
+#include "support/json.hpp"
+
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 
@@ -9,8 +11,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
 
 namespace microtrace::tests {
 
@@ -43,11 +43,11 @@ std::string bytes_of(const std::vector<Number>& numbers) {
 
 /// Grows the JSON of an asset with one buffer, and the buffer.
 struct AssetBuilder {
-  nlohmann::json json = {{"asset", {{"version", "2.0"}}}};
+  Json json = {{"asset", {{"version", "2.0"}}}};
   std::string buffer;
 
   /// Appends to an array of the root object and returns the new index.
-  std::size_t add(const char* array, nlohmann::json item);
+  std::size_t add(const char* array, Json item);
   /// Appends bytes to the buffer, aligned to 4, and a view of them.
   std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
   std::size_t add_positions(const std::vector<Vec3>& positions);
@@ -65,12 +65,12 @@ struct AssetBuilder {
   void animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
                std::size_t output, const char* interpolation = "LINEAR");
   /// A mesh of one primitive on a node of its own in the default scene; the node's index.
-  std::size_t add_object(nlohmann::json primitive);
+  std::size_t add_object(Json primitive);
 
   /// The asset with its buffer as a data URI, and as a GLB file.
   [[nodiscard]] std::string embedded() const;
   [[nodiscard]] std::string glb() const;
-  [[nodiscard]] nlohmann::json with_buffer(const char* uri) const;
+  [[nodiscard]] Json with_buffer(const char* uri) const;
 };
 
 struct GlbChunk {

@@ -20,10 +20,10 @@ struct AttributeAsset : AssetBuilder {
   template <typename Number>
   void add_attribute(const char* name, const char* type, int component_type,
                      const std::vector<Number>& numbers, bool normalized = false) {
-    nlohmann::json accessor = {{"bufferView", add_view(bytes_of(numbers))},
-                               {"componentType", component_type},
-                               {"count", 3},
-                               {"type", type}};
+    Json accessor = {{"bufferView", add_view(bytes_of(numbers))},
+                     {"componentType", component_type},
+                     {"count", 3},
+                     {"type", type}};
     if (normalized) accessor["normalized"] = true;
     json["meshes"][0]["primitives"][0]["attributes"][name] = add("accessors", accessor);
   }

@@ -1,5 +1,6 @@
 #include "gltf/asset_builder.hpp"
 #include "support/png_file.hpp"
+#include "support/source_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -16,8 +17,7 @@ using testing::IsEmpty;
 using testing::NotNull;
 
 std::string ktx2_file(const std::string& name) {
-  const auto path =
-      std::filesystem::path(MICROTRACE_SOURCE_DIR) / "tests/image/ktx2" / (name + ".ktx2");
+  const auto path = source_folder() / "tests/image/ktx2" / (name + ".ktx2");
   std::ifstream in(path, std::ios::binary);
   EXPECT_TRUE(in) << path;
   return {std::istreambuf_iterator<char>(in), {}};
@@ -66,7 +66,7 @@ TEST(GltfBasisu, TheMaterialDecidesWhatNumbersMean) {
               ElementsAre(HasSubstr("/images/0: says that its numbers are linear, but materials "
                                     "take them for sRGB")));
   AssetBuilder normal = textured(ktx2_file("etc1s_runs_100x36"));
-  nlohmann::json& material = normal.json["materials"][0];
+  Json& material = normal.json["materials"][0];
   material["normalTexture"] = material["pbrMetallicRoughness"]["baseColorTexture"];
   EXPECT_THAT(texts(load(normal).warnings), IsEmpty()) << "it is both";
   material["pbrMetallicRoughness"].erase("baseColorTexture");

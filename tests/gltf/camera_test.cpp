@@ -11,14 +11,14 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-nlohmann::json perspective() {
+Json perspective() {
   return {{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}};
 }
 
 /// The cube and a node 1 with this camera, first child of nothing.
-AssetBuilder with_camera(const nlohmann::json& camera) {
+AssetBuilder with_camera(const Json& camera) {
   AssetBuilder asset = cube();
-  asset.json["cameras"] = nlohmann::json::array({camera});
+  asset.json["cameras"] = Json::array({camera});
   asset.json["nodes"].push_back({{"camera", 0}, {"name", "Eye"}});
   asset.json["scenes"][0]["nodes"].push_back(1);
   return asset;
@@ -41,7 +41,7 @@ TEST(GltfCamera, Perspective) {
 }
 
 TEST(GltfCamera, PerspectiveWithAllProperties) {
-  nlohmann::json camera = perspective();
+  Json camera = perspective();
   camera["perspective"].update({{"aspectRatio", 1.5}, {"zfar", 100}});
   const LoadedScene loaded = load(with_camera(camera));
   const auto& found = std::get<PerspectiveCamera>(loaded.scene.cameras.at(0).camera);

@@ -61,8 +61,8 @@ const Poke refused[] = {
      },
      "/accessors/8", "names vertices beyond the 3"},
     {[](AssetBuilder& asset) {
-       asset.add_object({{"attributes", nlohmann::json::object()},
-                         {"indices", asset.add_indices({0, 0, 0}, u8)}});
+       asset.add_object(
+           {{"attributes", Json::object()}, {"indices", asset.add_indices({0, 0, 0}, u8)}});
      },
      "/accessors/14", "names vertices beyond the 0"},
 };

@@ -92,8 +92,7 @@ TEST(GltfGeometry, InterleavedPositionsStepByTheStride) {
   EXPECT_THAT(loaded(asset), ElementsAre(corners(0, 1, 2)));
 }
 
-nlohmann::json sparse(std::size_t count, std::size_t indices, ComponentType type,
-                      std::size_t values) {
+Json sparse(std::size_t count, std::size_t indices, ComponentType type, std::size_t values) {
   return {{"count", count},
           {"indices", {{"bufferView", indices}, {"componentType", type}}},
           {"values", {{"bufferView", values}}}};
@@ -181,12 +180,12 @@ TEST(GltfGeometry, QuantisedPositionsTakeTheirNodesScale) {
 
 TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   struct Case {
-    nlohmann::json primitive;
+    Json primitive;
     const char* warning;
   };
   const std::vector<Case> cases = {
       {{{"attributes", {{"_OWN", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
-      {{{"attributes", nlohmann::json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
+      {{{"attributes", Json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
       {{{"attributes", {{"POSITION", 1}}}}, "vertices that make no whole triangle"},
       {{{"attributes", {{"POSITION", 2}}}, {"mode", 1}}, "vertices that make no whole triangle"},
   };

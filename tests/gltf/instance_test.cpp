@@ -33,7 +33,7 @@ std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalize
                                  {"type", shape}});
 }
 
-void instantiate(AssetBuilder& asset, nlohmann::json attributes) {
+void instantiate(AssetBuilder& asset, Json attributes) {
   asset.json["nodes"][0]["extensions"][extension]["attributes"] = std::move(attributes);
 }
 
@@ -119,7 +119,7 @@ TEST(GltfVisibility, HidesANodeAndAllBelowItButNoCamera) {
       "nodes",
       {{"mesh", 0}, {"camera", 0}, {"extensions", {{"KHR_node_visibility", {{"visible", true}}}}}});
   asset.json["nodes"][0]["children"] = {child};
-  asset.json["nodes"][0]["extensions"]["KHR_node_visibility"] = nlohmann::json::object();
+  asset.json["nodes"][0]["extensions"]["KHR_node_visibility"] = Json::object();
   EXPECT_THAT(load(asset).scene.objects, SizeIs(2));
   asset.json["nodes"][0]["extensions"]["KHR_node_visibility"]["visible"] = false;
   const LoadedScene scene = load(asset);

@@ -14,7 +14,7 @@ using ::testing::SizeIs;
 constexpr const char* extension = "KHR_lights_punctual";
 
 /// The cube, with the lights on nodes of their own that are all turned and scaled alike.
-AssetBuilder lit(const nlohmann::json& lights) {
+AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {extension};
   asset.json["extensions"][extension]["lights"] = lights;
@@ -78,7 +78,7 @@ TEST(GltfLights, WithoutDirectionAreLeftOut) {
 }
 
 TEST(GltfLights, BrokenOnesAreRefused) {
-  const std::vector<nlohmann::json> broken = {
+  const std::vector<Json> broken = {
       {{"intensity", 1}},
       {{"type", "spot"}},
       {{"type", "point"}, {"intensity", -1}},
@@ -87,9 +87,9 @@ TEST(GltfLights, BrokenOnesAreRefused) {
       {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}},
       {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.6}}}},
   };
-  for (const nlohmann::json& light : broken) {
+  for (const Json& light : broken) {
     try {
-      (void)load(lit(nlohmann::json::array({light})));
+      (void)load(lit(Json::array({light})));
       ADD_FAILURE() << light << " accepted";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::invalid_scene);

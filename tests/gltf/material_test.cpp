@@ -16,10 +16,10 @@ using testing::ElementsAre;
 /// that each have an image of their own.
 AssetBuilder with_material(const char* material) {
   AssetBuilder asset = cube();
-  asset.json["materials"][0] = nlohmann::json::parse(material);
-  for (const auto& item : asset.json["materials"][0]["extensions"].items()) {
-    asset.json["extensionsUsed"].push_back(item.key());
-    asset.json["extensionsRequired"].push_back(item.key());
+  asset.json["materials"][0] = Json::parse(material);
+  for (const auto& [name, object] : asset.json["materials"][0]["extensions"].members()) {
+    asset.json["extensionsUsed"].push_back(name);
+    asset.json["extensionsRequired"].push_back(name);
   }
   asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
       asset.add_numbers("VEC2", std::vector<float>(16));

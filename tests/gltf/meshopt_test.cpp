@@ -55,8 +55,8 @@ struct CompressedAsset {
   std::size_t add_view(const std::string& bytes, const char* mode, std::size_t count,
                        std::size_t stride, const char* filter = nullptr) {
     const std::size_t view = asset.add_view(bytes);
-    nlohmann::json& json = asset.json["bufferViews"][view];
-    nlohmann::json compression = json;
+    Json& json = asset.json["bufferViews"][view];
+    Json compression = json;
     compression.update({{"mode", mode}, {"count", count}, {"byteStride", stride}});
     if (filter != nullptr) compression["filter"] = filter;
     json = {{"buffer", 1},
@@ -75,15 +75,15 @@ struct CompressedAsset {
                                    {"normalized", normalized},
                                    {"count", count},
                                    {"type", shape},
-                                   {"min", nlohmann::json::array({0, 0, 0})},
-                                   {"max", nlohmann::json::array({0, 0, 0})}});
+                                   {"min", Json::array({0, 0, 0})},
+                                   {"max", Json::array({0, 0, 0})}});
   }
 
-  [[nodiscard]] nlohmann::json json() const {
-    nlohmann::json result = nlohmann::json::parse(asset.embedded());
+  [[nodiscard]] Json json() const {
+    Json result = Json::parse(asset.embedded());
     result["buffers"].push_back(
         {{"byteLength", uncompressed}, {"extensions", {{extension, {{"fallback", true}}}}}});
-    for (nlohmann::json& accessor : result["accessors"]) {
+    for (Json& accessor : result["accessors"]) {
       if (accessor["type"] != "VEC3") accessor.erase("min"), accessor.erase("max");
     }
     return result;
@@ -235,7 +235,7 @@ TEST(GltfMeshopt, FiltersAreTheLibrarysButForItsRounding) {
 TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
   struct Case {
     std::size_t view;
-    nlohmann::json change;  // of the view's extension
+    Json change;  // of the view's extension
     const char* message;
   };
   const std::vector<Case> cases = {
@@ -252,7 +252,7 @@ TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
       {1, {{"buffer", 7}}, ""},
   };
   for (const Case& c : cases) {
-    nlohmann::json json = grid(true).json();
+    Json json = grid(true).json();
     json["bufferViews"][c.view]["extensions"][extension].update(c.change);
     try {
       (void)load(json.dump());
@@ -266,7 +266,7 @@ TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
 }
 
 TEST(GltfMeshopt, ClaimsBeyondTheDataTakeNoMemory) {
-  nlohmann::json json = grid(true).json();
+  Json json = grid(true).json();
   const double count = 4e8;
   json["bufferViews"][0]["byteLength"] = json["buffers"][1]["byteLength"] = count * 8;
   json["bufferViews"][0]["byteOffset"] = 0;

@@ -16,17 +16,16 @@ Mesh first_mesh(const LoadedScene& loaded) {
 /// The triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with all attributes and two targets.
 AssetBuilder morphed_triangle() {
   AssetBuilder asset;
-  const nlohmann::json attributes = {
+  const Json attributes = {
       {"POSITION", asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)})},
       {"NORMAL", asset.add_numbers<float>("VEC3", {0, 0, 1, 0, 0, 1, 0, 0, 1})},
       {"TANGENT", asset.add_numbers<float>("VEC4", {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1})},
       {"TEXCOORD_0", asset.add_numbers<float>("VEC2", {0, 0, 1, 0, 0, 1})},
       {"COLOR_0", asset.add_numbers<float>("VEC3", {0, 0, 0, 1, 1, 1, 0.5F, 0.5F, 0.5F})}};
-  const nlohmann::json first = {
-      {"POSITION", asset.add_positions({Vec3(0, 0, 4), Vec3(0), Vec3(0, 8, 0)})},
-      {"NORMAL", asset.add_numbers<float>("VEC3", {2, 0, 0, 0, 0, 0, 0, 0, -4})},
-      {"TANGENT", asset.add_numbers<float>("VEC3", {-2, 0, 2, 0, 0, 0, -4, 0, 0})}};
-  const nlohmann::json second = {
+  const Json first = {{"POSITION", asset.add_positions({Vec3(0, 0, 4), Vec3(0), Vec3(0, 8, 0)})},
+                      {"NORMAL", asset.add_numbers<float>("VEC3", {2, 0, 0, 0, 0, 0, 0, 0, -4})},
+                      {"TANGENT", asset.add_numbers<float>("VEC3", {-2, 0, 2, 0, 0, 0, -4, 0, 0})}};
+  const Json second = {
       {"POSITION", asset.add_positions({Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, 0)})},
       {"TEXCOORD_0", asset.add_numbers<float>("VEC2", {2, 4, 0, 0, 0, 0})},
       {"COLOR_0", asset.add_numbers<float>("VEC3", {1, 0.25F, 0, 1, -4, 0, 0, 0, 0})}};
@@ -144,17 +143,17 @@ TEST(GltfMorph, TooManyDisplacementsAreALimit) {
   AssetBuilder asset = morphed_triangle();
   // Many instances of many targets of one accessor with many vertices: a small file, endless work.
   constexpr std::size_t vertices = 3 * 4096, targets = 2048, nodes = 32;
-  nlohmann::json position = {{"componentType", f32},
-                             {"count", vertices},
-                             {"type", "VEC3"},
-                             {"min", {0, 0, 0}},
-                             {"max", {0, 0, 0}}};
-  nlohmann::json& mesh = asset.json["meshes"][0];
+  Json position = {{"componentType", f32},
+                   {"count", vertices},
+                   {"type", "VEC3"},
+                   {"min", {0, 0, 0}},
+                   {"max", {0, 0, 0}}};
+  Json& mesh = asset.json["meshes"][0];
   mesh["primitives"][0]["attributes"] = {{"POSITION", asset.add("accessors", position)}};
   mesh["primitives"][0]["targets"] =
-      nlohmann::json(targets, {{"POSITION", asset.json["accessors"].size() - 1}});
-  mesh["weights"] = std::vector<int>(targets, 1);
-  asset.json["nodes"] = nlohmann::json(nodes, {{"mesh", 0}});
+      Json::repeated(targets, {{"POSITION", asset.json["accessors"].size() - 1}});
+  mesh["weights"] = Json::repeated(targets, 1);
+  asset.json["nodes"] = Json::repeated(nodes, {{"mesh", 0}});
   asset.json.erase("scenes");
   asset.json.erase("scene");
   try {

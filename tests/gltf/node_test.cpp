@@ -162,7 +162,7 @@ TEST(GltfNode, ObjectsComeInTreeOrderWithDifferentNames) {
 
 TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
   AssetBuilder asset = triangle();
-  nlohmann::json& primitives = asset.json["meshes"][0]["primitives"];
+  Json& primitives = asset.json["meshes"][0]["primitives"];
   primitives.push_back(primitives[0]);
   primitives[1]["material"] =
       asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 1, 0, 0.5}}}}});
@@ -177,7 +177,7 @@ TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
 TEST(GltfNode, TreesMayBeDeep) {
   AssetBuilder asset = triangle();
   constexpr int depth = 100000;
-  nlohmann::json nodes = nlohmann::json::array();
+  Json nodes = Json::array();
   for (int i = 0; i < depth; ++i)
     nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
   nodes.push_back({{"mesh", 0}});

@@ -44,10 +44,10 @@ void add_accessors(AssetBuilder& asset) {
 
 void add_animation(AssetBuilder& asset) {
   const auto channel = [](int number, int node, const char* path) {
-    return nlohmann::json{{"sampler", number}, {"target", {{"node", node}, {"path", path}}}};
+    return Json{{"sampler", number}, {"target", {{"node", node}, {"path", path}}}};
   };
   const auto sampler = [](std::size_t output) {
-    return nlohmann::json{{"input", rig_times}, {"output", output}};
+    return Json{{"input", rig_times}, {"output", output}};
   };
   asset.add("animations",
             {{"channels",
@@ -60,7 +60,7 @@ void add_material(AssetBuilder& asset) {
   const std::size_t view =
       asset.add_view(std::string_view(reinterpret_cast<const char*>(png), sizeof png));
   asset.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
-  asset.add("samplers", nlohmann::json::object());
+  asset.add("samplers", Json::object());
   asset.add("textures", {{"source", 0}, {"sampler", 0}});
   asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                           {"extensions", {{"KHR_materials_ior", {{"ior", 1.25}}}}}});
@@ -89,7 +89,7 @@ AssetBuilder rig() {
             {{{"material", 0}, {"variants", {0}}}, {{"material", 0}, {"variants", {1}}}}}}}}}});
   asset.json["nodes"][0]["skin"] = 0;
   asset.add("nodes", {{"children", {2}}});
-  asset.add("nodes", nlohmann::json::object());
+  asset.add("nodes", Json::object());
   asset.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   asset.json["scenes"][0]["nodes"] = {0, 1, 3};
   asset.add("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", rig_matrices}, {"skeleton", 1}});

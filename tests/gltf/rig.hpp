@@ -32,7 +32,7 @@ enum RigAccessor : std::size_t {
 template <typename Number>
 void poke(AssetBuilder& asset, std::size_t accessor, std::size_t number, Number value) {
   const std::size_t offset =
-      asset.json["bufferViews"][accessor]["byteOffset"].get<std::size_t>() + number * sizeof value;
+      asset.json["bufferViews"][accessor]["byteOffset"].to_size() + number * sizeof value;
   asset.buffer.replace(offset, sizeof value, reinterpret_cast<const char*>(&value), sizeof value);
 }
 

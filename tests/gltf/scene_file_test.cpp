@@ -1,5 +1,6 @@
 #include "gltf/asset_builder.hpp"
 #include "io/gltf/scene.hpp"
+#include "support/source_folder.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -20,7 +21,7 @@ LoadedScene load_file(const std::filesystem::path& path) {
 }
 
 std::filesystem::path scene(const char* name) {
-  return std::filesystem::path(MICROTRACE_SOURCE_DIR) / "scenes" / "gltf" / name;
+  return source_folder() / "scenes" / "gltf" / name;
 }
 
 std::size_t triangle_count(const LoadedScene& loaded) {

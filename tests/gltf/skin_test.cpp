@@ -121,7 +121,7 @@ TEST(GltfSkin, JointsAndWeightsComeInAllTheirTypesAndSets) {
   EXPECT_EQ(first_mesh(load(arm<std::uint16_t>())).positions, straight);
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["translation"] = {1, 0, 8};
-  nlohmann::json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
   const std::vector<std::uint8_t> bytes = {255, 0,   0, 0, 255, 0, 0, 0, 51,  204, 0, 0,
                                            51,  204, 0, 0, 255, 0, 0, 0, 255, 0,   0, 0};
   attributes["WEIGHTS_0"] = asset.add_numbers<std::uint8_t>("VEC4", bytes, true);
@@ -186,7 +186,7 @@ TEST(GltfSkin, AJointThatTheSkinLacksIsRefused) {
 
 TEST(GltfSkin, AMeshWithoutJointsStandsInItsNodesPlace) {
   AssetBuilder asset = arm();
-  nlohmann::json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
+  Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
   attributes.erase("JOINTS_0");
   attributes.erase("WEIGHTS_0");
   asset.json["nodes"][0]["translation"] = {0, 0, 3};

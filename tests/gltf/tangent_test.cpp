@@ -36,7 +36,7 @@ Mesh mesh_of(const AssetBuilder& asset, const LoadOptions& options = {}) {
   return std::get<Mesh>(load(asset, options).scene.objects.at(0).shape);
 }
 
-nlohmann::json& attributes(AssetBuilder& asset) {
+Json& attributes(AssetBuilder& asset) {
   return asset.json["meshes"][0]["primitives"][0]["attributes"];
 }
 
@@ -50,7 +50,7 @@ TEST(GltfTangent, IsMadeWhereTheMaterialAsksForIt) {
     }
   }
   EXPECT_THAT(mesh_of(asset, {.detail = SurfaceDetail::color}).tangents, IsEmpty());
-  asset.json["materials"][0] = nlohmann::json::object();
+  asset.json["materials"][0] = Json::object();
   EXPECT_THAT(mesh_of(asset).tangents, IsEmpty());
   EXPECT_EQ(mesh_of(asset).positions.size(), 6U);
 }
@@ -58,10 +58,10 @@ TEST(GltfTangent, IsMadeWhereTheMaterialAsksForIt) {
 TEST(GltfTangent, IsMadeForACoatAndForAnisotropy) {
   AssetBuilder asset = folded();
   asset.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy"};
-  asset.json["materials"][0] = nlohmann::json::parse(R"({"extensions": {
+  asset.json["materials"][0] = Json::parse(R"({"extensions": {
     "KHR_materials_clearcoat": {"clearcoatFactor": 1, "clearcoatNormalTexture": {"index": 0}}}})");
   EXPECT_EQ(mesh_of(asset).tangents.size(), 8U);
-  asset.json["materials"][0] = nlohmann::json::parse(R"({"extensions": {
+  asset.json["materials"][0] = Json::parse(R"({"extensions": {
     "KHR_materials_anisotropy": {"anisotropyStrength": 1}}})");
   EXPECT_EQ(mesh_of(asset).tangents.size(), 8U);
 }

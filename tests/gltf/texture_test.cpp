@@ -72,7 +72,7 @@ TEST(GltfTexture, MissingFilesAreErrorsWithTheirPlace) {
   asset.json["images"][0] = {{"uri", "none.png"}};
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri");
   EXPECT_THAT(error_of(asset).what(), HasSubstr("does not exist"));
-  asset.json["materials"] = nlohmann::json::array({nlohmann::json::object()});
+  asset.json["materials"] = Json::array({Json::object()});
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << "drawn or not";
 }
 
@@ -220,7 +220,7 @@ TEST(GltfTexture, TransformScalesTurnsAndMoves) {
 
 TEST(GltfTexture, MaterialsKeepWhatLightWillAskFor) {
   AssetBuilder asset = textured();
-  asset.json["materials"][0] = nlohmann::json::parse(R"({
+  asset.json["materials"][0] = Json::parse(R"({
     "name": "steel", "alphaMode": "MASK", "alphaCutoff": 0.25, "emissiveFactor": [0.5, 0, 1],
     "pbrMetallicRoughness": {"metallicFactor": 0.75, "roughnessFactor": 0.125,
                              "metallicRoughnessTexture": {"index": 0, "texCoord": 1}},

@@ -32,7 +32,7 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
     SCOPED_TRACE(c.add);
     AssetBuilder asset = cube();
     asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "SCALAR"}});
-    asset.json.merge_patch(nlohmann::json::parse(c.add));
+    asset.json.merge_patch(Json::parse(c.add));
     EXPECT_THAT(
         texts(load(asset, {.detail = SurfaceDetail::color}).warnings),
         testing::Contains(AllOf(HasSubstr(std::string(c.pointer) + ": "), HasSubstr(c.message))));
@@ -41,7 +41,7 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
 
 TEST(GltfWarning, HonouredFeaturesGiveNone) {
   AssetBuilder asset = cube();
-  asset.json.merge_patch(nlohmann::json::parse(
+  asset.json.merge_patch(Json::parse(
       R"({"extensionsUsed": ["KHR_materials_unlit"], "extensionsRequired": ["KHR_materials_unlit"],
           "extras": {"anything": [null]},
           "materials": [{"name": "m", "extensions": {"KHR_materials_unlit": {}},
@@ -52,8 +52,8 @@ TEST(GltfWarning, HonouredFeaturesGiveNone) {
 
 TEST(GltfWarning, OneKindIsOneWarningWithItsCountAndTheFirstPlace) {
   AssetBuilder asset = cube();
-  const nlohmann::json shining = {{"emissiveFactor", {0, 0, 1}}};
-  asset.json["materials"] = {nlohmann::json::object(), shining, shining, shining};
+  const Json shining = {{"emissiveFactor", {0, 0, 1}}};
+  asset.json["materials"] = {Json::object(), shining, shining, shining};
   EXPECT_THAT(
       texts(load(asset, {.detail = SurfaceDetail::color}).warnings),
       ElementsAre(AllOf(HasSubstr("/materials/1/emissiveFactor"), HasSubstr("(3 places)"))));

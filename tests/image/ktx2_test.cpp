@@ -1,6 +1,7 @@
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
 #include "io/image/ktx2_colors.hpp"
+#include "support/source_folder.hpp"
 
 #include <cstdint>
 #include <filesystem>
@@ -21,8 +22,7 @@ using testing::IsEmpty;
 /// Encoded from pictures of our own by basisu 1.16.4; uastc_modes_56x56 holds random bits in each
 /// of the 19 modes and each pattern of subsets.
 std::string file(const std::string& name) {
-  const auto path =
-      std::filesystem::path(MICROTRACE_SOURCE_DIR) / "tests/image/ktx2" / (name + ".ktx2");
+  const auto path = tests::source_folder() / "tests/image/ktx2" / (name + ".ktx2");
   std::ifstream in(path, std::ios::binary);
   EXPECT_TRUE(in) << path;
   return {std::istreambuf_iterator<char>(in), {}};

@@ -1,6 +1,7 @@
 // Every file of bad/ is refused with exactly the message beside it, every file of good/ is read.
 
 #include "io/file.hpp"
+#include "support/source_folder.hpp"
 
 #include <microtrace/io.hpp>
 
@@ -13,7 +14,7 @@
 namespace microtrace {
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(MICROTRACE_SOURCE_DIR) / "tests/io";
+const std::filesystem::path folder = tests::source_folder() / "tests/io";
 
 std::set<std::filesystem::path> files(const char* name, const char* ending) {
   std::set<std::filesystem::path> out;

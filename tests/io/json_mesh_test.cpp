@@ -1,5 +1,6 @@
 #include "io/json/document.hpp"
 #include "io/scene_json/mesh.hpp"
+#include "support/source_folder.hpp"
 
 #include <string>
 #include <variant>
@@ -58,7 +59,7 @@ class MeshObject : public ::testing::Test {
       "cameras": [{"type": "environment", "position": [0,0,0], "direction": [1,0,0]}],
       "objects": [)" + objects +
                              "]}";
-    return parse_scene(text, "s.json", std::string(MICROTRACE_SOURCE_DIR) + "/scenes");
+    return parse_scene(text, "s.json", tests::source_folder() / "scenes");
   }
 };
 
@@ -96,8 +97,8 @@ TEST_F(MeshObject, NamesThePathOfAMissingFile) {
     EXPECT_EQ(error.kind(), ErrorKind::io);
     EXPECT_EQ(error.diagnostic().pointer, "/objects/0/file");
     EXPECT_EQ(error.diagnostic().message,
-              std::string(MICROTRACE_SOURCE_DIR) +
-                  "/scenes/gltf/none.glb can't be opened: No such file or directory");
+              (tests::source_folder() / "scenes/gltf/none.glb").string() +
+                  " can't be opened: No such file or directory");
   }
 }
 

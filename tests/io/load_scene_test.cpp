@@ -1,3 +1,5 @@
+#include "support/source_folder.hpp"
+
 #include <microtrace/io.hpp>
 
 #include <cstdlib>
@@ -12,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const std::filesystem::path scenes = std::filesystem::path(MICROTRACE_SOURCE_DIR) / "scenes";
+const std::filesystem::path scenes = tests::source_folder() / "scenes";
 
 class LoadScene : public ::testing::Test {
  protected:

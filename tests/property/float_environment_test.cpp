@@ -5,6 +5,7 @@
 
 #include "support/adversarial_rays.hpp"
 #include "support/generated_meshes.hpp"
+#include "support/source_folder.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -85,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Rounding, HostRules,
                          testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
 
 std::vector<Vec3> picture(const char* name) {
-  const Scene scene = load_scene(std::string(MICROTRACE_SOURCE_DIR "/scenes/").append(name)).scene;
+  const Scene scene = load_scene(tests::source_folder() / "scenes" / name).scene;
   const Film film = render(scene, scene.cameras[0].camera, scene.size, {.threads = 2});
   std::vector<Vec3> pixels;
   for (std::uint32_t y = 0; y < film.size().height; ++y)
@@ -143,11 +144,11 @@ std::string lit_ppm(const Scene& scene) {
 }
 
 std::string lit_json_ppm() {
-  return lit_ppm(parse_scene(kLit, "lit.json", MICROTRACE_SOURCE_DIR "/scenes").scene);
+  return lit_ppm(parse_scene(kLit, "lit.json", tests::source_folder() / "scenes").scene);
 }
 
 std::string lit_gltf_ppm() {
-  return lit_ppm(load_scene(MICROTRACE_SOURCE_DIR "/scenes/gltf/textures.glb").scene);
+  return lit_ppm(load_scene(tests::source_folder() / "scenes/gltf/textures.glb").scene);
 }
 
 TEST_P(HostRules, ChangeNoPictureWithLight) {
@@ -164,7 +165,7 @@ TEST_P(HostRules, ChangeNoPictureWithLight) {
 // Steps that a program may take on its own.
 TEST_P(HostRules, ChangeNoStep) {
   const auto steps = [] {
-    const Scene scene = parse_scene(kLit, "lit.json", MICROTRACE_SOURCE_DIR "/scenes").scene;
+    const Scene scene = parse_scene(kLit, "lit.json", tests::source_folder() / "scenes").scene;
     const RayGenerator rays(default_camera(scene, {24, 18}), {24, 18});
     std::vector<double> numbers;
     const auto add = [&](const auto& vector) {
