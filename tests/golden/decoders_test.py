@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Decodes the images of images/ with each kind of vector code and without any, and compares the samples with the SHA-256 of
+"""Decodes the images of images/ and ../image/ktx2 with each kind of vector code and without any, and compares the samples with the SHA-256 of
 images/sha256.txt.
 
 usage: decoders_test.py DECODE_IMAGES MODULE [--update]
@@ -14,8 +14,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-IMAGES = Path(__file__).with_name("images")
-LIST = IMAGES / "sha256.txt"
+TESTS = Path(__file__).resolve().parents[1]
+FOLDERS = ["golden/images/jpeg", "golden/images/png", "golden/images/webp", "image/ktx2"]
+LIST = TESTS / "golden/images/sha256.txt"
 WAYS = {
     "as users": ({}, []),
     "SSE2": ({"JSIMD_FORCESSE2": "1"}, []),
@@ -32,17 +33,17 @@ def decode(image, environment, options):
 
 
 def main():
-    images = sorted(image for image in IMAGES.rglob("*") if image.suffix in (".jpg", ".png", ".webp"))
+    images = sorted(image for folder in FOLDERS for image in (TESTS / folder).iterdir())
     if "--update" in sys.argv[3:]:
-        LIST.write_text("".join(f"{decode(image, {}, [])}  {image.relative_to(IMAGES)}\n" for image in images))
+        LIST.write_text("".join(f"{decode(image, {}, [])}  {image.relative_to(TESTS)}\n" for image in images))
     pins = {name: digest for digest, name in (line.split() for line in LIST.read_text().splitlines())}
-    assert len(pins) == len(images) > 30
+    assert len(pins) == len(images) > 40
     faults = 0
     for image in images:
         for way, (environment, options) in WAYS.items():
-            if decode(image, environment, options) != pins[str(image.relative_to(IMAGES))]:
+            if decode(image, environment, options) != pins[str(image.relative_to(TESTS))]:
                 faults += 1
-                print(f"DIFFERENT  {image.relative_to(IMAGES)}: {way}")
+                print(f"DIFFERENT  {image.relative_to(TESTS)}: {way}")
     print(f"{len(images)} images, {len(WAYS)} ways each")
     sys.exit(1 if faults else 0)
 

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Asks a program all questions of questions.txt and compares the answers with the SHA-256 that stand there.
 
-usage: pinned_test.py PROGRAM [--update] [--threads N,...] [--skip TEXT]... [--first-only]
+usage: pinned_test.py PROGRAM [--update] [--threads N,...] [--first-only]
 
 PROGRAM may be a script that runs it elsewhere or under an emulator. --update writes the answers into the list instead.
---skip leaves out questions whose command line has TEXT. --first-only ends at the first difference.
-The exit status is 1 if an answer differs.
+--first-only ends at the first difference. The exit status is 1 if an answer differs.
 """
 
 import argparse
@@ -20,15 +19,11 @@ def main():
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--update", action="store_true")
     parser.add_argument("--threads", default="1,2,7")
-    parser.add_argument("--skip", action="append", default=[])
     parser.add_argument("--first-only", action="store_true")
     arguments = parser.parse_args()
     head, listed = questions.read()
     differing = 0
     for question in listed:
-        if any(text in question.text for text in arguments.skip):
-            print(f"left out   {question.text}")
-            continue
         if arguments.update:
             question.pins = questions.ask(arguments.program, question)
             continue

@@ -59,14 +59,12 @@ def samples_of(checkpoint, picture):
     return checkpoint[-size - DIGEST_BYTES:-DIGEST_BYTES]
 
 
-def ask(program, question, threads=1, isa=None, modules=None, with_samples=True):
+def ask(program, question, threads=1, isa=None, with_samples=True):
     """What the program answers, by names as in pins. A question with light has to cast paths and shadow rays."""
     command = [program, *shlex.split(question.text), "--threads", str(threads)]
     environment = dict(os.environ)
     if isa:
         environment["MICROTRACE_ISA"] = isa
-    if modules:
-        environment["MICROTRACE_MODULE_PATH"] = str(modules)
     with tempfile.TemporaryDirectory() as folder:
         checkpoint = Path(folder) / "samples"
         if question.has_light:
