@@ -49,12 +49,13 @@ cmake -S "$source" -B "$folder/build" -G Ninja --toolchain "$folder/toolchain.cm
   -DMICROTRACE_WITH_MESHOPT=OFF -DMICROTRACE_WITH_DRACO=OFF > "$folder/configure.log"
 cmake --build "$folder/build" --target microtrace microtrace_codecs microtrace_openexr
 
+modules=$folder/build/src/lib/microtrace
 # A program that runs another machine's.
 emulate() {
   cat > "$folder/$1" <<END
 #!/bin/sh
 exec qemu-aarch64 -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$libraries:$sysroot/lib/aarch64-linux-gnu" \\
-  -E "MICROTRACE_MODULE_PATH=$folder/build/lib/microtrace" "$2" "\$@"
+  -E "MICROTRACE_MODULE_PATH=$modules" "$2" "\$@"
 END
   chmod +x "$folder/$1"
 }
@@ -64,6 +65,6 @@ aarch64-linux-gnu-g++ -std=c++20 -O1 -I"$source/src" "$tests/decode_images.cpp" 
 emulate decode_images "$folder/decode_images.aarch64"
 
 failed=0
-python3 -B "$tests/decoders_test.py" "$folder/decode_images" "$folder/build/lib/microtrace/microtrace_codecs.so" || failed=1
+python3 -B "$tests/decoders_test.py" "$folder/decode_images" "$modules/microtrace_codecs.so" || failed=1
 python3 -B "$tests/pinned_test.py" "$folder/microtrace" --threads 2 || failed=1
 exit "$failed"
