@@ -21,6 +21,8 @@ struct LoadedScene {
 
 /// How much of surfaces is read.
 enum class SurfaceDetail {
+  shape,  ///< normals and texture coordinates, of images those alone whose alpha decides what is
+          ///< seen: for depth, ids and other quantities without color
   color,  ///< what a flat picture shows: base colours, their images and texture coordinates
   all,    ///< normals, tangents, all images and texture coordinates too
   usual,  ///< color in JSON scenes, all in glTF assets: what these are usually drawn with

@@ -9,6 +9,7 @@
 #include <microtrace/digest.hpp>
 #include <microtrace/framing.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -18,6 +19,7 @@
 #include <string>
 #include <unistd.h>
 #include <utility>
+#include <variant>
 
 namespace {
 
@@ -37,15 +39,21 @@ void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& argum
   }
 }
 
-// A flat picture takes only the colours of surfaces.
+/// What of surfaces the picture and its channels show.
+SurfaceDetail detail_for(const cli::Arguments& arguments) {
+  const std::vector<Aov>& aovs = arguments.aovs.exact;
+  const bool shows_albedo = std::ranges::find(aovs, Aov::albedo) != aovs.end();
+  const Aov* quantity = arguments.wanted ? std::get_if<Aov>(&*arguments.wanted) : nullptr;
+  if (quantity != nullptr && *quantity != Aov::albedo && !shows_albedo) return SurfaceDetail::shape;
+  if (!arguments.aovs.empty()) return SurfaceDetail::all;
+  if (!arguments.wanted) return SurfaceDetail::usual;
+  return arguments.wanted == cli::Subject(cli::Technique::flat) ? SurfaceDetail::color
+                                                                : SurfaceDetail::all;
+}
+
 LoadOptions load_options(const cli::Arguments& arguments) {
   LoadOptions options = arguments.load;
-  options.detail = SurfaceDetail::all;
-  if (arguments.aovs.empty()) {
-    if (!arguments.wanted) options.detail = SurfaceDetail::usual;
-    if (arguments.wanted == cli::Subject(cli::Technique::flat))
-      options.detail = SurfaceDetail::color;
-  }
+  options.detail = detail_for(arguments);
   return options;
 }
 

@@ -8,6 +8,7 @@ import base64
 import json
 import math
 import os
+import re
 import resource
 import signal
 import struct
@@ -18,6 +19,7 @@ import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
+from exr import Exr
 from program import PROGRAM, ProgramTest, environment
 
 SOURCE = Path(sys.argv[2]).resolve()
@@ -310,6 +312,24 @@ class CommandLine(ProgramTest):
                      "camera: Front, the first of 1", "picture: 640 x 480, flat"):
             self.assertTrue(any(line.startswith("info: ") and text in line for line in lines), (text, lines))
         self.assertEqual(self.run_program(SCENE, "-v", "-q").returncode, 2)
+
+    def test_quantities_decode_only_images_whose_alpha_they_need(self):
+        def decoded(*options):
+            result = self.run_program(SOURCE / "scenes/gltf/textured.glb", "-o", "a.exr", "-v", "--size", "16x12", *options)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return int(re.search(r"images?, (\d+) of them decoded", result.stderr.decode())[1])
+
+        self.assertGreater(decoded("--spp", "1"), 3)
+        self.assertLess(decoded("--integrator", "depth"), decoded("--integrator", "albedo"))
+        self.assertEqual(decoded("--integrator", "albedo"), decoded("--integrator", "depth", "--aov", "albedo"))
+        # The quantities are the same, decoded or not.
+        for quantity in ("depth", "normal", "uv", "id"):
+            pictures = []
+            for options in ((), ("--aov", "albedo")):
+                decoded("--integrator", quantity, *options)
+                pictures.append(Exr(self.folder / "a.exr").channels)
+            for name in ("R", "G", "B"):
+                self.assertEqual(pictures[0][name], pictures[1][name], quantity)
 
     def test_times_of_stages(self):
         result = self.run_program(SOURCE / "scenes/gltf/knot.glb", "--integrator", "flat", "-o", "a.ppm", "--stats=json")

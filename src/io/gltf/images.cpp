@@ -175,7 +175,9 @@ std::vector<ImageUse> image_uses(std::span<const Material> materials,
     if (!drawn[i]) continue;
     if (detail == SurfaceDetail::all) {
       for_each_texture(materials[i], note);
-    } else if (const auto& use = materials[i].base_color_texture) {
+    } else if (const auto& use = materials[i].base_color_texture;
+               use &&
+               (detail == SurfaceDetail::color || materials[i].alpha_mode != AlphaMode::opaque)) {
       note(*use, ColorEncoding::srgb);
     }
   }

@@ -82,7 +82,7 @@ static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC4 == 4,
 
 /// Whether a set of texture coordinates is wanted.
 bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
-  if (wish.detail == SurfaceDetail::all) return true;
+  if (wish.detail != SurfaceDetail::color) return true;
   const auto& use = wish.material.base_color_texture;
   return use && use->uv_set == set;
 }
@@ -102,7 +102,7 @@ void read_attributes(Asset& asset, const tinygltf::Model& model, AccessorReader&
     mesh.uv_sets.resize(set + 1);
     mesh.uv_sets[set] = std::move(uv);
   }
-  if (wish.detail != SurfaceDetail::all) return;
+  if (wish.detail == SurfaceDetail::color) return;
   mesh.normals = attribute.normals();
   // Without normals, tangents mean nothing (glTF 2.0, section 3.7.2.1).
   if (!mesh.normals.empty()) mesh.tangents = attribute.tangents();
