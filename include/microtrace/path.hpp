@@ -10,10 +10,18 @@
 
 namespace microtrace {
 
+/// What light does at the back of what is one-sided (glTF's doubleSided false), through which the
+/// camera looks. What encloses a medium (KHR_materials_volume) has both sides.
+enum class Backfaces {
+  pass,     ///< goes on, as rays of the camera do: hulls seen from within hide no light
+  occlude,  ///< ends there: walls seen through from outside keep the sun out
+};
+
 struct PathOptions {
   /// The most straight parts of a path: with 1 only what shines itself is seen, with 2 what it
   /// lights directly. At least 1.
   std::uint32_t max_depth = 32;
+  Backfaces backfaces = Backfaces::pass;
 };
 
 /// Light by path tracing (J. Kajiya, The rendering equation, 1986): the scene's lights, its

@@ -88,10 +88,19 @@ void add_options(CLI::App& app, Arguments& a, Texts& texts) {
   app.add_option("--integrator", integrator,
                  "what the picture shows: flat (colours without light), path (with light, by path "
                  "tracing), or a quantity as --aov has them [glTF: path, JSON: flat]");
-  app.add_option("--max-depth", a.max_depth,
+  app.add_option("--max-depth", a.path.max_depth,
                  "the most straight parts of a path of light, 2: direct light alone [32]")
       ->check(CLI::Range(1U, 65536U))
       ->type_name("N");
+  app.add_option_function<std::string>(
+         "--backfaces",
+         [&a](const std::string& text) {
+           a.path.backfaces = text == "pass" ? Backfaces::pass : Backfaces::occlude;
+         },
+         "what light does at the back of what is one-sided, which the camera looks through: pass "
+         "it too, or occlude: end there, as in rooms under a sun [pass]")
+      ->check(CLI::IsMember({"pass", "occlude"}))
+      ->type_name("KIND");
   app.add_option("--aov", aovs,
                  "exact quantities at pixel centres as further channels of an .exr file: depth, "
                  "distance, position, normal, face_normal, uv, barycentric, albedo, id; of path "
@@ -225,7 +234,7 @@ std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {
   if (const auto* aov = std::get_if<Aov>(&arguments.integrator))
     return std::make_unique<AovIntegrator>(*aov);
   if (std::get<Technique>(arguments.integrator) == Technique::path)
-    return std::make_unique<PathIntegrator>(PathOptions{.max_depth = arguments.max_depth});
+    return std::make_unique<PathIntegrator>(arguments.path);
   return std::make_unique<FlatIntegrator>();
 }
 

@@ -34,7 +34,7 @@ struct Arguments {
   Sampling sampling{};
   std::optional<Subject> wanted{};       ///< what --integrator names
   Subject integrator = Technique::flat;  ///< as settle() has it
-  std::uint32_t max_depth = PathOptions{}.max_depth;
+  PathOptions path{};
   Channels aovs{};
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   Viewpoint viewpoint{};

@@ -211,6 +211,7 @@ std::vector<std::string> words_of(std::string_view option) {
   if (option == "--background") words = {"env", "transparent"};
   if (option == "--env") words = {"studio"};
   if (option == "--filter") words = {"box", "blackman-harris"};
+  if (option == "--backfaces") words = {"pass", "occlude"};
   if (option == "--ppm") words = {"binary", "ascii"};
   if (option == "--progress") words = {"bar", "json", "none"};
   return words;

@@ -72,7 +72,7 @@ class Completion(ProgramTest):
 
     def test_offered_words_are_taken(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",
-                       "--progress"):
+                       "--progress", "--backfaces"):
             words = self.complete_in_bash("microtrace", option, "") - {"script.bash"}
             self.assertGreater(len(words), 0, option)
             for word in words:

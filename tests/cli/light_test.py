@@ -110,7 +110,8 @@ class Exposure(ProgramTest):
         self.assertEqual(notes("c.png", "--integrator", "normal", *exposed), set())
 
     def test_usage(self):
-        for option, values in (("--exposure", ("x", "nan", "65", "")), ("--tonemap", ("filmic", ""))):
+        for option, values in (("--exposure", ("x", "nan", "65", "")), ("--tonemap", ("filmic", "")),
+                               ("--backfaces", ("cull", ""))):
             for value in values:
                 result = self.run_program(CUBE, option, value)
                 self.assertEqual(result.returncode, 2)

@@ -132,6 +132,7 @@ class Samples(ProgramTest):
 
         refused("made without --seed, not with --seed 1", "--seed", "1")
         refused("made without --max-depth", "--max-depth", "3")
+        refused("made without --backfaces, not with --backfaces occlude", "--backfaces", "occlude")
         refused("made without --background", "--background", "transparent")
         refused("made without --crop", "--crop", "0,0,8,8")
         scene.write_text(scene.read_text() + "\n")

@@ -100,7 +100,8 @@ TEST(Radiance, ShiningBallOverFloor) {
   }
 }
 
-// The back of what is one-sided is not there for the camera, but keeps light away.
+// The back of what is one-sided is not there for the camera. What is closed casts its shadow, on
+// whatever side its back is.
 TEST(Radiance, OneSidedWalls) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   Floor floor(kMatt);

@@ -16,11 +16,12 @@ struct Shot {
   std::uint32_t samples = 16;
   std::uint32_t seed = 0;
   std::uint32_t max_depth = 8;
+  Backfaces backfaces = Backfaces::pass;
   unsigned threads = 1;
 };
 
 [[nodiscard]] inline Film shoot(const Scene& scene, const Camera& camera, const Shot& shot) {
-  const PathIntegrator path({.max_depth = shot.max_depth});
+  const PathIntegrator path({.max_depth = shot.max_depth, .backfaces = shot.backfaces});
   return render(
       scene, camera, shot.size,
       {.threads = shot.threads, .integrator = &path, .samples = shot.samples, .seed = shot.seed});

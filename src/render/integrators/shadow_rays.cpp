@@ -25,11 +25,15 @@ namespace {
 
 /// The share of the light that passes all that is before t_max or the target; `beyond` counts the
 /// hits behind hits.
-float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::optional<Hit> hit,
-             const std::optional<PrimitiveId>& target, std::uint64_t& beyond) {
+float passed(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
+             std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
+             std::uint64_t& beyond) {
   float passed = 1;
   while (hit && hit->id != target) {
-    passed *= 1 - shading.coverage(shading.point(ray, *hit), false);
+    const ShadingPoint point = shading.point(ray, *hit);
+    // What the ray meets from the front the light meets from behind.
+    if (!(passes_backs && Shading::lets_light_in(point)))
+      passed *= 1 - shading.coverage(point, false);
     if (passed == 0) return 0;
     hit = bvh.next(ray, *hit);
     ++beyond;
@@ -39,32 +43,35 @@ float passed(const Bvh& bvh, const Shading& shading, const Ray& ray, std::option
 
 }  // namespace
 
-std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
-                                      std::span<Vec3> colors) {
+std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
+                                      Group& group, std::span<Vec3> colors) {
   std::uint64_t beyond = 0;
   std::array<std::optional<Hit>, kRandomBatch> hits;
   bvh.intersect(std::span(group.rays).first(group.count), std::span(hits).first(group.count));
   for (std::size_t i = 0; i < group.count; ++i) {
     colors[group.slots[i]] +=
-        passed(bvh, shading, group.rays[i], hits[i], group.targets[i], beyond) * group.light[i];
+        passed(bvh, shading, passes_backs, group.rays[i], hits[i], group.targets[i], beyond) *
+        group.light[i];
   }
   group.count = 0;
   return beyond;
 }
 
-std::uint64_t ShadowRays::arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors) {
+std::uint64_t ShadowRays::arrive(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
+                                 std::span<Vec3> colors) {
+  const bool passes_backs = backfaces == Backfaces::pass;
   std::array<bool, kRandomBatch> occluded;
   bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
     if (!occluded[i]) {
       colors[free_.slots[i]] += free_.light[i];
-    } else if (!shading.all_cover()) {
+    } else if (!shading.all_cover() || (passes_backs && shading.has_open_backs())) {
       met_.add(free_.rays[i], free_.light[i], free_.slots[i], free_.targets[i]);
     }
   }
   free_.count = 0;
-  const std::uint64_t beyond = pass_layers(bvh, shading, met_, colors);
-  return beyond + pass_layers(bvh, shading, aimed_, colors);
+  const std::uint64_t beyond = pass_layers(bvh, shading, passes_backs, met_, colors);
+  return beyond + pass_layers(bvh, shading, passes_backs, aimed_, colors);
 }
 
 }  // namespace microtrace

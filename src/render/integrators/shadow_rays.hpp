@@ -6,6 +6,7 @@
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/path.hpp>
 
 #include <array>
 #include <cstddef>
@@ -26,7 +27,8 @@ class ShadowRays {
 
   /// Adds what arrives to the colours and forgets the rays. Returns how many hits behind hits were
   /// asked for.
-  std::uint64_t arrive(const Bvh& bvh, const Shading& shading, std::span<Vec3> colors);
+  std::uint64_t arrive(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
+                       std::span<Vec3> colors);
 
  private:
   /// Those that end at a triangle that shines, or those that end nowhere else.
@@ -41,8 +43,8 @@ class ShadowRays {
              const std::optional<PrimitiveId>& target);
   };
 
-  static std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, Group& group,
-                                   std::span<Vec3> colors);
+  static std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
+                                   Group& group, std::span<Vec3> colors);
 
   Group free_, aimed_;
   Group met_;  ///< of the free ones those that meet something that may let light through

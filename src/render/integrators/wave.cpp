@@ -65,7 +65,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
 void Wave::trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
                  std::span<const SampleId> ids, std::span<Sample> samples) {
   begin(world, rays, ids);
-  max_depth_ = options.max_depth;
+  options_ = options;
   for (; count_ > 0; ++step_.depth) {
     {
       const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
@@ -74,7 +74,7 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
     step();
     count_ = departures_.set_off(world_->bvh, shadow_rays_, rays_, paths_);
     const RayTimer timer(counts_.shadow, shadow_rays_.count());
-    counts_.beyond += shadow_rays_.arrive(world_->bvh, *shading_, colors_);
+    counts_.beyond += shadow_rays_.arrive(world_->bvh, *shading_, options_.backfaces, colors_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
@@ -122,24 +122,49 @@ void Wave::prepare(std::size_t i, ShadingPoint& point) {
   Shading::find_place(point);
 }
 
+bool Wave::stops(const PathState& path, const ShadingPoint& point, std::uint32_t layer) const {
+  const float coverage = shading_->coverage(point, path.density == 0);
+  if (coverage == 0 || coverage == 1) return coverage == 1;
+  return path.sobol.one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
+         coverage;
+}
+
+std::optional<Hit> Wave::next(std::size_t i, const Hit& hit, ShadingPoint& point) {
+  ++counts_.beyond;
+  const std::optional<Hit> result = world_->bvh.next(rays_[i], hit);
+  if (!result) return result;
+  point = shading_->point(rays_[i], *result);
+  prepare(i, point);
+  return result;
+}
+
+Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint point,
+                               std::uint32_t layer) {
+  std::optional<Hit> hit = first;
+  while (Shading::lets_light_in(point)) {
+    do {
+      hit = next(i, *hit, point);
+      ++layer;
+      if (!hit) return {.is_open = lighting_->environment(bsdf::unit(rays_[i].d)) != Vec3(0)};
+    } while (!stops(paths_[i], point, layer));
+  }
+  if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
+  return {.hit = hit, .point = point};
+}
+
 void Wave::step(std::size_t i, ShadingPoint& point) {
   const Ray& ray = rays_[i];
   PathState& path = paths_[i];
   std::optional<Hit> hit = hits_[i];
   const bool from_camera = path.density == 0;
-  for (std::uint32_t layer = 0;; ++layer) {
-    if (!hit) return escape(ray, path);
-    if (layer > 0) {
-      point = shading_->point(ray, *hit);
-      prepare(i, point);
-    }
-    const float coverage = shading_->coverage(point, from_camera);
-    if (coverage == 1) break;
-    const std::uint32_t number =
-        step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs;
-    if (coverage > 0 && path.sobol.one(number) < coverage) break;
-    hit = world_->bvh.next(ray, *hit);
-    ++counts_.beyond;
+  std::uint32_t layer = 0;
+  for (; hit && !stops(path, point, layer); ++layer) hit = next(i, *hit, point);
+  if (!hit) return escape(ray, path);
+  if (!from_camera && options_.backfaces == Backfaces::pass && Shading::lets_light_in(point) &&
+      lighting_->may_surround()) {
+    const Behind behind = look_behind(i, *hit, point, layer);
+    if (behind.is_open) return escape(ray, path);
+    if (behind.hit) hit = behind.hit, point = behind.point;
   }
   if (path.absorption != Vec3(0))
     path.throughput *= transmittance(path.absorption, point.at.distance);
@@ -151,7 +176,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
     const float weight = from_camera ? 1 : power_heuristic(path.density, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
-  if (step_.depth >= max_depth_ || point.look->material->unlit) return;
+  if (step_.depth >= options_.max_depth || point.look->material->unlit) return;
   if (point.look->is_plain)
     return plain_.add(step_, *shading_, ray, *hit, point, path, departures_);
 

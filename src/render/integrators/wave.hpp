@@ -49,6 +49,20 @@ class Wave {
   };
   /// Gives the point its width and looks for its textures.
   void prepare(std::size_t i, ShadingPoint& point);
+  /// Whether the path ends its present part at a point, by chance where not all of it is there.
+  [[nodiscard]] bool stops(const PathState& path, const ShadingPoint& point,
+                           std::uint32_t layer) const;
+  /// What path i's ray meets behind a hit; the point becomes that one's.
+  [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
+  /// Where light comes from that arrives through the backs of what path i's ray meets.
+  struct Behind {
+    bool is_open = false;      ///< the environment
+    std::optional<Hit> hit{};  ///< a surface that shines
+    ShadingPoint point{};      ///< there
+  };
+  /// Nothing if none comes. The ray meets the front of a one-sided surface, `layer` of its layers.
+  [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
+                                   std::uint32_t layer);
   /// What becomes of path i, whose ray meets what it meets at `point`, if anything.
   void step(std::size_t i, ShadingPoint& point);
   /// Steps all paths.
@@ -69,7 +83,7 @@ class Wave {
   const Shading* shading_ = nullptr;
   const Lighting* lighting_ = nullptr;
   WaveStep step_;
-  std::uint32_t max_depth_ = 1;
+  PathOptions options_;
   PlainVertices plain_;
   Departures departures_;
   ShadowRays shadow_rays_;

@@ -39,6 +39,9 @@ class Lighting {
     return tree_ || !far_lights_.empty() || samples_environment();
   }
 
+  /// Whether paths ever meet light: an environment or surfaces.
+  [[nodiscard]] bool may_surround() const { return environment_ || surfaces_ > 0; }
+
   /// Whether camera rays see the environment.
   [[nodiscard]] bool is_seen() const {
     return scene_.environment && scene_.environment->is_background;

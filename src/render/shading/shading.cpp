@@ -24,7 +24,7 @@ float head_on_reflectance(float ior) {
 
 /// Whether light passes the back whatever it is: thin glass that is one-sided is one wall to a path
 /// that goes in and out, not two, as it is to an eye.
-bool has_open_back(const Material& m) {
+bool is_thin_glass(const Material& m) {
   return m.transmission && !has_back(m);
 }
 
@@ -42,7 +42,11 @@ float dispersed(float ior, float dispersion, int channel) {
 
 Shading::Shading(const Scene& scene, const Primitives& primitives)
     : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene)) {
-  const auto add = [&](const Material& material) { looks_.push_back(maps_->slots(material)); };
+  const auto add = [&](const Material& material) {
+    TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
+    look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&
+                         !material.diffuse_transmission;
+  };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
   PrimitiveId first = 0;
@@ -53,7 +57,8 @@ Shading::Shading(const Scene& scene, const Primitives& primitives)
                         .look = object.material.value_or(none)});
     first += static_cast<PrimitiveId>(primitive_count(object.shape));
     const Material& material = material_of(scene, object);
-    all_cover_ &= !has_open_back(material) && material.alpha_mode == AlphaMode::opaque;
+    all_cover_ &= !is_thin_glass(material) && material.alpha_mode == AlphaMode::opaque;
+    has_open_backs_ |= looks_[entries_.back().look].has_open_back;
   }
 }
 
@@ -91,7 +96,7 @@ Vec4 Shading::base_color(const ShadingPoint& point) const {
 
 float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
   const Material& material = *point.look->material;
-  if (is_missing_back(point) && (from_camera || has_open_back(material))) return 0;
+  if (is_missing_back(point) && (from_camera || is_thin_glass(material))) return 0;
   if (material.alpha_mode == AlphaMode::opaque) return 1;
   const float alpha = base_color(point).w;
   if (material.alpha_mode == AlphaMode::mask) return alpha >= material.alpha_cutoff ? 1 : 0;

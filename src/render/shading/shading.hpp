@@ -50,8 +50,11 @@ struct TexturedMaterial {
   TextureSlot iridescence{}, iridescence_thickness{}, specular_glossiness{};
   /// That by which the places of all that share them are found; often it is all.
   TextureSlot layout{};
-  Vec3 absorption{0};     ///< by the medium that it encloses, in powers of two per length
-  bool is_plain = false;  ///< Shading::plain_parameters() say all
+  Vec3 absorption{0};          ///< by the medium that it encloses, in powers of two per length
+  bool is_plain = false;       ///< Shading::plain_parameters() say all
+  bool has_open_back = false;  ///< light passes it where Backfaces::pass says so
+
+  [[nodiscard]] bool shines() const { return material->emissive != Vec3(0) && !material->unlit; }
 };
 
 /// A point, its material and how wide the part of the surface is that it stands for.
@@ -103,14 +106,21 @@ class Shading {
   /// they have there.
   static void find_place(ShadingPoint& point);
 
-  /// How much of the surface is there: by the base colour's alpha where the material says so. What
-  /// is one-sided has no back for camera rays; all other light meets both sides, so that walls
-  /// which are seen from within keep the sun out.
+  /// How much of the surface is there: by the base color's alpha where the material says so. What
+  /// is one-sided has no back for camera rays.
   [[nodiscard]] float coverage(const ShadingPoint& point, bool from_camera) const;
 
   /// Whether coverage() is 1 for every point of all materials, from both sides, save for the
   /// camera.
   [[nodiscard]] bool all_cover() const { return all_cover_; }
+
+  /// Whether light comes out of the surface on the side of the point where backs pass light: the
+  /// front of what is one-sided, and neither shines nor lets light through in another way.
+  [[nodiscard]] static bool lets_light_in(const ShadingPoint& point) {
+    return point.at.front && point.look->has_open_back;
+  }
+  /// Whether there are surfaces of that kind.
+  [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
   /// Radiance that leaves the point to the side of the ray, none at the back of what is one-sided.
   /// Unlit materials leave their colour.
@@ -152,7 +162,7 @@ class Shading {
   std::unique_ptr<TextureMaps> maps_;
   std::vector<TexturedMaterial> looks_;  // by material; the last for objects without
   std::vector<Entry> entries_;           // by object
-  bool all_cover_ = true;
+  bool all_cover_ = true, has_open_backs_ = false;
 };
 
 }  // namespace microtrace

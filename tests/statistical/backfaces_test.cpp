@@ -1,0 +1,206 @@
+/// Light at the backs of one-sided surfaces.
+#include "support/pictures.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+constexpr std::uint32_t kMatt = 0, kHull = 1, kLamp = 2;
+
+/// A box of triangles whose fronts face outwards, or inwards.
+Mesh box(const Vec3& center, const Vec3& half, bool faces_inwards) {
+  Mesh mesh;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0F, 1.0F}) {
+      Vec3 u(0), v(0), w(0);
+      u[axis] = side * half[axis];
+      v[(axis + 1) % 3] = half[(axis + 1) % 3];
+      w[(axis + 2) % 3] = half[(axis + 2) % 3];
+      if ((side > 0) == faces_inwards) std::swap(v, w);
+      const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+      for (const Vec3& p : {u - v - w, u + v - w, u + v + w, u - v + w})
+        mesh.positions.push_back(center + p);
+      mesh.triangles.push_back({first, first + 1, first + 2});
+      mesh.triangles.push_back({first, first + 2, first + 3});
+    }
+  }
+  return mesh;
+}
+
+/// A matt box of half width 1, of which the camera sees the top, one-sided as its hull.
+struct Model {
+  Model() {
+    scene.materials = {{.base_color = {0.6F, 0.6F, 0.6F, 1}, .double_sided = false, .roughness = 1},
+                       {.base_color = {0, 0, 0, 1}, .double_sided = false, .unlit = true},
+                       {.base_color = {0, 0, 0, 1}, .emissive = Vec3(4)}};
+    scene.environment = Environment{.content = Vec3(0)};
+    add(box({0, 0, 0}, Vec3(1), false), kMatt);
+  }
+  void add(Shape shape, std::uint32_t material) {
+    scene.objects.push_back({.name = "object", .shape = std::move(shape), .material = material});
+  }
+  void add_hull() { add(box({0, 0, 0}, Vec3(1.25F), true), kHull); }
+  void add_light(const Light& light) { scene.lights.push_back({.name = "light", .light = light}); }
+
+  [[nodiscard]] Estimate seen(Backfaces backfaces, std::uint32_t max_depth = 2) const {
+    return estimate(scene, camera,
+                    {.size = {.width = 4, .height = 4},
+                     .samples = 64,
+                     .max_depth = max_depth,
+                     .backfaces = backfaces},
+                    16);
+  }
+
+  Scene scene;
+  OrthographicCamera camera{
+      .pose = {.position = {0.1, 2, 0.1}, .direction = {0, -1, 0}, .up = {0, 0, -1}},
+      .height = 0.5};
+};
+
+/// Models without a hull, each in a light of another kind.
+std::array<std::pair<std::string, Model>, 8> lit_models() {
+  std::array<std::pair<std::string, Model>, 8> models;
+  std::size_t i = 0;
+  const auto next = [&](const char* name) -> Model& {
+    models[i].first = name;
+    return models[i++].second;
+  };
+  next("uniform").scene.environment = Environment{.content = Vec3(1)};
+  next("studio").scene.environment = Environment{.content = Studio{}};
+  next("sun").add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 3});
+  next("point").add_light(PointLight{.position = {1, 3, 0}, .intensity = 9});
+  next("spot").add_light(
+      SpotLight{.position = {0, 3, 0}, .direction = {0, -1, 0}, .intensity = 9, .outer_angle = 1});
+  next("ball").add(Sphere{{1, 4, 0}, 1}, kLamp);
+  next("panel").add(box({-1, 3, 0}, {0.5F, 0.1F, 0.5F}, false), kLamp);
+  Model& two = next("one-sided panel");
+  two.scene.materials[kLamp].double_sided = false;
+  two.scene.environment->content = Vec3(0.2F);
+  two.add(box({-1, 3, 0}, {0.5F, 0.1F, 0.5F}, false), kLamp);
+  return models;
+}
+
+// What the camera looks through, light passes: by shadow rays and by paths, which weigh each other.
+TEST(Backfaces, HullsKeepNoLightAway) {
+  for (auto& [name, model] : lit_models()) {
+    const Estimate bare = model.seen(Backfaces::pass);
+    EXPECT_GT(bare.mean, 0.05) << name;
+    model.add_hull();
+    const Estimate passed = model.seen(Backfaces::pass);
+    EXPECT_NEAR(passed.mean, bare.mean, 5 * (bare.deviation + passed.deviation) + 0.002 * bare.mean)
+        << name;
+    EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0) << name;
+  }
+}
+
+// Two hulls, one in the other, and one that is cut out.
+TEST(Backfaces, HullsOfHulls) {
+  Model model;
+  model.scene.environment = Environment{.content = Studio{}};
+  const Estimate bare = model.seen(Backfaces::pass);
+  model.add_hull();
+  model.scene.materials.push_back({.base_color = {1, 1, 1, 0.4F},
+                                   .alpha_mode = AlphaMode::blend,
+                                   .double_sided = false,
+                                   .unlit = true});
+  model.add(box({0, 0, 0}, Vec3(1.5F), true), 3);
+  const Estimate passed = model.seen(Backfaces::pass);
+  EXPECT_NEAR(passed.mean, bare.mean, 5 * (bare.deviation + passed.deviation));
+}
+
+// Seen from within, whose walls face inwards.
+TEST(Backfaces, RoomUnderASun) {
+  Model model;
+  model.scene.objects.clear();
+  model.add(box({0, 1, 0}, Vec3(2), true), kMatt);
+  model.add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 10});
+  EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
+  // A dielectric's diffuse part, by its f0 of 0.04, and little more.
+  EXPECT_NEAR(model.seen(Backfaces::pass).mean, 0.6 * 0.96 * 8 / 3.1416, 0.1);
+}
+
+// Light that comes through takes the place of what the wall sends: no room is brighter than what is
+// around it.
+TEST(Backfaces, WhiteRoomInWhiteLight) {
+  Model model;
+  model.scene.objects.clear();
+  model.scene.materials[kMatt] = {.base_color = Vec4(1), .double_sided = false, .roughness = 1};
+  model.scene.environment = Environment{.content = Vec3(1)};
+  model.add(box({0, 1, 0}, Vec3(2), true), kMatt);
+  EXPECT_NEAR(model.seen(Backfaces::pass, 32).mean, 1, 0.004);
+  model.add(box({0.5F, 0, 0}, {0.2F, 0.5F, 0.2F}, false), kMatt);
+  EXPECT_NEAR(model.seen(Backfaces::pass, 32).mean, 1, 0.01);
+}
+
+// A sheet over the box: in the shadow of its front lies what the light meets there.
+TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
+  Model model;
+  model.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
+  model.camera.pose.position.y = 1.5;
+  const double lit = model.seen(Backfaces::pass).mean;
+  Mesh sheet = box({0, 2, 0}, {3, 0, 3}, false);
+  sheet.triangles = {sheet.triangles[6], sheet.triangles[7]};  // the upper side
+  model.add(sheet, kMatt);
+  EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
+  EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
+  for (auto& triangle : sheet.triangles) std::swap(triangle[1], triangle[2]);
+  model.scene.objects.back().shape = sheet;
+  EXPECT_NEAR(model.seen(Backfaces::pass).mean, lit, 1e-6);
+  EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
+}
+
+/// The same picture both ways, and as many rays.
+void expect_same(const Scene& scene, const Camera& camera) {
+  std::array<std::vector<DVec3>, 2> pixels;
+  std::array<RayCounts, 2> rays;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PathIntegrator path(
+        {.max_depth = 16, .backfaces = i == 0 ? Backfaces::pass : Backfaces::occlude});
+    pixels[i] = pixels_of(render(scene, camera, {.width = 16, .height = 16},
+                                 {.threads = 1, .integrator = &path, .samples = 16}));
+    rays[i] = path.ray_counts();
+  }
+  EXPECT_EQ(pixels[0], pixels[1]);
+  EXPECT_EQ(rays[0].camera.rays, rays[1].camera.rays);
+  EXPECT_EQ(rays[0].path.rays, rays[1].path.rays);
+  EXPECT_EQ(rays[0].shadow.rays, rays[1].shadow.rays);
+  EXPECT_EQ(rays[0].beyond, rays[1].beyond);
+}
+
+// What encloses a medium has a back whatever its sides; thin panes are open at theirs both ways.
+TEST(Backfaces, GlassIsTheSame) {
+  for (const bool is_body : {true, false}) {
+    Model model;
+    model.scene.environment = Environment{.content = Studio{}};
+    model.scene.materials[kMatt].double_sided = true;
+    Material glass{.base_color = {0.9F, 0.95F, 1, 1}, .double_sided = false, .roughness = 0};
+    glass.transmission.emplace().factor = 1;
+    if (is_body) {
+      glass.volume.emplace().thickness = 1;
+      glass.ior = 1.5F;
+    }
+    model.scene.materials.push_back(glass);
+    model.add(box({0, 1.5F, 0}, Vec3(0.25F), false), 3);
+    model.camera.pose.position.y = 3;
+    model.camera.height = 2;
+    expect_same(model.scene, model.camera);
+  }
+}
+
+TEST(Backfaces, TwoSidedSurfacesCostNothing) {
+  Model model;
+  model.scene.environment = Environment{.content = Studio{}};
+  for (Material& material : model.scene.materials) material.double_sided = true;
+  model.add_light(PointLight{.position = {1, 3, 0}, .intensity = 9});
+  model.add(box({0.3F, 1.3F, 0}, Vec3(0.2F), false), kMatt);
+  expect_same(model.scene, model.camera);
+}
+
+}  // namespace
+}  // namespace microtrace
