@@ -95,6 +95,17 @@ TEST(Checkpoint, SamplesThatAreThereAreNotAddedAgain) {
   EXPECT_THROW(add_samples(sum, std::move(other), "c"), Error);
 }
 
+TEST_F(CheckpointFile, RangesOfSamplesAreInOrderAndApart) {
+  const SampleRange overlapping{.first = 3, .last = 5}, backwards{.first = 12, .last = 11},
+      beyond_the_last{.first = 65535, .last = 65537};
+  for (const SampleRange& range : {overlapping, backwards, beyond_the_last}) {
+    Checkpoint damaged = example();
+    damaged.sums.note(range);
+    save_checkpoint(damaged, path_);
+    EXPECT_THROW((void)load_checkpoint(path_), Error) << range.first;
+  }
+}
+
 TEST(Digest, CutsDontMatterAndBytesDo) {
   const std::string text = "A number that tells byte strings apart";
   const auto digest = [](std::initializer_list<std::string_view> parts) {

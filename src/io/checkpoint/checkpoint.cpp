@@ -22,7 +22,8 @@ constexpr std::string_view kMagic = "microtrace samples\n";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPixelBytes = 10 * 8 + 4;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
-constexpr std::uint32_t kMaxRanges = 65536, kMaxIdentity = 1U << 20U;
+constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, and so most ranges of samples
+constexpr std::uint32_t kMaxIdentity = 1U << 20U;
 
 /// f(number) for each number of a pixel, in the file's order.
 template <class Pixel, class F>
@@ -92,11 +93,15 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
   const std::uint32_t range_count = word();
   const bool is_window = window.x0 < window.x1 && window.x1 <= whole.width &&
                          window.y0 < window.y1 && window.y1 <= whole.height;
-  if (!is_window || range_count > kMaxRanges) fail_as_damaged(path);
+  if (!is_window || range_count > kMostSamples) fail_as_damaged(path);
   std::vector<SampleRange> ranges(range_count);
+  std::uint32_t end = 0;
   for (SampleRange& range : ranges) {
     range.first = word();
     range.last = word();
+    const bool is_next = range.first >= end && range.first < range.last;
+    if (!is_next || range.last > kMostSamples) fail_as_damaged(path);
+    end = range.last;
   }
   const ImageSize size = window.size();
   const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
