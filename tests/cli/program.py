@@ -26,7 +26,7 @@ class ProgramTest(unittest.TestCase):
         self.scratch.cleanup()
 
     def run_program(self, *arguments, **options):
-        options = {"cwd": self.folder, "timeout": 60, "env": environment(), **options}
+        options = {"cwd": self.folder, "env": environment(), **options}
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, **options)
 
     def picture(self, *arguments):

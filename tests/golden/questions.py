@@ -71,7 +71,7 @@ def ask(program, question, threads=1, isa=None, with_samples=True):
             command += ["--quiet", "--stats=json"]
             if with_samples:
                 command += ["--checkpoint", checkpoint]
-        result = subprocess.run(command, capture_output=True, cwd=SCENES, env=environment, timeout=1200)
+        result = subprocess.run(command, capture_output=True, cwd=SCENES, env=environment)
         if result.returncode != 0 or not result.stdout:
             raise RuntimeError(f"{question.text}: exit code {result.returncode}\n{result.stderr.decode()}")
         answer = {"picture": sha256(result.stdout)}

@@ -171,7 +171,9 @@ void check_all_kinds(double least_share, MakeCase make_case) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
-    EXPECT_GT(count.hits, kCasesPerKind / 25);
+    // Of the discs across the full range of numbers about one in 25 is hit, one fewer or more by
+    // chance.
+    EXPECT_GT(count.hits, kCasesPerKind / 40);
   }
 }
 
