@@ -186,6 +186,23 @@ def animated():
     return asset
 
 
+def pointed():
+    asset = Asset()
+    asset.uses("KHR_animation_pointer")
+    asset.uses("KHR_node_visibility")
+    asset.primitive["material"] = asset.add("materials", {"pbrMetallicRoughness": {}})
+    asset.json["nodes"][1]["extensions"] = {"KHR_node_visibility": {"visible": True}}
+    times = asset.accessor("f", "SCALAR", [(0,), (1,)])
+    channels = {"/materials/0/pbrMetallicRoughness/baseColorFactor": asset.accessor("4f", "VEC4", [(0, 0, 0, 1), (1, 1, 2, 1)]),
+                "/cameras/0/perspective/yfov": asset.accessor("f", "SCALAR", [(1,), (4,)]),
+                "/nodes/1/extensions/KHR_node_visibility/visible": asset.accessor("B", "SCALAR", [(1,), (0,)])}
+    asset.add("animations", {
+        "channels": [{"sampler": i, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": pointer}}}}
+                     for i, pointer in enumerate(channels)],
+        "samplers": [{"input": times, "output": output, "interpolation": "STEP"} for output in channels.values()]})
+    return asset
+
+
 def morphed():
     asset = Asset()
     target = asset.accessor("3f", "VEC3", [(0, 0, 1), (0, 1, 0), (1, 0, 0), (0, 0, 0)])
@@ -286,7 +303,7 @@ def main():
     numbers = ["0", "-0", "1e38", "1e39", "1e-45", "1e400", "0.5", "4294967296", "null", "true", "\\ud800", "\\u0000"]
     (folder / "json_scene.dict").write_text(dictionary([*words_of_schema(schema), *numbers]))
 
-    for make in (plain, textured, embedded_image, animated, morphed, skinned, sparse, quantized, instanced, lit, strips, compressed):
+    for make in (plain, textured, embedded_image, animated, pointed, morphed, skinned, sparse, quantized, instanced, lit, strips, compressed):
         (folder / "gltf" / make.__name__).write_bytes(make().packed())
         if make in (plain, embedded_image):
             (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())

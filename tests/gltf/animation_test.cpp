@@ -178,7 +178,7 @@ TEST(GltfAnimation, PointersToNodesAreFollowed) {
   EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
   EXPECT_THAT(texts(load(asset, {.time = 3}).warnings), IsEmpty());
   for (const char* other :
-       {"/materials/0/alphaCutoff", "/nodes/1/translation", "/nodes/0", "/nodes/-1/scale",
+       {"/materials/1/alphaCutoff", "/nodes/1/translation", "/nodes/0", "/nodes/-1/scale",
         "/nodes//scale", "/nodes/0/extensions/KHR_node_visibility/visible", "", "/"}) {
     point_to(other);
     const LoadedScene loaded = load(asset, {.time = 3});

@@ -31,6 +31,8 @@ std::size_t components(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
       return 1;
+    case TINYGLTF_TYPE_VEC2:
+      return 2;
     case TINYGLTF_TYPE_VEC3:
       return 3;
     case TINYGLTF_TYPE_VEC4:
@@ -47,10 +49,6 @@ std::size_t target_count(const tinygltf::Model& model, int mesh) {
   return primitives.empty() ? 0 : primitives[0].targets.size();
 }
 
-DVec3 vector_of(const std::vector<double>& v) {
-  return {v[0], v[1], v[2]};
-}
-
 }  // namespace
 
 /// Reads channels, and each accessor once.
@@ -62,8 +60,7 @@ class AnimationPlayer::Reader {
   std::optional<Channel> read(const Element& animation, const Element& channel) {
     const std::optional<Target> target = target_of(channel.member("target"));
     if (!target) return std::nullopt;
-    const auto [at, node, path] = *target;
-    const std::optional<std::size_t> width = width_of(at, node, path);
+    const std::optional<std::size_t> width = width_of(*target);
     if (!width) return std::nullopt;
     const Element number = channel.member("sampler");
     const Element sampler =
@@ -72,7 +69,17 @@ class AnimationPlayer::Reader {
       asset_.warn(channel, "needs a buffer without data; it is ignored");
       return std::nullopt;
     }
-    return Channel{.node = node, .path = path, .keys = keyframes(sampler, path, *width)};
+    if (is_pointed_at(target->path) && !fits(sampler, *target)) {
+      asset_.warn(
+          sampler.member("output"),
+          "has not the type or the number of elements of what a pointer animates by it; the "
+          "channel is ignored");
+      return std::nullopt;
+    }
+    return Channel{.node = target->node,
+                   .path = target->path,
+                   .property = target->property,
+                   .keys = keyframes(sampler, target->path, *width)};
   }
 
  private:
@@ -80,9 +87,11 @@ class AnimationPlayer::Reader {
     Element at;
     std::size_t node;
     Path path;
+    AnimatedProperty property{};
   };
 
-  /// A node and its property; or a pointer to it, /nodes/0/rotation, by KHR_animation_pointer.
+  /// A node and its property; or a pointer to it, /nodes/0/rotation, by KHR_animation_pointer,
+  /// which may lead to other properties too.
   std::optional<Target> target_of(const Element& at) {
     const Element name = at.member("path");
     if (name.value->string == "pointer") {
@@ -106,8 +115,13 @@ class AnimationPlayer::Reader {
       const std::optional<Path> path = path_of(text.substr(slash + 1));
       if (node && *node < model_.nodes.size() && path) return Target{pointer, *node, *path};
     }
-    warn_of(pointer);
-    return std::nullopt;
+    const std::optional<AnimatedProperty> property = find_property(asset_, text);
+    if (!property) {
+      warn_of(pointer);
+      return std::nullopt;
+    }
+    if (!property->is_boolean) return Target{pointer, 0, Path::property, *property};
+    return Target{pointer, index_in(property->path[1]).value(), Path::visibility, *property};
   }
 
   void warn_of(const Element& at) {
@@ -128,7 +142,9 @@ class AnimationPlayer::Reader {
   }
 
   /// The numbers in one value; nothing where there is nothing to animate.
-  std::optional<std::size_t> width_of(const Element& at, std::size_t node, Path path) {
+  std::optional<std::size_t> width_of(const Target& target) {
+    const auto& [at, node, path, property] = target;
+    if (is_pointed_at(path)) return property.width;
     const tinygltf::Node& animated = model_.nodes[node];
     if (path == Path::weights) {
       const std::size_t targets = target_count(model_, animated.mesh);
@@ -141,6 +157,26 @@ class AnimationPlayer::Reader {
                   "is animated, but has a matrix; give translation, rotation and scale instead");
     }
     return path == Path::rotation ? 4 : 3;
+  }
+
+  /// By KHR_animation_pointer alone.
+  static bool is_pointed_at(Path path) {
+    return path == Path::property || path == Path::visibility;
+  }
+
+  /// Integers may stand for numbers as they are, and must for true and false, in steps.
+  bool fits(const Element& sampler, const Target& target) const {
+    const tinygltf::Accessor& in = accessor(sampler.member("input"));
+    const tinygltf::Accessor& out = accessor(sampler.member("output"));
+    const JsonValue* kind = sampler.value->find("interpolation");
+    const bool is_step = kind != nullptr && kind->string == "STEP";
+    const std::size_t values = kind != nullptr && kind->string == "CUBICSPLINE" ? 3 : 1;
+    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        components(out.type) != target.property.width || out.count != in.count * values) {
+      return false;
+    }
+    const bool is_float = out.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    return target.path == Path::property || (!is_float && is_step);
   }
 
   bool has_data(const Element& sampler) const {
@@ -156,7 +192,7 @@ class AnimationPlayer::Reader {
 
   Keyframes keyframes(const Element& sampler, Path path, std::size_t width) {
     const Element input = sampler.member("input"), output = sampler.member("output");
-    check_types(input, output, path);
+    if (!is_pointed_at(path)) check_types(input, output, path);
     Keyframes keys{.are_rotations = path == Path::rotation,
                    .width = width,
                    .times = times(input),
@@ -228,6 +264,7 @@ class AnimationPlayer::Reader {
     }
     result = std::make_shared<const std::vector<float>>(
         source.type == TINYGLTF_TYPE_SCALAR ? reader_.read<float>(index)
+        : source.type == TINYGLTF_TYPE_VEC2 ? flattened(reader_.read<glm::vec2>(index))
         : source.type == TINYGLTF_TYPE_VEC3 ? flattened(reader_.read<Vec3>(index))
                                             : flattened(reader_.read<glm::vec4>(index)));
     return result;
@@ -248,32 +285,13 @@ AnimationPlayer::AnimationPlayer(Asset& asset, const tinygltf::Model& model, Acc
     const Element channels = animation.member("channels");
     for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
       std::optional<Channel> channel = channel_reader.read(animation, channels.item(i));
-      if (channel) channels_.push_back(std::move(*channel));
+      if (!channel) continue;
+      if (channel->path == Path::property && !properties_) {
+        properties_ = animated_part(*asset.root().value);
+      }
+      channels_.push_back(std::move(*channel));
     }
   }
-}
-
-PosedNodes AnimationPlayer::at(double time) const {
-  PosedNodes pose;
-  for (const Channel& channel : channels_) {
-    NodePose& node = pose[channel.node];
-    std::vector<double> value = value_at(channel.keys, time);
-    switch (channel.path) {
-      case Path::translation:
-        node.translation = vector_of(value);
-        break;
-      case Path::rotation:
-        node.rotation = Quaternion(value[0], value[1], value[2], value[3]);
-        break;
-      case Path::scale:
-        node.scale = vector_of(value);
-        break;
-      case Path::weights:
-        node.weights = std::move(value);
-        break;
-    }
-  }
-  return pose;
 }
 
 }  // namespace microtrace::io::gltf

@@ -2,6 +2,7 @@
 /// An asset's animations: which there are, and what they make of the nodes at a time.
 
 #include "io/gltf/accessors.hpp"
+#include "io/gltf/animated/property.hpp"
 #include "io/gltf/asset.hpp"
 #include "io/gltf/keyframes.hpp"
 #include "io/gltf/model.hpp"
@@ -18,6 +19,10 @@ namespace microtrace::io::gltf {
 [[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
                                                          const std::string& wanted);
 
+/// Whether a channel of these animations points to a property of a material.
+[[nodiscard]] bool animate_materials(const Asset& asset,
+                                     const std::vector<std::size_t>& animations);
+
 /// Animations, read and checked.
 class AnimationPlayer {
  public:
@@ -28,18 +33,22 @@ class AnimationPlayer {
 
   /// What all channels say at that time, in seconds. Where two have one target, the later one
   /// holds.
-  [[nodiscard]] PosedNodes at(double time) const;
+  [[nodiscard]] PosedAsset at(double time) const;
 
  private:
-  enum class Path { translation, rotation, scale, weights };
+  enum class Path { translation, rotation, scale, weights, visibility, property };
   struct Channel {
-    std::size_t node;
+    std::size_t node;  ///< but of `property`
     Path path;
+    AnimatedProperty property{};
     Keyframes keys;
   };
   class Reader;
 
+  static void pose(NodePose& node, Path path, std::vector<double> value);
+
   std::vector<Channel> channels_;
+  std::optional<JsonValue> properties_;  // as the file has them, where some are animated
 };
 
 }  // namespace microtrace::io::gltf

@@ -1,7 +1,10 @@
 #include "io/gltf/cameras.hpp"
 
+#include "io/gltf/properties.hpp"
+
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -20,31 +23,28 @@ std::optional<Pose> pose_of(const DMat4& world_from_node) {
   return Pose{.position = position, .direction = *direction, .up = *up};
 }
 
-std::optional<double> optional(double value) {
-  return value > 0 ? std::optional(value) : std::nullopt;  // tinygltf writes 0 for what is absent
-}
-
-Camera camera_of(const tinygltf::Camera& camera, const Pose& pose) {
-  if (camera.type == "orthographic") {
-    const auto& o = camera.orthographic;
+Camera camera_of(const JsonValue& camera, const Pose& pose) {
+  const std::string& type = camera.find("type")->string;
+  const JsonValue& projection = *camera.find(type);
+  const auto number = [&projection](const char* key) { return projection.find(key)->number; };
+  if (type == "orthographic") {
     return OrthographicCamera{.pose = pose,
-                              .height = 2 * std::abs(o.ymag),
-                              .aspect_ratio = std::abs(o.xmag / o.ymag),
-                              .depth = {.near = o.znear, .far = o.zfar}};
+                              .height = 2 * std::abs(number("ymag")),
+                              .aspect_ratio = std::abs(number("xmag") / number("ymag")),
+                              .depth = {.near = number("znear"), .far = number("zfar")}};
   }
-  const auto& p = camera.perspective;
-  PerspectiveCamera result{.pose = pose,
-                           .vertical_fov = p.yfov,
-                           .aspect_ratio = optional(p.aspectRatio),
-                           .depth = {.near = p.znear}};
-  if (p.zfar > 0) result.depth.far = p.zfar;
+  PerspectiveCamera result{
+      .pose = pose, .vertical_fov = number("yfov"), .depth = {.near = number("znear")}};
+  if (projection.find("aspectRatio") != nullptr) result.aspect_ratio = number("aspectRatio");
+  if (projection.find("zfar") != nullptr) result.depth.far = number("zfar");
   return result;
 }
 
 }  // namespace
 
-std::vector<NamedCamera> make_cameras(Asset& asset, const tinygltf::Model& model,
-                                      const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
+std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
+                                      const tinygltf::Model& model, const NodeTree& tree,
+                                      const std::vector<PlacedNode>& nodes) {
   UniqueNames names;
   std::vector<NamedCamera> result;
   for (const PlacedNode& placed : nodes) {
@@ -56,9 +56,10 @@ std::vector<NamedCamera> make_cameras(Asset& asset, const tinygltf::Model& model
                  "has no position and orientation in the world; the camera is left out");
       continue;
     }
-    const tinygltf::Camera& camera = model.cameras[static_cast<std::size_t>(index)];
-    const bool named = !model.nodes[placed.node].name.empty() || camera.name.empty();
-    result.push_back({.name = names.make(named ? tree.name(placed.node) : head(camera.name, 64)),
+    const JsonValue& camera = root.find("cameras")->items[static_cast<std::size_t>(index)];
+    const std::string own = name_of(camera);
+    const bool named = !model.nodes[placed.node].name.empty() || own.empty();
+    result.push_back({.name = names.make(named ? tree.name(placed.node) : head(own, 64)),
                       .camera = camera_of(camera, *pose)});
   }
   return result;

@@ -11,9 +11,11 @@
 
 namespace microtrace::io::gltf {
 
-/// The cameras of these nodes in their order. One whose node has no position and orientation left
-/// (a scale of zero, numbers beyond float64) is left out with a warning.
-[[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const tinygltf::Model& model,
+/// The cameras of these nodes in their order, with the properties that the root object has. One
+/// whose node has no position and orientation left (a scale of zero, numbers beyond float64) is
+/// left out with a warning.
+[[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
+                                                    const tinygltf::Model& model,
                                                     const NodeTree& tree,
                                                     const std::vector<PlacedNode>& nodes);
 

@@ -13,7 +13,7 @@ namespace {
 
 /// Light has no influence on flat pictures; what it needs is read all the same.
 constexpr std::array<std::string_view, 24> honoured = {
-    "KHR_animation_pointer",  // of nodes; other pointers are warned of where they are played
+    "KHR_animation_pointer",  // pointers that lead nowhere are warned of where they are played
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",

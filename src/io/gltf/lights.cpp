@@ -86,12 +86,12 @@ std::optional<Light> placed(const Asset& asset, const Element& light,
 
 }  // namespace
 
-std::vector<NamedLight> make_lights(Asset& asset, const tinygltf::Model& model,
+std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const tinygltf::Model& model,
                                     const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
   std::vector<NamedLight> result;
-  const std::optional<Element> root = extension(asset.root(), name_of_extension);
-  if (!root) return result;
-  const Element lights = root->member("lights");
+  const std::optional<Element> all = extension(root, name_of_extension);
+  if (!all) return result;
+  const Element lights = all->member("lights");
   for (std::size_t i = 0; i < lights.value->items.size(); ++i) {
     (void)placed(asset, lights.item(i), DMat4(1));  // each must be right, in use or not
   }

@@ -10,10 +10,12 @@
 
 namespace microtrace::io::gltf {
 
-/// The lights of visible nodes, in the order of the nodes, named by their nodes or, where a node
+/// The lights of visible nodes, in the order of the nodes, with the properties that the root object
+/// has, named by their nodes or, where a node
 /// has no name, by themselves. A node's scale has no effect on them. One without position or
 /// direction in the world is left out with a warning. Throws Error (invalid_scene).
-[[nodiscard]] std::vector<NamedLight> make_lights(Asset& asset, const tinygltf::Model& model,
+[[nodiscard]] std::vector<NamedLight> make_lights(Asset& asset, const Element& root,
+                                                  const tinygltf::Model& model,
                                                   const NodeTree& tree,
                                                   const std::vector<PlacedNode>& nodes);
 

@@ -106,40 +106,46 @@ void read_material_extensions(const JsonValue& json, Material& material) {
   if (const JsonValue* dispersion = of("KHR_materials_dispersion")) {
     material.dispersion = number(*dispersion, "dispersion", 0);
   }
-  // What makes a factor of 0 is left out, with its textures.
   if (const JsonValue* own = of("KHR_materials_specular")) material.specular = specular(*own);
   if (const JsonValue* own = of("KHR_materials_transmission")) {
     material.transmission = transmission(*own);
-    if (material.transmission->factor == 0) material.transmission.reset();
   }
   if (const JsonValue* own = of("KHR_materials_volume")) {
     material.volume = volume(*own);
-    if (material.volume->thickness == 0) material.volume.reset();
   }
   if (const JsonValue* own = of("KHR_materials_clearcoat")) {
     material.clearcoat = clearcoat(*own);
-    if (material.clearcoat->factor == 0) material.clearcoat.reset();
   }
   if (const JsonValue* own = of("KHR_materials_sheen")) {
     material.sheen = sheen(*own);
-    if (material.sheen->color == Vec3(0)) material.sheen.reset();
   }
   if (const JsonValue* own = of("KHR_materials_anisotropy")) {
     material.anisotropy = anisotropy(*own);
-    if (material.anisotropy->strength == 0) material.anisotropy.reset();
   }
   if (const JsonValue* own = of("KHR_materials_iridescence")) {
     material.iridescence = iridescence(*own);
-    if (material.iridescence->factor == 0) material.iridescence.reset();
   }
   if (const JsonValue* own = of("KHR_materials_diffuse_transmission")) {
     material.diffuse_transmission = diffuse_transmission(*own);
-    if (material.diffuse_transmission->factor == 0) material.diffuse_transmission.reset();
   }
   const JsonValue* archived = of("KHR_materials_pbrSpecularGlossiness");
   if (archived != nullptr && json.find("pbrMetallicRoughness") == nullptr) {
     read_specular_glossiness(*archived, material);
   }
+}
+
+void leave_out_unused_layers(Material& material) {
+  const auto leave_out = [](auto& layer, auto&& factor) {
+    if (layer && factor(*layer) == 0) layer.reset();
+  };
+  const auto factor = [](const auto& layer) { return layer.factor; };
+  leave_out(material.transmission, factor);
+  leave_out(material.clearcoat, factor);
+  leave_out(material.iridescence, factor);
+  leave_out(material.diffuse_transmission, factor);
+  leave_out(material.volume, [](const Volume& volume) { return volume.thickness; });
+  leave_out(material.anisotropy, [](const Anisotropy& layer) { return layer.strength; });
+  if (material.sheen && material.sheen->color == Vec3(0)) material.sheen.reset();
 }
 
 }  // namespace microtrace::io::gltf

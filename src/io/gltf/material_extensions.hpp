@@ -11,4 +11,7 @@ namespace microtrace::io::gltf {
 /// KHR_materials_pbrSpecularGlossiness counts where there is no pbrMetallicRoughness.
 void read_material_extensions(const JsonValue& json, Material& material);
 
+/// Removes what a factor of 0 makes invisible, with its textures.
+void leave_out_unused_layers(Material& material);
+
 }  // namespace microtrace::io::gltf

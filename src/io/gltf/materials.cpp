@@ -28,7 +28,7 @@ void read_metallic_roughness(const JsonValue& pbr, Material& material) {
   material.metallic_roughness_texture = texture_use(pbr, "metallicRoughnessTexture");
 }
 
-Material make_material(const JsonValue& json) {
+Material make_material(const JsonValue& json, UnusedLayers unused) {
   Material material = standard_material();
   material.name = name_of(json);
   if (const JsonValue* pbr = json.find("pbrMetallicRoughness")) {
@@ -48,14 +48,17 @@ Material make_material(const JsonValue& json) {
   material.emissive = vector(json, "emissiveFactor", material.emissive);
   material.emissive_texture = texture_use(json, "emissiveTexture");
   read_material_extensions(json, material);
+  if (unused == UnusedLayers::left_out) leave_out_unused_layers(material);
   return material;
 }
 
 }  // namespace
 
-std::vector<Material> make_materials(const Asset& asset) {
+std::vector<Material> make_materials(const JsonValue& root, UnusedLayers unused) {
   std::vector<Material> materials;
-  for (const JsonValue& json : asset.array("materials")) materials.push_back(make_material(json));
+  if (const JsonValue* array = root.find("materials")) {
+    for (const JsonValue& json : array->items) materials.push_back(make_material(json, unused));
+  }
   materials.push_back(standard_material());
   return materials;
 }

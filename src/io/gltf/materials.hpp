@@ -1,7 +1,7 @@
 #pragma once
 /// The materials of an asset.
 
-#include "io/gltf/asset.hpp"
+#include "io/json/document.hpp"
 
 #include <microtrace/material.hpp>
 
@@ -9,8 +9,12 @@
 
 namespace microtrace::io::gltf {
 
-/// All materials in file order, and after them the one of primitives that name none (glTF 2.0,
-/// section 3.9.7).
-[[nodiscard]] std::vector<Material> make_materials(const Asset& asset);
+/// Layers that a factor of 0 makes invisible, with their textures.
+enum class UnusedLayers { left_out, kept };
+
+/// All materials of the root object in file order, and after them the one of primitives that name
+/// none (glTF 2.0, section 3.9.7).
+[[nodiscard]] std::vector<Material> make_materials(const JsonValue& root,
+                                                   UnusedLayers unused = UnusedLayers::left_out);
 
 }  // namespace microtrace::io::gltf

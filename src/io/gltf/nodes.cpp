@@ -25,8 +25,10 @@ Quaternion quaternion_of(const std::vector<double>& q) {
   return q.empty() ? Quaternion(0, 0, 0, 1) : Quaternion(q[0], q[1], q[2], q[3]);
 }
 
-/// What the node says of itself.
-bool is_shown(const Asset& asset, std::size_t node) {
+/// What the node says of itself, or its animation.
+bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
+  const auto posed = pose.empty() ? pose.end() : pose.find(node);
+  if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
   const auto visibility = extension(asset.element("nodes", node), "KHR_node_visibility");
   if (!visibility) return true;
   const JsonValue* visible = visibility->value->find("visible");
@@ -75,7 +77,7 @@ DMat4 NodeTree::local(std::size_t index) const {
 DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
   const auto posed = pose.empty() ? pose.end() : pose.find(index);
   if (posed == pose.end()) return parent_from_node_[index];
-  const auto& [translation, scale, rotation, weights] = posed->second;
+  const auto& [translation, scale, rotation, weights, visible] = posed->second;
   if (!translation && !scale && !rotation) return parent_from_node_[index];
   const tinygltf::Node& node = model_.nodes[index];
   return composed(translation.value_or(vector_of(node.translation, DVec3(0))),
@@ -103,8 +105,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   std::vector<PlacedNode> result;
   std::vector<PlacedNode> open;
   for (std::size_t i = first.size(); i-- > 0;) {
-    open.push_back(
-        {first[i], world_from_asset * parent_from_node(first[i], pose), is_shown(asset, first[i])});
+    open.push_back({first[i], world_from_asset * parent_from_node(first[i], pose),
+                    is_shown(asset, first[i], pose)});
   }
   while (!open.empty()) {
     const PlacedNode next = open.back();
@@ -116,7 +118,7 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     for (std::size_t i = children.size(); i-- > 0;) {
       const auto child = static_cast<std::size_t>(children[i]);
       open.push_back({child, next.world_from_node * parent_from_node(child, pose),
-                      next.visible && is_shown(asset, child)});
+                      next.visible && is_shown(asset, child, pose)});
     }
   }
   return result;

@@ -70,12 +70,12 @@ struct GltfFile::Content {
         buffers(loaded_buffers()),
         views(asset, model, buffers),
         reader(asset, model, checked_views()),
-        materials(gltf::make_materials(asset)),
+        animations(gltf::choose_animations(asset, options.animation)),
+        materials(needed_materials()),
         textures(gltf::make_textures(asset)),
         surfaces(gltf::make_surfaces(asset, model, reader, materials, detail)),
         images(gltf::load_images(asset, views, folders, image_uses())),
-        instances(asset, model, reader),
-        animations(gltf::choose_animations(asset, options.animation)) {
+        instances(asset, model, reader) {
     gltf::warn_of_ignored_features(asset, detail);
     if (!container.is_aligned) {
       asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
@@ -104,7 +104,7 @@ struct GltfFile::Content {
     return result;
   }
 
-  gltf::PosedNodes pose_at(double time) {
+  gltf::PosedAsset pose_at(double time) {
     if (!player) {
       if (animations.empty()) {
         asset.warn(asset.root(), "the asset has no animation; the time makes no difference");
@@ -114,30 +114,38 @@ struct GltfFile::Content {
     return player->at(time);
   }
 
-  gltf::PosedNodes pose(std::optional<double> time) {
-    return time ? pose_at(*time) : gltf::PosedNodes{};
+  gltf::PosedAsset pose(std::optional<double> time) {
+    return time ? pose_at(*time) : gltf::PosedAsset{};
   }
 
-  LoadedScene scene(const gltf::PosedNodes& pose, const DMat4& world_from_asset) {
+  LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset) {
     LoadClock lap(times);
     Asset own = asset;  // each pose adds warnings of its own
-    const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose);
-    gltf::Poser poser(own, model, reader, tree, pose, world_from_asset);
+    const gltf::Element root{pose.properties ? &*pose.properties : own.root().value, {}};
+    const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
+    gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
     gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser);
     maker.check_size(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
     result.scene.objects = maker.take();
-    result.scene.materials = materials;
+    result.scene.materials = gltf::make_materials(*root.value);
     result.scene.textures = textures;
     result.scene.images = images;
-    result.scene.cameras = gltf::make_cameras(own, model, tree, nodes);
-    result.scene.lights = gltf::make_lights(own, model, tree, nodes);
+    result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes);
+    result.scene.lights = gltf::make_lights(own, root, model, tree, nodes);
     if (result.scene.objects.empty())
       own.warn(own.root(), "nothing to draw: no triangles, lines or points");
     result.warnings = own.warnings();
     lap.lap(&LoadTimes::bake);
     return result;
+  }
+
+  /// A layer that is invisible now may appear.
+  [[nodiscard]] std::vector<Material> needed_materials() const {
+    const bool may_change = gltf::animate_materials(asset, animations);
+    return gltf::make_materials(
+        *asset.root().value, may_change ? gltf::UnusedLayers::kept : gltf::UnusedLayers::left_out);
   }
 
   const gltf::BufferViews& checked_views() {
@@ -168,12 +176,12 @@ struct GltfFile::Content {
   std::vector<gltf::Buffer> buffers;
   gltf::BufferViews views;
   gltf::AccessorReader reader;
-  std::vector<Material> materials;
+  std::vector<std::size_t> animations;  // chosen
+  std::vector<Material> materials;      // with what any pose needs of them
   std::vector<Texture> textures;
   std::vector<std::vector<Surface>> surfaces;
   std::vector<std::shared_ptr<const Image>> images;
   gltf::Instances instances;
-  std::vector<std::size_t> animations;          // chosen
   std::optional<gltf::AnimationPlayer> player;  // of them, once a time was asked for
 };
 
@@ -187,9 +195,9 @@ GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
 
 LoadedScene GltfFile::at(std::optional<double> time) {
   return guarded(content_->name, [&] {
-    const gltf::PosedNodes pose = content_->pose(time);
+    const gltf::PosedAsset pose = content_->pose(time);
     Asset unheard = content_->asset;
-    const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose);
+    const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
     const DVec3 way = way_to_origin(
         gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way));
