@@ -15,7 +15,6 @@
 #include <exception>
 #include <filesystem>
 #include <optional>
-#include <set>
 #include <string>
 #include <unistd.h>
 #include <utility>
@@ -29,14 +28,6 @@ using namespace microtrace;
 void stop_at_once(int signal) {
   remove_unfinished_files();
   _exit(128 + signal);
-}
-
-// Under --strict a scene with warnings is refused.
-void report(const std::vector<Diagnostic>& warnings, const cli::Arguments& arguments) {
-  for (const Diagnostic& warning : warnings) {
-    if (arguments.strict) throw Error(ErrorKind::invalid_scene, warning);
-    if (!arguments.quiet) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
-  }
 }
 
 /// What of surfaces the picture and its channels show.
@@ -93,15 +84,14 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
                        frame_path(sidecar, frames.first));
     framing = framing_of(file, arguments, frames);
   }
+  cli::Warnings log(arguments);
   std::vector<Diagnostic> light_warnings;
   const auto environment = cli::load_environment(arguments.surroundings, light_warnings);
-  report(light_warnings, arguments);
-  std::set<std::string> reported;
+  log.report(light_warnings);
   RenderCache cache;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
     auto [scene, warnings] = file.at(frames.time(frame));
-    std::erase_if(warnings, [&](const Diagnostic& w) { return !reported.insert(w.text()).second; });
-    report(warnings, arguments);
+    log.report(warnings);
     cli::surround(scene, environment, arguments.surroundings);
     const ImageSize size = arguments.size.value_or(scene.size);
     Camera camera;
@@ -120,10 +110,9 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     const auto tell = [&](double share) {
       if (progress) progress((frame - frames.first + share) / frames.count());
     };
-    cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, tell);
+    cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log, tell);
   }
-  if (arguments.validate)
-    cli::print_valid(arguments.scene, reported.size() + light_warnings.size());
+  if (arguments.validate) cli::print_valid(arguments.scene, log.count());
 }
 
 void run(cli::Arguments arguments) {
@@ -138,7 +127,8 @@ void run(cli::Arguments arguments) {
   cli::settle(arguments, file.format());
   auto [scene, warnings] = file.at(arguments.load.time);
   const auto environment = cli::load_environment(arguments.surroundings, warnings);
-  report(warnings, arguments);
+  cli::Warnings log(arguments);
+  log.report(warnings);
   cli::surround(scene, environment, arguments.surroundings);
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments.viewpoint, size);
@@ -151,7 +141,7 @@ void run(cli::Arguments arguments) {
   if (arguments.sampling.keeps_samples())
     files.samples = &samples.emplace(arguments, digest->value());
   RenderCache cache;
-  cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch,
+  cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log,
                     cli::progress_of(arguments));
 }
 

@@ -60,7 +60,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
 
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                   const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
-                  const std::function<void(double)>& progress) {
+                  Warnings& warnings, const std::function<void(double)>& progress) {
   if (arguments.verbose) tell_of_scene(arguments, scene, size);
   widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
@@ -106,6 +106,9 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
         counts.missing_threads, options.threads);
   }
   if (files.samples != nullptr) files.samples->save();
+  if (std::holds_alternative<Technique>(arguments.integrator) &&
+      (arguments.strict || !arguments.quiet))
+    warnings.report_picture(warning_of(view_of(film, scene, camera, options), arguments, scene));
   if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
   watch.written();
   if (tells_of_files(arguments)) {

@@ -2,6 +2,7 @@
 #include "cli/arguments.hpp"
 #include "cli/sample_files.hpp"
 #include "cli/statistics.hpp"
+#include "cli/warnings.hpp"
 
 #include <microtrace/camera.hpp>
 #include <microtrace/scene.hpp>
@@ -28,9 +29,10 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
                                                       std::uint32_t pictures = 1);
 
 /// Draws a picture of a scene with the surroundings that the arguments ask for and writes it, with
-/// its sidecar if that has a name; of a shard the samples alone. Tells the watch.
+/// its sidecar if that has a name; of a shard the samples alone. Tells the watch, and warns of a
+/// picture that shows nothing, before it is written.
 void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                   const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
-                  const std::function<void(double)>& progress);
+                  Warnings& warnings, const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

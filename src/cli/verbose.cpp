@@ -1,5 +1,7 @@
 #include "cli/verbose.hpp"
 
+#include "cli/warnings.hpp"
+
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -70,8 +72,7 @@ void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize siz
        primitives_of(scene));
   tell(counted(scene.materials.size(), "material") + ", " +
        counted(scene.textures.size(), "texture") + ", " + images_of(scene));
-  tell(counted(scene.lights.size(), "light") +
-       (scene.environment ? " and an environment" : ", no environment"));
+  tell("light: " + light_of(scene));
   tell("camera: " + camera_of(arguments, scene));
   tell("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
        subject_of(arguments));

@@ -4,7 +4,9 @@
 usage: light_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
 
+import json
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -117,6 +119,88 @@ class Exposure(ProgramTest):
                 self.assertEqual(result.returncode, 2)
                 self.assertIn(option.encode(), result.stderr)
         self.assertEqual(os.listdir(self.folder), [])
+
+
+class DarkPictures(ProgramTest):
+    """What warnings say where a picture shows next to nothing."""
+
+    def warnings(self, document, *options, code=0):
+        (self.folder / "scene.json").write_text(json.dumps({
+            "version": 1,
+            "cameras": [{"name": "front", "type": "perspective", "position": [0, 0, 4], "direction": [0, 0, -1],
+                         "vertical_fov": 40},
+                        {"name": "away", "type": "perspective", "position": [0, 0, 4], "direction": [0, 0, 1],
+                         "vertical_fov": 40}],
+            "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}], **document}))
+        result = self.run_program("scene.json", "--size", "20x20", "--spp", "4",
+                                  *(() if "--integrator" in options else ("--integrator", "path")), *options)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertEqual((self.folder / "scene.png").exists(), code == 0)
+        (self.folder / "scene.png").unlink(missing_ok=True)
+        kind = "warning: " if code == 0 else "error: "
+        return "".join(line for line in result.stderr.decode().splitlines(True) if line.startswith(kind))
+
+    def lamp(self, intensity, kind="point", **more):
+        place = {"direction": [0, 0, -1]} if kind == "directional" else {"position": [0, 0, 4]}
+        return {"name": f"{kind} {intensity}", "type": kind, "intensity": intensity, **place, **more}
+
+    def test_lights_without_light(self):
+        for lights, words in (([self.lamp(0)], "1 light of intensity 0, no environment"),
+                              ([self.lamp(0), self.lamp(0, "directional")], "2 lights of intensity 0, no environment"),
+                              ([self.lamp(0), self.lamp(1e-9)], "2 lights (1 of intensity 0), no environment")):
+            text = self.warnings({"lights": lights})
+            self.assertIn("scene.json: most of what is seen is black; the scene is lit by " + words, text)
+            self.assertIn("the studio lights only scenes without lights of their own", text)
+            self.assertIn("; light it by --env studio", text)
+            self.assertEqual("--exposure" in text, "(1 of" in text, text)
+        self.assertIn("0 lights, a black environment; light",
+                      self.warnings({"environment": {"type": "uniform", "color": [0, 0, 0]}}))
+
+    def test_the_exposure_that_is_named_shows_it(self):
+        document = {"lights": [self.lamp(1e-5, "directional")]}
+        stops = re.search(r"--exposure (\d+)\n", self.warnings(document)).group(1)
+        self.assertEqual(self.warnings(document, "--exposure", stops), "")
+        self.assertEqual(self.warnings(document, "--env", "studio"), "")
+
+    def test_lit_pictures_have_no_warning(self):
+        for document in ({}, {"lights": [self.lamp(3, "directional")]}, {"lights": [self.lamp(30)]},
+                         {"lights": [self.lamp(0)], "environment": {"type": "studio"}},
+                         {"background": [1, 0, 0], "lights": [self.lamp(30)]}):
+            self.assertEqual(self.warnings(document), "", document)
+        # Far away, before a black background.
+        small = {"objects": [{"type": "sphere", "center": [0, 0, -20], "radius": 1}]}
+        self.assertEqual(self.warnings(small), "")
+        self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--max-depth", "1"), "")
+        self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "-q"), "")
+        self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--integrator", "flat"), "")
+
+    def test_behind_other_backgrounds(self):
+        for options in (("--background", "#808080"), ("--background", "transparent")):
+            self.assertIn("most of what is seen is black", self.warnings({"lights": [self.lamp(0)]}, *options))
+            self.assertEqual(self.warnings({}, *options), "")
+            self.assertIn("sees nothing", self.warnings({}, "--camera", "away", *options))
+
+    def test_cameras_that_see_nothing(self):
+        for integrator in ("path", "flat"):
+            self.assertIn("scene.json: the camera away sees nothing of the scene; take another by --camera",
+                          self.warnings({}, "--camera", "away", "--integrator", integrator))
+        self.assertEqual(self.warnings({}, "--camera", "away", "--background", "env"), "")
+        self.assertEqual(self.warnings({}, "--camera", "away", "--crop", "0,0,5,5"), "")
+        self.assertIn("the camera sees nothing", self.warnings({}, "--eye", "0,0,9", "--target", "0,0,18"))
+
+    def test_strict_refuses(self):
+        self.assertIn("most of what is seen is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))
+        self.assertIn("sees nothing", self.warnings({}, "--strict", "-q", "--camera", "away", code=3))
+
+    def test_verbose_says_what_lights_the_scene(self):
+        for document, words in (({}, "light: the built-in studio"),
+                                ({"lights": [self.lamp(3)]}, "light: 1 light, no environment"),
+                                ({"environment": {"type": "studio"}}, "light: 0 lights, an environment")):
+            (self.folder / "scene.json").unlink(missing_ok=True)
+            self.warnings(document)
+            said = self.run_program("scene.json", "--size", "8x8", "--spp", "1", "--integrator", "path", "-v").stderr
+            self.assertIn(("info: " + words + "\n").encode(), said)
+            (self.folder / "scene.png").unlink()
 
 
 if __name__ == "__main__":

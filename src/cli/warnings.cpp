@@ -1,0 +1,95 @@
+#include "cli/warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <variant>
+
+namespace microtrace::cli {
+namespace {
+
+std::string camera_of(const Arguments& arguments, const Scene& scene) {
+  const Viewpoint& viewpoint = arguments.viewpoint;
+  if (!viewpoint.is_of_scene() || scene.cameras.empty()) return "the camera";
+  return "the camera " + (viewpoint.camera.empty() ? scene.cameras[0].name : viewpoint.camera);
+}
+
+bool is_dark(const Light& light) {
+  return std::visit([](const auto& l) { return l.intensity == 0 || l.color == Vec3(0); }, light);
+}
+
+bool is_dark(const Environment& environment) {
+  const auto* radiance = std::get_if<Vec3>(&environment.content);
+  return environment.intensity == 0 || (radiance != nullptr && *radiance == Vec3(0));
+}
+
+bool shines(const Scene& scene) {
+  return std::ranges::any_of(scene.objects, [&](const Object& object) {
+    const Material& material = material_of(scene, object);
+    return material.emissive != Vec3(0) && !material.unlit;
+  });
+}
+
+/// In stops, such that the brightest of what is black comes to at least a half.
+int exposure_for(float brightest) {
+  int exponent = 0;
+  std::frexp(brightest, &exponent);
+  return std::clamp(-exponent, 1, 64);
+}
+
+Diagnostic warning_about(const Arguments& arguments, std::string message) {
+  return {.file = arguments.scene, .pointer = {}, .message = std::move(message), .excerpt = {}};
+}
+
+}  // namespace
+
+void Warnings::tell(const Diagnostic& warning) const {
+  if (is_strict_) throw Error(ErrorKind::invalid_scene, warning);
+  if (!is_quiet_) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+}
+
+void Warnings::report(const std::vector<Diagnostic>& warnings) {
+  for (const Diagnostic& warning : warnings) {
+    if (told_.insert(warning.text()).second) tell(warning);
+  }
+}
+
+void Warnings::report_picture(const std::optional<Diagnostic>& warning) {
+  if (warning && !std::exchange(has_told_of_picture_, true)) tell(*warning);
+}
+
+std::string light_of(const Scene& scene) {
+  if (!scene.environment && scene.lights.empty()) return "the built-in studio";
+  const std::size_t lights = scene.lights.size();
+  const auto dark = static_cast<std::size_t>(std::ranges::count_if(
+      scene.lights, [](const NamedLight& light) { return is_dark(light.light); }));
+  std::string text = std::to_string(lights) + (lights == 1 ? " light" : " lights");
+  if (dark > 0)
+    text += dark == lights ? " of intensity 0" : " (" + std::to_string(dark) + " of intensity 0)";
+  if (shines(scene)) text += ", surfaces that shine";
+  if (!scene.environment) return text + ", no environment";
+  return text + (is_dark(*scene.environment) ? ", a black environment" : ", an environment");
+}
+
+std::optional<Diagnostic> warning_of(const FilmView& view, const Arguments& arguments,
+                                     const Scene& scene) {
+  if (view.is_empty && !arguments.crop && !scene.objects.empty()) {
+    return warning_about(arguments, camera_of(arguments, scene) +
+                                        " sees nothing of the scene; take another by --camera, or "
+                                        "look at all of it by --view 30,25");
+  }
+  const bool has_light = arguments.integrator == Subject(Technique::path);
+  if (!view.is_dark || !has_light || arguments.path.max_depth == 1) return std::nullopt;
+  std::string message = "most of what is seen is black; the scene is lit by " + light_of(scene);
+  if (!scene.environment && !scene.lights.empty())
+    message += " (the studio lights only scenes without lights of their own)";
+  message += "; light it by --env studio";
+  if (view.brightest > 0) {
+    message +=
+        ", or show more of its light by --exposure " + std::to_string(exposure_for(view.brightest));
+  }
+  return warning_about(arguments, std::move(message));
+}
+
+}  // namespace microtrace::cli

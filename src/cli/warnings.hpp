@@ -1,0 +1,47 @@
+#pragma once
+/// Warnings on standard error.
+
+#include "cli/arguments.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/film_view.hpp>
+#include <microtrace/scene.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// Says each warning once, and none where the arguments ask for quiet.
+class Warnings {
+ public:
+  explicit Warnings(const Arguments& arguments)
+      : is_strict_(arguments.strict), is_quiet_(arguments.quiet) {}
+
+  /// Under --strict a scene with warnings is refused: throws Error.
+  void report(const std::vector<Diagnostic>& warnings);
+
+  /// The same of what a picture shows, of the first of several with something to say.
+  void report_picture(const std::optional<Diagnostic>& warning);
+
+  /// How many there were.
+  [[nodiscard]] std::size_t count() const { return told_.size(); }
+
+ private:
+  void tell(const Diagnostic& warning) const;
+
+  bool is_strict_, is_quiet_, has_told_of_picture_ = false;
+  std::set<std::string> told_;
+};
+
+/// What to say of a picture with light or of colors that shows nothing, or next to nothing.
+[[nodiscard]] std::optional<Diagnostic> warning_of(const FilmView& view, const Arguments& arguments,
+                                                   const Scene& scene);
+
+/// "the built-in studio", "2 lights, all of intensity 0, and no environment".
+[[nodiscard]] std::string light_of(const Scene& scene);
+
+}  // namespace microtrace::cli
