@@ -36,7 +36,7 @@ def build(name, compiler, flags):
     folder = FOLDER / name
     subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
                     "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}",
-                    "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF",
+                    "-DMICROTRACE_BUILD_TESTS=OFF", "-DMICROTRACE_BUILD_BENCHMARKS=OFF", "-DMICROTRACE_UNITY=ON",
                     *(f"-DMICROTRACE_WITH_{module}=OFF" for module in ("OPENIMAGEIO", "MESHOPT", "DRACO"))],
                    check=True, stdout=subprocess.DEVNULL)
     subprocess.run(["cmake", "--build", folder, "--target", "microtrace", "microtrace_codecs", "microtrace_openexr"],
