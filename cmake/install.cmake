@@ -2,17 +2,34 @@
 include(CMakePackageConfigHelpers)
 set(microtrace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microtrace)
 
-install(TARGETS microtrace)
-install(TARGETS microtrace_library EXPORT microtraceTargets)
-install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
-install(DIRECTORY docs/ TYPE DOC FILES_MATCHING PATTERN *.md PATTERN *.json)
+# One of the two libraries is installed; the other can be, by its component's name.
+set(unless_shared EXCLUDE_FROM_ALL)
+set(unless_static)
+if(BUILD_SHARED_LIBS)
+  set(unless_shared)
+  set(unless_static EXCLUDE_FROM_ALL)
+endif()
+set(microtrace_static microtrace_library)
+set(microtrace_shared microtrace_shared)
+foreach(kind shared static)
+  install(TARGETS ${microtrace_${kind}} EXPORT microtrace_${kind}
+    ARCHIVE COMPONENT ${kind} ${unless_${kind}} LIBRARY COMPONENT ${kind} ${unless_${kind}})
+  install(EXPORT microtrace_${kind} NAMESPACE microtrace:: DESTINATION ${microtrace_package_dir} COMPONENT ${kind} ${unless_${kind}})
+endforeach()
 
-install(EXPORT microtraceTargets NAMESPACE microtrace:: DESTINATION ${microtrace_package_dir})
+install(TARGETS microtrace)
+install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
+# The same folders as in the repository: links from page to page hold.
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)
+
+set(microtrace_modules_dir ${CMAKE_INSTALL_LIBDIR}/microtrace)
 configure_package_config_file(cmake/microtraceConfig.cmake.in
   ${PROJECT_BINARY_DIR}/microtraceConfig.cmake
-  INSTALL_DESTINATION ${microtrace_package_dir})
+  INSTALL_DESTINATION ${microtrace_package_dir} PATH_VARS microtrace_modules_dir)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/microtraceConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/microtraceConfig.cmake
               ${PROJECT_BINARY_DIR}/microtraceConfigVersion.cmake
+              cmake/module_folder.cmake
   DESTINATION ${microtrace_package_dir})

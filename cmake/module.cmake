@@ -13,6 +13,7 @@ function(microtrace_module name)
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${target} PRIVATE microtrace_flags)
   add_dependencies(microtrace_all ${target})
+  set_property(GLOBAL APPEND PROPERTY microtrace_modules ${name})
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
 endfunction()
 

@@ -2,6 +2,7 @@
 /// Exact quantities of what is seen through the centre of each pixel, for pictures of their own and
 /// for channels beside the colours ("arbitrary output variables"). Never filtered.
 
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 
@@ -36,14 +37,14 @@ inline constexpr std::array kAovs = {Aov::depth,       Aov::distance,    Aov::po
                                      Aov::barycentric, Aov::albedo,      Aov::id};
 
 /// As above; on the command line, and before the dot in the names of channels.
-[[nodiscard]] std::string_view name_of(Aov aov);
-[[nodiscard]] std::optional<Aov> aov_named(std::string_view name);
+[[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(Aov aov);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Aov> aov_named(std::string_view name);
 
 /// A picture of one quantity. id shows instances in colours that tell them apart. Numbers are those
 /// above, and 8-bit formats show them so: normals n as (n + 1) / 2; depth and distance from 1 for
 /// the nearest to 0.2 for the farthest seen, 0 where there is nothing; positions from 0 to 1 in the
 /// bounding box of those seen; albedo encoded as sRGB; the others as they are.
-class AovIntegrator final : public Integrator {
+class MICROTRACE_EXPORT AovIntegrator final : public Integrator {
  public:
   explicit AovIntegrator(Aov aov) : aov_(aov) {}
 

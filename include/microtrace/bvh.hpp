@@ -1,6 +1,7 @@
 #pragma once
 /// The nearest hit of a ray with a scene, by a bounding volume hierarchy.
 
+#include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
@@ -23,7 +24,7 @@ struct BvhOptions {
 /// Every answer is the hit that is least by (t, PrimitiveId) over the real numbers, for the float32
 /// numbers that scene and ray hold. Options, instruction set, the order of the work and the way of
 /// asking can't change it; docs/exactness.md says why.
-class Bvh {
+class MICROTRACE_EXPORT Bvh {
  public:
   /// The scene must outlive this and stay as it is. Throws Error (limit) where memory or primitive
   /// numbers run out.
@@ -82,7 +83,7 @@ class Bvh {
   [[nodiscard]] std::size_t memory() const;
 
  private:
-  struct Impl;
+  struct MICROTRACE_HIDDEN Impl;
   std::unique_ptr<const Impl> impl_;
 };
 

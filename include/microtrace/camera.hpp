@@ -5,6 +5,7 @@
 /// src/io/scene_json/scene.cpp and the JSON schema, a scene, golden rays in
 /// tests/unit/camera_test.cpp.
 
+#include <microtrace/export.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 
@@ -82,7 +83,7 @@ struct RayDifferential {
 
 /// The rays of one camera for one picture. Directions have unit length, computed in float64 and
 /// rounded once.
-class RayGenerator {
+class MICROTRACE_EXPORT RayGenerator {
  public:
   RayGenerator(const Camera& camera, ImageSize size);
 

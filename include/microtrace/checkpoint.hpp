@@ -2,6 +2,7 @@
 /// Files of samples: what an interrupted run goes on from, and what machines that share a picture
 /// bring together.
 
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/sample_sums.hpp>
 
@@ -23,21 +24,23 @@ struct Checkpoint {
 };
 
 /// Writes a checkpoint; the file appears whole or not at all. Throws Error (io).
-void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path);
+MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
+                                       const std::filesystem::path& path);
 
 /// Reads one. Throws Error (io) also where the file is none, was written by another version, or is
 /// not as it was written.
-[[nodiscard]] Checkpoint load_checkpoint(const std::filesystem::path& path);
+[[nodiscard]] MICROTRACE_EXPORT Checkpoint load_checkpoint(const std::filesystem::path& path);
 
 /// Adds the samples of `other`, which was read from `path`; takes them where `checkpoint` has no
 /// sums yet. Throws Error (usage) where they are another picture's, and says what differs, or where
 /// some are here already.
-void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem::path& path);
+MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
+                                   const std::filesystem::path& path);
 
 /// The picture of its samples.
-[[nodiscard]] Film picture_of(const Checkpoint& checkpoint);
+[[nodiscard]] MICROTRACE_EXPORT Film picture_of(const Checkpoint& checkpoint);
 
 /// Throws the Error that save_checkpoint would throw at once, and writes nothing.
-void check_checkpoint_path(const std::filesystem::path& path);
+MICROTRACE_EXPORT void check_checkpoint_path(const std::filesystem::path& path);
 
 }  // namespace microtrace

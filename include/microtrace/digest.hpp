@@ -1,6 +1,8 @@
 #pragma once
 /// A number that tells byte strings apart.
 
+#include <microtrace/export.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -53,7 +55,7 @@ class Digest {
 /// While it lives, takes all bytes of files, and of standard input, that the library reads on this
 /// thread: at the one place where it reads, so that none can be forgotten. The last one made
 /// counts.
-class ReadDigest {
+class MICROTRACE_EXPORT ReadDigest {
  public:
   ReadDigest();
   ~ReadDigest();

@@ -1,6 +1,8 @@
 #pragma once
 /// The one error type, and the place in a file that it speaks of.
 
+#include <microtrace/export.hpp>
+
 #include <cstddef>
 #include <stdexcept>
 #include <string>
@@ -18,7 +20,7 @@ enum class ErrorKind {
 };
 
 /// One message about one place. Parts that are unknown are empty or 0.
-struct Diagnostic {
+struct MICROTRACE_EXPORT Diagnostic {
   std::string file;        ///< as the user named it
   std::size_t line = 0;    ///< from 1
   std::size_t column = 0;  ///< in bytes, from 1
@@ -31,7 +33,7 @@ struct Diagnostic {
 };
 
 /// Thrown by every function of the library that can fail.
-class Error : public std::runtime_error {
+class MICROTRACE_EXPORT Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, Diagnostic where);
   Error(ErrorKind kind, std::string file, std::string message);

@@ -2,6 +2,7 @@
 /// A camera that sees a whole scene, for scenes that bring none.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/scene.hpp>
 
@@ -26,7 +27,7 @@ struct View {
 /// that are not finite do not count. Where all is one point the distance is 1; where there is
 /// nothing, that point is the origin. The same bits everywhere: only
 /// + - * / and sqrt.
-class Framing {
+class MICROTRACE_EXPORT Framing {
  public:
   Framing(const View& view, ImageSize size);
 
@@ -64,9 +65,10 @@ class Framing {
   std::optional<DVec3> origin_;
 };
 
-[[nodiscard]] PerspectiveCamera frame(const Scene& scene, const View& view, ImageSize size);
+[[nodiscard]] MICROTRACE_EXPORT PerspectiveCamera frame(const Scene& scene, const View& view,
+                                                        ImageSize size);
 
 /// The scene's first camera; where it has none, frame() from the default view.
-[[nodiscard]] Camera default_camera(const Scene& scene, ImageSize size);
+[[nodiscard]] MICROTRACE_EXPORT Camera default_camera(const Scene& scene, ImageSize size);
 
 }  // namespace microtrace

@@ -4,6 +4,7 @@
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
@@ -46,7 +47,7 @@ struct Sample {
 };
 
 /// Rays by what they were for, and the seconds of processor time that they took in all threads.
-struct RayCounts {
+struct MICROTRACE_EXPORT RayCounts {
   struct Kind {
     std::uint64_t rays = 0;
     double seconds = 0;
@@ -62,7 +63,7 @@ struct RayCounts {
 /// The most rays that an integrator is asked about at once, if its answers are random and if not.
 inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
 
-class Integrator {
+class MICROTRACE_EXPORT Integrator {
  public:
   virtual ~Integrator() = default;
 
@@ -95,7 +96,7 @@ class Integrator {
 };
 
 /// The colour of what the ray hits first, without light.
-class FlatIntegrator final : public Integrator {
+class MICROTRACE_EXPORT FlatIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override;

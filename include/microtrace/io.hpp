@@ -2,6 +2,7 @@
 /// Files in and out.
 
 #include <microtrace/error.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/scene.hpp>
 
@@ -57,18 +58,19 @@ struct LoadOptions {
 /// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
 /// other endings. "-" is standard input; files that its scene names are sought in the current
 /// folder. Throws Error.
-[[nodiscard]] LoadedScene load_scene(const std::filesystem::path& path,
-                                     const LoadOptions& options = {});
+[[nodiscard]] MICROTRACE_EXPORT LoadedScene load_scene(const std::filesystem::path& path,
+                                                       const LoadOptions& options = {});
 
 /// The same from memory; `name` stands in messages, files named in the scene are sought in
 /// `folder`. Throws Error.
-[[nodiscard]] LoadedScene parse_scene(std::string_view bytes, const std::string& name,
-                                      const std::filesystem::path& folder,
-                                      const LoadOptions& options = {});
+[[nodiscard]] MICROTRACE_EXPORT LoadedScene parse_scene(std::string_view bytes,
+                                                        const std::string& name,
+                                                        const std::filesystem::path& folder,
+                                                        const LoadOptions& options = {});
 
 /// A scene file that is read and checked once, to be posed at many times. What a JSON scene's
 /// meshes are made of is read anew for each.
-class SceneFile {
+class MICROTRACE_EXPORT SceneFile {
  public:
   /// Reads as load_scene does; the options' time plays no part. Throws Error.
   explicit SceneFile(const std::filesystem::path& path, LoadOptions options = {});
@@ -82,7 +84,7 @@ class SceneFile {
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
  private:
-  struct Content;
+  struct MICROTRACE_HIDDEN Content;
   std::unique_ptr<Content> content_;
 };
 
@@ -97,7 +99,8 @@ struct LoadedRadianceMap {
 /// and those above kMaxRadiance that, with a warning. Throws Error: io where the file can't be read
 /// or decoded, limit for one with a side above 65536 or more than 2^27 pixels, unsupported without
 /// the module.
-[[nodiscard]] LoadedRadianceMap load_radiance_map(const std::filesystem::path& path);
+[[nodiscard]] MICROTRACE_EXPORT LoadedRadianceMap
+load_radiance_map(const std::filesystem::path& path);
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
@@ -115,8 +118,9 @@ struct Sidecar {
 /// display window. The file appears whole or not at all. "-" is standard output, and takes PPM. A
 /// sidecar is written whole before either file takes its place. Throws Error: usage where the
 /// format lacks what the film has.
-void save_image(const Film& film, const std::filesystem::path& path,
-                PpmEncoding ppm = PpmEncoding::binary, const Sidecar* sidecar = nullptr);
+MICROTRACE_EXPORT void save_image(const Film& film, const std::filesystem::path& path,
+                                  PpmEncoding ppm = PpmEncoding::binary,
+                                  const Sidecar* sidecar = nullptr);
 
 /// What a film has beside colours.
 struct FilmContents {
@@ -126,16 +130,19 @@ struct FilmContents {
 
 /// Throws the Error that save_image would throw at once for this path and such a film, and writes
 /// nothing: to be asked before a long rendering.
-void check_image_path(const std::filesystem::path& path, const FilmContents& contents = {});
+MICROTRACE_EXPORT void check_image_path(const std::filesystem::path& path,
+                                        const FilmContents& contents = {});
 
 /// The same for a sidecar's path beside that of its picture.
-void check_sidecar_path(const std::filesystem::path& path, const std::filesystem::path& picture);
+MICROTRACE_EXPORT void check_sidecar_path(const std::filesystem::path& path,
+                                          const std::filesystem::path& picture);
 
 /// Removes the temporary files of pictures being saved. Safe in a signal handler that then ends the
 /// process.
-void remove_unfinished_files() noexcept;
+MICROTRACE_EXPORT void remove_unfinished_files() noexcept;
 
 /// The bytes of a PPM file. Throws Error (usage) for a film with alpha.
-[[nodiscard]] std::string encode_ppm(const Film& film, PpmEncoding ppm = PpmEncoding::binary);
+[[nodiscard]] MICROTRACE_EXPORT std::string encode_ppm(const Film& film,
+                                                       PpmEncoding ppm = PpmEncoding::binary);
 
 }  // namespace microtrace

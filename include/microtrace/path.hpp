@@ -1,6 +1,7 @@
 #pragma once
 /// Pictures with light.
 
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/tone_map.hpp>
@@ -27,7 +28,7 @@ struct PathOptions {
 /// Light by path tracing (J. Kajiya, The rendering equation, 1986): the scene's lights, its
 /// environment, and what shines, scattered by the surfaces' materials as glTF 2.0's appendix B has
 /// them. The mean over the samples is the radiance but for what paths longer than max_depth bring.
-class PathIntegrator final : public Integrator {
+class MICROTRACE_EXPORT PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const PathOptions& options = {});
   ~PathIntegrator() override;
@@ -41,7 +42,7 @@ class PathIntegrator final : public Integrator {
   }
 
  private:
-  class Waves;
+  class MICROTRACE_HIDDEN Waves;
   PathOptions options_;
   std::unique_ptr<Waves> waves_;
 };

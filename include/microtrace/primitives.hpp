@@ -1,6 +1,7 @@
 #pragma once
 /// From a PrimitiveId to the shape that bears it.
 
+#include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/scene.hpp>
 
@@ -18,7 +19,7 @@ namespace microtrace {
 }
 
 /// All primitives of a scene by number. The scene must outlive this and stay as it is.
-class Primitives {
+class MICROTRACE_EXPORT Primitives {
  public:
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
   explicit Primitives(const Scene& scene);

@@ -3,6 +3,7 @@
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/render_cache.hpp>
@@ -95,7 +96,7 @@ struct RenderOptions {
 /// Throws Error: usage where samples, passes, crop or aovs are not as above, an integrator of data
 /// is asked for more than one sample, or one that is not random for passes; limit where memory or
 /// primitive numbers run out.
-[[nodiscard]] Film render(const Scene& scene, const Camera& camera, ImageSize size,
-                          const RenderOptions& options = {});
+[[nodiscard]] MICROTRACE_EXPORT Film render(const Scene& scene, const Camera& camera,
+                                            ImageSize size, const RenderOptions& options = {});
 
 }  // namespace microtrace

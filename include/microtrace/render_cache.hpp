@@ -1,4 +1,6 @@
 #pragma once
+#include <microtrace/export.hpp>
+
 #include <memory>
 
 namespace microtrace {
@@ -9,7 +11,7 @@ struct Environment;
 /// What pictures have in common, kept from one to the next: the tables by which the map of their
 /// environment is sampled, as long as the map is the same object. Has no influence on pictures. One
 /// rendering at a time uses it.
-class RenderCache {
+class MICROTRACE_EXPORT RenderCache {
  public:
   RenderCache();
   ~RenderCache();

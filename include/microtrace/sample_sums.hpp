@@ -2,6 +2,7 @@
 /// What is known of a picture whose samples come in parts: from several passes over it, several
 /// runs of the program, several machines.
 
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/fixed_sum.hpp>
 #include <microtrace/math.hpp>
@@ -18,7 +19,7 @@ inline constexpr double kMaxSampleLight = 0x1p46;
 
 /// The samples of one pixel together. Sums are exact on multiples of 2^-64 (alpha 2^-46, squares
 /// 2^-80), so that the same samples give the same bits in any order and grouping.
-struct PixelSum {
+struct MICROTRACE_EXPORT PixelSum {
   std::array<FixedSum<2, 64>, 3> color{};
   FixedSum<1, 46> alpha{};
   FixedSum<3, 80> square{};  ///< of the luminance that is shown
@@ -49,7 +50,7 @@ struct SampleRange {
 };
 
 /// The sums of a part of a picture.
-class SampleSums {
+class MICROTRACE_EXPORT SampleSums {
  public:
   SampleSums() = default;
   /// No samples yet of the pixels of `window`. Throws std::bad_alloc.
@@ -89,6 +90,6 @@ class SampleSums {
 };
 
 /// The picture of the samples that are there, with alpha or over the background.
-[[nodiscard]] Film develop(const SampleSums& sums, Film::Alpha alpha);
+[[nodiscard]] MICROTRACE_EXPORT Film develop(const SampleSums& sums, Film::Alpha alpha);
 
 }  // namespace microtrace

@@ -2,6 +2,8 @@
 /// Quantities of the samples that pixels of random integrators are made of, as channels beside the
 /// colours. Unlike those of aov.hpp they are means, over the same filter as the colours.
 
+#include <microtrace/export.hpp>
+
 #include <array>
 #include <optional>
 #include <string_view>
@@ -22,7 +24,7 @@ inline constexpr std::array kSampledAovs = {SampledAov::variance, SampledAov::sa
                                             SampledAov::denoise_albedo, SampledAov::denoise_normal};
 
 /// As above; on the command line, and before the dot in the names of channels.
-[[nodiscard]] std::string_view name_of(SampledAov aov);
-[[nodiscard]] std::optional<SampledAov> sampled_aov_named(std::string_view name);
+[[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(SampledAov aov);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<SampledAov> sampled_aov_named(std::string_view name);
 
 }  // namespace microtrace

@@ -3,6 +3,7 @@
 
 #include <microtrace/camera.hpp>
 #include <microtrace/environment.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/light.hpp>
 #include <microtrace/material.hpp>
@@ -51,9 +52,10 @@ struct Scene {
 };
 
 /// The object's material, which lives as long as the scene.
-[[nodiscard]] const Material& material_of(const Scene& scene, const Object& object);
+[[nodiscard]] MICROTRACE_EXPORT const Material& material_of(const Scene& scene,
+                                                            const Object& object);
 
 /// How many PrimitiveIds a shape takes.
-[[nodiscard]] std::size_t primitive_count(const Shape& shape);
+[[nodiscard]] MICROTRACE_EXPORT std::size_t primitive_count(const Shape& shape);
 
 }  // namespace microtrace

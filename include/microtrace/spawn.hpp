@@ -1,6 +1,7 @@
 #pragma once
 /// Where a ray that leaves a surface begins: without an epsilon, and never on the wrong side.
 
+#include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
@@ -34,19 +35,25 @@ namespace microtrace {
 /// Nothing if the ray does not hit the surface, if the direction is zero or not finite, for a
 /// triangle without area, or if there is no such float32 point (beyond the largest number, or
 /// within a sphere not much larger than the spacing of numbers).
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Triangle& surface, const Ray& ray,
-                                               const Vec3& direction);
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Plane& surface, const Ray& ray,
-                                               const Vec3& direction);
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Disc& surface, const Ray& ray,
-                                               const Vec3& direction);
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Sphere& surface, const Ray& ray,
-                                               const Vec3& direction);
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Quadric& surface, const Ray& ray,
-                                               const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Triangle& surface,
+                                                                 const Ray& ray,
+                                                                 const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Plane& surface,
+                                                                 const Ray& ray,
+                                                                 const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Disc& surface,
+                                                                 const Ray& ray,
+                                                                 const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Sphere& surface,
+                                                                 const Ray& ray,
+                                                                 const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Quadric& surface,
+                                                                 const Ray& ray,
+                                                                 const Vec3& direction);
 
 /// The same for a primitive that the ray has hit.
-[[nodiscard]] std::optional<Vec3> spawn_origin(const Primitives& primitives, PrimitiveId id,
-                                               const Ray& ray, const Vec3& direction);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Primitives& primitives,
+                                                                 PrimitiveId id, const Ray& ray,
+                                                                 const Vec3& direction);
 
 }  // namespace microtrace

@@ -1,6 +1,8 @@
 #pragma once
 /// How light brighter than a screen is shown.
 
+#include <microtrace/export.hpp>
+
 #include <array>
 #include <optional>
 #include <string_view>
@@ -22,7 +24,7 @@ inline constexpr std::array kToneMaps = {ToneMap::none, ToneMap::khronos_pbr_neu
                                          ToneMap::agx};
 
 /// As on the command line: "khronos-pbr-neutral".
-[[nodiscard]] std::string_view name_of(ToneMap map);
-[[nodiscard]] std::optional<ToneMap> tone_map_named(std::string_view name);
+[[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(ToneMap map);
+[[nodiscard]] MICROTRACE_EXPORT std::optional<ToneMap> tone_map_named(std::string_view name);
 
 }  // namespace microtrace

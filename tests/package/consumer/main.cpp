@@ -1,4 +1,5 @@
-// A program that uses the installed library: every public header, a scene from memory, a picture.
+// A program that uses the installed library: every public header, a scene from memory, the pictures
+// that it is asked for.
 #include <microtrace/aov.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -18,7 +19,6 @@
 #include <cstdio>
 
 int main(int argc, char** argv) {
-  if (argc != 2) return 2;
   try {
     const auto [scene, warnings] = microtrace::parse_scene(R"({
       "version": 1,
@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
                                                            "memory.json", ".");
     const microtrace::Camera camera = microtrace::default_camera(scene, {9, 9});
     const microtrace::Film film = microtrace::render(scene, camera, {9, 9});
-    microtrace::save_image(film, argv[1]);
+    for (int i = 1; i < argc; ++i) microtrace::save_image(film, argv[i]);
     const microtrace::Vec3 middle = film.row(4)[4], corner = film.row(0)[0];
     const bool right =
         warnings.empty() && middle == microtrace::Vec3(1, 0, 0) && corner == microtrace::Vec3(0);

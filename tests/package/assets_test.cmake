@@ -1,0 +1,6 @@
+# A script: the scenes in the repository are those that their program makes.
+execute_process(COMMAND ${PROGRAM} ${WORK} COMMAND_ERROR_IS_FATAL ANY)
+foreach(name draco meshopt)
+  execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${WORK}/${name}.glb ${SCENES}/${name}.glb
+    COMMAND_ERROR_IS_FATAL ANY)
+endforeach()

@@ -1,0 +1,39 @@
+#!/usr/bin/env python3
+"""A shared library exports the functions and classes that its headers declare for it, and nothing else.
+
+usage: exported_test.py LIBRARY INCLUDE_FOLDER
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+listed = subprocess.run(["nm", "--dynamic", "--defined-only", "--demangle", "--format=posix", sys.argv[1]],
+                        capture_output=True, text=True, check=True).stdout
+symbols = [re.sub(r" [A-Za-z] [0-9a-f ]*$", "", line) for line in listed.splitlines()]
+
+headers = "\n".join(path.read_text() for path in Path(sys.argv[2]).rglob("*.hpp"))
+headers = re.sub(r"//.*|^#.*", "", headers, flags=re.MULTILINE)
+classes = set(re.findall(r"\b(?:class|struct)\s+MICROTRACE_EXPORT\s+(\w+)", headers))
+functions = set(re.findall(r"MICROTRACE_EXPORT\s+[^;()]*?(\w+)\(", headers)) - classes
+
+
+def is_declared(symbol):
+    symbol = re.sub(r"^(?:typeinfo name|typeinfo|vtable) for |\[abi:\w+\]", "", symbol)
+    name = re.match(r"microtrace::(\w+)(::)?", symbol)
+    if not name:
+        return False
+    # A class within a class is no part of what is exported.
+    is_nested = re.match(r"microtrace::\w+::([A-Z]\w*)::", symbol)
+    return name[1] in classes and not is_nested or not name[2] and name[1] in functions
+
+
+leaked = [symbol for symbol in symbols if not is_declared(symbol)]
+missing = [name for name in functions | classes if not any(re.search(rf"\b{name}\b", symbol) for symbol in symbols)]
+for symbol in leaked:
+    print("exported without a declaration:", symbol)
+for name in missing:
+    print("declared but not exported:", name)
+print(len(symbols), "symbols exported,", len(functions), "functions and", len(classes), "classes declared")
+sys.exit(bool(leaked or missing or not symbols))
