@@ -2,6 +2,7 @@
 /// Whether a finished picture shows anything.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/scene.hpp>
@@ -18,7 +19,8 @@ struct FilmView {
 /// Of the picture that render() made of the same; exposure and tone map are the film's. Where
 /// background alone can't be told from what is black, the scene is asked what is at the pixels'
 /// centers. Throws Error.
-[[nodiscard]] FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
-                               const RenderOptions& options);
+[[nodiscard]] MICROTRACE_EXPORT FilmView view_of(const Film& film, const Scene& scene,
+                                                 const Camera& camera,
+                                                 const RenderOptions& options);
 
 }  // namespace microtrace
