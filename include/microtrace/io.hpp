@@ -50,7 +50,8 @@ struct LoadOptions {
   /// The animation that `time` is of: its name, else its index from 0; "all": all together, where
   /// none has that name; empty: the first.
   std::string animation{};
-  /// Folders beside the scene's own in which a glTF asset's buffers and images may lie.
+  /// Folders beside the scene's own in which a glTF asset's buffers and images may lie, and to
+  /// which symbolic links of any scene's files may lead.
   std::vector<std::filesystem::path> allowed_folders{};
   LoadTimes* times = nullptr;  ///< if given, added to
 };

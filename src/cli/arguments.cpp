@@ -115,8 +115,8 @@ void add_options(CLI::App& app, Arguments& a, Texts& texts) {
                  "variant of a glTF asset's materials, by name or by number from 0");
   app.add_option(
          "--allow-path", a.load.allowed_folders,
-         "folder in which a glTF asset's files may lie beside the asset's own; may be given "
-         "more than once")
+         "folder beside the scene's own to which a glTF asset's files may lead by .., and any "
+         "scene's by symbolic links; may be given more than once")
       ->check(CLI::ExistingDirectory)
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -1,6 +1,7 @@
 #include "cli/arguments.hpp"
 #include "cli/completion.hpp"
 #include "cli/merge.hpp"
+#include "cli/outputs.hpp"
 #include "cli/picture.hpp"
 #include "cli/statistics.hpp"
 #include "cli/verdict.hpp"
@@ -8,6 +9,7 @@
 
 #include <microtrace/digest.hpp>
 #include <microtrace/framing.hpp>
+#include <microtrace/read_files.hpp>
 
 #include <algorithm>
 #include <csignal>
@@ -74,6 +76,7 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   LoadTimes times;
   LoadOptions options = load_options(arguments);
   options.times = &times;
+  const ReadFiles inputs;
   SceneFile file(arguments.scene, options);
   cli::settle(arguments, file.format());
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
@@ -104,6 +107,7 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     }
     watch.loaded(std::exchange(times, {}));
     if (arguments.validate) continue;
+    if (frame == frames.first) cli::check_frames(inputs, frames, output, sidecar);
 
     const cli::PictureFiles files{.picture = frame_path(output, frame),
                                   .sidecar = frame_path(sidecar, frame)};
@@ -123,6 +127,7 @@ void run(cli::Arguments arguments) {
   options.times = &times;
   std::optional<ReadDigest> digest;
   if (arguments.sampling.keeps_samples()) digest.emplace();
+  const ReadFiles inputs;
   SceneFile file(arguments.scene, options);
   cli::settle(arguments, file.format());
   auto [scene, warnings] = file.at(arguments.load.time);
@@ -136,10 +141,13 @@ void run(cli::Arguments arguments) {
   if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
 
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
+  cli::refuse_to_write_over(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
   cli::PictureFiles files{.picture = arguments.output, .sidecar = arguments.sidecar};
   std::optional<cli::SampleFiles> samples;
   if (arguments.sampling.keeps_samples())
     files.samples = &samples.emplace(arguments, digest->value());
+  cli::refuse_to_write_over(inputs,
+                            {{"--output", arguments.output}, {"--sidecar", arguments.sidecar}});
   RenderCache cache;
   cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log,
                     cli::progress_of(arguments));

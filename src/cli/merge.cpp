@@ -1,6 +1,7 @@
 #include "cli/merge.hpp"
 
 #include "cli/help.hpp"
+#include "cli/outputs.hpp"
 #include "cli/usage_error.hpp"
 #include "cli/written.hpp"
 
@@ -69,10 +70,12 @@ std::string missing_samples(const Checkpoint& all) {
 
 void merge_samples(const MergeArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
+  const ReadFiles inputs;
   Checkpoint all = load_checkpoint(arguments.files.front());
   check_image_path(arguments.output, {.alpha = all.has_alpha});
   for (std::size_t i = 1; i < arguments.files.size(); ++i)
     add_samples(all, load_checkpoint(arguments.files[i]), arguments.files[i]);
+  refuse_to_write_over(inputs, {{"--output", arguments.output}});
   const std::string missing = missing_samples(all);
   if (!missing.empty() && !arguments.is_partial) {
     throw Error(ErrorKind::usage, "",

@@ -1,5 +1,6 @@
 #include "cli/picture.hpp"
 
+#include "cli/outputs.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbose.hpp"
 #include "cli/written.hpp"
@@ -51,8 +52,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
   if (arguments.sampling.shard) return;
   if (arguments.sampling.is_progressive && output == "-")
     throw Error(ErrorKind::usage, "standard output", "can't be written again; name a file by -o");
-  if (checkpoint == output && !checkpoint.empty())
-    throw Error(ErrorKind::usage, output.string(), "is the checkpoint's file too; name another");
+  refuse_same_files({{"--output", output}, {"--sidecar", sidecar}, {"--checkpoint", checkpoint}});
   check_image_path(output, {.alpha = arguments.surroundings.is_transparent(),
                             .channels = !arguments.aovs.empty()});
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);

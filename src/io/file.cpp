@@ -1,11 +1,15 @@
 #include "io/file.hpp"
 
+#include "io/confined_reads.hpp"
+
 #include <microtrace/digest.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/read_files.hpp>
 
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
+#include <optional>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -15,6 +19,13 @@ namespace {
 
 /// That of the thread's last ReadDigest, or null.
 thread_local Digest* digest_of_reads = nullptr;
+/// The thread's last ReadFiles, or null.
+thread_local ReadFiles* files_read = nullptr;
+
+std::optional<FileIdentity> identity_of(const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino};
+}
 
 constexpr std::size_t chunk = std::size_t{64} * 1024;
 
@@ -63,6 +74,8 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) fail(name, "can't be read", errno);
   if (S_ISDIR(status.st_mode)) throw Error(ErrorKind::io, name, "is a directory, not a file");
+  if (const auto file = identity_of(status); file && files_read != nullptr)
+    files_read->note(*file, name);
   const std::size_t claimed =
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   if (claimed > limit) fail_too_large(name, limit);
@@ -83,10 +96,17 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
 std::string read_file(const std::filesystem::path& path, std::size_t limit,
                       const std::function<void(std::string_view)>& inspect) {
   const std::string name = path.string();
+  ConfinedReads::require(path, std::nullopt);
   const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
   if (number < 0) fail(name, "can't be opened", errno);
   const Descriptor descriptor(number);
+  ConfinedReads::require(path, number);
   return read_descriptor(descriptor.number(), name, limit, inspect);
+}
+
+void note_unread_file(const std::filesystem::path& path) {
+  if (files_read == nullptr) return;
+  if (const auto file = microtrace::identity_of(path)) files_read->note(*file, path.string());
 }
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit) {
@@ -103,6 +123,27 @@ ReadDigest::ReadDigest() : former_(io::digest_of_reads) {
 
 ReadDigest::~ReadDigest() {
   io::digest_of_reads = former_;
+}
+
+std::optional<FileIdentity> identity_of(const std::filesystem::path& path) {
+  struct stat status {};
+  const bool is_there =
+      (path == "-" ? ::fstat(STDOUT_FILENO, &status) : ::stat(path.c_str(), &status)) == 0;
+  return is_there ? io::identity_of(status) : std::nullopt;
+}
+
+ReadFiles::ReadFiles() : former_(io::files_read) {
+  io::files_read = this;
+}
+
+ReadFiles::~ReadFiles() {
+  io::files_read = former_;
+}
+
+std::optional<std::string> ReadFiles::name_of(const std::filesystem::path& path) const {
+  const std::optional<FileIdentity> file = identity_of(path);
+  const auto found = file ? names_.find(*file) : names_.end();
+  return found != names_.end() ? std::optional(found->second) : std::nullopt;
 }
 
 }  // namespace microtrace

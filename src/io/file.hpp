@@ -27,4 +27,7 @@ inline constexpr std::size_t max_file_size = std::size_t{1} << 30;
                                           std::size_t limit,
                                           const std::function<void(std::string_view)>& inspect);
 
+/// Tells ReadFiles of a file that a scene names, though it is not read.
+void note_unread_file(const std::filesystem::path& path);
+
 }  // namespace microtrace::io

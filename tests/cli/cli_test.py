@@ -437,7 +437,8 @@ class CommandLine(ProgramTest):
             for required, code in [([name], 4), ([], 0)]:
                 asset["extensionsRequired"] = required
                 (self.folder / "a.gltf").write_text(json.dumps(asset))
-                result = self.run_program("a.gltf", "-o", "-", env=environment(MICROTRACE_MODULE_PATH="/nowhere"))
+                result = self.run_program("a.gltf", "--size", "8x8", "-o", "-",
+                                          env=environment(MICROTRACE_MODULE_PATH="/nowhere"))
                 self.assertEqual(result.returncode, code, result.stderr)
                 self.assertIn(package.encode(), result.stderr)
             del holder["extensions"]

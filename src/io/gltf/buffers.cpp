@@ -57,6 +57,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     if (bin && is_bin(i, buffers[i])) {
       buffer.bytes = *bin;
     } else if (is_fallback(at)) {
+      if (buffers[i].find("uri") != nullptr) note_unread_resource(uri, folders);
       continue;
     } else if (buffers[i].find("uri") != nullptr) {
       buffer.storage = is_data_uri(uri.value->string)

@@ -1,32 +1,14 @@
 #include "io/gltf/resource.hpp"
 
 #include "base/printable.hpp"
+#include "io/confined_reads.hpp"
 #include "io/file.hpp"
 #include "io/gltf/uri.hpp"
 
-#include <algorithm>
 #include <system_error>
 #include <utility>
 
 namespace microtrace::io::gltf {
-namespace {
-
-/// By names with ".." and symbolic links resolved, as far as there are such files.
-bool lies_in_one_of(const std::vector<std::filesystem::path>& folders,
-                    const std::filesystem::path& path) {
-  std::error_code code;
-  const std::filesystem::path place = std::filesystem::weakly_canonical(path, code);
-  if (code) return false;
-  return std::ranges::any_of(folders, [&](const std::filesystem::path& allowed) {
-    const std::filesystem::path folder = std::filesystem::canonical(allowed, code);
-    if (code) return false;
-    return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first ==
-           folder.end();
-  });
-}
-
-}  // namespace
-
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
   if (!data) asset.fail(uri, "is no data URI of the form data:TYPE;base64,DATA");
@@ -44,7 +26,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   const RelativePath relative = relative_path(uri.value->string);
   const std::filesystem::path path = folders.own / relative.path;
   const bool is_allowed =
-      relative.refusal.empty() || (relative.leads_out && lies_in_one_of(folders.allowed, path));
+      relative.refusal.empty() || (relative.leads_out && lies_within(folders.allowed, path));
   if (!is_allowed) {
     asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal +
                         (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
@@ -59,10 +41,16 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
     asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
   }
   try {
+    const ConfinedReads confined(folders.own, folders.allowed);
     return read_file(path, max_bytes);
   } catch (const Error& error) {
     asset.fail(uri, file + " " + error.diagnostic().message, error.kind());
   }
+}
+
+void note_unread_resource(const Element& uri, const ResourceFolders& folders) {
+  const RelativePath relative = relative_path(uri.value->string);
+  if (relative.refusal.empty()) note_unread_file(folders.own / relative.path);
 }
 
 }  // namespace microtrace::io::gltf

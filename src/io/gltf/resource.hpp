@@ -25,4 +25,7 @@ struct ResourceFolders {
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
+/// Notes the file of a URI that is not read, lest it is written over.
+void note_unread_resource(const Element& uri, const ResourceFolders& folders);
+
 }  // namespace microtrace::io::gltf

@@ -3,6 +3,7 @@
 #include "io/image/unfinished_files.hpp"
 
 #include <microtrace/error.hpp>
+#include <microtrace/read_files.hpp>
 
 #include <cerrno>
 #include <charconv>
@@ -177,3 +178,17 @@ bool is_stream(const fs::path& target) {
 }
 
 }  // namespace microtrace::io
+
+namespace microtrace {
+
+bool are_same_target(const std::filesystem::path& a, const std::filesystem::path& b) {
+  if (const auto file = identity_of(a)) return file == identity_of(b);
+  const auto place = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path target = io::follow_links(path);
+    return std::filesystem::weakly_canonical(io::folder_of(target), ignored) / target.filename();
+  };
+  return (a == "-" || b == "-") ? a == b : place(a) == place(b);
+}
+
+}  // namespace microtrace

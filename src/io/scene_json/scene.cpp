@@ -1,5 +1,6 @@
 #include "io/scene_json/scene.hpp"
 
+#include "io/confined_reads.hpp"
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
 #include "io/scene_json/color.hpp"
@@ -153,6 +154,7 @@ void read_objects(const JsonReader& json, Palette& palette, const std::filesyste
 
 LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem::path& folder,
                             const LoadOptions& options) {
+  const ConfinedReads confined(folder, options.allowed_folders);
   const JsonReader root(document);
   root.require_object();
   require_version(root.member("version"));

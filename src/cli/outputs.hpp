@@ -1,0 +1,30 @@
+#pragma once
+/// Files to be written must be none of those that were read, and none of each other.
+
+#include "cli/arguments.hpp"
+
+#include <microtrace/read_files.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// A file to be written, and the option that names it.
+struct Output {
+  const char* option;
+  std::filesystem::path path;  ///< empty: none
+};
+
+/// Throws Error (usage) where one of the outputs would be written over a file that was read.
+void refuse_to_write_over(const ReadFiles& inputs, const std::vector<Output>& outputs);
+
+/// Throws Error (usage) where two of the outputs are one file.
+void refuse_same_files(const std::vector<Output>& outputs);
+
+/// Both, for the pictures and sidecars of all frames, whose names are patterns.
+void check_frames(const ReadFiles& inputs, const FrameRange& frames, const std::string& picture,
+                  const std::string& sidecar);
+
+}  // namespace microtrace::cli
