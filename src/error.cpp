@@ -1,3 +1,5 @@
+#include "base/printable.hpp"
+
 #include <microtrace/error.hpp>
 
 #include <utility>
@@ -15,11 +17,11 @@ Diagnostic about_file(std::string file, std::string message) {
 }  // namespace
 
 std::string Diagnostic::text() const {
-  std::string out = file;
+  std::string out = printable(file);
   if (line != 0) out += ":" + std::to_string(line) + ":" + std::to_string(column);
   if (!out.empty()) out += ": ";
-  if (!pointer.empty()) out += pointer + ": ";
-  out += message;
+  if (!pointer.empty()) out += printable(pointer) + ": ";
+  out += printable(message);
   if (!excerpt.empty()) out += "\n" + excerpt;
   return out;
 }

@@ -4,6 +4,7 @@
 #include "cli/help.hpp"
 #include "cli/option_values.hpp"
 #include "cli/usage_error.hpp"
+#include "cli/whole_numbers.hpp"
 
 #include <microtrace/render.hpp>
 
@@ -55,8 +56,8 @@ void name_values(CLI::App& app) {
       {"--progress", "KIND"},
   }};
   for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
-  for (const char* option :
-       {"--threads", "--stats", "--progress", "--strict", "--validate", "--quiet", "--verbose"}) {
+  for (const char* option : {"--threads", "--max-time", "--stats", "--progress", "--strict",
+                             "--validate", "--quiet", "--verbose"}) {
     app.get_option(option)->group("Running");
   }
 }
@@ -90,7 +91,7 @@ void add_options(CLI::App& app, Arguments& a, Texts& texts) {
                  "tracing), or a quantity as --aov has them [glTF: path, JSON: flat]");
   app.add_option("--max-depth", a.path.max_depth,
                  "the most straight parts of a path of light, 2: direct light alone [32]")
-      ->check(CLI::Range(1U, 65536U))
+      ->transform(whole_number_between(1, 65536))
       ->type_name("N");
   app.add_option_function<std::string>(
          "--backfaces",
@@ -130,7 +131,17 @@ void add_options(CLI::App& app, Arguments& a, Texts& texts) {
       ->excludes("--time");
   app.add_option("--fps", fps, "frames in a second [24]")->needs("--frames");
   app.add_option("-t,-j,--threads", a.threads, "threads [one for each processor]")
-      ->check(CLI::Range(1U, 1024U));
+      ->transform(whole_number_between(1, 1024));
+  app.add_option_function<std::string>(
+         "--max-time",
+         [&a](const std::string& text) {
+           a.max_time = parse_number("--max-time", text);
+           if (!(*a.max_time > 0))
+             throw CLI::ValidationError("--max-time", "must be above 0, is " + text);
+         },
+         "seconds after which the run ends with exit code 6 and no picture, whatever it does then; "
+         "for scenes that are not trusted [none]")
+      ->type_name("S");
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
       ->transform(CLI::Transformer(std::map<std::string, PpmEncoding>{
           {"binary", PpmEncoding::binary}, {"ascii", PpmEncoding::ascii}}));

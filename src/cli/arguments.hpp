@@ -39,6 +39,7 @@ struct Arguments {
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   Viewpoint viewpoint{};
   unsigned threads = 0;
+  std::optional<double> max_time{};  ///< seconds for the whole run
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
   Progress progress = Progress::bar;

@@ -1,6 +1,7 @@
 #include "cli/arguments_sampling.hpp"
 
 #include "cli/option_values.hpp"
+#include "cli/whole_numbers.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -20,11 +21,12 @@ namespace {
 
 /// Options that have no influence on any sample. All others must be the same where samples are put
 /// together.
-constexpr std::array<std::string_view, 24> kWithoutInfluence{
-    "SCENE",        "--output",  "--spp",        "--samples", "--aov",         "--sidecar",
-    "--allow-path", "--threads", "--ppm",        "--stats",   "--progress",    "--strict",
-    "--validate",   "--verbose", "--exposure",   "--tonemap", "--quiet",       "--time-limit",
-    "--checkpoint", "--resume",  "--save-every", "--shard",   "--progressive", "--help"};
+constexpr std::array<std::string_view, 25> kWithoutInfluence{
+    "SCENE",      "--output",     "--spp",        "--samples",     "--aov",
+    "--sidecar",  "--allow-path", "--threads",    "--ppm",         "--stats",
+    "--progress", "--strict",     "--validate",   "--verbose",     "--exposure",
+    "--tonemap",  "--quiet",      "--time-limit", "--max-time",    "--checkpoint",
+    "--resume",   "--save-every", "--shard",      "--progressive", "--help"};
 
 std::string identity_of(const CLI::App& app) {
   std::string identity;
@@ -68,7 +70,7 @@ Shard parse_shard(const std::string& text) {
 void add_sampling_options(CLI::App& app, Sampling& sampling) {
   app.add_option("--spp,--samples", sampling.samples,
                  "rays for each pixel, spread over it [with light 64, else 1, through its centre]")
-      ->check(CLI::Range(1U, kMaxSamples))
+      ->transform(whole_number_between(1, kMaxSamples))
       ->type_name("N");
   const auto set_filter = [&sampling](const std::string& name) {
     sampling.filter = name == "box" ? PixelFilter::box : PixelFilter::blackman_harris;
@@ -81,7 +83,7 @@ void add_sampling_options(CLI::App& app, Sampling& sampling) {
       ->type_name("NAME");
   app.add_option("--seed", sampling.seed,
                  "of all that is random: another number gives other noise [0]")
-      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->transform(whole_number_between(0, std::numeric_limits<std::uint32_t>::max()))
       ->type_name("N");
   app.add_option_function<std::string>(
          "--target-error",

@@ -1,8 +1,10 @@
+#include "base/printable.hpp"
 #include "cli/arguments.hpp"
 #include "cli/completion.hpp"
 #include "cli/merge.hpp"
 #include "cli/outputs.hpp"
 #include "cli/picture.hpp"
+#include "cli/signals.hpp"
 #include "cli/statistics.hpp"
 #include "cli/verdict.hpp"
 #include "float_environment.hpp"
@@ -12,25 +14,17 @@
 #include <microtrace/read_files.hpp>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <unistd.h>
 #include <utility>
 #include <variant>
 
 namespace {
 
 using namespace microtrace;
-
-// Only calls that are safe in a signal handler.
-void stop_at_once(int signal) {
-  remove_unfinished_files();
-  _exit(128 + signal);
-}
 
 /// What of surfaces the picture and its channels show.
 SurfaceDetail detail_for(const cli::Arguments& arguments) {
@@ -146,6 +140,7 @@ void run(cli::Arguments arguments) {
   std::optional<cli::SampleFiles> samples;
   if (arguments.sampling.keeps_samples())
     files.samples = &samples.emplace(arguments, digest->value());
+  if (samples) log.report(samples->warnings());
   cli::refuse_to_write_over(inputs,
                             {{"--output", arguments.output}, {"--sidecar", arguments.sidecar}});
   RenderCache cache;
@@ -166,7 +161,7 @@ int exit_code_of(const Work& work) {
     std::fprintf(stderr, "error: out of memory\n");
     return static_cast<int>(ErrorKind::limit);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "error: %s\n", error.what());
+    std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ErrorKind::internal);
   }
 }
@@ -175,11 +170,7 @@ int exit_code_of(const Work& work) {
 
 int main(int argc, char** argv) {
   const FloatEnvironment environment;
-  std::signal(SIGINT, stop_at_once);
-  std::signal(SIGTERM, stop_at_once);
-  // A closed pipe and a file size limit are errors of the write, with a message.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  cli::handle_signals();
   if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
   if (cli::is_merge(argc, argv)) {
     const cli::ParsedMerge merge = cli::parse_merge(argc, argv);
@@ -188,6 +179,7 @@ int main(int argc, char** argv) {
   }
   const cli::Parsed parsed = cli::parse_arguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
+  if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
   return exit_code_of([&] {
     const cli::Arguments& arguments = parsed.arguments;
     try {

@@ -41,6 +41,17 @@ SampleFiles::SampleFiles(const Arguments& arguments, std::uint64_t files)
     add_samples(samples_, load_checkpoint(file), file);
 }
 
+std::vector<Diagnostic> SampleFiles::warnings() const {
+  const std::uint32_t wanted = arguments_.sampling.samples;
+  const std::vector<SampleRange>& ranges = samples_.sums.ranges();
+  if (ranges.empty() || ranges.back().last <= wanted) return {};
+  Diagnostic more;
+  more.message = "the checkpoints hold samples up to number " + std::to_string(ranges.back().last) +
+                 " of each pixel, beyond the " + std::to_string(wanted) +
+                 " of --spp; the picture has all of them";
+  return {more};
+}
+
 Passes SampleFiles::passes(const Display& display) {
   samples_.display = display;
   return {.sums = &samples_.sums,

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -18,6 +19,9 @@ class SampleFiles {
   SampleFiles(const Arguments& arguments, std::uint64_t files);
   SampleFiles(const SampleFiles&) = delete;
   SampleFiles& operator=(const SampleFiles&) = delete;
+
+  /// What is odd about the samples there are.
+  [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
   /// For RenderOptions: goes on from these samples, and writes them from time to time, pictures as
   /// they are to be shown.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,7 +64,12 @@ void refuse_empty_values(const CLI::App& app) {
 }
 
 int report(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == 0) return app.exit(error);
+  if (error.get_exit_code() == 0) {
+    app.exit(error);
+    if (std::cout.flush()) return 0;
+    std::fputs("error: standard output can't be written\n", stderr);
+    return static_cast<int>(ErrorKind::io);
+  }
   const std::string message = message_of(app, error);
   std::fprintf(stderr, "error: %s\nRun %s --help for the options.\n", message.c_str(),
                app.get_name().c_str());

@@ -1,5 +1,6 @@
 #include "cli/verbose.hpp"
 
+#include "base/printable.hpp"
 #include "cli/warnings.hpp"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace microtrace::cli {
 namespace {
 
 void tell(const std::string& text) {
-  std::fprintf(stderr, "info: %s\n", text.c_str());
+  std::fprintf(stderr, "info: %s\n", printable(text).c_str());
 }
 
 std::string counted(std::size_t number, const char* what) {

@@ -1,6 +1,10 @@
 #include "cli/verdict.hpp"
 
+#include "base/printable.hpp"
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace microtrace::cli {
 namespace {
@@ -25,13 +29,16 @@ const char* word_for(ErrorKind kind) {
 }  // namespace
 
 void print_valid(const std::string& scene, std::size_t warnings) {
-  std::printf("%s: valid", scene.c_str());
+  std::printf("%s: valid", printable(scene).c_str());
   if (warnings != 0) std::printf(", %zu warning%s", warnings, warnings == 1 ? "" : "s");
   std::printf("\n");
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw Error(ErrorKind::io, "standard output",
+              std::string("can't be written: ") + std::strerror(errno) + "; make room");
 }
 
 void print_refused(const std::string& scene, ErrorKind kind) {
-  std::printf("%s: %s\n", scene.c_str(), word_for(kind));
+  std::printf("%s: %s\n", printable(scene).c_str(), word_for(kind));
 }
 
 }  // namespace microtrace::cli

@@ -1,9 +1,21 @@
 #include "simd/instruction_set.hpp"
 
+#include "base/printable.hpp"
+
+#include <microtrace/error.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 
 namespace microtrace {
+
+namespace {
+
+constexpr std::array kSets = {InstructionSet::portable, InstructionSet::avx2,
+                              InstructionSet::avx512};
+
+}  // namespace
 
 std::string_view name_of(InstructionSet set) {
   switch (set) {
@@ -34,9 +46,15 @@ std::vector<InstructionSet> available_instruction_sets() {
 InstructionSet best_instruction_set() {
   const std::vector<InstructionSet> available = available_instruction_sets();
   const char* wanted = std::getenv("MICROTRACE_ISA");
-  if (wanted == nullptr) return available.front();
-  const auto named = std::ranges::find(available, std::string_view(wanted), name_of);
-  return named != available.end() ? *named : InstructionSet::portable;
+  if (wanted == nullptr || *wanted == '\0') return available.front();
+  const auto named = std::ranges::find(kSets, std::string_view(wanted), name_of);
+  if (named == kSets.end()) {
+    throw Error(
+        ErrorKind::usage, "MICROTRACE_ISA",
+        "names no instruction set: " + in_quotes(wanted) + "; known are portable, avx2 and avx512");
+  }
+  const bool is_there = std::ranges::find(available, *named) != available.end();
+  return is_there ? *named : InstructionSet::portable;
 }
 
 }  // namespace microtrace

@@ -16,8 +16,8 @@ enum class InstructionSet { portable, avx2, avx512 };
 /// Those that this processor runs and this program has kernels for, the fastest first.
 [[nodiscard]] std::vector<InstructionSet> available_instruction_sets();
 
-/// The first of them; or the one that the environment variable MICROTRACE_ISA names, if it is among
-/// them, portable if it is not.
+/// The first of them; or the one that the environment variable MICROTRACE_ISA names, portable where
+/// this processor doesn't run that. Throws Error (usage) where it names none.
 [[nodiscard]] InstructionSet best_instruction_set();
 
 }  // namespace microtrace

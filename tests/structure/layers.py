@@ -14,7 +14,7 @@ ROOT = Path(sys.argv[1])
 # is PUBLIC below.
 MAY_INCLUDE = {
     "base": set(),
-    "simd": set(),
+    "simd": {"base"},
     "exact": {"base"},
     "scene": {"base"},
     "accel": {"base", "simd", "exact", "scene"},
