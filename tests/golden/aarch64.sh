@@ -26,6 +26,8 @@ if [[ $(cat "$folder/unpacked" 2>/dev/null) != "${packages[*]}" ]]; then
   apt-get "${apt[@]}" update
   (cd "$folder/packages" && apt-get "${apt[@]}" download "${packages[@]}")
   for package in "$folder"/packages/*.deb; do dpkg -x "$package" "$sysroot"; done
+  # Headers of one architecture, where the cross compiler looks too.
+  ln -sf aarch64-linux-gnu/jconfig.h "$sysroot/usr/include/jconfig.h"
   echo "${packages[*]}" > "$folder/unpacked"
 fi
 
