@@ -4,6 +4,7 @@
 #include <microtrace/error.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/memory.hpp>
 #include <microtrace/scene.hpp>
 
 #include <filesystem>
@@ -54,6 +55,9 @@ struct LoadOptions {
   /// which symbolic links of any scene's files may lead.
   std::vector<std::filesystem::path> allowed_folders{};
   LoadTimes* times = nullptr;  ///< if given, added to
+  /// If given, counts what is read and made; must outlive the SceneFile and its scenes. What a
+  /// scene takes is counted until its file gives another one or ends.
+  MemoryBudget* memory = nullptr;
 };
 
 /// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
@@ -100,8 +104,9 @@ struct LoadedRadianceMap {
 /// and those above kMaxRadiance that, with a warning. Throws Error: io where the file can't be read
 /// or decoded, limit for one with a side above 65536 or more than 2^27 pixels, unsupported without
 /// the module.
+/// `memory`, if given, counts the map for as long as that lives, and must outlive it.
 [[nodiscard]] MICROTRACE_EXPORT LoadedRadianceMap
-load_radiance_map(const std::filesystem::path& path);
+load_radiance_map(const std::filesystem::path& path, MemoryBudget* memory = nullptr);
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 

@@ -6,6 +6,7 @@
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/memory.hpp>
 #include <microtrace/render_cache.hpp>
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
@@ -81,6 +82,7 @@ struct RenderOptions {
   std::optional<Passes> passes{};
   RenderCounts* counts = nullptr;  ///< if given, set at the end
   RenderCache* cache = nullptr;    ///< if given, spares work that an earlier picture did
+  MemoryBudget* memory = nullptr;  ///< if given, counts what the call takes until it returns
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};

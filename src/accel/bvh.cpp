@@ -8,6 +8,7 @@
 #include "accel/spawn/quick_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/tile_judge.hpp"
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -58,6 +59,9 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
     primitives.for_each([&](PrimitiveId id, const auto&) { outside.push_back(id); });
     return;
   }
+  // At the most, while it is made, with pieces of triangles that are split.
+  constexpr std::uint64_t bytes_of_primitive = 120;
+  take_memory(primitives.count() * bytes_of_primitive, "the tree of primitives");
   tree = build_tree(primitives, {.fast = options.fast_build, .threads = options.threads});
   outside = std::move(tree.unbounded);
   has_tree = !tree.blocks.empty() || !tree.others.empty();
@@ -112,7 +116,7 @@ std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
 
 std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
   if (!exact::is_valid(ray) || after >= primitives.count()) return std::nullopt;
-  const KnownHit known(primitives, ray, after);
+  const KnownHit known(primitives, ray, after, tree.twins);
   if (!known.exists()) return std::nullopt;
   const double t_scale = kernel_t_scale(ray);
   Judge judge(primitives, ray, t_scale == 0 ? 1 : t_scale, &known);

@@ -82,7 +82,8 @@ SlowPath Judge::slow_path() {
 void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
   const auto root_of = [this](PrimitiveId which) { return exact_root(*primitives_, which, *ray_); };
   const Verdict verdict = this->verdict(id);
-  if (after_ == nullptr || after_->precedes(id, verdict)) closest.consider(id, verdict, root_of);
+  const auto next = after_ == nullptr ? std::optional(id) : after_->next(id, verdict);
+  if (next) closest.consider(*next, verdict, root_of);
 }
 
 Verdict Judge::verdict(PrimitiveId id) const {
@@ -97,8 +98,8 @@ Verdict Judge::verdict(PrimitiveId id) const {
   });
 }
 
-KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id)
-    : primitives_(&primitives), ray_(&ray), id_(id) {
+KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Twins& twins)
+    : primitives_(&primitives), ray_(&ray), id_(id), twins_(&twins) {
   const Verdict verdict = Judge(primitives, ray).verdict(id);
   exists_ = verdict.certainty == Certainty::hit;
   bounds_ = {.lo = verdict.lo, .hi = verdict.hi};
@@ -108,14 +109,15 @@ KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id)
   if (root) bounds_ = exact::enclose(*root);
 }
 
-bool KnownHit::precedes(PrimitiveId id, const Verdict& verdict) const {
-  if (id == id_) return false;
-  if (verdict.certainty == Certainty::miss || verdict.lo > bounds_.hi) return true;
-  if (verdict.certainty == Certainty::hit && verdict.hi < bounds_.lo) return false;
+std::optional<PrimitiveId> KnownHit::next(PrimitiveId id, const Verdict& verdict) const {
+  if (twins_->stands_for(id, id_)) return twins_->above(id, id_);
+  if (verdict.certainty == Certainty::miss || verdict.lo > bounds_.hi) return id;
+  if (verdict.certainty == Certainty::hit && verdict.hi < bounds_.lo) return std::nullopt;
   const std::optional<exact::Root> root = exact_root(*primitives_, id, *ray_);
-  if (!root) return true;
+  if (!root) return id;
   const auto order = *root <=> *exact_root(*primitives_, id_, *ray_);
-  return order > 0 || (order == 0 && id > id_);
+  if (order == 0) return twins_->above(id, id_);
+  return order > 0 ? std::optional(id) : std::nullopt;
 }
 
 }  // namespace microtrace

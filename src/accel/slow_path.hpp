@@ -1,6 +1,7 @@
 #pragma once
 /// The stages behind the float32 kernels: float64 filters, then exact arithmetic.
 
+#include "accel/build/twins.hpp"
 #include "accel/closest_hit.hpp"
 #include "accel/filters/filter.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -68,20 +69,21 @@ class Judge {
 /// The hit of a valid ray with a primitive, if there is one.
 class KnownHit {
  public:
-  /// Both must outlive it. id is a primitive's.
-  KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id);
+  /// All must outlive it. id is a primitive's; the twins are those of primitives that are asked.
+  KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Twins& twins);
 
   [[nodiscard]] bool exists() const { return exists_; }
   /// Around its exact t.
   [[nodiscard]] const exact::Enclosure& bounds() const { return bounds_; }
-  /// Whether the hit of primitive id, if it has one, comes later: at a larger t, or at the same one
-  /// with a larger number. The verdict is a filter's.
-  [[nodiscard]] bool precedes(PrimitiveId id, const Verdict& verdict) const;
+  /// Of primitive id and its twins the one whose hit, if they have one, is the next: id itself
+  /// where it is at a larger t, at the same one the least larger number. The verdict is a filter's.
+  [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const Verdict& verdict) const;
 
  private:
   const Primitives* primitives_;
   const Ray* ray_;
   PrimitiveId id_;
+  const Twins* twins_;
   bool exists_;
   exact::Enclosure bounds_{};
 };

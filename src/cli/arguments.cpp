@@ -56,19 +56,21 @@ void name_values(CLI::App& app) {
       {"--progress", "KIND"},
   }};
   for (const auto& [option, value] : kNames) app.get_option(option)->type_name(value);
-  for (const char* option : {"--threads", "--max-time", "--stats", "--progress", "--strict",
-                             "--validate", "--quiet", "--verbose"}) {
+  for (const char* option : {"--threads", "--max-time", "--memory-limit", "--stats", "--progress",
+                             "--strict", "--validate", "--quiet", "--verbose"}) {
     app.get_option(option)->group("Running");
   }
 }
 
 /// Values that are read when all options are known.
 struct Texts {
-  std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics;
+  std::string output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics,
+      memory_limit;
 };
 
 void add_options(CLI::App& app, Arguments& a, Texts& texts) {
-  auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics] = texts;
+  auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics,
+         memory_limit] = texts;
   app.name("microtrace");
   app.description("microtrace: renders a JSON or glTF scene, exactly and the same everywhere");
   app.footer(kFooter);
@@ -142,6 +144,11 @@ void add_options(CLI::App& app, Arguments& a, Texts& texts) {
          "seconds after which the run ends with exit code 6 and no picture, whatever it does then; "
          "for scenes that are not trusted [none]")
       ->type_name("S");
+  app.add_option(
+         "--memory-limit", memory_limit,
+         "the most memory to take, in bytes or with K, M or G as in 4G: what needs more ends "
+         "with exit 6 before it is taken [three quarters of what is free]")
+      ->type_name("BYTES");
   app.add_option("--ppm", a.ppm, "encoding of PPM files: binary (P6) or ascii (P3) [binary]")
       ->transform(CLI::Transformer(std::map<std::string, PpmEncoding>{
           {"binary", PpmEncoding::binary}, {"ascii", PpmEncoding::ascii}}));
@@ -189,8 +196,8 @@ Parsed parse_arguments(int argc, char** argv) {
   CLI::App app;
   Texts texts;
   add_options(app, a, texts);
-  const auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics] =
-      texts;
+  const auto& [output, size, crop, integrator, aovs, sidecar, time, frames, fps, statistics,
+               memory_limit] = texts;
   try {
     app.parse(argc, argv);
     refuse_empty_values(app);
@@ -200,6 +207,8 @@ Parsed parse_arguments(int argc, char** argv) {
     if (app.count("--aov") > 0) a.aovs = parse_aovs(aovs);
     finish_camera(app, a.viewpoint);
     if (app.count("--crop") > 0) a.crop = parse_crop(crop);
+    if (app.count("--memory-limit") > 0)
+      a.memory_limit = parse_bytes("--memory-limit", memory_limit);
     if (app.count("--time") > 0) a.load.time = parse_number("--time", time);
     if (app.count("--frames") > 0) a.frames = parse_frames(frames);
     if (app.count("--fps") > 0) a.frames->fps = parse_fps(fps);

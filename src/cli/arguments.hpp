@@ -40,6 +40,7 @@ struct Arguments {
   Viewpoint viewpoint{};
   unsigned threads = 0;
   std::optional<double> max_time{};  ///< seconds for the whole run
+  std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: default_memory_limit()
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
   Progress progress = Progress::bar;

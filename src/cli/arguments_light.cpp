@@ -93,12 +93,13 @@ void expose(Film& film, const Exposure& exposure) {
 }
 
 std::optional<Environment> load_environment(const Surroundings& surroundings,
-                                            std::vector<Diagnostic>& warnings) {
+                                            std::vector<Diagnostic>& warnings,
+                                            MemoryBudget& memory) {
   if (!surroundings.environment) return std::nullopt;
   Environment environment;
   const EnvironmentSource& source = *surroundings.environment;
   if (const auto* file = std::get_if<std::filesystem::path>(&source)) {
-    LoadedRadianceMap loaded = load_radiance_map(*file);
+    LoadedRadianceMap loaded = load_radiance_map(*file, &memory);
     std::move(loaded.warnings.begin(), loaded.warnings.end(), std::back_inserter(warnings));
     environment.content = std::move(loaded.map);
   } else if (const auto* radiance = std::get_if<Vec3>(&source)) {

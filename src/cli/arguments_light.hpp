@@ -6,6 +6,7 @@
 #include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
+#include <microtrace/memory.hpp>
 #include <microtrace/scene.hpp>
 
 #include <filesystem>
@@ -54,7 +55,8 @@ void expose(Film& film, const Exposure& exposure);
 /// The environment that the options name, if they do; reads its file and adds to the warnings.
 /// Throws Error.
 [[nodiscard]] std::optional<Environment> load_environment(const Surroundings& surroundings,
-                                                          std::vector<Diagnostic>& warnings);
+                                                          std::vector<Diagnostic>& warnings,
+                                                          MemoryBudget& memory);
 
 /// Gives the scene that environment, if there is one, and all else that the options ask for; those
 /// that speak of an environment where there is none mean the studio.

@@ -21,12 +21,12 @@ namespace {
 
 /// Options that have no influence on any sample. All others must be the same where samples are put
 /// together.
-constexpr std::array<std::string_view, 25> kWithoutInfluence{
-    "SCENE",      "--output",     "--spp",        "--samples",     "--aov",
-    "--sidecar",  "--allow-path", "--threads",    "--ppm",         "--stats",
-    "--progress", "--strict",     "--validate",   "--verbose",     "--exposure",
-    "--tonemap",  "--quiet",      "--time-limit", "--max-time",    "--checkpoint",
-    "--resume",   "--save-every", "--shard",      "--progressive", "--help"};
+constexpr std::array<std::string_view, 26> kWithoutInfluence{
+    "SCENE",        "--output",      "--spp",      "--samples",    "--aov",      "--sidecar",
+    "--allow-path", "--threads",     "--ppm",      "--stats",      "--progress", "--strict",
+    "--validate",   "--verbose",     "--exposure", "--tonemap",    "--quiet",    "--time-limit",
+    "--max-time",   "--checkpoint",  "--resume",   "--save-every", "--shard",    "--progressive",
+    "--help",       "--memory-limit"};
 
 std::string identity_of(const CLI::App& app) {
   std::string identity;

@@ -83,7 +83,8 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   }
   cli::Warnings log(arguments);
   std::vector<Diagnostic> light_warnings;
-  const auto environment = cli::load_environment(arguments.surroundings, light_warnings);
+  const auto environment =
+      cli::load_environment(arguments.surroundings, light_warnings, *arguments.load.memory);
   log.report(light_warnings);
   RenderCache cache;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
@@ -114,6 +115,8 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
 }
 
 void run(cli::Arguments arguments) {
+  MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
+  arguments.load.memory = &memory;
   if (arguments.frames) return run_frames(arguments, *arguments.frames);
   cli::Stopwatch watch;
   LoadTimes times;
@@ -125,7 +128,8 @@ void run(cli::Arguments arguments) {
   SceneFile file(arguments.scene, options);
   cli::settle(arguments, file.format());
   auto [scene, warnings] = file.at(arguments.load.time);
-  const auto environment = cli::load_environment(arguments.surroundings, warnings);
+  const auto environment =
+      cli::load_environment(arguments.surroundings, warnings, *arguments.load.memory);
   cli::Warnings log(arguments);
   log.report(warnings);
   cli::surround(scene, environment, arguments.surroundings);

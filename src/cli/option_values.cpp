@@ -9,6 +9,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -194,6 +195,21 @@ double parse_number(const char* option, const std::string& text) {
   if (!value || !std::isfinite(*value))
     throw CLI::ValidationError(option, "wants a number, not " + text);
   return *value;
+}
+
+std::uint64_t parse_bytes(const char* option, const std::string& text) {
+  constexpr std::string_view units = "KMG";
+  const std::size_t unit = text.empty() ? units.npos : units.find(text.back());
+  const bool has_unit = unit != units.npos;
+  const auto number =
+      read<std::uint64_t>(std::string_view(text).substr(0, text.size() - (has_unit ? 1 : 0)));
+  const std::size_t shift = has_unit ? 10 * (unit + 1) : 0;
+  if (!number || *number == 0 || *number > std::numeric_limits<std::uint64_t>::max() >> shift) {
+    throw CLI::ValidationError(
+        option,
+        "wants a number of bytes above 0, or of KiB, MiB or GiB as in 512M or 4G, not " + text);
+  }
+  return *number << shift;
 }
 
 std::vector<std::string> words_of(std::string_view option) {

@@ -39,6 +39,9 @@ struct OrbitView {
 /// A finite number
 [[nodiscard]] double parse_number(const char* option, const std::string& text);
 
+/// Bytes, above 0: a whole number, or one with K, M or G behind it for so many KiB, MiB or GiB
+[[nodiscard]] std::uint64_t parse_bytes(const char* option, const std::string& text);
+
 /// What lies behind all objects.
 struct Background {
   enum class Kind { color, transparent, environment } kind = Kind::color;

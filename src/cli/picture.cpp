@@ -76,6 +76,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .seed = arguments.sampling.seed,
       .counts = &counts,
       .cache = &cache,
+      .memory = arguments.load.memory,
       .crop = arguments.crop,
       .aovs = arguments.aovs.exact,
       .sampled_aovs = arguments.aovs.sampled,
@@ -117,7 +118,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
          .sidecar = files.sidecar},
         film.size(), counts.samples_per_pixel, watch.seconds());
   }
-  watch.report(arguments.statistics, scene, film.size(), counts, options.threads);
+  watch.report(arguments.statistics, scene, film.size(), counts, options.threads, *options.memory);
 }
 
 }  // namespace microtrace::cli

@@ -2,6 +2,7 @@
 #include "cli/arguments.hpp"
 
 #include <microtrace/io.hpp>
+#include <microtrace/memory.hpp>
 #include <microtrace/render.hpp>
 
 #include <chrono>
@@ -29,7 +30,7 @@ class Stopwatch {
 
   /// Times in seconds, rays, and memory, to standard error.
   void report(Statistics kind, const Scene& scene, ImageSize size, const RenderCounts& counts,
-              unsigned threads) const;
+              unsigned threads, const MemoryBudget& memory) const;
 
  private:
   double lap();

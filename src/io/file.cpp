@@ -1,5 +1,6 @@
 #include "io/file.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/confined_reads.hpp"
 
 #include <microtrace/digest.hpp>
@@ -51,9 +52,17 @@ class Descriptor {
   int number_;
 };
 
+Descriptor open_file(const std::filesystem::path& path, int flags) {
+  ConfinedReads::require(path, std::nullopt);
+  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | flags);
+  if (number < 0) fail(path.string(), "can't be opened", errno);
+  return Descriptor(number);
+}
+
 /// Reads until `bytes` holds `wanted` or the file ends; true at its end.
 bool fill(int descriptor, const std::string& name, std::string& bytes, std::size_t wanted) {
   std::size_t have = bytes.size();
+  take_memory(wanted - have, "the bytes of " + name);
   bytes.resize(wanted);
   bool ended = false;
   while (have < wanted && !ended) {
@@ -95,13 +104,9 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
 
 std::string read_file(const std::filesystem::path& path, std::size_t limit,
                       const std::function<void(std::string_view)>& inspect) {
-  const std::string name = path.string();
-  ConfinedReads::require(path, std::nullopt);
-  const int number = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY);
-  if (number < 0) fail(name, "can't be opened", errno);
-  const Descriptor descriptor(number);
-  ConfinedReads::require(path, number);
-  return read_descriptor(descriptor.number(), name, limit, inspect);
+  const Descriptor descriptor = open_file(path, 0);
+  ConfinedReads::require(path, descriptor.number());
+  return read_descriptor(descriptor.number(), path.string(), limit, inspect);
 }
 
 void note_unread_file(const std::filesystem::path& path) {
@@ -109,8 +114,16 @@ void note_unread_file(const std::filesystem::path& path) {
   if (const auto file = microtrace::identity_of(path)) files_read->note(*file, path.string());
 }
 
-std::string read_file(const std::filesystem::path& path, std::size_t limit) {
-  return read_file(path, limit, {});
+std::string read_regular_file(const std::filesystem::path& path, std::size_t limit) {
+  const std::string name = path.string();
+  // Opening a pipe would wait for its writer.
+  const Descriptor descriptor = open_file(path, O_NONBLOCK);
+  ConfinedReads::require(path, descriptor.number());
+  struct stat status {};
+  if (::fstat(descriptor.number(), &status) != 0) fail(name, "can't be read", errno);
+  if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+    throw Error(ErrorKind::io, name, "is not a regular file");
+  return read_descriptor(descriptor.number(), name, limit, {});
 }
 
 }  // namespace microtrace::io

@@ -1,3 +1,4 @@
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <unistd.h>
 #include <utility>
 #include <variant>
@@ -85,17 +87,17 @@ LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOption
 }  // namespace
 
 struct SceneFile::Content {
-  Content(std::string read_bytes, const std::filesystem::path& path, const std::string& name,
-          LoadOptions wanted)
-      : bytes(std::move(read_bytes)),
-        folder(path.parent_path()),
+  Content(const std::filesystem::path& path, LoadOptions wanted)
+      : folder(path.parent_path()),
         options(std::move(wanted)),
-        reader(open(bytes, lower_case_ending(path), name, folder, options)) {}
+        memory(options.memory),
+        memory_of_scene(options.memory) {}
 
-  std::string bytes;
   std::filesystem::path folder;
   LoadOptions options;
-  Reader reader;
+  MemoryAccount memory, memory_of_scene;
+  std::string bytes{};
+  std::optional<Reader> reader{};
 };
 
 SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
@@ -107,27 +109,32 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
     refuse_foreign_format(ending, first, name);
     if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
   };
-  io::LoadClock clock(options.times);
-  std::string bytes = standard_input
-                          ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
-                          : io::read_file(path, io::max_file_size, inspect);
+  content_ = std::make_unique<Content>(path, std::move(options));
+  Content& content = *content_;
+  const MemoryScope scope(content.memory);
+  io::LoadClock clock(content.options.times);
+  content.bytes = standard_input
+                      ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
+                      : io::read_file(path, io::max_file_size, inspect);
   clock.lap(&LoadTimes::read);
-  content_ = std::make_unique<Content>(std::move(bytes), path, name, std::move(options));
+  content.reader.emplace(open(content.bytes, ending, name, content.folder, content.options));
 }
 SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&& other) noexcept = default;
 SceneFile& SceneFile::operator=(SceneFile&& other) noexcept = default;
 
 SceneFormat SceneFile::format() const {
-  return std::holds_alternative<io::GltfFile>(content_->reader) ? SceneFormat::gltf
-                                                                : SceneFormat::json;
+  return std::holds_alternative<io::GltfFile>(*content_->reader) ? SceneFormat::gltf
+                                                                 : SceneFormat::json;
 }
 
 LoadedScene SceneFile::at(std::optional<double> time) {
   const FloatEnvironment environment;
   LoadOptions options = content_->options;
   options.time = time;
-  return read(content_->reader, content_->folder, options);
+  content_->memory_of_scene.clear();
+  const MemoryScope scope(content_->memory_of_scene);
+  return read(*content_->reader, content_->folder, options);
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& options) {
@@ -137,6 +144,8 @@ LoadedScene load_scene(const std::filesystem::path& path, const LoadOptions& opt
 LoadedScene parse_scene(std::string_view bytes, const std::string& name,
                         const std::filesystem::path& folder, const LoadOptions& options) {
   const FloatEnvironment environment;
+  MemoryAccount memory(options.memory);
+  const MemoryScope scope(memory);
   Reader reader = open(bytes, "", name, folder, options);
   return read(reader, folder, options);
 }

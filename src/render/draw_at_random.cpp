@@ -1,5 +1,6 @@
 #include "render/draw_at_random.hpp"
 
+#include "base/memory_account.hpp"
 #include "render/film_pixel.hpp"
 #include "render/passes.hpp"
 #include "render/random_painter.hpp"
@@ -20,6 +21,9 @@ namespace {
 void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
              const Vec3& background) {
   if (sums.pixels.empty()) {
+    const ImageSize size = drawing.window.size();
+    take_memory(std::uint64_t{size.width} * size.height * sizeof(PixelSum),
+                "the samples of pixels");
     try {
       sums = SampleSums(whole, drawing.window, background);
     } catch (const std::bad_alloc&) {

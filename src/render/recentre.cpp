@@ -1,5 +1,7 @@
 #include "render/recentre.hpp"
 
+#include "base/memory_account.hpp"
+#include "scene/mesh_memory.hpp"
 #include "scene/way_to_origin.hpp"
 
 #include <algorithm>
@@ -47,6 +49,7 @@ std::optional<PlacedScene> recentred(const Scene& scene, const Camera& camera) {
   const DVec3 way = way_to_origin(bounds);
   if (way == DVec3(0)) return std::nullopt;
 
+  take_memory(memory_of(scene), "the scene next to the origin");
   PlacedScene moved{.scene = scene, .camera = camera};
   bool is_exact = true;
   for_each_point_of_shapes(moved.scene, [&](Vec3& p) {

@@ -1,3 +1,4 @@
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "render/aov_painter.hpp"
 #include "render/draw_at_random.hpp"
@@ -7,6 +8,7 @@
 #include "render/surfaces.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
+#include "scene/mesh_memory.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/error.hpp>
@@ -34,8 +36,16 @@ double seconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha) {
+/// Numbers of 32 bits that a film has for each pixel, with the channels beside its colours.
+std::uint64_t numbers_of_pixel(const RenderOptions& options) {
+  constexpr std::uint64_t most_of_aov = 4;
+  return 4 + most_of_aov * (options.aovs.size() + options.sampled_aovs.size());
+}
+
+Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha, std::uint64_t numbers) {
   const ImageSize size = window.size();
+  take_memory(std::uint64_t{size.width} * size.height * numbers * sizeof(float),
+              "the pixels of the picture");
   try {
     Film film(size, alpha);
     film.whole = whole;
@@ -103,6 +113,7 @@ Film render_recentred(const PlacedScene& near, const Scene& scene, const Camera&
   exact.threads = options.threads;
   exact.crop = options.crop;
   exact.aovs = options.aovs;
+  exact.memory = options.memory;
   Film channels = render(scene, camera, size, exact);
   film.channels.insert(film.channels.begin(), std::move_iterator(channels.channels.begin()),
                        std::move_iterator(channels.channels.end()));
@@ -114,7 +125,10 @@ Film render_recentred(const PlacedScene& near, const Scene& scene, const Camera&
 Film render(const Scene& scene, const Camera& camera, ImageSize size,
             const RenderOptions& options) {
   const FloatEnvironment environment;
+  MemoryAccount memory(options.memory);
+  const MemoryScope scope(memory);
   if (has_segments(scene)) {
+    take_memory(memory_of(scene), "points and lines as triangles");
     Scene widened = scene;
     widen_segments(widened, camera, size);
     return render(widened, camera, size, options);
@@ -133,7 +147,8 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
   const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
-  const Surfaces surfaces(scene, bvh.primitives(), rays, samples);
+  TexturePyramids pyramids(scene);
+  const Surfaces surfaces(scene, bvh.primitives(), rays, samples, pyramids);
   World world{.scene = scene,
               .bvh = bvh,
               .surfaces = surfaces,
@@ -143,11 +158,12 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   std::optional<Shading> shading;
   std::optional<Lighting> lighting;
   if (integrator.is_random()) {
-    world.shading = &shading.emplace(scene, bvh.primitives());
+    world.shading = &shading.emplace(scene, bvh.primitives(), pyramids);
     world.lighting = &lighting.emplace(scene, *shading, options.cache);
   }
   Film film =
-      make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none);
+      make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none,
+                numbers_of_pixel(options));
   // What is exact has nothing to do with samples.
   const Surfaces exact_surfaces(surfaces, 1);
   const World exact_world{.scene = scene, .bvh = bvh, .surfaces = exact_surfaces, .camera = rays};

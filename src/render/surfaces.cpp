@@ -23,7 +23,7 @@ Surfaces::Surfaces(const Surfaces& other, std::uint32_t samples) : Surfaces(othe
 }
 
 Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
-                   std::uint32_t samples)
+                   std::uint32_t samples, TexturePyramids& pyramids)
     : scene_(scene),
       primitives_(primitives),
       camera_(camera),
@@ -33,7 +33,9 @@ Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const RayGe
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
     const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (material.base_color_texture) make_map(material.base_color_texture->texture);
+    if (material.base_color_texture) {
+      make_map(material.base_color_texture->texture, pyramids);
+    }
     Entry entry{.color = Vec3(material.base_color), .kind = Kind::plain};
     if (material.alpha_mode != AlphaMode::opaque || material.base_color_texture ||
         (mesh != nullptr && !mesh->colors.empty())) {
@@ -55,11 +57,11 @@ bool Surfaces::is_front(const Ray& ray, const Hit& hit) const {
   });
 }
 
-void Surfaces::make_map(std::uint32_t index) {
+void Surfaces::make_map(std::uint32_t index, TexturePyramids& pyramids) {
   const Texture& texture = scene_.textures[index];
   std::optional<TextureMap>& map = (*colors_)[index];
   if (map || !texture.image || !scene_.images[*texture.image]) return;
-  map.emplace(*scene_.images[*texture.image], texture.sampler, ColorEncoding::srgb);
+  map.emplace(pyramids.of(*texture.image, ColorEncoding::srgb), texture.sampler);
 }
 
 DVec4 Surfaces::texel(const TextureUse& use, const Ray& ray, const SurfaceInteraction& at) const {

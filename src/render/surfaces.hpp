@@ -27,7 +27,7 @@ class Surfaces {
   /// All must outlive this. Images are filtered for rays of that camera, of which each pixel has
   /// so many.
   Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
-           std::uint32_t samples);
+           std::uint32_t samples, TexturePyramids& pyramids);
 
   /// The same for another number of samples.
   Surfaces(const Surfaces& other, std::uint32_t samples);
@@ -61,7 +61,7 @@ class Surfaces {
     Kind kind;
   };
 
-  void make_map(std::uint32_t index);
+  void make_map(std::uint32_t index, TexturePyramids& pyramids);
   [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
   [[nodiscard]] DVec4 texel(const TextureUse& use, const Ray& ray,
                             const SurfaceInteraction& at) const;

@@ -1,13 +1,15 @@
 #pragma once
 /// Looking up images.
 
+#include "render/texture_pyramid.hpp"
+
 #include <microtrace/math.hpp>
 #include <microtrace/texture.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 namespace microtrace {
 
@@ -20,8 +22,10 @@ struct TextureFootprint {
 /// from colour.
 class TextureMap {
  public:
-  /// The image must outlive this. Makes mip maps if the sampler asks for them: each pixel the mean
-  /// of the part of the finer image that it covers, stored in 16 bits.
+  /// Has the pyramid make its mip maps if the sampler asks for them.
+  TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler);
+
+  /// With a pyramid of its own. The image must outlive this.
   TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding);
 
   /// The colour at uv, of which (0, 0) is the upper left corner of the image and (1, 1) the lower
@@ -57,27 +61,17 @@ class TextureMap {
   static constexpr int kMaxProbes = 8;
 
  private:
-  /// A mip map: linear light, four channels.
-  struct Level {
-    std::uint32_t width, height;
-    std::vector<std::uint16_t> samples{};
-  };
-
   [[nodiscard]] std::size_t level_count() const { return levels_.size() + 1; }
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
-  [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
-  [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
   /// At a footprint of so many pixels of the image, above 1.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
-  void make_levels();
-  /// Fills a level of half the width and height of the finer one, both even.
-  void halve(std::size_t finer, Level& level) const;
 
+  std::shared_ptr<const TexturePyramid> pyramid_;
   const Image& image_;
   Sampler sampler_;
-  std::span<const float> color_table_, alpha_table_;  // linear light of the image's numbers
-  std::vector<Level> levels_;                         // from the second on
+  std::span<const float> color_table_, alpha_table_;  // the pyramid's
+  std::span<const TexturePyramid::Level> levels_;     // those the sampler asks for
   const void* image_samples_;                         // of the image, 8 or 16 bits each
   bool is_wide_;
 };

@@ -73,6 +73,20 @@ TEST_F(File, ReadsAPipe) {
   writer.join();
 }
 
+TEST_F(File, ThatAnotherNamesIsRegular) {
+  EXPECT_EQ(read_regular_file(write("12345"), 10), "12345");
+  const std::filesystem::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::filesystem::path& path : {pipe, std::filesystem::path("/dev/zero"), folder_}) {
+    try {
+      (void)read_regular_file(path, 10);
+      ADD_FAILURE() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io) << path;
+    }
+  }
+}
+
 TEST_F(File, LetsTheCallerJudgeTheFirstBytes) {
   const std::filesystem::path path = write(std::string(1'000'000, 'x'));
   std::size_t seen = 0;

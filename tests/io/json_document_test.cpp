@@ -184,6 +184,42 @@ TEST(JsonDocument, ManyKeysTakeNoQuadraticTime) {
   EXPECT_THAT(error_of(text + "\"k7\":1}").what(), HasSubstr("\"k7\" stands twice"));
 }
 
+TEST(JsonDocument, FindsKeysAmongMany) {
+  std::string text = "{";
+  for (int i = 0; i < 1000; ++i) {
+    text.append("\"k").append(std::to_string(i * 7919 % 1000)).append("\":");
+    text.append(std::to_string(i)).append(",");
+  }
+  text += "\"\":-1}";
+  const JsonDocument document(text, "s.json");
+  for (int i = 0; i < 1000; ++i) {
+    const JsonValue* found = document.root().find("k" + std::to_string(i * 7919 % 1000));
+    ASSERT_NE(found, nullptr);
+    EXPECT_EQ(found->number, i);
+  }
+  EXPECT_EQ(document.root().find("")->number, -1);
+  EXPECT_EQ(document.root().find("k"), nullptr);
+  EXPECT_EQ(document.root().find("k1000"), nullptr);
+  EXPECT_EQ(document.root().find("z"), nullptr);
+}
+
+TEST(JsonDocument, TellsTheFirstKeyThatALaterOneOutdoes) {
+  const std::string text =
+      R"({"x": {"a": 0, "b": 1, "a": 2, "a": 3}, "y": 0, "z": {"c": 1, "c": 2}})";
+  const JsonDocument inner(text, "s.json", max_json_values, RepeatedKeys::last_counts);
+  EXPECT_EQ(inner.outdone_keys().count, 3U);
+  EXPECT_EQ(inner.outdone_keys().pointer, "/x/a");
+  EXPECT_EQ(inner.outdone_keys().offset, text.find("\"a\""));
+  EXPECT_EQ(inner.root().find("x")->members.size(), 2U);
+  EXPECT_EQ(inner.root().find("x")->find("a")->number, 3);
+  const JsonDocument outer(R"({"y": 1, "x": {"a": 0, "a": 1}, "y": 2})", "s.json", max_json_values,
+                           RepeatedKeys::last_counts);
+  EXPECT_EQ(outer.outdone_keys().count, 2U);
+  EXPECT_EQ(outer.outdone_keys().pointer, "/y");
+  const JsonDocument none(R"({"y": 1})", "s.json", max_json_values, RepeatedKeys::last_counts);
+  EXPECT_EQ(none.outdone_keys().count, 0U);
+}
+
 TEST(JsonDocument, ShowsTheLineWithACaret) {
   EXPECT_STREQ(error_of("{\n\t\"a\":\t1 2\n}").what(),
                "s.json:2:9: expected ',' or '}', found \"2\"\n"

@@ -108,6 +108,36 @@ TEST_P(Next, TellsLayersApartThatFloatsDoNot) {
   }
 }
 
+// Triangles that begin at another corner, turn the other way, and stand among others of one t.
+TEST_P(Next, FindsTrianglesThatAreTheSame) {
+  Random random(23);
+  std::size_t twins = 0;
+  for (int round = 0; round < 8; ++round) {
+    Scene scene = random_scene(random);
+    const auto place = [&] {
+      return random.between(0, static_cast<int>(scene.objects.size()) - 1);
+    };
+    for (int copy = 0; copy < 40; ++copy) {
+      Object object = scene.objects[static_cast<std::size_t>(place())];
+      if (auto* t = std::get_if<Triangle>(&object.shape)) {
+        if (copy % 2 == 0) *t = {t->b, t->c, t->a};
+        if (copy % 3 == 0) std::swap(t->a, t->b);
+      }
+      scene.objects.insert(scene.objects.begin() + place(), object);
+    }
+    const Bvh bvh(scene);
+    for (int i = 0; i < 12; ++i) {
+      const Ray ray = random_ray(random, scene, origin(random, scene));
+      const std::vector<Hit> expected = by_definition(bvh.primitives(), ray);
+      ASSERT_TRUE(same(one_after_another(bvh, ray), expected))
+          << "scene " << round << ", ray " << i;
+      for (std::size_t k = 1; k < expected.size(); ++k)
+        twins += expected[k].t == expected[k - 1].t ? 1 : 0;
+    }
+  }
+  EXPECT_GT(twins, 1000U);
+}
+
 TEST_P(Next, FollowsNothingThatIsNotHit) {
   Scene scene;
   for (int i = 0; i < 40; ++i)

@@ -199,7 +199,8 @@ TEST(ExtremeLights, SamplesAreFinite) {
     Extremes random(seed);
     const Scene scene = scene_of(random);
     const Bvh bvh(scene, {.threads = 1});
-    const Shading shading(scene, bvh.primitives());
+    TexturePyramids pyramids(scene);
+    const Shading shading(scene, bvh.primitives(), pyramids);
     const Lighting lighting(scene, shading);
     for (int i = 0; i < 30; ++i) {
       const Receiver receiver{.p = random.place(), .n = random.direction()};

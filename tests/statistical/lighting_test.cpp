@@ -77,7 +77,8 @@ class Lamps : public testing::TestWithParam<bool> {};
 TEST_P(Lamps, SamplesHaveTheirDensity) {
   const Scene scene = lamps(GetParam());
   const Bvh bvh(scene, {.threads = 1});
-  const Shading shading(scene, bvh.primitives());
+  TexturePyramids pyramids(scene);
+  const Shading shading(scene, bvh.primitives(), pyramids);
   const Lighting lighting(scene, shading);
   for (const Receiver& receiver : {Receiver{.p = {0, 0, 0}, .n = {0, 1, 0}},
                                    Receiver{.p = {0.5F, -0.9F, 0.25F}, .n = {0.6F, 0.8F, 0}}}) {
@@ -127,7 +128,8 @@ TEST(Lighting, PointsOfALampAreSpreadEvenly) {
       {.name = "lamp", .shape = parallelogram({0, 2, 0}, {2, 0, 0}, {1, 0, 3}), .material = 0});
   scene.environment = Environment{.content = Vec3(0)};
   const Bvh bvh(scene, {.threads = 1});
-  const Shading shading(scene, bvh.primitives());
+  TexturePyramids pyramids(scene);
+  const Shading shading(scene, bvh.primitives(), pyramids);
   const Lighting lighting(scene, shading);
   const Receiver receiver{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
   std::mt19937 random(2);

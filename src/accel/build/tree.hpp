@@ -3,6 +3,7 @@
 /// heuristic.
 
 #include "accel/build/page_allocator.hpp"
+#include "accel/build/twins.hpp"
 #include "accel/layout.hpp"
 
 #include <microtrace/primitives.hpp>
@@ -26,13 +27,14 @@ struct Bounds {
 /// No path from the root visits more nodes than this.
 inline constexpr int kMaxDepth = 64;
 
-/// Every primitive that a ray can hit is in a leaf or in `unbounded`. Those that are empty by
-/// definition are nowhere.
+/// Every primitive that a ray can hit is in a leaf, in `unbounded` or among the twins of one in a
+/// leaf. Those that are empty by definition are nowhere.
 struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
   std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
   std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and what leaves the float32 range
+  Twins twins;                         ///< those that others stand for
   ChildRef root = 0;                   ///< a node without children if there is no leaf
   Bounds bounds;                       ///< of all leaves
 };

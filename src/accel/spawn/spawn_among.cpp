@@ -31,7 +31,7 @@ class Neighbours {
  public:
   Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, bool goes_back)
       : primitives_(primitives), ray_(ray), id_(id), witness_(goes_back ? -ray.d : ray.d) {
-    const exact::Enclosure t = KnownHit(primitives, ray, id).bounds();
+    const exact::Enclosure t = KnownHit(primitives, ray, id, Twins()).bounds();
     const double middle = (t.lo + t.hi) / 2;
     const DVec3 o(ray.o), d(ray.d);
     point_ = o + middle * d;

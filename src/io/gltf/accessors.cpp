@@ -1,5 +1,7 @@
 #include "io/gltf/accessors.hpp"
 
+#include "base/memory_account.hpp"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -208,6 +210,7 @@ template <typename Element>
 std::vector<Element> AccessorReader::read(int accessor) {
   const Source from = source(accessor);
   const Decoder<Element> decode_all = decoder<Element>(from.accessor);
+  take_memory(from.accessor.count * sizeof(Element), "the elements of accessors");
   std::vector<Element> result(from.accessor.count, Element(0));
   if (!from.bytes.empty()) decode_all(from.bytes.data(), from.stride, nullptr, result);
   for (std::size_t i = 0; i < from.sparse_count; ++i) {
@@ -221,6 +224,7 @@ template <typename Element>
 std::vector<Element> AccessorReader::read(int accessor, std::span<const std::uint32_t> numbers) {
   const Source from = source(accessor);
   const Decoder<Element> decode_some = decoder<Element>(from.accessor);
+  take_memory(numbers.size() * sizeof(Element), "the elements of accessors");
   std::vector<Element> result(numbers.size(), Element(0));
   if (!from.bytes.empty()) {
     // As many different numbers as there are elements are all of them.

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -240,6 +241,7 @@ class AnimationPlayer::Reader {
 
   Numbers times(const Element& input) {
     Numbers result = numbers(input);
+    if (!ascending_.insert(accessor_of(input)).second) return result;
     for (std::size_t i = 0; i < result->size(); ++i) {
       const float before = i == 0 ? 0 : (*result)[i - 1], time = (*result)[i];
       // Written so that no NaN passes.
@@ -274,6 +276,7 @@ class AnimationPlayer::Reader {
   const tinygltf::Model& model_;
   AccessorReader& reader_;
   std::unordered_map<int, Numbers> numbers_;  // by accessor
+  std::unordered_set<int> ascending_;         // accessors that were looked at
   std::size_t count_ = 0;                     // of them all
 };
 

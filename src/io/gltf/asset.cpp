@@ -16,11 +16,13 @@ Element Element::item(std::size_t index) const {
 }
 
 Asset::Asset(JsonDocument& json) : json_(json) {
-  for (const auto& [offset, pointer] : json.repeated_keys()) {
+  if (const OutdoneKeys& outdone = json.outdone_keys(); outdone.count > 0) {
     JsonValue key;
-    key.offset = offset;
-    warn({&key, pointer}, "stands twice in its object; the last one counts");
+    key.offset = outdone.offset;
+    warn({&key, outdone.pointer}, "stands twice in its object; the last one counts", outdone.count);
   }
+  for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string);
+  for (const JsonValue& item : array("extensionsRequired")) required_.insert(item.string);
 }
 
 const std::vector<JsonValue>& Asset::array(std::string_view name) const {
@@ -52,33 +54,35 @@ const JsonValue* Asset::find(std::string_view pointer) const {
 }
 
 bool Asset::uses(std::string_view extension) const {
-  return std::ranges::any_of(array("extensionsUsed"), [extension](const JsonValue& item) {
-    return item.string == extension;
-  });
+  return used_.contains(extension);
 }
 
 bool Asset::requires_extension(std::string_view extension) const {
-  return std::ranges::any_of(array("extensionsRequired"), [extension](const JsonValue& item) {
-    return item.string == extension;
-  });
+  return required_.contains(extension);
 }
 
-void Asset::drop(const Element& object, std::string_view key) {
+void Asset::drop(const Element& object, const std::unordered_set<std::string_view>& keys) {
   // Elements let their holders read; the document itself is the asset's to change.
-  auto& members = const_cast<JsonValue*>(object.value)->members;
-  std::erase_if(members, [key](const JsonMember& member) { return member.key == key; });
+  auto& value = const_cast<JsonValue&>(*object.value);
+  std::vector<JsonMember> left;
+  for (JsonMember& member : value.members) {
+    if (!keys.contains(member.key)) left.push_back(std::move(member));
+  }
+  value.members = std::move(left);
+  value.index_members();
 }
 
 void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
   throw Error(kind, json_.at(at.value->offset, at.pointer, std::move(message)));
 }
 
-void Asset::warn(const Element& at, const std::string& message) {
+void Asset::warn(const Element& at, const std::string& message, std::size_t places) {
   Warning& warning = warnings_[message];
-  if (warning.count++ == 0 || at.value->offset < warning.offset) {
+  if (warning.count == 0 || at.value->offset < warning.offset) {
     warning.offset = at.value->offset;
     warning.pointer = at.pointer;
   }
+  warning.count += places;
 }
 
 std::vector<Diagnostic> Asset::warnings() const {

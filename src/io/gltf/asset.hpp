@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace microtrace::io::gltf {
@@ -45,15 +46,16 @@ class Asset {
   /// Whether extensionsRequired names it.
   [[nodiscard]] bool requires_extension(std::string_view extension) const;
 
-  /// Takes a member that does no good out of an object of the asset's JSON, after a warning. What
-  /// is left is what readers see. Elements in the object are no longer good.
-  static void drop(const Element& object, std::string_view key);
+  /// Takes members that do no good out of an object of the asset's JSON, after a warning. What is
+  /// left is what readers see. Elements in the object are no longer good.
+  static void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
 
-  /// Warnings with one text become one diagnostic: the first place in the file, and their number.
-  void warn(const Element& at, const std::string& message);
+  /// Warnings with one text become one diagnostic: the first place in the file, and their number;
+  /// `at` is the first of so many places.
+  void warn(const Element& at, const std::string& message, std::size_t places = 1);
   /// All warnings in file order; beyond 100 texts, a last one says how many are left out.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
@@ -64,7 +66,8 @@ class Asset {
   };
 
   const JsonDocument& json_;
-  std::unordered_map<std::string, Warning> warnings_;  // by text
+  std::unordered_set<std::string_view> used_, required_;  // extensions
+  std::unordered_map<std::string, Warning> warnings_;     // by text
 };
 
 }  // namespace microtrace::io::gltf

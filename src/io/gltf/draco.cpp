@@ -1,5 +1,6 @@
 #include "io/gltf/draco.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/draco_abi.hpp"
 #include "io/gltf/extension.hpp"
 #include "io/module_function.hpp"
@@ -126,6 +127,7 @@ void DracoDecoder::charge(const Job& job, std::size_t count, std::size_t size) {
                 ErrorKind::limit);
   }
   left_ -= count * size;
+  take_memory(count * size, "decompressed meshes");
 }
 
 void DracoDecoder::run(Job& job) {
@@ -146,6 +148,8 @@ void DracoDecoder::run(Job& job) {
                              .indices = corners.data(),
                              .attributes = job.attributes.data(),
                              .attribute_count = job.attributes.size()};
+  // What Draco itself needs.
+  const MemoryAccount work = temporary_memory(job.triangles * 200, "decompressing meshes");
   std::string complaint;
   const auto decode_draco = reinterpret_cast<MicrotraceDecodeDraco>(draco_function().address);
   if (decode_draco(&mesh, keep, &complaint) == 0) {

@@ -1,5 +1,6 @@
 #include "io/gltf/images.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/gltf/resource.hpp"
 #include "io/gltf/uri.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 /// No image file holds more bytes.
 constexpr std::size_t max_image_bytes = std::size_t{1} << 30U;
+/// Of all images together, each time that one is read: images may share a file or a buffer view.
+constexpr std::uint64_t max_bytes_of_images = std::uint64_t{1} << 32U;
 
 std::string_view media_type(ImageFormat format) {
   constexpr std::array<std::string_view, 5> types = {"", "image/png", "image/jpeg", "image/webp",
@@ -65,10 +68,16 @@ class ImageLoader {
 
   std::shared_ptr<const Image> load(const Element& at, ImageUse use) {
     std::string storage;
-    const std::optional<std::string_view> bytes = bytes_of(at, storage);
+    MemoryAccount file(memory_account().budget());
+    const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
     if (!bytes) {
       asset_.warn(at, "lies in a buffer without data; textures of it are white");
       return nullptr;
+    }
+    bytes_ += bytes->size();
+    if (bytes_ > max_bytes_of_images) {
+      asset_.fail(at, "brings the files of images to more than 4 GiB, the most that is read",
+                  ErrorKind::limit);
     }
     const ImageHeader header = read_image_header(*bytes);
     if (const JsonValue* uri = at.value->find("uri"); uri != nullptr && is_data_uri(uri->string)) {
@@ -95,7 +104,9 @@ class ImageLoader {
   }
 
  private:
-  std::optional<std::string_view> bytes_of(const Element& at, std::string& storage) const {
+  std::optional<std::string_view> bytes_of(const Element& at, std::string& storage,
+                                           MemoryAccount& memory) const {
+    const MemoryScope scope(memory);
     if (const JsonValue* view = at.value->find("bufferView")) {
       return views_.bytes(static_cast<int>(view->number));
     }
@@ -157,7 +168,7 @@ class ImageLoader {
   Asset& asset_;
   const BufferViews& views_;
   const ResourceFolders& folders_;
-  std::uint64_t pixels_ = 0;
+  std::uint64_t bytes_ = 0, pixels_ = 0;
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "io/gltf/instances.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/extension.hpp"
 #include "io/gltf/nodes.hpp"
 
@@ -44,6 +45,7 @@ class Maker {
     const auto rotations = read<glm::vec4>("ROTATION", TINYGLTF_TYPE_VEC4, true);
     const auto scales = read<Vec3>("SCALE", TINYGLTF_TYPE_VEC3, false);
     if (lacks_data_) return std::nullopt;
+    take_memory(*count * sizeof(DMat4), "the transforms of instances");
     std::vector<DMat4> result(*count, DMat4(1));
     for (std::size_t i = 0; i < result.size(); ++i) {
       result[i] = composed(translations.empty() ? DVec3(0) : DVec3(translations[i]),

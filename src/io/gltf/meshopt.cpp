@@ -1,5 +1,6 @@
 #include "io/gltf/meshopt.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/extension.hpp"
 #include "io/gltf/meshopt_abi.hpp"
 #include "io/gltf/meshopt_filters.hpp"
@@ -105,6 +106,7 @@ std::optional<std::string> decode_meshopt(Asset& asset, const tinygltf::Model& m
                ErrorKind::limit);
   }
   left -= size;
+  take_memory(size, "decompressed views");
   std::string result(size, '\0');
   const MicrotraceMeshopt job{.bytes = reinterpret_cast<const unsigned char*>(bytes->data()),
                               .size = bytes->size(),

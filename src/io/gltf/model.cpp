@@ -1,5 +1,9 @@
 #include "io/gltf/model.hpp"
 
+#include "base/memory_account.hpp"
+
+#include <microtrace/material.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -114,9 +118,42 @@ tinygltf::TinyGLTF make_parser() {
   return parser;
 }
 
+std::size_t count_values(const JsonValue& value) {
+  std::size_t result = 1;
+  for (const JsonValue& item : value.items) result += count_values(item);
+  for (const JsonMember& member : value.members) result += count_values(member.value);
+  return result;
+}
+
+/// What the model holds for each item of the asset's arrays, but for its small parts.
+void count_model(const Asset& asset) {
+  const auto count = [&](const char* array, std::size_t bytes) {
+    take_memory(asset.array(array).size() * bytes, "the asset's model");
+  };
+  constexpr std::size_t parts = 256;
+  count("nodes", sizeof(tinygltf::Node) + parts);
+  count("meshes", sizeof(tinygltf::Mesh) + parts);
+  count("accessors", sizeof(tinygltf::Accessor) + parts);
+  count("bufferViews", sizeof(tinygltf::BufferView));
+  count("materials", sizeof(tinygltf::Material) + 8 * parts + sizeof(Material));
+  count("cameras", sizeof(tinygltf::Camera) + parts);
+  count("scenes", sizeof(tinygltf::Scene) + parts);
+  for (const JsonValue& mesh : asset.array("meshes")) {
+    const JsonValue* primitives = mesh.find("primitives");
+    if (primitives == nullptr) continue;
+    take_memory(primitives->items.size() * (sizeof(tinygltf::Primitive) + parts),
+                "the asset's model");
+  }
+}
+
 }  // namespace
 
 tinygltf::Model parse_model(const Asset& asset) {
+  // The JSON that tinygltf parses, and what it parses it to.
+  constexpr std::size_t bytes_of_value = 160;
+  const MemoryAccount work = temporary_memory(count_values(*asset.root().value) * bytes_of_value,
+                                              "reading the asset's JSON");
+  count_model(asset);
   const std::string text = parsed_part(*asset.root().value).dump();
   if (text.size() > std::numeric_limits<unsigned>::max()) {
     asset.fail(asset.root(), "has more JSON than tinygltf can take (4 GiB); split the file",

@@ -1,5 +1,6 @@
 #include "io/gltf/morphing.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/index_text.hpp"
 
 #include <algorithm>
@@ -32,32 +33,46 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
                          const std::vector<double>& weights) {
   const tinygltf::Primitive& primitive = model_.meshes[mesh].primitives[surface.number];
   Morphed result;
+  const auto moves = [](double weight) { return weight != 0; };
+  if (!primitive.targets.empty() && std::ranges::any_of(weights, moves)) {
+    const Mesh& own = surface.mesh;
+    const std::size_t sums = 1U + (own.normals.empty() ? 0 : 1) + (own.tangents.empty() ? 0 : 1);
+    take_memory(surface.vertices.size() * sums * sizeof(DVec3), "moving vertices by morph targets");
+  }
   for (std::size_t i = 0; i < std::min(primitive.targets.size(), weights.size()); ++i) {
     if (weights[i] == 0) continue;
-    const Element at = asset_.element("meshes", mesh)
-                           .member("primitives")
-                           .item(surface.number)
-                           .member("targets")
-                           .item(i);
     for (const auto& [name, accessor] : primitive.targets[i]) {
-      add(at.member(name), accessor, name, weights[i], surface, result);
+      const auto at = [&, &attribute = name] {
+        return asset_.element("meshes", mesh)
+            .member("primitives")
+            .item(surface.number)
+            .member("targets")
+            .item(i)
+            .member(attribute);
+      };
+      if (!reader_.has_data(accessor)) {
+        asset_.warn(at(), "needs a buffer without data; it is not applied");
+        continue;
+      }
+      displacements_ += std::max(surface.vertices.size(), least_displacements);
+      if (displacements_ > max_displacements) {
+        asset_.fail(
+            at(),
+            "brings a pose to more than 2^29 displacements of vertices, the most that is made",
+            ErrorKind::limit);
+      }
+      add(accessor, name, weights[i], surface, result);
     }
   }
   for (Vec4& color : result.colors) color = glm::clamp(color, Vec4(0), Vec4(1));
   return result;
 }
 
-void Morpher::add(const Element& at, int accessor, const std::string& name, double weight,
-                  const Surface& surface, Morphed& result) {
-  if (!reader_.has_data(accessor)) {
-    return asset_.warn(at, "needs a buffer without data; it is not applied");
-  }
-  displacements_ += surface.vertices.size();
-  if (displacements_ > max_displacements) {
-    asset_.fail(at,
-                "brings a pose to more than 2^29 displacements of vertices, the most that is made",
-                ErrorKind::limit);
-  }
+void Morpher::add(int accessor, const std::string& name, double weight, const Surface& surface,
+                  Morphed& result) {
+  // What is read is gone with this call; the sums of float64 are there until the mesh is placed.
+  MemoryAccount deltas_memory(memory_account().budget());
+  const MemoryScope scope(deltas_memory);
   const Mesh& mesh = surface.mesh;
   const auto deltas = [&]<typename Vector>(Vector) {
     return reader_.read<Vector>(accessor, surface.vertices);

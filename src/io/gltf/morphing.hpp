@@ -16,6 +16,8 @@ namespace microtrace::io::gltf {
 
 /// One pose adds at most so many displacements of vertices.
 inline constexpr std::size_t max_displacements = std::size_t{1} << 29;
+/// What a target of a primitive counts at least: so long it takes to look at it.
+inline constexpr std::size_t least_displacements = 64;
 
 /// What stands instead of a mesh's own; each is empty where no target moves it.
 struct Morphed {
@@ -36,8 +38,8 @@ class Morpher {
                                 const std::vector<double>& weights);
 
  private:
-  void add(const Element& at, int accessor, const std::string& name, double weight,
-           const Surface& surface, Morphed& result);
+  void add(int accessor, const std::string& name, double weight, const Surface& surface,
+           Morphed& result);
 
   Asset& asset_;
   const tinygltf::Model& model_;

@@ -149,13 +149,18 @@ std::string NodeTree::name(std::size_t node) const {
 }
 
 std::string NodeTree::path(std::size_t node) const {
-  std::string result = name(node);
-  for (int parent = parents_[node]; parent >= 0;
+  std::vector<std::string> names = {name(node)};
+  std::size_t size = names[0].size();
+  bool is_whole = true;
+  for (int parent = parents_[node]; parent >= 0 && is_whole;
        parent = parents_[static_cast<std::size_t>(parent)]) {
-    const std::string above = name(static_cast<std::size_t>(parent));
-    if (above.size() + 1 + result.size() > longest_path) return result.insert(0, ".../");
-    result.insert(0, "/").insert(0, above);
+    std::string above = name(static_cast<std::size_t>(parent));
+    size += above.size() + 1;
+    is_whole = size <= longest_path;
+    if (is_whole) names.push_back(std::move(above));
   }
+  std::string result = is_whole ? names.back() : ".../" + names.back();
+  for (std::size_t i = names.size() - 1; i-- > 0;) result.append("/").append(names[i]);
   return result;
 }
 

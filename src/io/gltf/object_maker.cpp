@@ -1,5 +1,7 @@
 #include "io/gltf/object_maker.hpp"
 
+#include "base/memory_account.hpp"
+#include "scene/mesh_memory.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>
@@ -12,10 +14,14 @@ bool is_finite(const Mesh& mesh) {
                              [](const Vec3& p) { return microtrace::is_finite(p); });
 }
 
+/// An object with its name, which is in the set of names too.
+constexpr std::size_t bytes_of_object = sizeof(Object) + 512;
+
 }  // namespace
 
 void ObjectMaker::check_size(const std::vector<PlacedNode>& nodes) const {
   std::size_t triangles = 0, vertices = 0;
+  std::uint64_t bytes = 0;
   for (const PlacedNode& placed : nodes) {
     const int mesh = model_.nodes[placed.node].mesh;
     if (mesh < 0 || !placed.visible) continue;
@@ -25,12 +31,14 @@ void ObjectMaker::check_size(const std::vector<PlacedNode>& nodes) const {
       const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
+      bytes += times * (bytes_of_object + memory_of(surface.mesh));
     }
     if (std::max(triangles, vertices) <= max_elements) continue;
     asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
                 "brings the scene to more than 2^27 triangles or vertices, the most that is read",
                 ErrorKind::limit);
   }
+  take_memory(bytes, "the meshes of the scene, instances counted");
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
@@ -53,7 +61,7 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                            const std::string& path) {
   const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
   for (const Surface& surface : surfaces_[index]) {
-    Mesh world = poser_.posed(node, surface, world_from_mesh);
+    Mesh world = posed(node, surface, world_from_mesh);
     if (!is_finite(world)) {
       asset_.warn(primitive(index, surface),
                   "has vertices that are not finite in the world; triangles with them are not "
@@ -63,6 +71,12 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                         .shape = std::move(world),
                         .material = surface.material});
   }
+}
+
+Mesh ObjectMaker::posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh) {
+  MemoryAccount work(memory_account().budget());  // the mesh itself is counted already
+  const MemoryScope scope(work);
+  return poser_.posed(node, surface, world_from_mesh);
 }
 
 Element ObjectMaker::primitive(std::size_t mesh, const Surface& surface) const {

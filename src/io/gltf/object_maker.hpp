@@ -29,7 +29,7 @@ class ObjectMaker {
         instances_(instances),
         poser_(poser) {}
 
-  /// Throws Error (limit) before memory is taken for too many instances.
+  /// Throws Error (limit) before memory is taken for too many instances. Counts the memory of all.
   void check_size(const std::vector<PlacedNode>& nodes) const;
 
   /// An object for each surface of the node's mesh, if it has one and is seen.
@@ -39,6 +39,7 @@ class ObjectMaker {
 
  private:
   void add_mesh(std::size_t node, const DMat4& world_from_mesh, const std::string& path);
+  [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
   [[nodiscard]] Element primitive(std::size_t mesh, const Surface& surface) const;
   [[nodiscard]] std::string name(const std::string& path, std::size_t mesh,
                                  const Surface& surface) const;

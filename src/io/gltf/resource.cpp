@@ -1,5 +1,6 @@
 #include "io/gltf/resource.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/confined_reads.hpp"
 #include "io/file.hpp"
@@ -12,6 +13,7 @@ namespace microtrace::io::gltf {
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
   if (!data) asset.fail(uri, "is no data URI of the form data:TYPE;base64,DATA");
+  take_memory(data->data.size() / 4 * 3, "the data of data URIs");
   std::optional<std::string> bytes =
       data->is_base64 ? decode_base64(data->data) : decode_percent(data->data);
   if (!bytes && data->is_base64) {
@@ -42,7 +44,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   }
   try {
     const ConfinedReads confined(folders.own, folders.allowed);
-    return read_file(path, max_bytes);
+    return read_regular_file(path, max_bytes);
   } catch (const Error& error) {
     asset.fail(uri, file + " " + error.diagnostic().message, error.kind());
   }

@@ -1,5 +1,6 @@
 #include "io/gltf/scene.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/accessors.hpp"
 #include "io/gltf/animations.hpp"
 #include "io/gltf/asset.hpp"
@@ -41,8 +42,10 @@ template <typename Part>
 auto guarded(const std::string& name, Part&& part) {
   try {
     return part();
-  } catch (const Error&) {
-    throw;
+  } catch (const Error& error) {
+    // Those of the memory budget don't know the file.
+    if (!error.diagnostic().file.empty()) throw;
+    throw Error(error.kind(), name, error.diagnostic().message);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::limit, name, "the asset needs more memory than there is");
   } catch (const std::exception& error) {
@@ -109,6 +112,7 @@ struct GltfFile::Content {
       if (animations.empty()) {
         asset.warn(asset.root(), "the asset has no animation; the time makes no difference");
       }
+      const MemoryScope scope(memory);  // it stays with the file
       player.emplace(asset, model, reader, animations);
     }
     return player->at(time);
@@ -163,6 +167,7 @@ struct GltfFile::Content {
     return gltf::image_uses(materials, drawn, textures, asset.array("images").size(), detail);
   }
 
+  MemoryAccount& memory = memory_account();  // of the file, not of one pose
   SurfaceDetail detail;
   LoadTimes* times;
   LoadClock clock;

@@ -1,5 +1,6 @@
 #include "io/gltf/surfaces.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/gltf/draco.hpp"
 #include "io/gltf/topology.hpp"
 #include "io/gltf/vertex_attributes.hpp"
@@ -27,6 +28,11 @@ std::optional<std::uint32_t> tangent_set(const Material& material) {
   return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
 }
 
+std::size_t bytes_of_topology(int mode, std::size_t vertices) {
+  const bool one_for_each = mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_LINE;
+  return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
+}
+
 class SurfaceMaker {
  public:
   SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
@@ -52,13 +58,19 @@ class SurfaceMaker {
                   "nothing is drawn for it");
       return std::nullopt;
     }
-    const std::vector<std::uint32_t> vertices = vertices_of(at, primitive, position->second);
+    MemoryAccount indices(memory_account().budget());
+    const std::vector<std::uint32_t> vertices =
+        vertices_of(at, primitive, position->second, indices);
+    take_memory(bytes_of_topology(primitive.mode, vertices.size()), "the triangles of meshes");
     Surface result{.material = material_of(primitive)};
     const int mode = is_draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     if (add_primitives(mode, vertices, result.mesh)) {
       asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
     }
     if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
+    const std::size_t uses = 3 * result.mesh.triangles.size() + 2 * result.mesh.segments.size();
+    take_memory(std::min(uses, accessor(position->second).count) * sizeof(std::uint32_t),
+                "the vertices of meshes");
     result.vertices = number_vertices(result.mesh, accessor(position->second).count);
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
@@ -84,6 +96,11 @@ class SurfaceMaker {
     const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
     if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
     if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
+    // What making them takes, and what is left: up to three vertices of its own for each triangle.
+    constexpr std::size_t bytes_of_work = 300, bytes_of_tangents = sizeof(Vec4) / 2;
+    const MemoryAccount work =
+        temporary_memory(mesh.triangles.size() * bytes_of_work, "making tangents");
+    take_memory(mesh.triangles.size() * bytes_of_tangents, "the tangents of meshes");
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
     surface.vertices = std::move(vertices);
@@ -98,10 +115,12 @@ class SurfaceMaker {
   }
 
   std::vector<std::uint32_t> vertices_of(const Element& at, const tinygltf::Primitive& primitive,
-                                         int position) {
+                                         int position, MemoryAccount& memory) {
+    const MemoryScope scope(memory);
     const std::size_t vertex_count = accessor(position).count;
     if (primitive.indices < 0) {
       check_count(at, vertex_count);
+      take_memory(vertex_count * sizeof(std::uint32_t), "the vertices of meshes");
       std::vector<std::uint32_t> result(vertex_count);
       std::iota(result.begin(), result.end(), 0U);
       return result;

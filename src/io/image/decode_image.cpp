@@ -1,8 +1,12 @@
 #include "io/image/decode_image.hpp"
 
+#include "base/memory_account.hpp"
 #include "io/image/codec_abi.hpp"
 #include "io/module_function.hpp"
 
+#include <microtrace/error.hpp>
+
+#include <exception>
 #include <new>
 #include <utility>
 
@@ -10,8 +14,19 @@ namespace microtrace::io {
 namespace {
 
 /// An exception may not pass the module's frames: what goes wrong is kept here.
+struct Decoding {
+  DecodedImage result{};
+  MemoryAccount work{memory_account().budget()};
+  std::exception_ptr failure{};
+};
+
+/// What a decoder needs for each pixel at most, beside the pixels: a progressive JPEG's
+/// coefficients, the colours of a WebP.
+constexpr std::uint64_t kWorkOfPixel = 6;
+
 void* begin(void* context, const MicrotraceImageHeader* header) {
-  auto& result = *static_cast<DecodedImage*>(context);
+  auto& decoding = *static_cast<Decoding*>(context);
+  DecodedImage& result = decoding.result;
   const std::uint64_t pixels = std::uint64_t{header->width} * header->height;
   if (pixels > max_texture_pixels) {
     result.too_large = true;
@@ -21,6 +36,8 @@ void* begin(void* context, const MicrotraceImageHeader* header) {
     Image image{.width = header->width, .height = header->height, .channels = header->channels};
     void* samples = nullptr;
     const std::size_t count = pixels * header->channels;
+    take_memory(count * (header->depth / 8), "the pixels of images");
+    decoding.work.take(pixels * kWorkOfPixel, "decoding images");
     if (header->depth == 16) {
       samples = image.samples.emplace<std::vector<std::uint16_t>>(count).data();
     } else {
@@ -31,11 +48,14 @@ void* begin(void* context, const MicrotraceImageHeader* header) {
   } catch (const std::bad_alloc&) {
     result.too_large = true;
     return nullptr;
+  } catch (const Error&) {
+    decoding.failure = std::current_exception();
+    return nullptr;
   }
 }
 
 void complain(void* context, const char* text) {
-  auto& result = *static_cast<DecodedImage*>(context);
+  DecodedImage& result = static_cast<Decoding*>(context)->result;
   try {
     if (result.complaint.empty()) result.complaint = text;
   } catch (const std::bad_alloc&) {
@@ -53,11 +73,13 @@ DecodedImage decode_image(std::string_view bytes) {
                          "its folder",
             .no_module = true};
   }
-  DecodedImage result;
-  const MicrotraceImageSink sink{&result, begin, complain};
+  Decoding decoding;
+  const MicrotraceImageSink sink{&decoding, begin, complain};
   const auto decode = reinterpret_cast<MicrotraceDecode>(codec.address);
-  if (decode(bytes.data(), bytes.size(), &sink) == 0) result.image.reset();
-  return result;
+  const bool is_decoded = decode(bytes.data(), bytes.size(), &sink) != 0;
+  if (decoding.failure) std::rethrow_exception(decoding.failure);
+  if (!is_decoded) decoding.result.image.reset();
+  return std::move(decoding.result);
 }
 
 }  // namespace microtrace::io

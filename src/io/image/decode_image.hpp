@@ -22,7 +22,7 @@ struct DecodedImage {
 
 /// PNG, JPEG, WebP or KTX2, by the module of decoders, which is loaded at the first call. The size
 /// that the file claims is checked before memory is taken for it. The same bytes give the same
-/// pixels on every machine.
+/// pixels on every machine. Throws Error (limit) where the memory budget does not allow it.
 [[nodiscard]] DecodedImage decode_image(std::string_view bytes);
 
 }  // namespace microtrace::io

@@ -1,3 +1,4 @@
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "io/file.hpp"
 #include "io/image/module.hpp"
@@ -9,6 +10,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <new>
 #include <optional>
@@ -28,6 +30,12 @@ struct Decoded {
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
   std::string complaint{};
   bool is_too_large = false;
+  std::exception_ptr failure{};
+};
+
+struct CountedMap {
+  RadianceMap map;
+  MemoryAccount memory;
 };
 
 void* begin(void* context, const MicrotraceColors* colors) {
@@ -39,6 +47,10 @@ void* begin(void* context, const MicrotraceColors* colors) {
   if (decoded.is_too_large) return nullptr;
   try {
     const std::size_t count = pixels * colors->channels;
+    const std::size_t size = colors->number == kMicrotraceU8    ? 1
+                             : colors->number == kMicrotraceU16 ? 2
+                                                                : sizeof(float);
+    take_memory(count * size, "decoding an environment");
     if (colors->number == kMicrotraceU8)
       return decoded.samples.emplace<std::vector<std::uint8_t>>(count).data();
     if (colors->number == kMicrotraceU16)
@@ -46,6 +58,9 @@ void* begin(void* context, const MicrotraceColors* colors) {
     return decoded.samples.emplace<std::vector<float>>(count).data();
   } catch (const std::bad_alloc&) {
     decoded.is_too_large = true;
+    return nullptr;
+  } catch (const Error&) {
+    decoded.failure = std::current_exception();
     return nullptr;
   }
 }
@@ -80,6 +95,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   const MicrotraceColorSink sink{&decoded, begin, complain};
   const auto decode = reinterpret_cast<MicrotraceDecodeColors>(function.address);
   const bool is_decoded = decode(bytes.data(), bytes.size(), ending.c_str(), &sink) != 0;
+  if (decoded.failure) std::rethrow_exception(decoded.failure);
   if (decoded.is_too_large) {
     std::string message = "is too large for an environment";
     if (decoded.colors) {
@@ -135,11 +151,16 @@ std::size_t clamp_pixels(std::vector<Vec3>& pixels) {
 
 }  // namespace
 
-LoadedRadianceMap load_radiance_map(const std::filesystem::path& path) {
+LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBudget* memory) {
   const FloatEnvironment environment;
-  const Decoded decoded = decode(io::read_file(path, io::max_file_size), path);
+  MemoryAccount work(memory);
+  const MemoryScope scope(work);
+  const Decoded decoded = decode(io::read_regular_file(path, io::max_file_size), path);
   const MicrotraceColors& colors = *decoded.colors;
   RadianceMap map{.width = colors.width, .height = colors.height};
+  MemoryAccount memory_of_map(memory);
+  memory_of_map.take(std::uint64_t{colors.width} * colors.height * sizeof(Vec3),
+                     "the pixels of an environment");
   try {
     map.pixels.resize(std::size_t{colors.width} * colors.height);
   } catch (const std::bad_alloc&) {
@@ -174,7 +195,9 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path) {
          std::to_string(colors.width) + " x " + std::to_string(colors.height) +
          " pixels is stretched to that");
   }
-  out.map = std::make_shared<const RadianceMap>(std::move(map));
+  const auto counted =
+      std::make_shared<CountedMap>(CountedMap{std::move(map), std::move(memory_of_map)});
+  out.map = std::shared_ptr<const RadianceMap>(counted, &counted->map);
   return out;
 }
 

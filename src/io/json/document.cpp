@@ -1,14 +1,15 @@
 #include "io/json/document.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/json/excerpt.hpp"
+#include "io/json/members.hpp"
 #include "io/json/syntax.hpp"
 #include "io/json/token.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -25,14 +26,13 @@ constexpr std::string_view whitespace = " \t\r\n";
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const JsonDocument& document, std::string_view text, JsonValue& root,
-              std::size_t max_values, RepeatedKeys policy,
-              std::vector<std::pair<std::size_t, std::string>>& repeated_keys)
+              std::size_t max_values, RepeatedKeys policy, OutdoneKeys& outdone_keys)
       : document_(document),
         text_(text),
         root_(root),
         max_values_(max_values),
         policy_(policy),
-        repeated_keys_(repeated_keys),
+        outdone_keys_(outdone_keys),
         end_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
 
   bool null() override { return scalar(of_kind(JsonValue::Kind::null), 4); }
@@ -58,6 +58,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool string(string_t& value) override {
     const std::size_t start = next_token().token;
     JsonValue result = of_kind(JsonValue::Kind::string);
+    if (value.size() > kLongString) take_memory(2 * value.size(), "the strings of JSON");
     result.string = std::move(value);
     return scalar(std::move(result), string_end(text_, start) - start);
   }
@@ -68,6 +69,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool end_object() override {
     make_keys_unique(*open_.back());
+    open_.back()->index_members();
     return close();
   }
 
@@ -105,6 +107,10 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
+  /// Memory is counted for so many values at a time, with room for their vectors to grow in.
+  static constexpr std::size_t kBlock = 1024, kBytesOfValue = 2 * sizeof(JsonValue);
+  static constexpr std::size_t kLongString = 256;
+
   enum class Last { open, key, value };
 
   [[nodiscard]] std::size_t skip_whitespace(std::size_t offset) const {
@@ -147,6 +153,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
                .append(std::to_string(max_values_))
                .append(", the most that is read"));
     }
+    if (count_ % kBlock == 1) take_memory(kBlock * kBytesOfValue, "the values of JSON");
     value.offset = offset;
     last_ = Last::value;
     if (open_.empty()) return root_ = std::move(value);
@@ -197,30 +204,28 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
   void make_keys_unique(JsonValue& object) {
-    std::vector<std::pair<std::string_view, std::size_t>> keys;
-    keys.reserve(object.members.size());
-    for (const auto& [name, value] : object.members) keys.emplace_back(name, value.key_offset);
-    std::sort(keys.begin(), keys.end());
-    std::size_t first = text_.size();
-    std::string_view repeated;
-    std::vector<std::size_t> outdone;  // offsets of keys, of which a later one counts
-    for (std::size_t i = 1; i < keys.size(); ++i) {
-      if (keys[i].first != keys[i - 1].first) continue;
-      outdone.push_back(keys[i - 1].second);
-      if (keys[i].second < first) std::tie(repeated, first) = keys[i];
-    }
+    const RepeatedMembers repeated = repeated_members(object);
+    const std::vector<std::size_t>& outdone = repeated.outdone;
     if (outdone.empty()) return;
     if (policy_ == RepeatedKeys::are_refused) {
-      fail({first, "the key " + in_quotes(repeated) + " stands twice in this object"});
+      fail({repeated.first, "the key " + in_quotes(repeated.key) + " stands twice in this object"});
     }
-    std::sort(outdone.begin(), outdone.end());
-    const std::string parent = pointer();
+    note_outdone(object, outdone);
     std::erase_if(object.members, [&](const JsonMember& member) {
-      const std::size_t offset = member.value.key_offset;
-      if (!std::binary_search(outdone.begin(), outdone.end(), offset)) return false;
-      repeated_keys_.emplace_back(offset, child(parent, member.key));
-      return true;
+      return std::binary_search(outdone.begin(), outdone.end(), member.value.key_offset);
     });
+  }
+
+  /// A pointer may be as long as the text: one is made only for what may be the first of all, which
+  /// objects around this one alone can come before.
+  void note_outdone(const JsonValue& object, const std::vector<std::size_t>& offsets) {
+    const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
+    outdone_keys_.count += offsets.size();
+    if (!is_first) return;
+    const auto first = std::ranges::find(object.members, offsets.front(),
+                                         [](const JsonMember& m) { return m.value.key_offset; });
+    outdone_keys_.offset = offsets.front();
+    outdone_keys_.pointer = child(pointer(), first->key);
   }
 
   /// Of the innermost open value, or of the member whose key was read last.
@@ -250,7 +255,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   JsonValue& root_;
   std::size_t max_values_;
   RepeatedKeys policy_;
-  std::vector<std::pair<std::size_t, std::string>>& repeated_keys_;
+  OutdoneKeys& outdone_keys_;
   std::vector<JsonValue*> open_;  // from the root to the innermost
   std::size_t end_ = 0;           // of the last token
   Last last_ = Last::open;
@@ -258,12 +263,6 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 };
 
 }  // namespace
-
-const JsonValue* JsonValue::find(std::string_view key) const {
-  const auto found = std::find_if(members.begin(), members.end(),
-                                  [key](const auto& member) { return member.key == key; });
-  return found == members.end() ? nullptr : &found->value;
-}
 
 JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t max_values,
                            RepeatedKeys repeated)
@@ -276,7 +275,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
   if (content.find_first_not_of(whitespace) == std::string_view::npos) {
     throw Error(ErrorKind::invalid_scene, file_, "is empty");
   }
-  TreeBuilder builder(*this, text, root_, max_values, repeated, repeated_keys_);
+  TreeBuilder builder(*this, text, root_, max_values, repeated, outdone_keys_);
   nlohmann::json::sax_parse(text.data(), text.data() + text.size(), &builder);
   builder.require_end();
 }

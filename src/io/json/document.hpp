@@ -5,9 +5,11 @@
 #include <microtrace/error.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace microtrace::io {
@@ -33,6 +35,13 @@ struct JsonValue {
 
   /// The member of that name, or null.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
+
+  /// To be called where members were added or taken away: find() looks them up by an index.
+  void index_members();
+
+ private:
+  /// The numbers of the members in the order of their keys, where they are many.
+  std::shared_ptr<const std::vector<std::uint32_t>> by_key_{};
 };
 
 struct JsonMember {
@@ -42,6 +51,13 @@ struct JsonMember {
 
 /// What is done about a key that stands twice in one object.
 enum class RepeatedKeys { are_refused, last_counts };
+
+/// All such keys of a document.
+struct OutdoneKeys {
+  std::size_t count = 0;
+  std::size_t offset = 0;  ///< where the first one in the text stands
+  std::string pointer{};   ///< to it and to the one that counts
+};
 
 class JsonDocument {
  public:
@@ -53,11 +69,8 @@ class JsonDocument {
 
   [[nodiscard]] const JsonValue& root() const { return root_; }
   [[nodiscard]] const std::string& file() const { return file_; }
-  /// Keys of objects whose value a later one of the same name has taken: where each stood, and the
-  /// pointer to both.
-  [[nodiscard]] const std::vector<std::pair<std::size_t, std::string>>& repeated_keys() const {
-    return repeated_keys_;
-  }
+  /// Keys of objects whose place a later one of the same name has taken.
+  [[nodiscard]] const OutdoneKeys& outdone_keys() const { return outdone_keys_; }
 
   /// A message about the byte at `offset` of the text, with line, column and caret. Control
   /// characters in the pointer are shown as \x1b.
@@ -68,7 +81,7 @@ class JsonDocument {
   std::string_view text_;  // the caller's; outlives the document
   std::string file_;
   JsonValue root_;
-  std::vector<std::pair<std::size_t, std::string>> repeated_keys_;
+  OutdoneKeys outdone_keys_;
 };
 
 /// Appends one reference token to a JSON pointer, escaped as RFC 6901 says.

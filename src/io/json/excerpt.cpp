@@ -15,14 +15,19 @@ constexpr std::size_t before = 80;  // of them, at most, left of the caret
 Place place_of(std::string_view text, std::size_t offset) {
   const std::string_view left = text.substr(0, offset);
   const auto lines = static_cast<std::size_t>(std::count(left.begin(), left.end(), '\n'));
-  const std::size_t start = left.rfind('\n') + 1;  // npos + 1 is 0
+  const std::size_t start = lines == 0 ? 0 : left.rfind('\n') + 1;
   return {lines + 1, left.size() - start + 1};
 }
 
 std::string excerpt(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
-  const std::size_t line_start = text.substr(0, offset).rfind('\n') + 1;
-  std::size_t line_end = std::min(text.find('\n', offset), text.size());
+  // Of a long line no more is looked at than tells that it is one.
+  constexpr std::size_t reach = 2 * width;
+  const std::size_t first = offset - std::min(offset, reach);
+  const std::size_t newline = text.substr(first, offset - first).rfind('\n');
+  const std::size_t line_start = newline == text.npos ? first : first + newline + 1;
+  const std::string_view right = text.substr(offset, reach);
+  std::size_t line_end = offset + std::min(right.find('\n'), right.size());
   if (line_end > offset && text[line_end - 1] == '\r') --line_end;
 
   const bool is_short = line_end - line_start <= width;

@@ -1,5 +1,6 @@
 #include "io/scene_json/light.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/scene_json/path.hpp"
 #include "scene/trigonometry.hpp"
@@ -66,7 +67,7 @@ std::shared_ptr<const RadianceMap> read_map(const JsonReader& json,
                                             std::vector<Diagnostic>& warnings) {
   const std::filesystem::path path = folder / read_relative_path(json);
   try {
-    LoadedRadianceMap loaded = load_radiance_map(path);
+    LoadedRadianceMap loaded = load_radiance_map(path, memory_account().budget());
     std::move(loaded.warnings.begin(), loaded.warnings.end(), std::back_inserter(warnings));
     return std::move(loaded.map);
   } catch (const Error& error) {

@@ -1,5 +1,6 @@
 #include "io/scene_json/mesh.hpp"
 
+#include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/file.hpp"
 #include "io/gltf/scene.hpp"
@@ -7,6 +8,8 @@
 #include "scene/trigonometry.hpp"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -60,7 +63,7 @@ DMat4 read_matrix(const JsonReader& json) {
 
 std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& path) {
   try {
-    return read_file(path, max_file_size);
+    return read_regular_file(path, max_file_size);
   } catch (const Error& error) {
     std::string message = printable(path.string());
     json.fail(message.append(" ").append(error.diagnostic().message), error.kind());
@@ -85,15 +88,44 @@ DMat4 read_transform(const JsonReader& json) {
   return out;
 }
 
-LoadedScene read_mesh(const JsonReader& json, const std::filesystem::path& folder,
-                      const LoadOptions& options) {
+/// The reader refers to the bytes.
+struct MeshFiles::File {
+  explicit File(MemoryBudget* budget) : memory(budget) {}
+
+  MemoryAccount memory;
+  std::string bytes{};
+  std::optional<GltfFile> reader{};
+};
+
+MeshFiles::MeshFiles(const std::filesystem::path& folder, const LoadOptions& options)
+    : folder_(folder), options_(options) {}
+MeshFiles::~MeshFiles() = default;
+
+void MeshFiles::expect(const JsonReader& json) {
+  // What is wrong with the member is said when it is read.
+  if (const JsonValue* file = json.value().find("file")) ++uses_[file->string];
+}
+
+std::unique_ptr<MeshFiles::File> MeshFiles::open(const JsonReader& file,
+                                                 const std::filesystem::path& path) const {
+  auto result = std::make_unique<File>(memory_account().budget());
+  const MemoryScope scope(result->memory);
+  result->bytes = read_mesh_file(file, path);
+  result->reader.emplace(result->bytes, printable(path.string()), path.parent_path(), options_);
+  return result;
+}
+
+LoadedScene MeshFiles::read(const JsonReader& json) {
   json.require_object({"name", "type", "color", "material", "file", "transform"});
   const JsonReader file = json.member("file");
-  const std::filesystem::path path = folder / read_relative_path(file);
+  const std::filesystem::path path = folder_ / read_relative_path(file);
   const auto transform = json.find("transform");
   const DMat4 world_from_asset = transform ? read_transform(*transform) : DMat4(1);
-  const std::string bytes = read_mesh_file(file, path);
-  return load_gltf(bytes, printable(path.string()), path.parent_path(), world_from_asset, options);
+  std::unique_ptr<File>& opened = files_[file.value().string];
+  if (!opened) opened = open(file, path);
+  LoadedScene result = opened->reader->placed(options_.time, world_from_asset);
+  if (--uses_[file.value().string] == 0) files_.erase(file.value().string);
+  return result;
 }
 
 }  // namespace microtrace::io

@@ -120,9 +120,8 @@ class Palette {
 
 /// A material replaces those of the mesh's own file.
 void add_mesh(const JsonReader& json, const std::string& name,
-              std::optional<std::uint32_t> material, const std::filesystem::path& folder,
-              const LoadOptions& options, LoadedScene& out) {
-  LoadedScene mesh = read_mesh(json, folder, options);
+              std::optional<std::uint32_t> material, MeshFiles& files, LoadedScene& out) {
+  LoadedScene mesh = files.read(json);
   const std::size_t first = out.scene.objects.size();
   merge(out.scene, std::move(mesh.scene));
   for (std::size_t i = first; i < out.scene.objects.size(); ++i) {
@@ -136,10 +135,16 @@ void add_mesh(const JsonReader& json, const std::string& name,
 void read_objects(const JsonReader& json, Palette& palette, const std::filesystem::path& folder,
                   const LoadOptions& options, LoadedScene& out) {
   Names names;
-  for (const JsonReader& item : read_filled_array(json)) {
+  const std::vector<JsonReader> items = read_filled_array(json);
+  MeshFiles files(folder, options);
+  for (const JsonReader& item : items) {
+    const bool is_object = item.value().kind == JsonValue::Kind::object;
+    if (is_object && is_mesh(item)) files.expect(item);
+  }
+  for (const JsonReader& item : items) {
     if (is_mesh(item)) {
       const std::string name = names.read(item);
-      add_mesh(item, name, palette.read(item), folder, options, out);
+      add_mesh(item, name, palette.read(item), files, out);
       continue;
     }
     Object object;

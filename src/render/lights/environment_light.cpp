@@ -1,5 +1,6 @@
 #include "render/lights/environment_light.hpp"
 
+#include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
@@ -54,6 +55,10 @@ RenderCache::~RenderCache() = default;
 std::shared_ptr<const MapTables> RenderCache::tables_of(const Environment& environment) {
   const FloatEnvironment float_environment;
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  constexpr std::uint64_t bytes_of_pixel = 16;
+  if (map != nullptr) {
+    take_memory((*map)->pixels.size() * bytes_of_pixel, "the tables of the environment");
+  }
   const bool is_same = map != nullptr ? last_ && last_->map == *map : is_studio_;
   if (!is_same) {
     last_ = std::make_shared<const MapTables>(

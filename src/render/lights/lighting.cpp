@@ -1,5 +1,6 @@
 #include "render/lights/lighting.hpp"
 
+#include "base/memory_account.hpp"
 #include "render/lights/punctual.hpp"
 #include "render/lights/shape_light.hpp"
 #include "render/luminance.hpp"
@@ -22,6 +23,13 @@ Vec3 corner_weights(const Vec2& u) {
 double area_of(const Triangle& t) {
   const DVec3 n = glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
   return std::sqrt(glm::dot(n, n)) / 2;
+}
+
+/// For each thing that shines: its entry, its bounds and its nodes of the tree, with room to grow.
+constexpr std::uint64_t kBytesOfEmitter = 260;
+
+void take_memory_for_emitters(std::uint64_t count) {
+  take_memory(count * kBytesOfEmitter, "the lights of the scene");
 }
 
 }  // namespace
@@ -69,6 +77,7 @@ void Lighting::add_surfaces(std::vector<LightBounds>& bounds) {
     const auto count = static_cast<PrimitiveId>(primitive_count(object.shape));
     const Material& material = material_of(scene_, object);
     if (material.emissive != Vec3(0) && !material.unlit) {
+      take_memory_for_emitters(count);
       if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
         for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(*mesh, i), bounds);
       } else {
@@ -107,6 +116,7 @@ void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBo
 }
 
 void Lighting::add_lights(std::vector<LightBounds>& bounds) {
+  take_memory_for_emitters(scene_.lights.size());
   for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
     if (const auto light = punctual_bounds(scene_.lights[i].light)) {
       if (!(light->power > 0)) continue;

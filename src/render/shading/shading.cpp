@@ -40,8 +40,8 @@ float dispersed(float ior, float dispersion, int channel) {
 
 }  // namespace
 
-Shading::Shading(const Scene& scene, const Primitives& primitives)
-    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene)) {
+Shading::Shading(const Scene& scene, const Primitives& primitives, TexturePyramids& pyramids)
+    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, pyramids)) {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&

@@ -81,8 +81,8 @@ class TextureMaps;
 /// Made once for a picture; any number of threads may ask it.
 class Shading {
  public:
-  /// Both must outlive this.
-  Shading(const Scene& scene, const Primitives& primitives);
+  /// All must outlive this.
+  Shading(const Scene& scene, const Primitives& primitives, TexturePyramids& pyramids);
   ~Shading();
 
   /// `hit` is one of `ray`. The width is 0.

@@ -22,8 +22,8 @@ TextureSlot TextureMaps::slot(const std::optional<TextureUse>& use, ColorEncodin
   if (!use) return {};
   const Texture& texture = scene_.textures[use->texture];
   if (!texture.image || !scene_.images[*texture.image]) return {};
-  const auto made = maps_.try_emplace({use->texture, encoding}, *scene_.images[*texture.image],
-                                      texture.sampler, encoding);
+  const auto made = maps_.try_emplace({use->texture, encoding},
+                                      pyramids_.of(*texture.image, encoding), texture.sampler);
   return {.map = &made.first->second, .use = &*use};
 }
 

@@ -16,8 +16,8 @@ namespace microtrace {
 /// By texture and encoding, each made once.
 class TextureMaps {
  public:
-  /// The scene must outlive this.
-  explicit TextureMaps(const Scene& scene) : scene_(scene) {}
+  /// Both must outlive this.
+  TextureMaps(const Scene& scene, TexturePyramids& pyramids) : scene_(scene), pyramids_(pyramids) {}
 
   /// All slots of a material. Material and this must outlive them.
   [[nodiscard]] TexturedMaterial slots(const Material& material);
@@ -26,6 +26,7 @@ class TextureMaps {
   [[nodiscard]] TextureSlot slot(const std::optional<TextureUse>& use, ColorEncoding encoding);
 
   const Scene& scene_;
+  TexturePyramids& pyramids_;
   std::map<std::pair<std::uint32_t, ColorEncoding>, TextureMap> maps_;
 };
 

@@ -1,8 +1,10 @@
+#include "base/memory_account.hpp"
 #include "io/gltf/animations.hpp"
 #include "io/gltf/extension.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -49,6 +51,10 @@ void AnimationPlayer::pose(NodePose& node, Path path, std::vector<double> value)
 }
 
 PosedAsset AnimationPlayer::at(double time) const {
+  std::uint64_t numbers = 0;
+  for (const Channel& channel : channels_) numbers += channel.keys.width;
+  take_memory(channels_.size() * 2 * sizeof(NodePose) + numbers * sizeof(double),
+              "the poses of nodes");
   PosedAsset result{.properties = properties_};
   for (const Channel& channel : channels_) {
     std::vector<double> value = value_at(channel.keys, time);

@@ -88,7 +88,9 @@ JsonValue* find(JsonValue& object, std::string_view key) {
 
 JsonValue& make_member(JsonValue& object, const std::string& key) {
   if (JsonValue* value = find(object, key)) return *value;
-  return object.members.emplace_back(JsonMember{.key = key, .value = {}}).value;
+  object.members.emplace_back(JsonMember{.key = key, .value = {}});
+  object.index_members();
+  return object.members.back().value;
 }
 
 /// The items of an array in an object that may be absent.

@@ -155,7 +155,7 @@ class MeshCheck {
                     "holds positions without min and max, which glTF 2.0 asks for");
       }
     }
-    for (const std::string& key : dropped) asset_.drop(at, key);
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// False where nothing can be made of it.

@@ -68,7 +68,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
     if (has_skin) asset.warn(at.member("skin"), "has no effect: the node has no mesh");
     if (at.value->find("weights") == nullptr) return;
     asset.warn(at.member("weights"), "have no effect: the node has no mesh");
-    return Asset::drop(at, "weights");
+    return Asset::drop(at, {"weights"});
   }
   const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
   if (has_skin && !parts.has_joints) {
@@ -82,7 +82,7 @@ void check_camera(const Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
   const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
-  if (camera.find("type") == nullptr) Asset::drop(at, "camera");
+  if (camera.find("type") == nullptr) Asset::drop(at, {"camera"});
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void check_weights(Asset& asset, const Element& at, std::size_t targets) {
   asset.warn(at.member("weights"), "has " + std::to_string(weights->items.size()) + " items for " +
                                        std::to_string(targets) +
                                        " morph targets; they are ignored");
-  Asset::drop(at, "weights");
+  Asset::drop(at, {"weights"});
 }
 
 void check_nodes(Asset& asset, const NodeForest& forest) {

@@ -85,7 +85,7 @@ class Checker {
         asset_.warn(element, "is no property that glTF 2.0 has here; it is ignored");
       }
     }
-    for (const std::string& key : dropped) asset_.drop(at, key);
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
   }
 
  private:
@@ -244,7 +244,7 @@ class Checker {
       require(extension, member.value.kind == Kind::object, "must be an object");
       if (!this->extension(extension, member.key, place)) dropped.push_back(member.key);
     }
-    for (const std::string& key : dropped) asset_.drop(at, key);
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// False where it is to be dropped.

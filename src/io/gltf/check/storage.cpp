@@ -53,7 +53,7 @@ void check_accessor(Asset& asset, const Element& at) {
   const bool can_be_normalized = component->number != f32 && component->number != u32;
   if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
     asset.warn(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
-    Asset::drop(at, "normalized");
+    Asset::drop(at, {"normalized"});
   }
 }
 

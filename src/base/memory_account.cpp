@@ -1,0 +1,72 @@
+#include "base/memory_account.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace microtrace {
+namespace {
+
+thread_local MemoryAccount* current = nullptr;
+
+/// "1.5 GiB"
+std::string readable(std::uint64_t bytes) {
+  constexpr std::array<const char*, 4> units = {"KiB", "MiB", "GiB", "TiB"};
+  double number = static_cast<double>(bytes) / 1024;
+  std::size_t unit = 0;
+  for (; number >= 1024 && unit + 1 < units.size(); ++unit) number /= 1024;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f ", number);
+  return std::string(text.data()) + units[unit];
+}
+
+}  // namespace
+
+void MemoryBudget::take(std::uint64_t bytes, std::string_view what) {
+  const std::scoped_lock lock(mutex_);
+  if (bytes > limit_ - used_) {
+    std::string message(what);
+    message += ": " + readable(bytes) + " are needed beside the " + readable(used_) +
+               " in use, more than the memory limit of " + readable(limit_) +
+               "; raise it (--memory-limit) if the machine has the memory, or ask for less";
+    throw Error(ErrorKind::limit, "", message);
+  }
+  used_ += bytes;
+  peak_ = std::max(peak_, used_);
+}
+
+void MemoryBudget::give_back(std::uint64_t bytes) {
+  const std::scoped_lock lock(mutex_);
+  used_ -= bytes;
+}
+
+std::uint64_t MemoryBudget::peak() const {
+  const std::scoped_lock lock(mutex_);
+  return peak_;
+}
+
+void MemoryAccount::take(std::uint64_t bytes, std::string_view what) {
+  if (budget_ == nullptr) return;
+  budget_->take(bytes, what);
+  taken_ += bytes;
+}
+
+void MemoryAccount::clear() {
+  if (budget_ != nullptr) budget_->give_back(std::exchange(taken_, 0));
+}
+
+MemoryScope::MemoryScope(MemoryAccount& account) : former_(std::exchange(current, &account)) {}
+
+MemoryScope::~MemoryScope() {
+  current = former_;
+}
+
+MemoryAccount& memory_account() {
+  static thread_local MemoryAccount none(nullptr);
+  return current != nullptr ? *current : none;
+}
+
+}  // namespace microtrace

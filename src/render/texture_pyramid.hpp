@@ -1,0 +1,69 @@
+#pragma once
+/// Images with their mip maps, which all textures that show one share.
+
+#include <microtrace/math.hpp>
+#include <microtrace/scene.hpp>
+#include <microtrace/texture.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace microtrace {
+
+/// An image whose numbers are read in one way.
+class TexturePyramid {
+ public:
+  /// The image must outlive this.
+  TexturePyramid(const Image& image, ColorEncoding encoding);
+
+  /// A mip map: linear light, four channels.
+  struct Level {
+    std::uint32_t width, height;
+    std::vector<std::uint16_t> samples{};
+  };
+
+  [[nodiscard]] const Image& image() const { return image_; }
+  /// The linear light of the image's numbers.
+  [[nodiscard]] std::span<const float> color_table() const { return color_table_; }
+  [[nodiscard]] std::span<const float> alpha_table() const { return alpha_table_; }
+
+  /// The mip maps, from the second level on; made at the first call, by one thread at a time. Each
+  /// pixel is the mean of the part of the finer level that it covers.
+  [[nodiscard]] const std::vector<Level>& levels();
+
+  /// Of level 0, the image, or of one that levels() has made.
+  [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
+
+ private:
+  [[nodiscard]] DVec2 level_size(std::size_t level) const;
+  [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
+  void make_levels();
+  /// Fills a level of half the width and height of the finer one, both even.
+  void halve(std::size_t finer, Level& level) const;
+
+  const Image& image_;
+  std::span<const float> color_table_, alpha_table_;
+  std::vector<Level> levels_;
+};
+
+/// One for each image of a scene and way to read it, made when it is asked for.
+class TexturePyramids {
+ public:
+  /// The scene must outlive this and what it makes.
+  explicit TexturePyramids(const Scene& scene) : scene_(scene) {}
+
+  /// Of an image that was decoded.
+  [[nodiscard]] std::shared_ptr<TexturePyramid> of(std::uint32_t image, ColorEncoding encoding);
+
+ private:
+  const Scene& scene_;
+  // Images may stand more than once in a scene.
+  std::map<std::pair<const Image*, ColorEncoding>, std::shared_ptr<TexturePyramid>> pyramids_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,28 @@
+#include "scene/mesh_memory.hpp"
+
+#include <variant>
+
+namespace microtrace {
+
+std::uint64_t memory_of(const Mesh& mesh) {
+  // A segment becomes two triangles with four vertices of their own.
+  const std::uint64_t segments = mesh.segments.size();
+  const std::uint64_t triangles = mesh.triangles.size() + 2 * segments;
+  std::uint64_t of_vertex = sizeof(Vec3);
+  if (!mesh.normals.empty()) of_vertex += sizeof(Vec3);
+  if (!mesh.tangents.empty()) of_vertex += sizeof(Vec4);
+  if (!mesh.colors.empty()) of_vertex += sizeof(Vec4);
+  for (const auto& set : mesh.uv_sets) of_vertex += set.empty() ? 0 : sizeof(Vec2);
+  return triangles * sizeof(mesh.triangles[0]) + segments * sizeof(mesh.segments[0]) +
+         (mesh.positions.size() + 4 * segments) * of_vertex;
+}
+
+std::uint64_t memory_of(const Scene& scene) {
+  std::uint64_t result = scene.objects.size() * sizeof(Object);
+  for (const Object& object : scene.objects) {
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape)) result += memory_of(*mesh);
+  }
+  return result;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""What hostile input may cost: memory is counted before it is taken, and nothing is waited for.
+
+usage: bounds_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import json
+import os
+import resource
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import hostile
+from program import PROGRAM, ProgramTest, environment
+
+SOURCE = Path(sys.argv[2]).resolve()
+SMALL = ["-o", "out.ppm", "-q"]
+
+
+class Bounds(ProgramTest):
+    def write(self, name, n):
+        return hostile.write(name, n, self.folder)
+
+    def draw(self, path, *options, code=0):
+        size = [] if "--size" in options else ["--size", "4x4"]
+        result = self.run_program(path, *SMALL, *size, *options)
+        said = result.stderr.decode(errors="replace")
+        self.assertEqual(result.returncode, code, said)
+        self.assertEqual((self.folder / "out.ppm").exists(), code == 0)
+        return said
+
+    def counted(self, path, *options):
+        """MiB."""
+        said = self.draw(path, "--stats=json", *options)
+        (self.folder / "out.ppm").unlink()
+        return json.loads(said)["counted_memory_mib"]
+
+    def test_limits_are_numbers_of_bytes(self):
+        scene = SOURCE / "scenes/perspective1.json"
+        for text in ("1G", "300M", "400000K", "1000000000"):
+            self.draw(scene, "--memory-limit", text)
+        (self.folder / "out.ppm").unlink()
+        for text in ("0", "-1", "1T", "1.5G", "G", "lots", "99999999999G", "1 G", "0x10"):
+            said = self.draw(scene, "--memory-limit", text, code=2)
+            self.assertIn("--memory-limit", said)
+
+    def test_what_needs_too_much_is_refused_before_it_is_taken(self):
+        limit = 64
+        cases = [("zeros", 3 << 24), ("zeros_with_attributes", 3 << 24), ("sparse_zeros", 3 << 24),
+                 ("points", 3 << 23), ("instances", 1 << 22), ("pixels", 1 << 26), ("wide_nodes", 1 << 17)]
+        for name, n in cases:
+            with self.subTest(name):
+                path = self.write(name, n)
+                process = subprocess.Popen([PROGRAM, str(path), *SMALL, "--memory-limit", f"{limit}M"],
+                                           cwd=self.folder, stderr=subprocess.PIPE, env=environment())
+                said = process.stderr.read().decode()
+                process.stderr.close()
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+                self.assertEqual(process.returncode, 6, said)
+                self.assertIn(path.name, said)
+                self.assertIn("--memory-limit", said)
+                # Sanitizers need more of their own; the program takes some itself.
+                if "ASAN_OPTIONS" not in os.environ:
+                    self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
+                self.assertFalse((self.folder / "out.ppm").exists())
+
+    def test_pictures_are_counted(self):
+        scene = SOURCE / "scenes/perspective1.json"
+        self.draw(scene, "--size", "4000x4000", "--memory-limit", "100M", code=6)
+        self.draw(scene, "--integrator", "path", "--spp", "1", "--size", "2000x2000", "--time-limit", "9",
+                  "--memory-limit", "300M", code=6)
+
+    def test_textures_of_one_image_share_its_mip_maps(self):
+        one, many = (self.counted(self.write("textures", n), "--integrator", "path", "--spp", "1") for n in (1, 128))
+        self.assertLess(many - one, 2)
+
+    def test_costs_grow_as_files_do(self):
+        for name in hostile.ALL:
+            with self.subTest(name):
+                if name in ("equal_extensions_used",):
+                    continue
+                small, large = (self.counted(self.write(name, n), "--integrator", "flat", "--time", "0.5")
+                                if name in hostile.GLTF else self.counted(self.write(name, n)) for n in (400, 1600))
+                self.assertLess(large - 1, 4.5 * small, f"{small} MiB, {large} MiB")
+
+    def test_only_regular_files_are_read_for_other_files(self):
+        os.mkfifo(self.folder / "pipe.glb")
+        os.mkfifo(self.folder / "pipe.hdr")
+        (self.folder / "zero.glb").symlink_to("/dev/zero")
+        (self.folder / "zero.hdr").symlink_to("/dev/zero")
+        for name in ("pipe", "zero"):
+            scene = self.folder / "scene.json"
+            scene.write_text(json.dumps(hostile.scene(objects=[{"type": "mesh", "file": f"{name}.glb"}])))
+            self.assertIn("is not a regular file", self.draw(scene, code=5))
+            scene.write_text(json.dumps(hostile.scene(environment={"type": "map", "file": f"{name}.hdr"})))
+            self.assertIn("is not a regular file", self.draw(scene, "--integrator", "path", code=5))
+            self.assertIn("is not a regular file",
+                          self.draw(SOURCE / "scenes/perspective1.json", "--integrator", "path",
+                                    "--env", f"{name}.hdr", code=5))
+
+    def test_the_scene_itself_may_be_a_pipe(self):
+        text = (SOURCE / "scenes/perspective1.json").read_bytes()
+        result = subprocess.run([PROGRAM, "/dev/stdin", *SMALL], cwd=self.folder, input=text, capture_output=True,
+                                env=environment())
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

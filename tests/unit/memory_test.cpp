@@ -1,0 +1,157 @@
+#include "base/free_memory.hpp"
+#include "base/memory_account.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/render.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+
+namespace microtrace {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(MemoryBudget, CountsBeforeItIsTooMuch) {
+  MemoryBudget budget(1000);
+  budget.take(600, "a");
+  budget.give_back(500);
+  budget.take(900, "b");
+  EXPECT_EQ(budget.peak(), 1000U);
+  try {
+    budget.take(1, "the pixels of images");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_THAT(error.what(), HasSubstr("the pixels of images"));
+    EXPECT_THAT(error.what(), HasSubstr("--memory-limit"));
+  }
+  budget.give_back(1000);
+  EXPECT_THROW(budget.take(~std::uint64_t{0}, "c"), Error);
+  EXPECT_NO_THROW(budget.take(1000, "d")) << "what was refused is not counted";
+}
+
+TEST(MemoryAccount, GivesBackWhatItTook) {
+  MemoryBudget budget(100);
+  {
+    MemoryAccount account(&budget);
+    const MemoryScope scope(account);
+    take_memory(60, "a");
+    {
+      const MemoryAccount work = temporary_memory(40, "b");
+      EXPECT_THROW(take_memory(1, "c"), Error);
+    }
+    MemoryAccount other(std::move(account));
+    EXPECT_THROW(take_memory(41, "d"), Error);
+  }
+  EXPECT_NO_THROW(budget.take(100, "e"));
+}
+
+TEST(MemoryAccount, CountsNothingWithoutABudget) {
+  EXPECT_NO_THROW(take_memory(~std::uint64_t{0}, "a"));
+  MemoryBudget budget(10);
+  MemoryAccount account(&budget);
+  const MemoryScope scope(account);
+  MemoryAccount none(nullptr);
+  {
+    const MemoryScope inner(none);
+    EXPECT_NO_THROW(take_memory(11, "b"));
+  }
+  EXPECT_THROW(take_memory(11, "c"), Error);
+}
+
+/// A folder that stands for the root of a file system.
+class FreeMemory : public ::testing::Test {
+ protected:
+  FreeMemory() {
+    std::string name = (std::filesystem::temp_directory_path() / "microtrace-XXXXXX").string();
+    root_ = mkdtemp(name.data());
+    write("proc/meminfo", "MemTotal: 9000 kB\nMemFree: 10 kB\nMemAvailable: 5000 kB\n");
+  }
+  ~FreeMemory() override { std::filesystem::remove_all(root_); }
+
+  void write(const char* file, const char* text) const {
+    std::filesystem::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text;
+  }
+
+  std::filesystem::path root_;
+};
+
+TEST_F(FreeMemory, IsWhatTheSystemSays) {
+  EXPECT_EQ(free_memory(root_), 5000U * 1024);
+  write("proc/self/cgroup", "0::/\n");
+  write("sys/fs/cgroup/memory.max", "max\n");
+  EXPECT_EQ(free_memory(root_), 5000U * 1024);
+}
+
+TEST_F(FreeMemory, IsWhatEveryGroupAroundHasLeft) {
+  write("proc/self/cgroup", "0::/outer/inner\n");
+  write("sys/fs/cgroup/outer/memory.max", "3000000\n");
+  write("sys/fs/cgroup/outer/memory.current", "1000000\n");
+  write("sys/fs/cgroup/outer/memory.stat", "anon 5\ninactive_file 400000\n");
+  EXPECT_EQ(free_memory(root_), 2'400'000U);
+  write("sys/fs/cgroup/outer/inner/memory.max", "700\n");
+  write("sys/fs/cgroup/outer/inner/memory.current", "500\n");
+  EXPECT_EQ(free_memory(root_), 200U);
+  write("sys/fs/cgroup/outer/inner/memory.current", "900\n");
+  EXPECT_EQ(free_memory(root_), 0U);
+}
+
+TEST_F(FreeMemory, IsWhatGroupsOfVersion1HaveLeft) {
+  write("proc/self/cgroup", "5:cpu,memory:/job\n1:cpuset:/\n");
+  write("sys/fs/cgroup/memory/job/memory.limit_in_bytes", "800\n");
+  write("sys/fs/cgroup/memory/job/memory.usage_in_bytes", "300\n");
+  EXPECT_EQ(free_memory(root_), 500U);
+}
+
+/// A ball with as many materials as textures of one image.
+Scene textured(std::size_t count) {
+  Scene scene;
+  const Image image{
+      .width = 256, .height = 256, .channels = 1, .samples = std::vector<std::uint8_t>(65536)};
+  scene.images.push_back(std::make_shared<const Image>(image));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    scene.textures.push_back({.image = 0});
+    Material material;
+    material.base_color_texture = TextureUse{.texture = i};
+    scene.materials.push_back(material);
+    scene.objects.push_back({.name = "ball", .shape = Sphere{}, .material = i});
+  }
+  return scene;
+}
+
+TEST(RenderMemory, TexturesOfOneImageShareItsMipMaps) {
+  const Camera camera = PerspectiveCamera{};
+  const auto peak = [&](std::size_t textures) {
+    MemoryBudget budget(std::uint64_t{1} << 40U);
+    RenderOptions options;
+    options.memory = &budget;
+    (void)render(textured(textures), camera, {.width = 1, .height = 1}, options);
+    const std::uint64_t result = budget.peak();
+    EXPECT_NO_THROW(budget.take(budget.limit(), "all")) << "all is given back";
+    return result;
+  };
+  constexpr std::uint64_t mip_maps = 65536 / 3 * 8;
+  EXPECT_GE(peak(1), mip_maps);
+  EXPECT_LT(peak(8), 2 * mip_maps);
+}
+
+TEST(RenderMemory, IsRefusedBeforeItIsTaken) {
+  MemoryBudget budget(1'000'000);
+  RenderOptions options;
+  options.memory = &budget;
+  const Scene scene = textured(1);
+  EXPECT_NO_THROW((void)render(scene, PerspectiveCamera{}, {.width = 9, .height = 9}, options));
+  EXPECT_THROW((void)render(scene, PerspectiveCamera{}, {.width = 65535, .height = 65535}, options),
+               Error);
+}
+
+}  // namespace
+}  // namespace microtrace
