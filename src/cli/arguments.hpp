@@ -39,7 +39,7 @@ struct Arguments {
   std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   Viewpoint viewpoint{};
   unsigned threads = 0;
-  std::optional<double> max_time{};  ///< seconds for the whole run
+  std::optional<double> max_time{};             ///< seconds for the whole run
   std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: default_memory_limit()
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
