@@ -94,9 +94,9 @@ class Bounds(ProgramTest):
         for name in ("pipe", "zero"):
             scene = self.folder / "scene.json"
             scene.write_text(json.dumps(hostile.scene(objects=[{"type": "mesh", "file": f"{name}.glb"}])))
-            self.assertIn("is not a regular file", self.draw(scene, code=5))
+            self.assertIn("is not a regular file", self.draw(scene, "--allow-path", "/dev", code=5))
             scene.write_text(json.dumps(hostile.scene(environment={"type": "map", "file": f"{name}.hdr"})))
-            self.assertIn("is not a regular file", self.draw(scene, "--integrator", "path", code=5))
+            self.assertIn("is not a regular file", self.draw(scene, "--integrator", "path", "--allow-path", "/dev", code=5))
             self.assertIn("is not a regular file",
                           self.draw(SOURCE / "scenes/perspective1.json", "--integrator", "path",
                                     "--env", f"{name}.hdr", code=5))
