@@ -81,13 +81,14 @@ DiffuseTransmission diffuse_transmission(const JsonValue& json) {
 }
 
 void read_specular_glossiness(const JsonValue& json, Material& material) {
-  material.base_color = vector(json, "diffuseFactor", material.base_color);
+  material.base_color = vector(json, "diffuseFactor", Vec4(1));
   material.base_color_texture = texture_use(json, "diffuseTexture");
   material.specular_glossiness =
       SpecularGlossiness{.specular = vector(json, "specularFactor", Vec3(1)),
                          .glossiness = number(json, "glossinessFactor", 1),
                          .texture = texture_use(json, "specularGlossinessTexture")};
   // The nearest without it.
+  material.metallic_roughness_texture.reset();
   material.metallic = 0;
   material.roughness = 1 - material.specular_glossiness->glossiness;
 }
@@ -97,6 +98,10 @@ void read_specular_glossiness(const JsonValue& json, Material& material) {
 void read_material_extensions(const JsonValue& json, Material& material) {
   const auto of = [&](std::string_view name) { return extension(json, name); };
   material.unlit = of("KHR_materials_unlit") != nullptr;
+  if (material.unlit) {  // nothing but its base color is seen
+    material.emissive = Vec3(0);
+    material.emissive_texture.reset();
+  }
   if (const JsonValue* strength = of("KHR_materials_emissive_strength")) {
     material.emissive *= number(*strength, "emissiveStrength", 1);
   }
@@ -128,9 +133,9 @@ void read_material_extensions(const JsonValue& json, Material& material) {
   if (const JsonValue* own = of("KHR_materials_diffuse_transmission")) {
     material.diffuse_transmission = diffuse_transmission(*own);
   }
-  const JsonValue* archived = of("KHR_materials_pbrSpecularGlossiness");
-  if (archived != nullptr && json.find("pbrMetallicRoughness") == nullptr) {
-    read_specular_glossiness(*archived, material);
+  // It takes the place of pbrMetallicRoughness, which is for readers that do not know it.
+  if (const JsonValue* own = of("KHR_materials_pbrSpecularGlossiness")) {
+    read_specular_glossiness(*own, material);
   }
 }
 

@@ -105,11 +105,10 @@ float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
 
 Vec3 Shading::emission(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
-  if (look.material->unlit) return Vec3(base_color(point));
-  if (is_missing_back(point)) return Vec3(0);
+  const Vec3 unlit = look.material->unlit ? Vec3(base_color(point)) : Vec3(0);
   const Vec3 color = look.material->emissive;
-  if (color == Vec3(0)) return color;
-  return glm::min(color, Vec3(kBrightest)) * Vec3(look.emissive.at(point));
+  if (color == Vec3(0) || (!look.material->unlit && is_missing_back(point))) return unlit;
+  return unlit + glm::min(color, Vec3(kBrightest)) * Vec3(look.emissive.at(point));
 }
 
 bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
