@@ -6,7 +6,6 @@
 #include "cli/written.hpp"
 
 #include <microtrace/render.hpp>
-#include <microtrace/segments.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/threads.hpp>
 
@@ -62,7 +61,6 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
                   const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
                   Warnings& warnings, const std::function<void(double)>& progress) {
   if (arguments.verbose) tell_of_scene(arguments, scene, size);
-  widen_segments(scene, camera, size);  // for the sidecar too, that its ids are the picture's
   const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
   RenderTimes times;
   RenderCounts counts;

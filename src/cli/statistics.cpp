@@ -48,7 +48,12 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
                        const MemoryBudget& memory) const {
   if (kind == Statistics::none) return;
   std::size_t primitives = 0;
-  for (const Object& object : scene.objects) primitives += primitive_count(object.shape);
+  for (const Object& object : scene.objects) {
+    primitives += primitive_count(object.shape);
+    // Each segment is drawn as two triangles.
+    if (const auto* mesh = std::get_if<Mesh>(&object.shape))
+      primitives += 2 * mesh->segments.size();
+  }
   const auto rays = static_cast<double>(counts.samples);
   const char* format =
       kind == Statistics::json
