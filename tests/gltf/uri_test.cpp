@@ -55,7 +55,10 @@ TEST(GltfUri, DataUrisAreTakenApart) {
 
 TEST(GltfUri, RelativePathsAreDecoded) {
   EXPECT_EQ(relative_path("a.bin").path, "a.bin");
-  EXPECT_EQ(relative_path("sub/./a%20b%2Ebin").path, "sub/./a b.bin");
+  EXPECT_EQ(relative_path("sub/./a%20b%2Ebin").path, "sub/a b.bin");
+  EXPECT_EQ(relative_path("./sub/../sub/x.png").path, "sub/x.png");
+  EXPECT_EQ(relative_path("a/b/%2e%2E/../c").path, "c");
+  EXPECT_EQ(relative_path("a/..").path, ".");
   EXPECT_EQ(relative_path("%C3%A4.bin").path, "\xC3\xA4.bin");
   EXPECT_EQ(relative_path("..a/b..").path, "..a/b..");
   EXPECT_EQ(relative_path("sub/a:b").path, "sub/a:b");
@@ -67,7 +70,9 @@ TEST(GltfUri, PathsOutOfTheFolderAreRefused) {
       {"../a.bin", ".."},
       {"..", ".."},
       {"a/../../b", ".."},
-      {"a/..", ".."},
+      {"a/b/../../..", ".."},
+      {"./..", ".."},
+      {"a/%2e%2e/%2e%2e/b", ".."},
       {"%2e%2E/a.bin", ".."},
       {"a%2F..%2f..%2Fb", ".."},
       {"/etc/hostname", "absolute"},

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -35,15 +36,6 @@ int hex_digit(char c) {
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');
-}
-
-bool has_parent_segment(std::string_view path) {
-  for (std::size_t start = 0; start <= path.size();) {
-    const std::size_t end = std::min(path.find('/', start), path.size());
-    if (path.substr(start, end - start) == "..") return true;
-    start = end + 1;
-  }
-  return false;
 }
 
 }  // namespace
@@ -111,10 +103,12 @@ RelativePath relative_path(std::string_view uri) {
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};
   }
-  if (has_parent_segment(*path)) {
+  // Without "." and "..", so that the path that is opened is the one that is looked at here.
+  const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
+  if (*plain.begin() == "..") {
     return {*path, "leads out of the asset's folder by \"..\"", true};
   }
-  return {.path = *path};
+  return {.path = plain.string()};
 }
 
 }  // namespace microtrace::io::gltf

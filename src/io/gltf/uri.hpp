@@ -27,13 +27,15 @@ struct DataUri {
 
 /// A file URI made into a path, or the reason why it is refused.
 struct RelativePath {
-  std::string path{};      ///< percent-decoded
+  std::string path{};      ///< percent-decoded, without "." and ".." where it is good
   std::string refusal{};   ///< empty where the path is good
   bool leads_out = false;  ///< refused only because it leads, or may lead, out of the folder
 };
 
-/// Accepts relative paths only (RFC 3986, section 4.2, path-noscheme), without "..", backslash and
-/// control characters before and after percent-decoding: what an asset names lies in its folder.
+/// Accepts relative paths only (RFC 3986, section 4.2, path-noscheme), without backslash and
+/// control characters before and after percent-decoding, that lead nowhere but into the asset's
+/// folder once
+/// "." and ".." are resolved by name alone.
 [[nodiscard]] RelativePath relative_path(std::string_view uri);
 
 }  // namespace microtrace::io::gltf
