@@ -19,6 +19,11 @@ enum class ErrorKind {
   limit = 6,          ///< a documented limit was reached
 };
 
+enum class Severity {
+  warning,  ///< an oddity, or a feature without effect
+  error,    ///< the file breaks a rule of its format
+};
+
 /// One message about one place. Parts that are unknown are empty or 0.
 struct MICROTRACE_EXPORT Diagnostic {
   std::string file;        ///< as the user named it
@@ -27,6 +32,7 @@ struct MICROTRACE_EXPORT Diagnostic {
   std::string pointer;     ///< JSON pointer (RFC 6901)
   std::string message;     ///< what is wrong and what to do
   std::string excerpt;     ///< the line itself, at most a screen wide, then a line with a caret
+  Severity severity = Severity::warning;  ///< of a diagnostic that is returned, not thrown
 
   /// `file:line:col: /json/pointer: message`, then the excerpt on lines of its own.
   [[nodiscard]] std::string text() const;

@@ -18,7 +18,9 @@ namespace microtrace {
 
 struct LoadedScene {
   Scene scene;
-  std::vector<Diagnostic> warnings;  ///< oddities survived and features not honoured, in file order
+  /// In file order: oddities, features without effect, and broken rules of the format
+  /// (Severity::error) that were repaired or worked around.
+  std::vector<Diagnostic> warnings;
 };
 
 /// How much of surfaces is read.

@@ -63,8 +63,8 @@ std::optional<PerspectiveCamera> framing_of(SceneFile& file, const cli::Argument
   return camera;
 }
 
-/// The file is read once.
-void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
+/// The file is read once. The exit code.
+int run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   using cli::frame_path;
   cli::Stopwatch watch;
   LoadTimes times;
@@ -111,10 +111,11 @@ void run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
     };
     cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log, tell);
   }
-  if (arguments.validate) cli::print_valid(arguments.scene, log.count());
+  return arguments.validate ? log.print_verdict(arguments.scene) : 0;
 }
 
-void run(cli::Arguments arguments) {
+/// The exit code.
+int run(cli::Arguments arguments) {
   MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
   arguments.load.memory = &memory;
   if (arguments.frames) return run_frames(arguments, *arguments.frames);
@@ -136,7 +137,7 @@ void run(cli::Arguments arguments) {
   const ImageSize size = arguments.size.value_or(scene.size);
   const Camera camera = cli::choose_camera(scene, arguments.viewpoint, size);
   watch.loaded(times);
-  if (arguments.validate) return cli::print_valid(arguments.scene, warnings.size());
+  if (arguments.validate) return log.print_verdict(arguments.scene);
 
   cli::check_outputs(arguments, arguments.output, arguments.sidecar);
   cli::refuse_to_write_over(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
@@ -150,14 +151,14 @@ void run(cli::Arguments arguments) {
   RenderCache cache;
   cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log,
                     cli::progress_of(arguments));
+  return 0;
 }
 
 /// Does the work, and says what went wrong with it.
 template <class Work>
 int exit_code_of(const Work& work) {
   try {
-    work();
-    return 0;
+    return work();
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return static_cast<int>(error.kind());
@@ -179,7 +180,10 @@ int main(int argc, char** argv) {
   if (cli::is_merge(argc, argv)) {
     const cli::ParsedMerge merge = cli::parse_merge(argc, argv);
     if (merge.exit_code) return *merge.exit_code;
-    return exit_code_of([&] { cli::merge_samples(merge.arguments); });
+    return exit_code_of([&] {
+      cli::merge_samples(merge.arguments);
+      return 0;
+    });
   }
   const cli::Parsed parsed = cli::parse_arguments(argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
@@ -187,7 +191,7 @@ int main(int argc, char** argv) {
   return exit_code_of([&] {
     const cli::Arguments& arguments = parsed.arguments;
     try {
-      run(arguments);
+      return run(arguments);
     } catch (const Error& error) {
       if (arguments.validate) cli::print_refused(arguments.scene, error.kind());
       throw;

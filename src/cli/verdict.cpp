@@ -26,12 +26,17 @@ const char* word_for(ErrorKind kind) {
   return "not judged";
 }
 
+std::string count_of(std::size_t number, const char* what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
 }  // namespace
 
-void print_valid(const std::string& scene, std::size_t warnings) {
-  std::printf("%s: valid", printable(scene).c_str());
-  if (warnings != 0) std::printf(", %zu warning%s", warnings, warnings == 1 ? "" : "s");
-  std::printf("\n");
+void print_findings(const std::string& scene, std::size_t errors, std::size_t warnings) {
+  std::string verdict =
+      errors == 0 ? "valid" : "invalid, but drawable: " + count_of(errors, "error");
+  if (warnings != 0) verdict += ", " + count_of(warnings, "warning");
+  std::printf("%s: %s\n", printable(scene).c_str(), verdict.c_str());
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw Error(ErrorKind::io, "standard output",
               std::string("can't be written: ") + std::strerror(errno) + "; make room");

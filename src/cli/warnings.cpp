@@ -1,5 +1,7 @@
 #include "cli/warnings.hpp"
 
+#include "cli/verdict.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -39,20 +41,33 @@ int exposure_for(float brightest) {
 }
 
 Diagnostic warning_about(const Arguments& arguments, std::string message) {
-  return {.file = arguments.scene, .pointer = {}, .message = std::move(message), .excerpt = {}};
+  return {.file = arguments.scene,
+          .pointer = {},
+          .message = std::move(message),
+          .excerpt = {},
+          .severity = Severity::warning};
 }
 
 }  // namespace
 
 void Warnings::tell(const Diagnostic& warning) const {
   if (is_strict_) throw Error(ErrorKind::invalid_scene, warning);
-  if (!is_quiet_) std::fprintf(stderr, "warning: %s\n", warning.text().c_str());
+  if (is_quiet_) return;
+  const bool is_error = is_validating_ && warning.severity == Severity::error;
+  std::fprintf(stderr, "%s: %s\n", is_error ? "error" : "warning", warning.text().c_str());
 }
 
 void Warnings::report(const std::vector<Diagnostic>& warnings) {
   for (const Diagnostic& warning : warnings) {
-    if (told_.insert(warning.text()).second) tell(warning);
+    if (!told_.insert(warning.text()).second) continue;
+    errors_ += warning.severity == Severity::error ? 1 : 0;
+    tell(warning);
   }
+}
+
+int Warnings::print_verdict(const std::string& scene) const {
+  print_findings(scene, errors_, told_.size() - errors_);
+  return errors_ == 0 ? 0 : static_cast<int>(ErrorKind::invalid_scene);
 }
 
 void Warnings::report_picture(const std::optional<Diagnostic>& warning) {

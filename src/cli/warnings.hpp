@@ -15,11 +15,14 @@
 
 namespace microtrace::cli {
 
-/// Says each warning once, and none where the arguments ask for quiet.
+/// Says each warning once, and none where the arguments ask for quiet. Broken rules that a picture
+/// survives are warnings to those who draw it, errors to those who validate.
 class Warnings {
  public:
   explicit Warnings(const Arguments& arguments)
-      : is_strict_(arguments.strict), is_quiet_(arguments.quiet) {}
+      : is_strict_(arguments.strict),
+        is_quiet_(arguments.quiet),
+        is_validating_(arguments.validate) {}
 
   /// Under --strict a scene with warnings is refused: throws Error.
   void report(const std::vector<Diagnostic>& warnings);
@@ -27,13 +30,14 @@ class Warnings {
   /// The same of what a picture shows, of the first of several with something to say.
   void report_picture(const std::optional<Diagnostic>& warning);
 
-  /// How many there were.
-  [[nodiscard]] std::size_t count() const { return told_.size(); }
+  /// Prints the verdict of --validate, and returns the exit code.
+  [[nodiscard]] int print_verdict(const std::string& scene) const;
 
  private:
   void tell(const Diagnostic& warning) const;
 
-  bool is_strict_, is_quiet_, has_told_of_picture_ = false;
+  bool is_strict_, is_quiet_, is_validating_, has_told_of_picture_ = false;
+  std::size_t errors_ = 0;
   std::set<std::string> told_;
 };
 

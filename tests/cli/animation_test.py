@@ -137,13 +137,16 @@ class Animation(ProgramTest):
         asset = json.loads((self.folder / "move.gltf").read_text())
         asset["extensionsUsed"] = ["VENDOR_unknown"]
         (self.folder / "warned.gltf").write_text(json.dumps(asset))
-        asset["accessors"][2]["componentType"] = 5123  # of the times
+        asset["scenes"][0]["nodes"] *= 2
+        (self.folder / "odd.gltf").write_text(json.dumps(asset))
+        asset["animations"][0]["channels"][0]["sampler"] = 99
         (self.folder / "wrong.gltf").write_text(json.dumps(asset))
         for name, code, verdict in (("move.gltf", 0, "valid"), ("warned.gltf", 0, "valid, 1 warning"),
+                                    ("odd.gltf", 3, "invalid, but drawable: 1 error, 1 warning"),
                                     ("wrong.gltf", 3, "invalid")):
             result = self.run_program(name, "--frames", "0:3", "--validate")
             self.assertEqual((result.returncode, result.stdout.decode()), (code, f"{name}: {verdict}\n"))
-        self.assertEqual(len(os.listdir(self.folder)), 3)
+        self.assertEqual(len(os.listdir(self.folder)), 4)
 
     def test_wrong_frames_are_usage_errors(self):
         for arguments, fragment in (

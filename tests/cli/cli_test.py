@@ -392,7 +392,9 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.stdout.decode(), f"{SCENE}: valid\n")
         self.assertEqual(os.listdir(self.folder), [])
         asset = {"asset": {"version": "2.1"}, "scenes": []}
-        for change, code, verdict in (({}, 0, "valid, 3 warnings"), ({"scene": 0}, 3, "invalid"),
+        for change, code, verdict in (({"scenes": [{}]}, 0, "valid, 2 warnings"),
+                                      ({}, 3, "invalid, but drawable: 1 error, 2 warnings"),
+                                      ({"scene": 0}, 3, "invalid"),
                                       ({"asset": {"version": "3.0"}}, 4, "unsupported"),
                                       ({"scene": "x" * 10}, 3, "invalid")):
             self.write("asset.gltf", json.dumps({**asset, **change}))
@@ -403,6 +405,41 @@ class CommandLine(ProgramTest):
         result = self.run_program("asset.gltf", "--validate", "--strict")
         self.assertEqual((result.returncode, result.stdout), (3, b"asset.gltf: invalid\n"))
         self.assertEqual(os.listdir(self.folder), ["asset.gltf"])
+
+    # Points and lines of glTF assets
+
+    def write_line(self, material):
+        """line.gltf: a segment from (0, 0, 0) to (1, 2, 3), without normals."""
+        positions = base64.b64encode(struct.pack("<6f", 0, 0, 0, 1, 2, 3)).decode()
+        self.write("line.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "buffers": [{"byteLength": 24, "uri": "data:application/octet-stream;base64," + positions}],
+            "bufferViews": [{"buffer": 0, "byteLength": 24}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3", "min": [0, 0, 0],
+                           "max": [1, 2, 3]}],
+            "materials": [material],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 1, "material": 0}]}]}))
+
+    def test_the_box_of_a_line_is_without_the_width_at_which_it_is_drawn(self):
+        self.write_line({})
+        result = self.run_program("line.gltf", "--size", "8x6", "--integrator", "flat", "-o", "a.ppm", "--sidecar", "a.json")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        line = json.loads((self.folder / "a.json").read_text())["objects"][0]
+        self.assertEqual(line["world_box"], {"min": [0, 0, 0], "max": [1, 2, 3]})
+        self.assertGreater(line["visible_pixels"], 0)
+
+    def test_a_line_without_normals_shows_the_sum_of_base_color_and_emission(self):
+        pictures = []
+        for base, emissive in (([0.25, 0, 0.125, 1], [0, 0.5, 0.125]), ([0.25, 0.5, 0.25, 1], [0, 0, 0])):
+            self.write_line({"pbrMetallicRoughness": {"baseColorFactor": base}, "emissiveFactor": emissive})
+            for light in ("studio", "#808080"):
+                result = self.run_program("line.gltf", "--size", "16x12", "--integrator", "path", "--spp", "4", "--env",
+                                          light, "--background", "#000000", "-o", "-")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                pictures.append(result.stdout)
+        self.assertEqual(pictures[0], pictures[2])
+        self.assertEqual(pictures[1], pictures[3])
+        self.assertGreater(max(pictures[1][-16 * 12 * 3:]), 0)
 
     # Usage
 

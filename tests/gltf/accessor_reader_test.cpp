@@ -139,5 +139,42 @@ TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndNotTooMany) {
   }
 }
 
+/// The padding after the last column of the last matrix is no part of an accessor (glTF 2.0,
+/// section 3.6.2.4).
+TEST(GltfAccessorReader, MatricesOfSmallNumbersEndWithTheirLastNumber) {
+  struct Case {
+    const char* type;
+    int component_type;
+    std::size_t bytes;  // of two matrices
+  };
+  for (const Case& c : {Case{"MAT2", u8, 14}, Case{"MAT2", i16, 16}, Case{"MAT3", i8, 23},
+                        Case{"MAT3", u16, 46}, Case{"MAT4", u8, 32}, Case{"MAT2", f32, 32}}) {
+    const auto fits = [&](std::size_t size, std::size_t stride) {
+      AssetBuilder asset;
+      asset.add("accessors", {{"bufferView", asset.add_view(std::string(size, '\0'), stride)},
+                              {"componentType", c.component_type},
+                              {"count", 2},
+                              {"type", c.type}});
+      try {
+        const Reading reading(asset);
+        return true;
+      } catch (const Error&) {
+        return false;
+      }
+    };
+    EXPECT_TRUE(fits(c.bytes, 0)) << c.type;
+    EXPECT_FALSE(fits(c.bytes - 1, 0)) << c.type;
+  }
+}
+
+TEST(GltfAccessorReader, ElementsBeyondTheEndAreZeros) {
+  AssetBuilder asset;
+  const int accessor = add<float>(asset, f32, "SCALAR", false, {1, 2, 3}, 3);
+  Reading reading(asset);
+  const std::vector<std::uint32_t> some = {1, 2, 3, 9}, other = {0, 1, 2, 3, 3};
+  EXPECT_THAT(reading.reader.read<float>(accessor, some), ElementsAre(2, 3, 0, 0));
+  EXPECT_THAT(reading.reader.read<float>(accessor, other), ElementsAre(1, 2, 3, 0, 0));
+}
+
 }  // namespace
 }  // namespace microtrace::tests

@@ -215,6 +215,62 @@ TEST(GltfGeometry, PositionsThatAreNotFiniteInTheWorldStayAndAreWarnedOf) {
               ElementsAre(HasSubstr("/meshes/0/primitives/0: has vertices that are not finite")));
 }
 
+/// NaN and infinity, where JSON says nothing of the accessor's bounds.
+TEST(GltfGeometry, VerticesThatAreNotFiniteAreLeftOutWithWhatTheyMake) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  AssetBuilder asset;
+  const std::size_t positions = asset.add_numbers<float>(
+      "VEC3", {0, 0, 0, 1, 0, 0, nan, 0, 0, 0, 1, 0, 0, 0, std::numeric_limits<float>::infinity()});
+  const std::size_t uvs = asset.add_numbers<float>("VEC2", {0, 1, nan, 2, 3, 3, 4, nan, 5, 5});
+  const std::size_t normals =
+      asset.add_numbers<float>("VEC3", {0, 0, 1, nan, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  const std::size_t indices = asset.add_indices({0, 1, 2, 0, 1, 3, 1, 3, 4}, u8);
+  asset.add_object(
+      {{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}, {"NORMAL", normals}}},
+       {"indices", indices}});
+  const LoadedScene scene = load(asset);
+  const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
+  EXPECT_THAT(triangles_of(scene.scene.objects[0]),
+              ElementsAre(Corners{Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)}));
+  EXPECT_THAT(mesh.uv_sets.at(0), ElementsAre(Vec2(0, 1), Vec2(0, 2), Vec2(4, 0)));
+  EXPECT_THAT(mesh.normals, ElementsAre(Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)));
+  EXPECT_THAT(texts(scene.warnings),
+              testing::IsSupersetOf({HasSubstr("/accessors/0: element 2 is not finite"),
+                                     HasSubstr("/accessors/1: element 1 is not finite (2 places)"),
+
+                                     HasSubstr("/meshes/0/primitives/0: has vertices")}));
+  asset.json["meshes"][0]["primitives"][0]["indices"] = asset.add_indices({0, 1, 2}, u8);
+  EXPECT_THAT(load(asset).scene.objects, IsEmpty());
+}
+
+/// glTF 2.0, Point and Line Materials.
+TEST(GltfGeometry, PointsAndLinesWithoutNormalsAreUnlit) {
+  const auto material_of = [](int mode, bool has_normals, bool has_material) {
+    AssetBuilder asset;
+    Json primitive = {{"attributes", {{"POSITION", asset.add_positions(points(6))}}},
+                      {"mode", mode}};
+    if (has_normals) primitive["attributes"]["NORMAL"] = asset.add_positions(points(6));
+    if (has_material) {
+      asset.json["materials"] = {{{"name", "m"}, {"emissiveFactor", {0, 0, 1}}}};
+      primitive["material"] = 0;
+    }
+    asset.add_object(primitive);
+    Json triangles = primitive;
+    triangles["mode"] = 4;
+    asset.add_object(triangles);
+    const Scene scene = load(asset).scene;
+    EXPECT_FALSE(scene.materials.at(scene.objects.at(1).material.value()).unlit);
+    return scene.materials.at(scene.objects.at(0).material.value());
+  };
+  for (int mode = 0; mode < 5; ++mode) {
+    EXPECT_EQ(material_of(mode, false, false).unlit, mode < 4) << mode;
+    EXPECT_EQ(material_of(mode, false, true).unlit, mode < 4) << mode;
+    EXPECT_FALSE(material_of(mode, true, true).unlit) << mode;
+  }
+  EXPECT_EQ(material_of(1, false, true).name, "m");
+  EXPECT_EQ(material_of(1, false, true).emissive, Vec3(0, 0, 1));  // is added
+}
+
 TEST(GltfGeometry, IntegersMayBeWrittenWithAPoint) {
   AssetBuilder asset = cube();
   std::string text = asset.embedded();

@@ -3,9 +3,9 @@
 
 usage: khronos_agreement.py PROGRAM FOLDER [--list]
 
-Takes every asset below FOLDER that has the validator's report beside it, as NAME.gltf.report.json. The two agree where an
-asset in whose report there are errors is refused, or drawn with a warning at the place of one of them; and where one without
-errors is drawn, or refused for a required extension alone (exit code 4). --list names the assets on which they differ.
+Takes every asset below FOLDER that has the validator's report beside it, as NAME.gltf.report.json. The two agree where the
+report has errors and microtrace calls the asset invalid, or has none and microtrace calls it valid; what microtrace does not
+judge, for a required extension (exit code 4), counts as agreement. --list names the assets on which they differ.
 """
 
 import json
@@ -19,9 +19,13 @@ UNSUPPORTED = 4
 
 
 def verdict(program, asset):
-    """The exit code, and the complaints as they are printed."""
+    """What microtrace says of the asset, and the complaints as they are printed."""
     run = subprocess.run([program, "--validate", asset], capture_output=True, text=True, errors="replace", timeout=300)
-    return run.returncode, run.stderr
+    if run.returncode == UNSUPPORTED:
+        return "unsupported", run.stderr
+    if run.returncode == 0:
+        return "valid", run.stderr
+    return "invalid, but drawable" if ": invalid, but drawable: " in run.stdout else "refused", run.stderr
 
 
 def error_pointers(report):
@@ -30,7 +34,7 @@ def error_pointers(report):
 
 def names_one_of(complaints, pointers):
     """Whether a complaint stands at, above or below the place of an error: the two programs differ in how deep they point."""
-    places = [word.rstrip(":") for line in complaints.splitlines() if line.startswith(("error:", "warning:"))
+    places = [word.rstrip(":") for line in complaints.splitlines() if line.startswith("error:")
               for word in line.split() if word.startswith("/") and word.endswith(":")]
     return any(place.startswith(pointer) or pointer.startswith(place) for pointer in pointers for place in places)
 
@@ -45,15 +49,11 @@ def main():
         if not asset.exists():
             continue
         report = json.loads(report_file.read_text())
-        code, complaints = verdict(program, asset)
+        ours, complaints = verdict(program, asset)
         wrong = report["issues"]["numErrors"] > 0
-        ours = "unsupported" if code == UNSUPPORTED else "refused" if code else "drawn"
-        at_place = wrong and names_one_of(complaints, error_pointers(report))
-        if wrong and ours == "drawn":
-            ours = "warned of, there" if at_place else "drawn"
         counts["errors" if wrong else "no errors", ours] += 1
-        placed += at_place
-        differs = ours == "drawn" if wrong else ours == "refused"
+        placed += wrong and names_one_of(complaints, error_pointers(report))
+        differs = ours == "valid" if wrong else ours in ("refused", "invalid, but drawable")
         differ += differs
         if listing and differs:
             print(f"{asset}: the report has {'errors' if wrong else 'no errors'}, microtrace: {ours}; {complaints[:200]}")

@@ -1,6 +1,8 @@
 #include "gltf/asset_builder.hpp"
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gmock/gmock.h>
 
@@ -80,12 +82,8 @@ TEST(GltfLights, WithoutDirectionAreLeftOut) {
 TEST(GltfLights, BrokenOnesAreRefused) {
   const std::vector<Json> broken = {
       {{"intensity", 1}},
-      {{"type", "spot"}},
-      {{"type", "point"}, {"intensity", -1}},
-      {{"type", "point"}, {"range", 0}},
       {{"type", "point"}, {"color", {1, 1}}},
-      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.5}, {"outerConeAngle", 0.5}}}},
-      {{"type", "spot"}, {"spot", {{"outerConeAngle", 1.6}}}},
+      {{"type", "point"}, {"intensity", "1"}},
   };
   for (const Json& light : broken) {
     try {
@@ -97,6 +95,42 @@ TEST(GltfLights, BrokenOnesAreRefused) {
                   HasSubstr("/extensions/KHR_lights_punctual/lights/0"));
     }
   }
+}
+
+/// The light of that JSON, which is drawn with a warning.
+template <typename Kind>
+Kind repaired(const Json& light) {
+  const LoadedScene scene = load(lit(Json::array({light})));
+  EXPECT_THAT(texts(scene.warnings),
+              Contains(HasSubstr("/extensions/KHR_lights_punctual/lights/0")));
+  return std::get<Kind>(scene.scene.lights.at(0).light);
+}
+
+TEST(GltfLights, NumbersOutOfTheirRangeAreRepaired) {
+  const auto point = repaired<PointLight>(
+      {{"type", "point"}, {"intensity", -1}, {"range", 0}, {"color", {1.5, -1, 0.5}}});
+  EXPECT_EQ(point.intensity, 0);
+  EXPECT_EQ(point.color, Vec3(1, 0, 0.5));
+  EXPECT_EQ(point.range, std::numeric_limits<double>::infinity());
+}
+
+TEST(GltfLights, ConesAreRepaired) {
+  const auto spot = [](const Json& cone) {
+    return repaired<SpotLight>({{"type", "spot"}, {"spot", cone}});
+  };
+  const double quarter_turn = std::numbers::pi / 2, eighth = std::numbers::pi / 4;
+  EXPECT_EQ(spot({{"outerConeAngle", 1.57079637}}).outer_angle, quarter_turn);
+  EXPECT_EQ(spot({{"outerConeAngle", 3}, {"innerConeAngle", 2}}).outer_angle, quarter_turn);
+  for (const double inner : {0.5, 0.6, 1.5}) {
+    const SpotLight sharp = spot({{"innerConeAngle", inner}, {"outerConeAngle", 0.5}});
+    EXPECT_EQ(sharp.inner_angle, std::nextafter(0.5, 0));
+    EXPECT_EQ(sharp.outer_angle, 0.5);
+  }
+  EXPECT_EQ(spot({{"innerConeAngle", 1}}).inner_angle, std::nextafter(eighth, 0));
+  const SpotLight dark = spot({{"innerConeAngle", -1}, {"outerConeAngle", 0}});
+  EXPECT_EQ(dark.inner_angle, 0);
+  EXPECT_GT(dark.outer_angle, 0);
+  EXPECT_EQ(repaired<SpotLight>({{"type", "spot"}}).outer_angle, eighth);
 }
 
 }  // namespace

@@ -172,7 +172,7 @@ TEST(GltfMaterial, NumbersStayFiniteAndPositive) {
   EXPECT_LT(m.anisotropy.value().rotation, 6.2832F);
 }
 
-TEST(GltfMaterial, SpecularGlossinessCountsWhereThereIsNoMetallicRoughness) {
+TEST(GltfMaterial, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
   constexpr const char* archived = R"({
     "extensions": {"KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [0, 0.5, 1, 0.25], "diffuseTexture": {"index": 0},
@@ -187,9 +187,33 @@ TEST(GltfMaterial, SpecularGlossinessCountsWhereThereIsNoMetallicRoughness) {
   EXPECT_EQ(m.specular_glossiness.value().glossiness, 0.75F);
   EXPECT_EQ(index_of(m.specular_glossiness.value().texture), 1U);
   AssetBuilder both = with_material(archived);
-  both.json["materials"][0]["pbrMetallicRoughness"] = {{"baseColorFactor", {1, 0, 0, 1}}};
-  EXPECT_EQ(load(both).scene.materials.at(0).base_color, Vec4(1, 0, 0, 1));
-  EXPECT_FALSE(load(both).scene.materials.at(0).specular_glossiness);
+  for (const char* other :
+       {"{}", R"({"baseColorFactor": [1, 0, 0, 1], "baseColorTexture": {"index": 3},
+                  "metallicFactor": 1, "metallicRoughnessTexture": {"index": 2}})"}) {
+    both.json["materials"][0]["pbrMetallicRoughness"] = Json::parse(other);
+    for (const SurfaceDetail detail : {SurfaceDetail::color, SurfaceDetail::all}) {
+      const Material own = load(both, {.detail = detail}).scene.materials.at(0);
+      EXPECT_EQ(own.base_color, m.base_color);
+      EXPECT_EQ(index_of(own.base_color_texture), 0U);
+      EXPECT_EQ(own.metallic, 0);
+      EXPECT_EQ(own.roughness, 0.25F);
+      EXPECT_FALSE(own.metallic_roughness_texture);
+      EXPECT_EQ(own.specular_glossiness.value().specular, m.specular_glossiness->specular);
+    }
+  }
+  // Of what it leaves out its own defaults hold.
+  Json& own = both.json["materials"][0]["extensions"];
+  own["KHR_materials_pbrSpecularGlossiness"] = Json::object();
+  EXPECT_EQ(load(both).scene.materials.at(0).base_color, Vec4(1));
+  EXPECT_FALSE(load(both).scene.materials.at(0).base_color_texture);
+}
+
+TEST(GltfMaterial, UnlitOnesShowTheirBaseColorAlone) {
+  const Material m = material(R"({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+                                  "extensions": {"KHR_materials_unlit": {}}})");
+  EXPECT_TRUE(m.unlit);
+  EXPECT_EQ(m.emissive, Vec3(0));
+  EXPECT_FALSE(m.emissive_texture);
 }
 
 TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
@@ -229,36 +253,71 @@ TEST(GltfMaterial, MergedScenesKeepTheirTextures) {
   EXPECT_EQ(shifted(whole.materials.at(part.materials.size())), wanted);
 }
 
-TEST(GltfMaterial, RangesAreHeldToTheirSpecifications) {
+TEST(GltfMaterial, NumbersOutOfTheirRangeAreRepaired) {
+  const AssetBuilder asset = with_material(R"({
+    "pbrMetallicRoughness": {"baseColorFactor": [1.00000012, -1, 1e300, 0.5],
+                             "metallicFactor": -0.1, "roughnessFactor": 1.1},
+    "emissiveFactor": [2, 0.5, -1], "alphaCutoff": -3,
+    "occlusionTexture": {"index": 0, "strength": 1.5, "texCoord": -1},
+    "extensions": {
+      "KHR_materials_emissive_strength": {"emissiveStrength": -1},
+      "KHR_materials_ior": {"ior": 0.5},
+      "KHR_materials_dispersion": {"dispersion": -1},
+      "KHR_materials_specular": {"specularFactor": 1.5, "specularColorFactor": [7, -1, 1]},
+      "KHR_materials_transmission": {"transmissionFactor": 2},
+      "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0,
+                               "attenuationColor": [2, 1, 0]},
+      "KHR_materials_clearcoat": {"clearcoatFactor": 2, "clearcoatRoughnessFactor": -1},
+      "KHR_materials_sheen": {"sheenColorFactor": [2, 0, 0], "sheenRoughnessFactor": 3},
+      "KHR_materials_anisotropy": {"anisotropyStrength": 1.1},
+      "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceIor": 0.9,
+                                    "iridescenceThicknessMaximum": -1},
+      "KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 2}}})");
+  const LoadedScene loaded = load(asset);
+  const Material& m = loaded.scene.materials.at(0);
+  EXPECT_EQ(m.base_color, Vec4(1, 0, 1, 0.5F));
+  EXPECT_EQ(m.metallic, 0);
+  EXPECT_EQ(m.roughness, 1);
+  EXPECT_EQ(m.emissive, Vec3(0));
+  EXPECT_EQ(m.alpha_cutoff, 0);
+  EXPECT_EQ(m.occlusion_strength, 1);
+  EXPECT_EQ(m.occlusion_texture.value().uv_set, 0U);
+  EXPECT_EQ(m.ior, 1);
+  EXPECT_EQ(m.dispersion, 0);
+  EXPECT_EQ(m.specular.value().factor, 1);
+  EXPECT_EQ(m.specular.value().color, Vec3(7, 0, 1));
+  EXPECT_EQ(m.transmission.value().factor, 1);
+  EXPECT_EQ(m.volume.value().attenuation_distance, Volume().attenuation_distance);
+  EXPECT_EQ(m.volume.value().attenuation_color, Vec3(1, 1, 0));
+  EXPECT_EQ(m.clearcoat.value().factor, 1);
+  EXPECT_EQ(m.clearcoat.value().roughness, 0);
+  EXPECT_EQ(m.sheen.value().color, Vec3(1, 0, 0));
+  EXPECT_EQ(m.sheen.value().roughness, 1);
+  EXPECT_EQ(m.anisotropy.value().strength, 1);
+  EXPECT_EQ(m.iridescence.value().ior, 1);
+  EXPECT_EQ(m.iridescence.value().thickness_maximum, 0);
+  EXPECT_EQ(m.diffuse_transmission.value().factor, 1);
+  std::size_t errors = 0;
+  for (const Diagnostic& warning : loaded.warnings) {
+    if (warning.severity == Severity::error && warning.pointer.starts_with("/materials/0/"))
+      ++errors;
+  }
+  EXPECT_EQ(errors, 14U);  // each text once
+  EXPECT_EQ(material(R"({"extensions": {"KHR_materials_ior": {"ior": -1}}})").ior, 1.5F);
+}
+
+TEST(GltfMaterial, WrongTypesAndLengthsAreRefused) {
   struct Case {
     const char* extension;
     const char* properties;
     const char* pointer;
   };
   for (const Case& c : {
-           Case{"emissive_strength", R"({"emissiveStrength": -1})", "emissiveStrength"},
-           Case{"ior", R"({"ior": 0.5})", "ior"},
-           Case{"dispersion", R"({"dispersion": -1})", "dispersion"},
-           Case{"specular", R"({"specularFactor": 1.5})", "specularFactor"},
-           Case{"specular", R"({"specularColorFactor": [1, -1, 1]})", "specularColorFactor/1"},
-           Case{"transmission", R"({"transmissionFactor": 2})", "transmissionFactor"},
-           Case{"volume", R"({"thicknessFactor": -1})", "thicknessFactor"},
-           Case{"volume", R"({"attenuationDistance": 0})", "attenuationDistance"},
            Case{"volume", R"({"attenuationColor": [1, 1]})", "attenuationColor"},
-           Case{"clearcoat", R"({"clearcoatFactor": 2})", "clearcoatFactor"},
-           Case{"clearcoat", R"({"clearcoatRoughnessFactor": -1})", "clearcoatRoughnessFactor"},
            Case{"clearcoat", R"({"clearcoatNormalTexture": {"index": 99}})",
                 "clearcoatNormalTexture/index"},
-           Case{"sheen", R"({"sheenColorFactor": [2, 0, 0]})", "sheenColorFactor/0"},
            Case{"sheen", R"({"sheenRoughnessFactor": "1"})", "sheenRoughnessFactor"},
-           Case{"anisotropy", R"({"anisotropyStrength": 1.1})", "anisotropyStrength"},
-           Case{"iridescence", R"({"iridescenceIor": 0.9})", "iridescenceIor"},
-           Case{"iridescence", R"({"iridescenceThicknessMaximum": -1})",
-                "iridescenceThicknessMaximum"},
-           Case{"diffuse_transmission", R"({"diffuseTransmissionFactor": 2})",
-                "diffuseTransmissionFactor"},
            Case{"pbrSpecularGlossiness", R"({"diffuseFactor": [1, 1, 1]})", "diffuseFactor"},
-           Case{"pbrSpecularGlossiness", R"({"glossinessFactor": 2})", "glossinessFactor"},
        }) {
     const std::string name = std::string("KHR_materials_") + c.extension;
     const std::string json = R"({"extensions": {")" + name + "\": " + c.properties + "}}";

@@ -73,12 +73,29 @@ TEST(GltfWarning, WarningsComeInFileOrderAndTheirNumberIsBounded) {
   }
 }
 
+TEST(GltfWarning, BrokenRulesAreToldFromOddities) {
+  AssetBuilder asset = cube();
+  asset.json["extensionsUsed"] = {"X_unknown"};
+  asset.json["materials"][0]["alphaCutoff"] = -1;
+  const std::vector<Diagnostic> found = load(asset).warnings;
+  ASSERT_EQ(found.size(), 2U);
+  for (const Diagnostic& d : found) {
+    EXPECT_EQ(d.severity, d.pointer == "/extensionsUsed/0" ? Severity::warning : Severity::error);
+  }
+  // What is left out of a long list keeps the asset from being called valid.
+  for (int i = 0; i < 100; ++i) asset.json["extensionsUsed"].push_back("X_" + std::to_string(i));
+  EXPECT_EQ(load(asset).warnings.back().severity, Severity::error);
+  asset.json["materials"][0].erase("alphaCutoff");
+  EXPECT_EQ(load(asset).warnings.back().severity, Severity::warning);
+}
+
 TEST(GltfWarning, BuffersWithoutDataLeaveTheirPrimitivesOut) {
   const LoadedScene loaded = load(cube().with_buffer(nullptr).dump());
   EXPECT_THAT(loaded.scene.objects, IsEmpty());
   EXPECT_THAT(texts(loaded.warnings),
-              ElementsAre(HasSubstr("nothing to draw"),
-                          HasSubstr("/meshes/0/primitives/0: needs a buffer without data")));
+              testing::UnorderedElementsAre(
+                  HasSubstr("nothing to draw"), HasSubstr("/buffers/0: has no uri"),
+                  HasSubstr("/meshes/0/primitives/0: needs a buffer without data")));
 }
 
 }  // namespace

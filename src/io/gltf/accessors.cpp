@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -121,7 +122,7 @@ Decoder<Element> decoder(const tinygltf::Accessor& accessor) {
 struct AccessorReader::Source {
   const tinygltf::Accessor& accessor;
   std::string_view bytes{};  // from the first element on; empty if there is no buffer view
-  std::size_t stride = 0, size = 0;
+  std::size_t stride = 0, size = 0, count = 0;
   std::string_view sparse_indices{}, sparse_values{};
   std::size_t sparse_count = 0;
 
@@ -157,11 +158,19 @@ bool AccessorReader::has_data(int index) const {
                                         views_.bytes(accessor.sparse.values.bufferView)));
 }
 
+std::size_t AccessorReader::count(int index) const {
+  const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+  const auto replaced = replaced_.find(index);
+  if (replaced == replaced_.end()) return accessor.count;
+  return replaced->second.size() / element_size(accessor.type, accessor.componentType);
+}
+
 AccessorReader::Source AccessorReader::source(int index) {
   const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
   Source result{.accessor = accessor};
   result.size = element_size(accessor.type, accessor.componentType);
   result.stride = result.size;
+  result.count = count(index);
   if (const auto replaced = replaced_.find(index); replaced != replaced_.end()) {
     result.bytes = replaced->second;
     return result;
@@ -210,8 +219,8 @@ template <typename Element>
 std::vector<Element> AccessorReader::read(int accessor) {
   const Source from = source(accessor);
   const Decoder<Element> decode_all = decoder<Element>(from.accessor);
-  take_memory(from.accessor.count * sizeof(Element), "the elements of accessors");
-  std::vector<Element> result(from.accessor.count, Element(0));
+  take_memory(from.count * sizeof(Element), "the elements of accessors");
+  std::vector<Element> result(from.count, Element(0));
   if (!from.bytes.empty()) decode_all(from.bytes.data(), from.stride, nullptr, result);
   for (std::size_t i = 0; i < from.sparse_count; ++i) {
     const std::span<Element> replaced(&result[from.sparse_index(i)], 1);
@@ -226,17 +235,33 @@ std::vector<Element> AccessorReader::read(int accessor, std::span<const std::uin
   const Decoder<Element> decode_some = decoder<Element>(from.accessor);
   take_memory(numbers.size() * sizeof(Element), "the elements of accessors");
   std::vector<Element> result(numbers.size(), Element(0));
+  const auto is_there = [&](std::uint32_t number) { return number < from.count; };
+  numbers = numbers.first(
+      static_cast<std::size_t>(std::ranges::partition_point(numbers, is_there) - numbers.begin()));
   if (!from.bytes.empty()) {
     // As many different numbers as there are elements are all of them.
-    const bool all = numbers.size() == from.accessor.count &&
-                     std::ranges::adjacent_find(numbers) == numbers.end();
-    decode_some(from.bytes.data(), from.stride, all ? nullptr : numbers.data(), result);
+    const bool all =
+        numbers.size() == from.count && std::ranges::adjacent_find(numbers) == numbers.end();
+    decode_some(from.bytes.data(), from.stride, all ? nullptr : numbers.data(),
+                std::span(result).first(numbers.size()));
   }
   for (std::size_t i = 0; i < numbers.size() && from.sparse_count > 0; ++i) {
     const std::size_t sparse = from.first_sparse(numbers[i]);
     if (sparse == from.sparse_count || from.sparse_index(sparse) != numbers[i]) continue;
     const std::span<Element> replaced(&result[i], 1);
     decode_some(&from.sparse_values[sparse * from.size], 0, nullptr, replaced);
+  }
+  return result;
+}
+
+template <typename Element>
+std::vector<Element> AccessorReader::read_finite(int accessor,
+                                                 std::span<const std::uint32_t> numbers) {
+  std::vector<Element> result = read<Element>(accessor, numbers);
+  for (Element& element : result) {
+    for (glm::length_t i = 0; i < Element::length(); ++i) {
+      if (!std::isfinite(element[i])) element[i] = 0;
+    }
   }
   return result;
 }
@@ -256,5 +281,13 @@ MICROTRACE_READ(glm::mat4)
 MICROTRACE_READ(std::uint32_t)
 MICROTRACE_READ(glm::uvec4)
 #undef MICROTRACE_READ
+
+#define MICROTRACE_READ_FINITE(Element)                               \
+  template std::vector<Element> AccessorReader::read_finite<Element>( \
+      int, std::span<const std::uint32_t>);
+MICROTRACE_READ_FINITE(Vec2)
+MICROTRACE_READ_FINITE(Vec3)
+MICROTRACE_READ_FINITE(Vec4)
+#undef MICROTRACE_READ_FINITE
 
 }  // namespace microtrace::io::gltf

@@ -20,9 +20,13 @@ namespace microtrace::io::gltf {
 /// primitives, and no scene more triangles or vertices in all instances of its meshes.
 inline constexpr std::size_t max_elements = std::size_t{1} << 27;
 
-/// Bytes of one component; of one element, with the padding of matrix columns to 4 bytes.
+/// Bytes of one component.
 [[nodiscard]] std::size_t component_size(int component_type);
+/// Bytes from one element to the next where they lie without gaps: each column of a matrix is
+/// padded to a multiple of 4 bytes (glTF 2.0, section 3.6.2.4).
 [[nodiscard]] std::size_t element_size(int type, int component_type);
+/// Bytes of the last element: without the padding after its last column.
+[[nodiscard]] std::size_t element_extent(int type, int component_type);
 
 /// Checks every buffer view and accessor of the model: in range, strides wide enough, the shape of
 /// sparse parts (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws Error (invalid_scene); warns of
@@ -39,6 +43,9 @@ class AccessorReader {
   /// Whether every buffer that the accessor needs has bytes.
   [[nodiscard]] bool has_data(int accessor) const;
 
+  /// How many elements the accessor has.
+  [[nodiscard]] std::size_t count(int accessor) const;
+
   /// The accessor's elements. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,
   /// std::uint32_t or glm::uvec4, with as many components as the accessor's type. As floats,
   /// normalized integers lie in [0, 1] or [-1, 1] (glTF 2.0, section 3.11), other integers keep
@@ -48,13 +55,20 @@ class AccessorReader {
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(int accessor);
 
-  /// The same for some elements only, by numbers below the accessor's count that don't descend: as
-  /// many as a primitive uses, in time and memory, however long the accessor is.
+  /// The same for some elements only, by numbers that don't descend: as many as a primitive uses,
+  /// in time and memory, however long the accessor is. Elements beyond the accessor's count are
+  /// zeros: a compressed primitive may have more vertices than the accessors of its other
+  /// attributes.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(int accessor, std::span<const std::uint32_t> numbers);
 
+  /// The same with 0 for each float that is not finite.
+  template <typename Element>
+  [[nodiscard]] std::vector<Element> read_finite(int accessor,
+                                                 std::span<const std::uint32_t> numbers);
+
   /// From now on the accessor's elements are these, without gaps, as a compressed primitive holds
-  /// them.
+  /// them; their number may be another than before.
   void replace(int accessor, std::string elements);
 
   [[nodiscard]] const BufferViews& views() const { return views_; }

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -77,10 +76,12 @@ class AnimationPlayer::Reader {
           "channel is ignored");
       return std::nullopt;
     }
+    Keyframes keys = keyframes(sampler, target->path, *width);
+    if (keys.times->empty()) return std::nullopt;
     return Channel{.node = target->node,
                    .path = target->path,
                    .property = target->property,
-                   .keys = keyframes(sampler, target->path, *width)};
+                   .keys = std::move(keys)};
   }
 
  private:
@@ -153,9 +154,9 @@ class AnimationPlayer::Reader {
       asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
       return std::nullopt;
     }
-    if (!animated.matrix.empty()) {
-      asset_.fail(at,
-                  "is animated, but has a matrix; give translation, rotation and scale instead");
+    if (!animated.matrix.empty()) {  // check_animations has told, but of pointers
+      asset_.tolerate(at, "animates a node that has a matrix; it is ignored");
+      return std::nullopt;
     }
     return path == Path::rotation ? 4 : 3;
   }
@@ -196,7 +197,7 @@ class AnimationPlayer::Reader {
     if (!is_pointed_at(path)) check_types(input, output, path);
     Keyframes keys{.are_rotations = path == Path::rotation,
                    .width = width,
-                   .times = times(input),
+                   .times = numbers(input),
                    .values = numbers(output)};
     std::size_t values_of_key = 1;
     if (const JsonValue* kind = sampler.value->find("interpolation")) {
@@ -213,15 +214,38 @@ class AnimationPlayer::Reader {
                               std::to_string(keys.times->size()) + " keys need " +
                               std::to_string(wanted / size));
     }
+    repair(input, output, keys);
     return keys;
+  }
+
+  /// Leaves out keys that make no sense. Each accessor is looked at once, however many share it.
+  void repair(const Element& input, const Element& output, Keyframes& keys) {
+    const auto [ascends, new_times] = ascends_.try_emplace(accessor_of(input));
+    if (new_times) ascends->second = is_ascending(*keys.times);
+    const auto [is_finite, new_values] = finite_.try_emplace(accessor_of(output));
+    if (new_values) is_finite->second = are_finite(*keys.values);
+    if (ascends->second && is_finite->second) return;
+    const std::size_t count = keys.times->size();
+    charge(output, count + keys.values->size());
+    keep_ascending(keys);
+    asset_.tolerate(input, "has " + std::to_string(count - keys.times->size()) +
+                               " times that do not come after the one before them, or with "
+                               "values that are not finite; these keys are left out");
+  }
+
+  void charge(const Element& at, std::size_t count) {
+    count_ += count;
+    if (count_ > max_elements) {
+      asset_.fail(at, "brings the animations to more than 2^27 numbers, the most that is read",
+                  ErrorKind::limit);
+    }
   }
 
   void check_types(const Element& input, const Element& output, Path path) const {
     const tinygltf::Accessor& in = accessor(input);
     const tinygltf::Accessor& out = accessor(output);
     if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
-      asset_.fail(input,
-                  "refers to an accessor that is not of type SCALAR and componentType 5126, float");
+      asset_.fail(input, "refers to an accessor that is not of type SCALAR and of floats");
     }
     const int type = path == Path::weights    ? TINYGLTF_TYPE_SCALAR
                      : path == Path::rotation ? TINYGLTF_TYPE_VEC4
@@ -230,28 +254,8 @@ class AnimationPlayer::Reader {
     const bool is_integer = out.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
     const bool is_narrow = component_size(out.componentType) < 4;
     if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
-      asset_.fail(output, std::string("refers to an accessor that is not of type ") +
-                              (type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
-                               : type == TINYGLTF_TYPE_VEC4 ? "VEC4"
-                                                            : "VEC3") +
-                              (may_be_integer ? " and float or normalized integers of 8 or 16 bits"
-                                              : " and float"));
+      asset_.fail(output, "refers to an accessor of a type that is not for its path");
     }
-  }
-
-  Numbers times(const Element& input) {
-    Numbers result = numbers(input);
-    if (!ascending_.insert(accessor_of(input)).second) return result;
-    for (std::size_t i = 0; i < result->size(); ++i) {
-      const float before = i == 0 ? 0 : (*result)[i - 1], time = (*result)[i];
-      // Written so that no NaN passes.
-      const bool ascends = i == 0 ? time >= before : time > before;
-      if (ascends) continue;
-      asset_.fail(asset_.element("accessors", static_cast<std::size_t>(accessor_of(input))),
-                  "element " + std::to_string(i) +
-                      " breaks the order of an animation's times, which ascend from 0 or later");
-    }
-    return result;
   }
 
   Numbers numbers(const Element& at) {
@@ -259,11 +263,7 @@ class AnimationPlayer::Reader {
     Numbers& result = numbers_[index];
     if (result) return result;
     const tinygltf::Accessor& source = accessor(at);
-    count_ += source.count * components(source.type);
-    if (count_ > max_elements) {
-      asset_.fail(at, "brings the animations to more than 2^27 numbers, the most that is read",
-                  ErrorKind::limit);
-    }
+    charge(at, source.count * components(source.type));
     result = std::make_shared<const std::vector<float>>(
         source.type == TINYGLTF_TYPE_SCALAR ? reader_.read<float>(index)
         : source.type == TINYGLTF_TYPE_VEC2 ? flattened(reader_.read<glm::vec2>(index))
@@ -275,9 +275,9 @@ class AnimationPlayer::Reader {
   Asset& asset_;
   const tinygltf::Model& model_;
   AccessorReader& reader_;
-  std::unordered_map<int, Numbers> numbers_;  // by accessor
-  std::unordered_set<int> ascending_;         // accessors that were looked at
-  std::size_t count_ = 0;                     // of them all
+  std::unordered_map<int, Numbers> numbers_;        // by accessor
+  std::unordered_map<int, bool> ascends_, finite_;  // by accessor, as far as looked at
+  std::size_t count_ = 0;                           // of them all
 };
 
 AnimationPlayer::AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,

@@ -19,7 +19,8 @@ Asset::Asset(JsonDocument& json) : json_(json) {
   if (const OutdoneKeys& outdone = json.outdone_keys(); outdone.count > 0) {
     JsonValue key;
     key.offset = outdone.offset;
-    warn({&key, outdone.pointer}, "stands twice in its object; the last one counts", outdone.count);
+    note({&key, outdone.pointer}, "stands twice in its object; the last one counts",
+         Severity::error, outdone.count);
   }
   for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string);
   for (const JsonValue& item : array("extensionsRequired")) required_.insert(item.string);
@@ -72,12 +73,26 @@ void Asset::drop(const Element& object, const std::unordered_set<std::string_vie
   value.index_members();
 }
 
+void Asset::set(const Element& at, double number) {
+  const_cast<JsonValue*>(at.value)->number = number;
+}
+
 void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
   throw Error(kind, json_.at(at.value->offset, at.pointer, std::move(message)));
 }
 
-void Asset::warn(const Element& at, const std::string& message, std::size_t places) {
+void Asset::warn(const Element& at, const std::string& message) {
+  note(at, message, Severity::warning, 1);
+}
+
+void Asset::tolerate(const Element& at, const std::string& message) {
+  note(at, message, Severity::error, 1);
+}
+
+void Asset::note(const Element& at, const std::string& message, Severity severity,
+                 std::size_t places) {
   Warning& warning = warnings_[message];
+  warning.severity = std::max(warning.severity, severity);
   if (warning.count == 0 || at.value->offset < warning.offset) {
     warning.offset = at.value->offset;
     warning.pointer = at.pointer;
@@ -96,12 +111,15 @@ std::vector<Diagnostic> Asset::warnings() const {
     auto& [message, warning] = sorted[i];
     if (warning.count > 1) message += " (" + std::to_string(warning.count) + " places)";
     result.push_back(json_.at(warning.offset, warning.pointer, message));
+    result.back().severity = warning.severity;
   }
   if (sorted.size() > shown) {
-    std::string message = std::to_string(sorted.size() - shown) + " more warnings are left out";
-    result.emplace_back();
-    result.back().file = json_.file();
-    result.back().message = std::move(message);
+    Diagnostic& last = result.emplace_back();
+    last.file = json_.file();
+    last.message = std::to_string(sorted.size() - shown) + " more warnings are left out";
+    for (std::size_t i = shown; i < sorted.size(); ++i) {
+      last.severity = std::max(last.severity, sorted[i].second.severity);
+    }
   }
   return result;
 }

@@ -27,8 +27,8 @@ struct Element {
 
 class Asset {
  public:
-  /// The document must outlive the asset, which changes it by drop alone. Warns of keys that stand
-  /// twice in an object.
+  /// The document must outlive the asset, which changes it by drop and set alone. Warns of keys
+  /// that stand twice in an object.
   explicit Asset(JsonDocument& json);
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
@@ -49,13 +49,17 @@ class Asset {
   /// Takes members that do no good out of an object of the asset's JSON, after a warning. What is
   /// left is what readers see. Elements in the object are no longer good.
   static void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
+  /// Puts another number in the place of one, after a warning.
+  static void set(const Element& at, double number);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
 
-  /// Warnings with one text become one diagnostic: the first place in the file, and their number;
-  /// `at` is the first of so many places.
-  void warn(const Element& at, const std::string& message, std::size_t places = 1);
+  /// Warnings with one text become one diagnostic: the first place in the file, and their number.
+  void warn(const Element& at, const std::string& message);
+  /// The same for a rule of glTF 2.0 that is broken there without keeping the asset from being
+  /// drawn: a warning for those who draw it, an error for those who validate it.
+  void tolerate(const Element& at, const std::string& message);
   /// All warnings in file order; beyond 100 texts, a last one says how many are left out.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
@@ -63,7 +67,11 @@ class Asset {
   struct Warning {
     std::size_t offset = 0, count = 0;
     std::string pointer;
+    Severity severity = Severity::warning;
   };
+
+  /// `at` is the first of so many places.
+  void note(const Element& at, const std::string& message, Severity severity, std::size_t places);
 
   const JsonDocument& json_;
   std::unordered_set<std::string_view> used_, required_;  // extensions

@@ -11,7 +11,7 @@ std::string decode(Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
   if (data && data->media_type != "application/octet-stream" &&
       data->media_type != "application/gltf-buffer") {
-    asset.warn(uri, "has a media type that is not for buffers; application/octet-stream is");
+    asset.tolerate(uri, "has a media type that is not for buffers; application/octet-stream is");
   }
   return decode_data_uri(asset, uri);
 }
@@ -29,6 +29,15 @@ bool is_fallback(const Element& buffer) {
   return fallback != nullptr && fallback->boolean;
 }
 
+/// A buffer may be without data where an extension gives what is missing.
+void missing(Asset& asset, const Element& buffer, bool is_bin) {
+  if (is_bin) {
+    asset.tolerate(buffer, "has no uri, but the file has no BIN chunk that it could be");
+  } else {
+    asset.warn(buffer, "has no uri, and so no data");
+  }
+}
+
 void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
   double total = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -42,7 +51,7 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
 
 }  // namespace
 
-std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
+std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin, bool is_glb,
                                  const ResourceFolders& folders) {
   const std::vector<JsonValue>& buffers = asset.array("buffers");
   check_total(asset, buffers);
@@ -65,6 +74,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
                            : read_resource(asset, uri, folders, "buffer", max_buffer_bytes);
       buffer.bytes = buffer.storage;
     } else {
+      missing(asset, at, i == 0 && is_glb);
       continue;
     }
     const auto length = static_cast<std::size_t>(at.member("byteLength").value->number);

@@ -21,10 +21,10 @@ struct Buffer {
                                           ///< neither URI nor BIN chunk: extensions fill such
 };
 
-/// Reads the buffers that check_schema has accepted: the GLB file's `bin`, data URIs, files within
-/// `folder`. Throws Error with the buffer's pointer: invalid_scene for a bad URI or too few bytes,
-/// io for a file, limit.
+/// Reads the buffers that check_schema has accepted: a GLB file's `bin`, data URIs, files within
+/// `folders`. Warns of one that has none of these. Throws Error with the buffer's pointer:
+/// invalid_scene for a bad URI or too few bytes, io for a file, limit.
 [[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
-                                               const ResourceFolders& folders);
+                                               bool is_glb, const ResourceFolders& folders);
 
 }  // namespace microtrace::io::gltf

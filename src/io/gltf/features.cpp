@@ -85,7 +85,7 @@ void check_version(Asset& asset) {
     asset.fail(at, "asks for another glTF than 2, which is what is read", ErrorKind::unsupported);
   }
   if (*least > *written) {
-    asset.warn(at, "is greater than version");
+    asset.tolerate(at, "is greater than version");
   } else if (*least > Version{2, 0}) {
     asset.warn(at, "asks for more than glTF 2.0; what it adds is not drawn");
   }
@@ -98,12 +98,23 @@ void check_extension(Asset& asset, const Element& at) {
   const bool known = std::ranges::find(honoured, name) != honoured.end() ||
                      std::ranges::find(without_harm, name) != without_harm.end();
   if (!asset.uses(name)) {
-    asset.warn(at, "is missing in extensionsUsed; the requirement is ignored");
+    asset.tolerate(at, "is missing in extensionsUsed; the requirement is ignored");
   } else if (!known) {
     asset.fail(at,
                "the asset requires extension " + in_quotes(name) +
                    ", which is not supported; export it without",
                ErrorKind::unsupported);
+  }
+}
+
+/// Readers that do not know this one can't read the asset, so that it must be required.
+void check_quantization(Asset& asset) {
+  constexpr std::string_view name = "KHR_mesh_quantization";
+  if (asset.requires_extension(name)) return;
+  const std::vector<JsonValue>& used = asset.array("extensionsUsed");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i].string != name) continue;
+    asset.tolerate(asset.element("extensionsUsed", i), "must stand in extensionsRequired too");
   }
 }
 
@@ -139,6 +150,7 @@ void check_requirements(Asset& asset) {
     asset.fail(asset.root(), "must be an object: this is not glTF 2.0");
   }
   check_version(asset);
+  check_quantization(asset);
   for (std::size_t i = 0; i < asset.array("extensionsRequired").size(); ++i) {
     check_extension(asset, asset.element("extensionsRequired", i));
   }

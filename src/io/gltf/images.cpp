@@ -47,18 +47,19 @@ std::string small_letters(std::string_view text) {
 }
 
 /// A data URI must say what it holds (glTF 2.0, section 2.8; so the Khronos validator has it too).
-/// image/jpg, which is no media type, is widespread.
-void check_media_type(const Asset& asset, const Element& uri, ImageFormat format) {
+/// image/jpg, which is no media type, is widespread. Whether it is right.
+bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> not_decoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
   const bool is_right =
       format == ImageFormat::unknown
           ? std::ranges::find(not_decoded, type) != not_decoded.end()
           : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
-  if (is_right) return;
-  asset.fail(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
-                      (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
-                                                      : std::string(media_type(format))));
+  if (is_right) return true;
+  asset.tolerate(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
+                          (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
+                                                          : std::string(media_type(format))));
+  return false;
 }
 
 class ImageLoader {
@@ -80,9 +81,9 @@ class ImageLoader {
                   ErrorKind::limit);
     }
     const ImageHeader header = read_image_header(*bytes);
-    if (const JsonValue* uri = at.value->find("uri"); uri != nullptr && is_data_uri(uri->string)) {
-      check_media_type(asset_, at.member("uri"), header.format);
-    }
+    const JsonValue* uri = at.value->find("uri");
+    const bool is_right = uri == nullptr || !is_data_uri(uri->string) ||
+                          check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
       asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; textures of it are white");
       return nullptr;
@@ -91,14 +92,15 @@ class ImageLoader {
       asset_.fail(at, "holds a damaged image: its header says no size");
     }
     if (header.state == ImageHeader::State::cut_off) {
-      asset_.warn(at, "holds an image that ends before its size; textures of it are white");
+      asset_.tolerate(at, "holds an image that ends before its size; textures of it are white");
       return nullptr;
     }
     const std::string_view type = declared_type(at);
-    if (!type.empty() && type != media_type(header.format)) {
-      asset_.warn(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
-                          std::string(media_type(header.format)));
+    if (is_right && !type.empty() && type != media_type(header.format)) {
+      asset_.tolerate(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
+                              std::string(media_type(header.format)));
     }
+    if (type != media_type(header.format)) check_extension(at, header.format);
     if (header.format == ImageFormat::ktx2) check_ktx2(at, header, *bytes, use);
     return use.is_wanted() ? decode(at, header, *bytes) : nullptr;
   }
@@ -117,27 +119,38 @@ class ImageLoader {
     return storage;
   }
 
+  /// Kinds of images that extensions add; check_images has looked at what images say of themselves.
+  void check_extension(const Element& at, ImageFormat format) {
+    const char* name = format == ImageFormat::webp   ? "EXT_texture_webp"
+                       : format == ImageFormat::ktx2 ? "KHR_texture_basisu"
+                                                     : nullptr;
+    if (name == nullptr || asset_.uses(name)) return;
+    asset_.tolerate(at,
+                    "is " + std::string(media_type(format)) + ", which asks for extension " + name);
+  }
+
   /// What KHR_texture_basisu demands of files that can be decoded nevertheless. The decoder refuses
   /// others.
   void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
                   ImageUse use) {
     if (header.width % 4 != 0 || header.height % 4 != 0) {
-      asset_.warn(at, "has sides that are no multiples of 4, as KHR_texture_basisu demands");
+      asset_.tolerate(at, "has sides that are no multiples of 4, as KHR_texture_basisu demands");
     }
     const std::optional<Ktx2Colors> colors = read_ktx2_colors(bytes);
     if (!colors) return;
     if (colors->is_premultiplied) {
-      asset_.warn(at, "says that alpha is multiplied into its colors; they are taken as they are");
+      asset_.tolerate(at,
+                      "says that alpha is multiplied into its colors; they are taken as they are");
     }
     // An image may hold colors and a number in its alpha, which is linear in either encoding.
     const bool is_srgb = colors->encoding == ColorEncoding::srgb;
     if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;
-    asset_.warn(at, std::string("says that its numbers are ") +
-                        (!colors->encoding ? "neither sRGB nor linear"
-                         : is_srgb         ? "sRGB"
-                                           : "linear") +
-                        ", but materials take them for " + (use.srgb ? "sRGB" : "linear") +
-                        ", which decides");
+    asset_.tolerate(at, std::string("says that its numbers are ") +
+                            (!colors->encoding ? "neither sRGB nor linear"
+                             : is_srgb         ? "sRGB"
+                                               : "linear") +
+                            ", but materials take them for " + (use.srgb ? "sRGB" : "linear") +
+                            ", which decides");
   }
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
@@ -159,7 +172,7 @@ class ImageLoader {
     if (!decoded.image)
       asset_.fail(at, "holds an image that can't be decoded: " + decoded.complaint);
     if (!decoded.complaint.empty()) {
-      asset_.warn(at, "holds an image that is not whole: " + decoded.complaint);
+      asset_.tolerate(at, "holds an image that is not whole: " + decoded.complaint);
     }
     if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string;
     return std::make_shared<const Image>(std::move(*decoded.image));

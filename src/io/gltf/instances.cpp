@@ -82,7 +82,7 @@ class Maker {
   glm::dvec4 rotation(const glm::dvec4& quaternion) {
     const double length = std::sqrt(glm::dot(quaternion, quaternion));
     if (length > 0) return quaternion / length;
-    asset_.warn(attributes_.member("ROTATION"), "has zero quaternions; they turn nothing");
+    asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions; they turn nothing");
     return no_turn;
   }
 

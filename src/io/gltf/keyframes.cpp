@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -70,6 +72,31 @@ std::vector<double> between_keys(const Keyframes& keys, double time) {
 }
 
 }  // namespace
+
+bool is_ascending(const std::vector<float>& times) {
+  return are_finite(times) && std::ranges::adjacent_find(
+                                  times, [](float a, float b) { return !(a < b); }) == times.end();
+}
+
+bool are_finite(const std::vector<float>& numbers) {
+  return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });
+}
+
+void keep_ascending(Keyframes& keys) {
+  const std::size_t size = keys.width * (keys.interpolation == Interpolation::cubic_spline ? 3 : 1);
+  std::vector<float> times, values;
+  for (std::size_t i = 0; i < keys.times->size(); ++i) {
+    const float time = (*keys.times)[i];
+    const std::span value(keys.values->data() + i * size, size);
+    const bool is_finite =
+        std::isfinite(time) && std::ranges::all_of(value, [](float x) { return std::isfinite(x); });
+    if (!is_finite || (!times.empty() && time <= times.back())) continue;
+    times.push_back(time);
+    values.insert(values.end(), value.begin(), value.end());
+  }
+  keys.times = std::make_shared<const std::vector<float>>(std::move(times));
+  keys.values = std::make_shared<const std::vector<float>>(std::move(values));
+}
 
 std::vector<double> value_at(const Keyframes& keys, double time) {
   std::vector<double> result = between_keys(keys, time);

@@ -18,11 +18,19 @@ struct Keyframes {
   Interpolation interpolation = Interpolation::linear;
   bool are_rotations = false;  ///< the values are quaternions
   std::size_t width = 1;       ///< numbers in a value
-  /// Seconds, strictly ascending, at least one.
+  /// Seconds, strictly ascending, at least one once keep_ascending has been through them.
   std::shared_ptr<const std::vector<float>> times;
   /// One value for each time; for cubic splines three: in-tangent, value, out-tangent.
   std::shared_ptr<const std::vector<float>> values;
 };
+
+/// Whether they are finite, and each is greater than the one before it.
+[[nodiscard]] bool is_ascending(const std::vector<float>& times);
+[[nodiscard]] bool are_finite(const std::vector<float>& numbers);
+
+/// Leaves out keys that do not come after the one before them, and those with numbers that are not
+/// finite; there may be none left.
+void keep_ascending(Keyframes& keys);
 
 /// The value at a time in seconds, clamped to the first and last key (glTF 2.0, section 3.11 and
 /// appendix C). Rotations have unit length, but where the file's are zero.

@@ -25,42 +25,26 @@ struct Cone {
   double inner = 0, outer = std::numbers::pi / 4;
 };
 
-Common common_of(const Asset& asset, const Element& light) {
-  Common result;
-  if (light.value->find("color") != nullptr) {
-    const Element color = light.member("color");
-    const auto& items = color.value->items;
-    if (items.size() != 3) asset.fail(color, "must be an array of three numbers");
-    for (int i = 0; i < 3; ++i) {
-      const JsonValue& item = items[static_cast<std::size_t>(i)];
-      if (item.kind != JsonValue::Kind::number || item.number < 0) {
-        asset.fail(color.item(static_cast<std::size_t>(i)), "must be a number of at least 0");
-      }
-      result.color[i] = finite_float(item.number);
-    }
-  }
-  result.intensity = finite_float(number(asset, light, "intensity", 1, 0));
-  result.range = number(asset, light, "range", infinity, std::numeric_limits<double>::min());
+Common common_of(const JsonValue& light) {
+  Common result{.color = vector(light, "color", Vec3(1)),
+                .intensity = number(light, "intensity", 1)};
+  if (const JsonValue* range = light.find("range")) result.range = range->number;
   return result;
 }
 
-Cone cone_of(const Asset& asset, const Element& light) {
-  if (light.value->find("spot") == nullptr) {
-    asset.fail(light, "lacks the property \"spot\" that its type asks for");
-  }
-  const Element spot = light.member("spot");
+Cone cone_of(const JsonValue& light) {
   Cone result;
-  result.inner = number(asset, spot, "innerConeAngle", result.inner, 0, std::numbers::pi / 2);
-  result.outer = number(asset, spot, "outerConeAngle", result.outer, 0, std::numbers::pi / 2);
-  if (result.inner < result.outer) return result;
-  asset.fail(spot, "must have an outerConeAngle that is greater than innerConeAngle");
+  const JsonValue* spot = light.find("spot");
+  if (spot == nullptr) return result;
+  if (const JsonValue* inner = spot->find("innerConeAngle")) result.inner = inner->number;
+  if (const JsonValue* outer = spot->find("outerConeAngle")) result.outer = outer->number;
+  return result;
 }
 
 /// Nothing if the light has no place in the world.
-std::optional<Light> placed(const Asset& asset, const Element& light,
-                            const DMat4& world_from_node) {
-  const std::string& type = string(asset, light, "type");
-  const auto [color, intensity, range] = common_of(asset, light);
+std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node) {
+  const std::string& type = light.find("type")->string;
+  const auto [color, intensity, range] = common_of(light);
   const DVec3 position(world_from_node[3]);
   const std::optional<DVec3> direction = normalized(-DVec3(world_from_node[2]));
   const bool is_somewhere = std::isfinite(position.x + position.y + position.z);
@@ -73,7 +57,7 @@ std::optional<Light> placed(const Asset& asset, const Element& light,
     return PointLight{.position = position, .color = color, .intensity = intensity, .range = range};
   }
   if (type != "spot") return std::nullopt;  // check_schema has warned
-  const Cone cone = cone_of(asset, light);
+  const Cone cone = cone_of(light);
   if (!is_somewhere || !direction) return std::nullopt;
   return SpotLight{.position = position,
                    .direction = *direction,
@@ -92,16 +76,13 @@ std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const tin
   const std::optional<Element> all = extension(root, name_of_extension);
   if (!all) return result;
   const Element lights = all->member("lights");
-  for (std::size_t i = 0; i < lights.value->items.size(); ++i) {
-    (void)placed(asset, lights.item(i), DMat4(1));  // each must be right, in use or not
-  }
   UniqueNames names;
   for (const PlacedNode& node : nodes) {
     const auto reference = extension(asset.element("nodes", node.node), name_of_extension);
     if (!reference || !node.visible) continue;
     const Element light =
         lights.item(index(asset, *reference, "light", lights.value->items.size()));
-    std::optional<Light> in_world = placed(asset, light, node.world_from_node);
+    std::optional<Light> in_world = placed(*light.value, node.world_from_node);
     if (!in_world) {
       asset.warn(
           reference->member("light"),

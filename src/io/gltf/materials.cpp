@@ -4,6 +4,8 @@
 #include "io/gltf/properties.hpp"
 #include "io/gltf/textures.hpp"
 
+#include <utility>
+
 namespace microtrace::io::gltf {
 namespace {
 
@@ -61,6 +63,15 @@ std::vector<Material> make_materials(const JsonValue& root, UnusedLayers unused)
   }
   materials.push_back(standard_material());
   return materials;
+}
+
+void add_unlit_copies(std::vector<Material>& materials,
+                      const std::vector<std::uint32_t>& originals) {
+  for (const std::uint32_t original : originals) {
+    Material copy = materials[original];
+    copy.unlit = true;
+    materials.push_back(std::move(copy));
+  }
 }
 
 }  // namespace microtrace::io::gltf

@@ -5,6 +5,7 @@
 
 #include <microtrace/material.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace microtrace::io::gltf {
@@ -16,5 +17,9 @@ enum class UnusedLayers { left_out, kept };
 /// none (glTF 2.0, section 3.9.7).
 [[nodiscard]] std::vector<Material> make_materials(const JsonValue& root,
                                                    UnusedLayers unused = UnusedLayers::left_out);
+
+/// Appends a copy of each of these materials that light does not change.
+void add_unlit_copies(std::vector<Material>& materials,
+                      const std::vector<std::uint32_t>& originals);
 
 }  // namespace microtrace::io::gltf

@@ -75,7 +75,7 @@ void Morpher::add(int accessor, const std::string& name, double weight, const Su
   const MemoryScope scope(deltas_memory);
   const Mesh& mesh = surface.mesh;
   const auto deltas = [&]<typename Vector>(Vector) {
-    return reader_.read<Vector>(accessor, surface.vertices);
+    return reader_.read_finite<Vector>(accessor, surface.vertices);
   };
   if (name == "POSITION") {
     add_weighted(result.positions, mesh.positions, weight, deltas(Vec3()));

@@ -76,12 +76,13 @@ struct GltfFile::Content {
         animations(gltf::choose_animations(asset, options.animation)),
         materials(needed_materials()),
         textures(gltf::make_textures(asset)),
-        surfaces(gltf::make_surfaces(asset, model, reader, materials, detail)),
+        surfaces(made_surfaces()),
         images(gltf::load_images(asset, views, folders, image_uses())),
         instances(asset, model, reader) {
     gltf::warn_of_ignored_features(asset, detail);
     if (!container.is_aligned) {
-      asset.warn(asset.root(), "chunks of the GLB file have lengths that are no multiples of 4");
+      asset.tolerate(asset.root(),
+                     "chunks of the GLB file have lengths that are no multiples of 4");
     }
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
@@ -92,7 +93,8 @@ struct GltfFile::Content {
 
   std::vector<gltf::Buffer> loaded_buffers() {
     clock.lap(&LoadTimes::validate);
-    std::vector<gltf::Buffer> result = gltf::load_buffers(asset, container.bin, folders);
+    std::vector<gltf::Buffer> result =
+        gltf::load_buffers(asset, container.bin, container.is_glb, folders);
     clock.lap(&LoadTimes::read);
     return result;
   }
@@ -134,6 +136,7 @@ struct GltfFile::Content {
     LoadedScene result;
     result.scene.objects = maker.take();
     result.scene.materials = gltf::make_materials(*root.value);
+    gltf::add_unlit_copies(result.scene.materials, unlit);
     result.scene.textures = textures;
     result.scene.images = images;
     result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes);
@@ -146,6 +149,12 @@ struct GltfFile::Content {
   }
 
   /// A layer that is invisible now may appear.
+  std::vector<std::vector<Surface>> made_surfaces() {
+    auto result = gltf::make_surfaces(asset, model, reader, materials, detail, unlit);
+    gltf::add_unlit_copies(materials, unlit);
+    return result;
+  }
+
   [[nodiscard]] std::vector<Material> needed_materials() const {
     const bool may_change = gltf::animate_materials(asset, animations);
     return gltf::make_materials(
@@ -183,6 +192,7 @@ struct GltfFile::Content {
   gltf::AccessorReader reader;
   std::vector<std::size_t> animations;  // chosen
   std::vector<Material> materials;      // with what any pose needs of them
+  std::vector<std::uint32_t> unlit;     // those of which there are unlit copies
   std::vector<Texture> textures;
   std::vector<std::vector<Surface>> surfaces;
   std::vector<std::shared_ptr<const Image>> images;

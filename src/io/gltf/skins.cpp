@@ -95,8 +95,6 @@ void Skins::check_weights(const Element& attributes, JointBlend& blend) {
                   "leaves vertices without weights; they follow their first joint");
       for (auto& set : blend.sets_) set.weights[i] = glm::vec4(0);
       blend.sets_[0].weights[i].x = 1;
-    } else if (std::abs(sum - 1) > 1e-3) {
-      asset_.warn(attributes.member("WEIGHTS_0"), "does not add up to 1; weights are scaled to");
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "io/gltf/draco.hpp"
 #include "io/gltf/topology.hpp"
 #include "io/gltf/vertex_attributes.hpp"
+#include "scene/support.hpp"
 #include "scene/tangents.hpp"
 
 #include <algorithm>
@@ -33,15 +34,37 @@ std::size_t bytes_of_topology(int mode, std::size_t vertices) {
   return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
 }
 
+/// Whether there are triangles and segments with vertices that are not finite; they are taken out,
+/// and these vertices with them.
+bool leave_out_infinite(Surface& surface) {
+  Mesh& mesh = surface.mesh;
+  const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };
+  const auto has_bad = [&](const auto& corners) { return std::ranges::any_of(corners, is_bad); };
+  const std::size_t bad =
+      std::erase_if(mesh.triangles, has_bad) + std::erase_if(mesh.segments, has_bad);
+  if (bad == 0) return false;
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> positions;
+  for (const std::uint32_t i : number_vertices(mesh, mesh.positions.size())) {
+    vertices.push_back(surface.vertices[i]);
+    positions.push_back(mesh.positions[i]);
+  }
+  surface.vertices = std::move(vertices);
+  mesh.positions = std::move(positions);
+  return true;
+}
+
 class SurfaceMaker {
  public:
   SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
-               std::span<const Material> materials, SurfaceDetail detail)
+               std::span<const Material> materials, SurfaceDetail detail,
+               std::vector<std::uint32_t>& unlit)
       : asset_(asset),
         model_(model),
         reader_(reader),
         draco_(asset, model, reader.views(), reader),
         materials_(materials),
+        unlit_(unlit),
         detail_(detail) {}
 
   std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
@@ -69,13 +92,20 @@ class SurfaceMaker {
     }
     if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
     const std::size_t uses = 3 * result.mesh.triangles.size() + 2 * result.mesh.segments.size();
-    take_memory(std::min(uses, accessor(position->second).count) * sizeof(std::uint32_t),
+    take_memory(std::min(uses, reader_.count(position->second)) * sizeof(std::uint32_t),
                 "the vertices of meshes");
-    result.vertices = number_vertices(result.mesh, accessor(position->second).count);
+    result.vertices = number_vertices(result.mesh, reader_.count(position->second));
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
+    if (leave_out_infinite(result)) {
+      asset_.tolerate(at, "has vertices that are not finite; what they are part of is not drawn");
+      if (result.vertices.empty()) return std::nullopt;
+    }
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
                     {.material = materials_[result.material], .detail = detail_}, result.mesh);
     if (detail_ == SurfaceDetail::all) add_tangents(result);
+    // glTF 2.0, Point and Line Materials: those without normals are drawn without light.
+    const bool has_normals = primitive.attributes.contains("NORMAL");
+    if (!result.mesh.segments.empty() && !has_normals) result.material = unlit(result.material);
     return result;
   }
 
@@ -88,6 +118,14 @@ class SurfaceMaker {
   std::uint32_t material_of(const tinygltf::Primitive& primitive) const {
     if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
+  }
+
+  /// The number of the copy of a material that add_unlit_copies makes.
+  std::uint32_t unlit(std::uint32_t material) {
+    auto found = std::ranges::find(unlit_, material);
+    if (found == unlit_.end()) found = unlit_.insert(found, material);
+    return static_cast<std::uint32_t>(materials_.size()) +
+           static_cast<std::uint32_t>(found - unlit_.begin());
   }
 
   /// Where the material asks for some (glTF 2.0, section 3.7.2.1) and the mesh has none.
@@ -117,7 +155,7 @@ class SurfaceMaker {
   std::vector<std::uint32_t> vertices_of(const Element& at, const tinygltf::Primitive& primitive,
                                          int position, MemoryAccount& memory) {
     const MemoryScope scope(memory);
-    const std::size_t vertex_count = accessor(position).count;
+    const std::size_t vertex_count = reader_.count(position);
     if (primitive.indices < 0) {
       check_count(at, vertex_count);
       take_memory(vertex_count * sizeof(std::uint32_t), "the vertices of meshes");
@@ -126,7 +164,7 @@ class SurfaceMaker {
       return result;
     }
     const tinygltf::Accessor& indices = accessor(primitive.indices);
-    check_count(at.member("indices"), indices.count);
+    check_count(at.member("indices"), reader_.count(primitive.indices));
     std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(primitive.indices);
     const Element source = asset_.element("accessors", static_cast<std::size_t>(primitive.indices));
     const std::uint64_t greatest =
@@ -143,9 +181,9 @@ class SurfaceMaker {
       restarts = true;
     }
     if (restarts) {
-      asset_.warn(source,
-                  "has the value that means primitive restart, which glTF 2.0 forbids; a new "
-                  "primitive starts there");
+      asset_.tolerate(source,
+                      "has the value that means primitive restart, which glTF 2.0 forbids; a new "
+                      "primitive starts there");
     }
     return result;
   }
@@ -155,6 +193,7 @@ class SurfaceMaker {
   AccessorReader& reader_;
   DracoDecoder draco_;
   std::span<const Material> materials_;
+  std::vector<std::uint32_t>& unlit_;
   SurfaceDetail detail_;
   std::size_t elements_ = 0;  // counted against max_elements
 };
@@ -164,8 +203,9 @@ class SurfaceMaker {
 std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
                                                 AccessorReader& reader,
                                                 std::span<const Material> materials,
-                                                SurfaceDetail detail) {
-  SurfaceMaker maker(asset, model, reader, materials, detail);
+                                                SurfaceDetail detail,
+                                                std::vector<std::uint32_t>& unlit) {
+  SurfaceMaker maker(asset, model, reader, materials, detail, unlit);
   std::vector<std::vector<Surface>> result(model.meshes.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");

@@ -21,18 +21,18 @@ class AttributeReader {
 
   [[nodiscard]] std::vector<Vec3> normals() {
     const std::optional<int> accessor = find("NORMAL", {TINYGLTF_TYPE_VEC3});
-    return accessor ? reader_.read<Vec3>(*accessor, vertices_) : std::vector<Vec3>();
+    return accessor ? reader_.read_finite<Vec3>(*accessor, vertices_) : std::vector<Vec3>();
   }
 
   [[nodiscard]] std::vector<Vec4> tangents() {
     const std::optional<int> accessor = find("TANGENT", {TINYGLTF_TYPE_VEC4});
-    return accessor ? reader_.read<Vec4>(*accessor, vertices_) : std::vector<Vec4>();
+    return accessor ? reader_.read_finite<Vec4>(*accessor, vertices_) : std::vector<Vec4>();
   }
 
   [[nodiscard]] std::vector<Vec2> uv_set(std::uint32_t set) {
     const std::optional<int> accessor =
         find("TEXCOORD_" + std::to_string(set), {TINYGLTF_TYPE_VEC2});
-    return accessor ? reader_.read<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
+    return accessor ? reader_.read_finite<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
   }
 
   /// Those without alpha are opaque.
@@ -41,10 +41,11 @@ class AttributeReader {
     if (!accessor) return {};
     std::vector<Vec4> result;
     if (type(*accessor) == TINYGLTF_TYPE_VEC4) {
-      result = reader_.read<Vec4>(*accessor, vertices_);
+      result = reader_.read_finite<Vec4>(*accessor, vertices_);
     } else {
       result.reserve(vertices_.size());
-      for (const Vec3& rgb : reader_.read<Vec3>(*accessor, vertices_)) result.emplace_back(rgb, 1);
+      for (const Vec3& rgb : reader_.read_finite<Vec3>(*accessor, vertices_))
+        result.emplace_back(rgb, 1);
     }
     return result;
   }

@@ -1,6 +1,7 @@
 #include "io/gltf/accessors.hpp"
 
 #include <cstdint>
+#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -29,32 +30,33 @@ class Checker {
     const tinygltf::Accessor& accessor = model_.accessors[index];
     const Element at = asset_.element("accessors", index);
     const Size size = element_size(accessor.type, accessor.componentType);
+    const Size extent = element_extent(accessor.type, accessor.componentType);
     if (accessor.bufferView >= 0) {
       const auto view = static_cast<std::size_t>(accessor.bufferView);
       const Size stride = model_.bufferViews[view].byteStride;
-      if (stride != 0 && stride < size) {
-        asset_.fail(at, "has elements of " + std::to_string(size) + " bytes, but its view's " +
+      if (stride != 0 && stride < extent) {
+        asset_.fail(at, "has elements of " + std::to_string(extent) + " bytes, but its view's " +
                             "byteStride is " + std::to_string(stride));
       }
-      fits(at, view, accessor.byteOffset, accessor.count, stride != 0 ? stride : size, size);
+      fits(at, view, accessor.byteOffset, accessor.count, stride != 0 ? stride : size, extent);
       aligned(at, view, accessor.byteOffset, component_size(accessor.componentType));
     }
-    if (accessor.sparse.isSparse) sparse(at.member("sparse"), accessor, size);
+    if (accessor.sparse.isSparse) sparse(at.member("sparse"), accessor, size, extent);
   }
 
  private:
-  void sparse(const Element& at, const tinygltf::Accessor& accessor, Size size) const {
+  void sparse(const Element& at, const tinygltf::Accessor& accessor, Size size, Size extent) const {
     const Size count = static_cast<Size>(at.member("count").value->number);
     if (count > accessor.count) {
       asset_.fail(at.member("count"), "replaces " + std::to_string(count) + " of only " +
                                           std::to_string(accessor.count) + " elements");
     }
     const Size index_size = component_size(accessor.sparse.indices.componentType);
-    sparse_part(at.member("indices"), count, index_size, index_size);
-    sparse_part(at.member("values"), count, size, component_size(accessor.componentType));
+    sparse_part(at.member("indices"), count, index_size, index_size, index_size);
+    sparse_part(at.member("values"), count, size, extent, component_size(accessor.componentType));
   }
 
-  void sparse_part(const Element& at, Size count, Size size, Size alignment) const {
+  void sparse_part(const Element& at, Size count, Size size, Size extent, Size alignment) const {
     const auto view = static_cast<std::size_t>(at.member("bufferView").value->number);
     const JsonValue* offset = at.value->find("byteOffset");
     const Size first = offset != nullptr ? static_cast<Size>(offset->number) : 0;
@@ -67,13 +69,13 @@ class Checker {
                   "refers to a view with byteStride; sparse parts lie "
                   "without gaps");
     }
-    fits(at, view, first, count, size, size);
+    fits(at, view, first, count, size, extent);
     aligned(at, view, first, alignment);
   }
 
   void fits(const Element& at, std::size_t view, Size offset, Size count, Size stride,
-            Size size) const {
-    const Size end = offset + stride * (count - 1) + size;
+            Size extent) const {
+    const Size end = offset + stride * (count - 1) + extent;
     const Size length = model_.bufferViews[view].byteLength;
     if (end > length) {
       asset_.fail(at, "needs " + std::to_string(end) + " bytes of /bufferViews/" +
@@ -84,9 +86,9 @@ class Checker {
   void aligned(const Element& at, std::size_t view, Size offset, Size alignment) const {
     const Size start = model_.bufferViews[view].byteOffset + offset;
     if (offset % alignment != 0 || start % alignment != 0) {
-      asset_.warn(at,
-                  "is not aligned: its offsets in the view and the buffer must be multiples of " +
-                      std::to_string(alignment));
+      asset_.tolerate(
+          at, "is not aligned: its offsets in the view and the buffer must be multiples of " +
+                  std::to_string(alignment));
     }
   }
 
@@ -109,25 +111,40 @@ std::size_t component_size(int component_type) {
   }
 }
 
-std::size_t element_size(int type, int component_type) {
-  const std::size_t size = component_size(component_type);
-  const auto columns = [size](std::size_t n) { return n * ((n * size + 3) / 4 * 4); };
+namespace {
+
+/// The columns of a matrix type, or 0, and the components of a column or vector.
+std::pair<std::size_t, std::size_t> shape_of(int type) {
   switch (type) {
     case TINYGLTF_TYPE_SCALAR:
-      return size;
+      return {0, 1};
     case TINYGLTF_TYPE_VEC2:
-      return 2 * size;
+      return {0, 2};
     case TINYGLTF_TYPE_VEC3:
-      return 3 * size;
+      return {0, 3};
     case TINYGLTF_TYPE_VEC4:
-      return 4 * size;
+      return {0, 4};
     case TINYGLTF_TYPE_MAT2:
-      return columns(2);
+      return {2, 2};
     case TINYGLTF_TYPE_MAT3:
-      return columns(3);
+      return {3, 3};
     default:
-      return columns(4);
+      return {4, 4};
   }
+}
+
+}  // namespace
+
+std::size_t element_size(int type, int component_type) {
+  const auto [columns, rows] = shape_of(type);
+  const std::size_t size = rows * component_size(component_type);
+  return columns == 0 ? size : columns * ((size + 3) / 4 * 4);
+}
+
+std::size_t element_extent(int type, int component_type) {
+  const auto [columns, rows] = shape_of(type);
+  const std::size_t size = rows * component_size(component_type);
+  return columns == 0 ? size : (columns - 1) * ((size + 3) / 4 * 4) + size;
 }
 
 void check_accessors(Asset& asset, const tinygltf::Model& model) {

@@ -1,12 +1,17 @@
+#include "io/gltf/check/animation_pointer.hpp"
 #include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
+#include "io/gltf/extension.hpp"
 
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
 namespace microtrace::io::gltf {
 namespace {
+
+constexpr const char* pointer_extension = "KHR_animation_pointer";
 
 std::string text(double number) {
   return std::to_string(static_cast<unsigned long long>(number));
@@ -26,7 +31,10 @@ class AnimationCheck {
 
   void animation(const Element& at) {
     const Element samplers = at.member("samplers");
-    for (std::size_t i = 0; i < samplers.value->items.size(); ++i) input(samplers.item(i));
+    are_good_.clear();
+    for (std::size_t i = 0; i < samplers.value->items.size(); ++i) {
+      are_good_.push_back(input(samplers.item(i)));
+    }
     const Element channels = at.member("channels");
     targets_.clear();
     for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
@@ -37,7 +45,8 @@ class AnimationCheck {
                                  std::to_string(samplers.value->items.size()) + " samplers");
       }
       const auto index = static_cast<std::size_t>(sampler.value->number);
-      target(channel.member("target"), samplers.item(index));
+      const Element target = channel.member("target");
+      if (!are_good_[index] || !this->target(target, samplers.item(index))) leave_out(target);
     }
   }
 
@@ -47,43 +56,76 @@ class AnimationCheck {
     return interpolation != nullptr && interpolation->string == "CUBICSPLINE";
   }
 
-  void input(const Element& sampler) {
+  /// A channel without a target is passed over (glTF 2.0, section 3.11).
+  static void leave_out(const Element& target) { Asset::drop(target, {"node", "extensions"}); }
+
+  /// False, with a warning, for a broken rule without which the channel can't be played.
+  bool wrong(const Element& at, const std::string& message) {
+    asset_.tolerate(at, message + "; what it animates stays as it is");
+    return false;
+  }
+
+  bool input(const Element& sampler) {
     const Element at = sampler.member("input");
     accessors_.use(at, Purpose::animation_input);
     accessors_.use(sampler.member("output"), Purpose::animation_output);
     const AccessorHead& head = accessors_[*at.value];
     if (head.format != Format{"SCALAR", f32}) {
-      asset_.fail(at, "names an accessor of " + head.format.text() +
-                          "; times are SCALAR of componentType 5126");
+      return wrong(at, "names an accessor of " + head.format.text() +
+                           "; times are SCALAR of componentType 5126");
     }
     if (!head.has_bounds) {
-      asset_.warn(asset_.element("accessors", static_cast<std::size_t>(at.value->number)),
-                  "holds animation times without min and max, which glTF 2.0 asks for");
+      asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(at.value->number)),
+                      "holds animation times without min and max, which glTF 2.0 asks for");
     }
     if (is_spline(sampler) && head.count < 2) {
-      asset_.fail(at, "has one time, but CUBICSPLINE asks for two or more");
+      return wrong(at, "has one time, but CUBICSPLINE asks for two or more");
     }
+    return true;
   }
 
-  void target(const Element& at, const Element& sampler) {
+  bool target(const Element& at, const Element& sampler) {
     const JsonValue* index = at.value->find("node");
     const std::string& path = at.member("path").value->string;
+    if (extension(at, pointer_extension) || path == "pointer") return pointer(at);
     const bool known =
         path == "translation" || path == "rotation" || path == "scale" || path == "weights";
-    if (index == nullptr || !known) return;  // ignored (section 3.11), or an extension's
+    if (index == nullptr || !known) return true;  // ignored (section 3.11), or an extension's
     const auto number = static_cast<std::size_t>(index->number);
     const JsonValue& node = asset_.array("nodes")[number];
     if (path != "weights" && node.find("matrix") != nullptr) {
-      asset_.fail(at.member("node"), "has a matrix, which can't be animated by " + path);
+      return wrong(at.member("node"), "has a matrix, which can't be animated by " + path);
     }
     const std::size_t targets = morph_targets(node);
     if (path == "weights" && targets == 0) {
-      asset_.fail(at.member("node"), "has no mesh with morph targets whose weights could change");
+      return wrong(at.member("node"), "has no mesh with morph targets whose weights could change");
     }
     if (!targets_.insert(std::to_string(number) + path).second) {
-      asset_.warn(at, "is the target of an earlier channel already");
+      asset_.tolerate(at, "is the target of an earlier channel already");
     }
-    output(sampler, path, targets);
+    return output(sampler, path, targets);
+  }
+
+  /// By KHR_animation_pointer.
+  bool pointer(const Element& at) {
+    const std::optional<Element> own = extension(at, pointer_extension);
+    const Element path = at.member("path");
+    if (!own) {
+      // Without the extension an unknown path, as others are.
+      if (!asset_.uses(pointer_extension)) return true;
+      return wrong(path, "is \"pointer\" without an object of KHR_animation_pointer");
+    }
+    if (path.value->string != "pointer") {
+      return wrong(path, "must be \"pointer\" beside an object of KHR_animation_pointer");
+    }
+    const Element text = own->member("pointer");
+    const std::string why = why_no_pointer(asset_, text.value->string);
+    if (!why.empty()) return wrong(text, why);
+    if (at.value->find("node") != nullptr) {
+      asset_.tolerate(at.member("node"), "must be absent beside a pointer; it is ignored");
+      Asset::drop(at, {"node"});
+    }
+    return true;
   }
 
   [[nodiscard]] std::size_t morph_targets(const JsonValue& node) const {
@@ -96,24 +138,24 @@ class AnimationCheck {
     return targets != nullptr ? targets->items.size() : 0;
   }
 
-  void output(const Element& sampler, const std::string& path, std::size_t targets) const {
+  bool output(const Element& sampler, const std::string& path, std::size_t targets) {
     const Element at = sampler.member("output");
     const AccessorHead& values = accessors_[*at.value];
     if (!is_allowed(path, values.format)) {
-      asset_.fail(at, "names an accessor of " + values.format.text() +
-                          ", which glTF 2.0 does not allow for " + path);
+      return wrong(at, "names an accessor of " + values.format.text() +
+                           ", which glTF 2.0 does not allow for " + path);
     }
     const double times = accessors_[*sampler.member("input").value].count;
     const double expected = times * (is_spline(sampler) ? 3 : 1) *
                             (path == "weights" ? static_cast<double>(targets) : 1);
-    if (values.count != expected) {
-      asset_.fail(at, "has " + text(values.count) + " elements for " + path + ", must have " +
-                          text(expected) + " for " + text(times) + " times");
-    }
+    if (values.count == expected) return true;
+    return wrong(at, "has " + text(values.count) + " elements for " + path + ", must have " +
+                         text(expected) + " for " + text(times) + " times");
   }
 
   Asset& asset_;
   AccessorHeads& accessors_;
+  std::vector<bool> are_good_;               // the animation's samplers
   std::unordered_set<std::string> targets_;  // of the animation's channels so far
 };
 

@@ -6,17 +6,55 @@
 namespace microtrace::io::gltf {
 namespace {
 
-void check_perspective(const Asset& asset, const Element& at) {
-  if (at.member("yfov").value->number >= std::numbers::pi) {
-    asset.fail(at.member("yfov"), "must be below pi; it is an angle in radians");
+/// Takes a camera that shows nothing from the asset: check_nodes takes it from its nodes.
+void leave_out(Asset& asset, const Element& camera, const Element& at, const std::string& why) {
+  asset.tolerate(at, why + "; the camera is left out");
+  Asset::drop(camera, {"type"});
+}
+
+void check_perspective(Asset& asset, const Element& camera, const Element& at) {
+  const JsonValue* far = at.value->find("zfar");
+  if (far != nullptr && far->number <= at.member("znear").value->number) {
+    asset.tolerate(at.member("zfar"), "must be greater than znear; it is ignored");
+    Asset::drop(at, {"zfar"});
+  }
+  const Element yfov = at.member("yfov");
+  const double angle = yfov.value->number;
+  if (angle <= 0) {
+    leave_out(asset, camera, yfov, "is no angle to look through");
+  } else if (angle >= std::numbers::pi) {
+    asset.warn(yfov, "should be below pi, an angle in radians; the camera is left out");
+    Asset::drop(camera, {"type"});
   }
 }
 
-void check_orthographic(Asset& asset, const Element& at) {
+void check_orthographic(Asset& asset, const Element& camera, const Element& at) {
   for (const char* key : {"xmag", "ymag"}) {
     const double magnitude = at.member(key).value->number;
-    if (magnitude == 0) asset.fail(at.member(key), "must not be 0");
     if (magnitude < 0) asset.warn(at.member(key), "is negative; its magnitude is taken");
+    if (magnitude != 0) continue;
+    return leave_out(asset, camera, at.member(key), "must not be 0");
+  }
+  if (at.member("zfar").value->number <= at.member("znear").value->number) {
+    leave_out(asset, camera, at.member("zfar"), "must be greater than znear");
+  }
+}
+
+void check_camera(Asset& asset, const Element& at) {
+  const std::string type = at.member("type").value->string;
+  const bool perspective = type == "perspective";
+  const char* other = perspective ? "orthographic" : "perspective";
+  if (at.value->find(other) != nullptr) {
+    asset.tolerate(at.member(other), "stands in a camera of the other type; it is ignored");
+    Asset::drop(at, {other});
+  }
+  if (at.value->find(type) == nullptr) {
+    return leave_out(asset, at, at, "lacks the property \"" + type + "\" that its type names");
+  }
+  if (perspective) {
+    check_perspective(asset, at, at.member(type));
+  } else {
+    check_orthographic(asset, at, at.member(type));
   }
 }
 
@@ -25,26 +63,8 @@ void check_orthographic(Asset& asset, const Element& at) {
 void check_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("cameras").size(); ++i) {
     const Element at = asset.element("cameras", i);
-    if (at.value->find("type") == nullptr) continue;  // check_schema has warned
-    const std::string& type = at.member("type").value->string;
-    const bool perspective = type == "perspective";
-    const Element projection = at.member(type);
-    const char* other = perspective ? "orthographic" : "perspective";
-    if (at.value->find(type) == nullptr) {
-      asset.fail(at, "lacks the property \"" + type + "\" that its type names");
-    }
-    if (at.value->find(other) != nullptr) {
-      asset.fail(at.member(other), "stands in a camera of the other type; remove it");
-    }
-    if (perspective) {
-      check_perspective(asset, projection);
-    } else {
-      check_orthographic(asset, projection);
-    }
-    const JsonValue* far = projection.value->find("zfar");
-    if (far != nullptr && far->number <= projection.member("znear").value->number) {
-      asset.fail(projection.member("zfar"), "must be greater than znear");
-    }
+    // check_schema has warned of an unknown one.
+    if (at.value->find("type") != nullptr) check_camera(asset, at);
   }
 }
 

@@ -104,11 +104,11 @@ class DataCheck {
     const bool is_float = elements_.component_type() == TINYGLTF_COMPONENT_TYPE_FLOAT;
     const bool has_bounds = at_.value->find("min") != nullptr || at_.value->find("max") != nullptr;
     if (!has_bounds) {
-      if (is_float && !all_finite(elements_)) fail_at_first_not_finite();
+      if (is_float && !all_finite(elements_)) tolerate_not_finite();
       return;
     }
     const Bounds found = bounds_of(elements_);
-    if (!found.all_finite) fail_at_first_not_finite();
+    if (!found.all_finite) tolerate_not_finite();
     same("min", found.least, is_float);
     same("max", found.greatest, is_float);
   }
@@ -131,15 +131,16 @@ class DataCheck {
       const double number = given->items[k].number;
       const double rounded = is_float ? static_cast<double>(static_cast<float>(number)) : number;
       if (rounded != found[k]) {
-        asset_.warn(at_.member(key), std::string("is not the ") +
-                                         (key == std::string_view("min") ? "least" : "greatest") +
-                                         " of the accessor's elements");
+        asset_.tolerate(at_.member(key),
+                        std::string("is not the ") +
+                            (key == std::string_view("min") ? "least" : "greatest") +
+                            " of the accessor's elements");
         return;
       }
     }
   }
 
-  [[noreturn]] void fail_at_first_not_finite() const {
+  void tolerate_not_finite() const {
     std::size_t first = 0;
     const auto is_finite = [&](std::size_t element) {
       for (std::size_t k = 0; k < elements_.components(); ++k) {
@@ -148,7 +149,7 @@ class DataCheck {
       return true;
     };
     while (is_finite(first)) ++first;
-    asset_.fail(at_, "element " + std::to_string(first) + " is not finite");
+    asset_.tolerate(at_, "element " + std::to_string(first) + " is not finite");
   }
 
   [[nodiscard]] float square_of(std::size_t element, std::size_t components) const {
@@ -165,7 +166,7 @@ class DataCheck {
   void each(std::size_t step, std::size_t first, const char* message, Test&& test) const {
     std::size_t bad = 0;
     for (std::size_t i = first; i < elements_.count(); i += step) bad += test(i) ? 0 : 1;
-    if (bad != 0) asset_.warn(at_, std::to_string(bad) + message);
+    if (bad != 0) asset_.tolerate(at_, std::to_string(bad) + message);
   }
 
   void unit_vectors() const {
@@ -200,8 +201,9 @@ class DataCheck {
          [this](std::size_t i) { return elements_.at<float>(i, 0) >= 0; });
     for (std::size_t i = 1; i < elements_.count(); ++i) {
       if (elements_.at<float>(i - 1, 0) < elements_.at<float>(i, 0)) continue;
-      asset_.fail(at_, "element " + std::to_string(i) +
-                           " is not greater than the one before it, as animation times must be");
+      return asset_.tolerate(
+          at_, "element " + std::to_string(i) +
+                   " is not greater than the one before it, as animation times must be");
     }
   }
 
@@ -222,7 +224,7 @@ class DataCheck {
 /// Vertices of primitives that are not drawn for want of positions; surfaces check the others.
 class IndexCheck {
  public:
-  IndexCheck(const Asset& asset, const tinygltf::Model& model, const BufferViews& views)
+  IndexCheck(Asset& asset, const tinygltf::Model& model, const BufferViews& views)
       : asset_(asset), model_(model), views_(views), greatest_(model.accessors.size()) {}
 
   void primitive(const JsonValue& primitive) {
@@ -233,8 +235,8 @@ class IndexCheck {
     const std::size_t count = vertex_count(attributes);
     const std::optional<double> vertex = greatest(accessor);
     if (!vertex || *vertex < static_cast<double>(count)) return;
-    asset_.fail(asset_.element("accessors", accessor),
-                "names vertices beyond the " + std::to_string(count) + " of the primitive");
+    asset_.tolerate(asset_.element("accessors", accessor),
+                    "names vertices beyond the " + std::to_string(count) + " of the primitive");
   }
 
  private:
@@ -252,7 +254,7 @@ class IndexCheck {
     return result;
   }
 
-  const Asset& asset_;
+  Asset& asset_;
   const tinygltf::Model& model_;
   const BufferViews& views_;
   std::vector<std::optional<double>> greatest_;  // by accessor, once it was asked for

@@ -88,8 +88,8 @@ void AccessorHeads::use(const Element& at, Purpose purpose) {
   if (first_use) {
     known = purpose;
   } else if (known != purpose) {
-    asset_.warn(at, std::string("names an accessor for ") + name_of(purpose) +
-                        " that elsewhere holds " + name_of(known));
+    asset_.tolerate(at, std::string("names an accessor for ") + name_of(purpose) +
+                            " that elsewhere holds " + name_of(known));
   }
   const AccessorHead& head = heads_[index];
   if (!head.view) return;
@@ -98,8 +98,8 @@ void AccessorHeads::use(const Element& at, Purpose purpose) {
   std::size_t& other = view_accessors_[*head.view];
   if (other == 0) other = index + 1;
   if (other != index + 1) {
-    asset_.warn(at,
-                "shares its bufferView with another vertex attribute, which asks for a byteStride");
+    asset_.tolerate(
+        at, "shares its bufferView with another vertex attribute, which asks for a byteStride");
   }
 }
 
@@ -109,17 +109,18 @@ void AccessorHeads::use_view(const Element& at, std::size_t view, Purpose purpos
   if (known == Purpose::none) {
     known = purpose;
     if (purpose != Purpose::vertex_attribute && json.find("byteStride") != nullptr) {
-      asset_.warn(at, "leads to a bufferView with byteStride, which is for vertex attributes only");
+      asset_.tolerate(at,
+                      "leads to a bufferView with byteStride, which is for vertex attributes only");
     }
     const double target = purpose == Purpose::vertex_attribute ? 34962 : 34963;
     const JsonValue* given = json.find("target");
     if (given != nullptr && (!is_vertex_data(purpose) || given->number != target)) {
-      asset_.warn(at, std::string("uses a bufferView for ") + name_of(purpose) +
-                          " whose target is another");
+      asset_.tolerate(at, std::string("uses a bufferView for ") + name_of(purpose) +
+                              " whose target is another");
     }
   } else if (!shares(known, purpose)) {
-    asset_.warn(at, std::string("uses a bufferView for ") + name_of(purpose) +
-                        " that elsewhere holds " + name_of(known));
+    asset_.tolerate(at, std::string("uses a bufferView for ") + name_of(purpose) +
+                            " that elsewhere holds " + name_of(known));
   }
 }
 

@@ -18,14 +18,32 @@ void check_uri(const Asset& asset, const Element& at) {
   }
 }
 
+/// The extensions by which textures name images of a kind of their own.
+constexpr std::array<std::pair<const char*, const char*>, 4> extensions = {
+    {{"EXT_texture_avif", "image/avif"},
+     {"EXT_texture_webp", "image/webp"},
+     {"KHR_texture_basisu", "image/ktx2"},
+     {"MSFT_texture_dds", "image/vnd-ms.dds"}}};
+
+void check_media_type(Asset& asset, const Element& image) {
+  const JsonValue* given = image.value->find("mimeType");
+  if (given == nullptr) return;
+  for (const auto& [name, type] : extensions) {
+    if (given->string != type || asset.uses(name)) continue;
+    asset.tolerate(image.member("mimeType"),
+                   std::string("asks for extension ") + name + ", which is not declared");
+  }
+}
+
 void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
+  check_media_type(asset, at);
   const bool has_view = at.value->find("bufferView") != nullptr;
   if (has_view == (at.value->find("uri") != nullptr)) {
     asset.fail(at, "must have either a uri or a bufferView");
   }
   if (!has_view) return check_uri(asset, at.member("uri"));
   if (at.value->find("mimeType") == nullptr) {
-    asset.warn(at, "has a bufferView without mimeType; the data tells");
+    asset.tolerate(at, "has a bufferView without mimeType; the data tells");
   }
   const Element view = at.member("bufferView");
   accessors.use_view(view, static_cast<std::size_t>(view.value->number), Purpose::image);
@@ -39,8 +57,8 @@ void check_source(Asset& asset, const Element& texture, std::string_view type,
   const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number)];
   const JsonValue* given = image.find("mimeType");
   if (given == nullptr || given->string == type || given->string == other_type) return;
-  asset.warn(texture.member("source"),
-             "names an image of " + given->string + ", must be " + std::string(type) + " here");
+  asset.tolerate(texture.member("source"),
+                 "names an image of " + given->string + ", must be " + std::string(type) + " here");
 }
 
 }  // namespace
@@ -49,11 +67,6 @@ void check_images(Asset& asset, AccessorHeads& accessors) {
   for (std::size_t i = 0; i < asset.array("images").size(); ++i) {
     check_image(asset, asset.element("images", i), accessors);
   }
-  constexpr std::array<std::pair<const char*, const char*>, 4> extensions = {
-      {{"EXT_texture_avif", "image/avif"},
-       {"EXT_texture_webp", "image/webp"},
-       {"KHR_texture_basisu", "image/ktx2"},
-       {"MSFT_texture_dds", "image/vnd-ms.dds"}}};
   for (std::size_t i = 0; i < asset.array("textures").size(); ++i) {
     const Element at = asset.element("textures", i);
     check_source(asset, at, "image/png", "image/jpeg");

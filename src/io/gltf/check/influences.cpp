@@ -3,6 +3,7 @@
 #include "io/gltf/check/elements.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -61,14 +62,14 @@ class InfluenceCheck {
                : std::size_t{joints.at<std::uint16_t>(vertex, k)};
   }
 
-  static float weight(const Elements& weights, std::size_t vertex, std::size_t k) {
+  static double weight(const Elements& weights, std::size_t vertex, std::size_t k) {
     switch (weights.component_type()) {
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return static_cast<float>(weights.at<std::uint8_t>(vertex, k)) / 255;
+        return weights.number(vertex, k) / 255;
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return static_cast<float>(weights.at<std::uint16_t>(vertex, k)) / 65535;
+        return weights.number(vertex, k) / 65535;
       default:
-        return weights.at<float>(vertex, k);
+        return weights.number(vertex, k);
     }
   }
 
@@ -84,11 +85,18 @@ class InfluenceCheck {
   }
 
   void check_weights(const Element& at) const {
+    // glTF 2.0, section 3.7.3.3, says for each weight that is not 0 how far their sum may be from
+    // 1; integers that are off by one are farther.
+    constexpr double tolerance = 2e-7;
     bool negative = false, twice = false;
+    std::size_t unequal = 0;
     for (std::size_t i = 0; i < sets_[0].first.count(); ++i) {
+      double sum = 0, terms = 0;
       for (const auto& [joints, weights] : sets_) {
         for (std::size_t k = 0; k < 4; ++k) {
-          const float w = weight(weights, i, k);
+          const double w = weight(weights, i, k);
+          sum += w;
+          terms += w != 0 ? 1 : 0;
           negative = negative || w < 0;
           for (std::size_t other = 0; other < k && w != 0; ++other) {
             twice = twice || (joint(joints, i, other) == joint(joints, i, k) &&
@@ -96,9 +104,14 @@ class InfluenceCheck {
           }
         }
       }
+      unequal += std::abs(sum - 1) <= tolerance * terms ? 0 : 1;
     }
-    if (negative) asset_.warn(at, "has negative weights");
-    if (twice) asset_.warn(at, "has vertices that one joint moves twice");
+    if (unequal != 0) {
+      asset_.tolerate(at, "has " + std::to_string(unequal) +
+                              " vertices whose weights do not add up to 1; they are scaled to");
+    }
+    if (negative) asset_.tolerate(at, "has negative weights");
+    if (twice) asset_.tolerate(at, "has vertices that one joint moves twice");
   }
 
   Asset& asset_;

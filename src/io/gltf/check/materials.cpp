@@ -1,6 +1,8 @@
+#include "io/gltf/check/rule_text.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/extension.hpp"
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -14,18 +16,18 @@ double number_or(const JsonValue& object, std::string_view key, double standard)
   return value != nullptr ? value->number : standard;
 }
 
-void check_light(const Asset& asset, const Element& at) {
+void check_light(Asset& asset, const Element& at) {
   if (at.member("type").value->string != "spot") return;
   if (at.value->find("spot") == nullptr) {
-    asset.fail(at, "lacks the property \"spot\", which a light of that type must have");
+    return asset.tolerate(at, "lacks the property \"spot\"; its defaults are taken");
   }
   const Element spot = at.member("spot");
-  const double inner = number_or(*spot.value, "innerConeAngle", 0);
+  if (spot.value->find("innerConeAngle") == nullptr) return;
+  const Element inner = spot.member("innerConeAngle");
   const double outer = number_or(*spot.value, "outerConeAngle", std::numbers::pi / 4);
-  if (inner >= outer) {
-    asset.fail(spot.value->find("innerConeAngle") != nullptr ? spot.member("innerConeAngle") : spot,
-               "must be smaller than outerConeAngle");
-  }
+  if (inner.value->number < outer) return;
+  asset.tolerate(inner, "must be smaller than outerConeAngle; the light's cone has a sharp edge");
+  Asset::set(inner, std::nextafter(outer, 0));
 }
 
 /// KHR_materials_variants: a variant picks one material.
@@ -35,7 +37,7 @@ void check_mappings(Asset& asset, const Element& at) {
     const Element variants = at.item(i).member("variants");
     for (std::size_t k = 0; k < variants.value->items.size(); ++k) {
       if (seen.insert(variants.value->items[k].number).second) continue;
-      asset.warn(variants.item(k), "has a material in an earlier mapping already");
+      asset.tolerate(variants.item(k), "has a material in an earlier mapping already");
     }
   }
 }
@@ -48,9 +50,10 @@ void check_materials(Asset& asset) {
     const std::optional<Element> extra = extension(at, "KHR_materials_ior");
     if (!extra) continue;
     const double ior = number_or(*extra->value, "ior", 1.5);
-    if (ior > 0 && ior < 1) {
-      asset.fail(extra->member("ior"), "must be 0 or at least 1, is " + std::to_string(ior));
-    }
+    if (ior <= 0 || ior >= 1) continue;
+    asset.tolerate(extra->member("ior"),
+                   "must be 0 or at least 1, is " + text_of(ior) + "; 1 is taken");
+    Asset::set(extra->member("ior"), 1);
   }
   for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");

@@ -78,9 +78,9 @@ class MeshCheck {
       const std::size_t count = target_count(primitive);
       if (k == 0) targets = count;
       if (count != targets) {
-        asset_.fail(primitive, "has " + std::to_string(count) +
-                                   " morph targets, but the mesh's first primitive has " +
-                                   std::to_string(targets));
+        asset_.tolerate(primitive, "has " + std::to_string(count) +
+                                       " morph targets, but the mesh's first primitive has " +
+                                       std::to_string(targets));
       }
       this->primitive(primitive);
     }
@@ -104,15 +104,21 @@ class MeshCheck {
     material(at, attributes);
   }
 
+  /// Drops attributes that are not as many as the positions.
   void same_counts(const Element& at) const {
     if (at.value->members.empty()) return;
-    const JsonMember& first = at.value->members.front();
+    const JsonValue* position = at.value->find("POSITION");
+    const std::string first = position != nullptr ? "POSITION" : at.value->members.front().key;
+    const double count = accessors_[*at.member(first).value].count;
+    std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
-      const double count = accessors_[member.value].count;
-      if (count == accessors_[first.value].count) continue;
-      asset_.fail(at.member(member.key), "has " + text(count) + " elements, but " + first.key +
-                                             " has " + text(accessors_[first.value].count));
+      const double own = accessors_[member.value].count;
+      if (own == count) continue;
+      asset_.tolerate(at.member(member.key), "has " + text(own) + " elements, but " + first +
+                                                 " has " + text(count) + "; it is ignored");
+      dropped.push_back(member.key);
     }
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// TEXCOORD_0, TEXCOORD_1 and so on without a gap; as many JOINTS as WEIGHTS.
@@ -127,13 +133,14 @@ class MeshCheck {
         end = std::max(end, semantic.set + 1);
       }
       if (count != end) {
-        asset_.warn(at, "has sets of " + std::string(name) + " that are not numbered from 0 on");
+        asset_.tolerate(at,
+                        "has sets of " + std::string(name) + " that are not numbered from 0 on");
       }
       (name == "JOINTS" ? joints : weights) = count;
     }
     if (joints != weights) {
-      asset_.fail(at, "has " + std::to_string(joints) + " sets of JOINTS, but " +
-                          std::to_string(weights) + " of WEIGHTS; each needs the other");
+      asset_.tolerate(at, "has " + std::to_string(joints) + " sets of JOINTS, but " +
+                              std::to_string(weights) + " of WEIGHTS; each needs the other");
     }
   }
 
@@ -151,8 +158,8 @@ class MeshCheck {
       }
       alignment(attribute);
       if (member.key == "POSITION" && !accessors_[member.value].has_bounds) {
-        asset_.warn(asset_.element("accessors", static_cast<std::size_t>(member.value.number)),
-                    "holds positions without min and max, which glTF 2.0 asks for");
+        asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(member.value.number)),
+                        "holds positions without min and max, which glTF 2.0 asks for");
       }
     }
     if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
@@ -164,12 +171,12 @@ class MeshCheck {
     if (is_standard(name, format, of_target)) return true;
     if (is_quantised(name, format, of_target)) {
       if (!quantised_) {
-        asset_.warn(at, "is quantised, which asks for extension KHR_mesh_quantization");
+        asset_.tolerate(at, "is quantised, which asks for extension KHR_mesh_quantization");
       }
       return true;
     }
-    asset_.warn(at, "names an accessor of " + format.text() +
-                        ", which glTF 2.0 does not allow for this attribute; it is ignored");
+    asset_.tolerate(at, "names an accessor of " + format.text() +
+                            ", which glTF 2.0 does not allow for this attribute; it is ignored");
     return false;
   }
 
@@ -181,7 +188,7 @@ class MeshCheck {
     const std::size_t stride =
         head.stride != 0 ? head.stride : components * component_size(head.format.component_type);
     if (head.offset % 4 != 0 || head.start % 4 != 0 || stride % 4 != 0) {
-      asset_.warn(at, "has vertices that do not all start at a multiple of 4 bytes");
+      asset_.tolerate(at, "has vertices that do not all start at a multiple of 4 bytes");
     }
   }
 
@@ -194,20 +201,27 @@ class MeshCheck {
   }
 
   void target(const Element& at, const Element& base) {
+    std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
-      if (member.key.starts_with("JOINTS_") || member.key.starts_with("WEIGHTS_")) {
-        asset_.fail(attribute, "can't be morphed");
-      }
-      const JsonValue* of_base = base.value->find(member.key);
-      if (of_base == nullptr) asset_.fail(attribute, "morphs what the primitive does not have");
-      const double count = accessors_[member.value].count;
-      if (count != accessors_[*of_base].count) {
-        asset_.fail(attribute, "has " + text(count) + " elements, but the primitive's has " +
-                                   text(accessors_[*of_base].count));
-      }
+      const std::string wrong = why_not_morphed(member, base.value->find(member.key));
+      if (wrong.empty()) continue;
+      asset_.tolerate(attribute, wrong + "; it is ignored");
+      dropped.push_back(member.key);
     }
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
     attributes(at, true);
+  }
+
+  /// Empty where the target's attribute and the primitive's fit each other.
+  [[nodiscard]] std::string why_not_morphed(const JsonMember& target, const JsonValue* base) const {
+    if (target.key.starts_with("JOINTS_") || target.key.starts_with("WEIGHTS_")) {
+      return "can't be morphed";
+    }
+    if (base == nullptr) return "morphs what the primitive does not have";
+    const double count = accessors_[target.value].count, wanted = accessors_[*base].count;
+    if (count == wanted) return {};
+    return "has " + text(count) + " elements, but the primitive's has " + text(wanted);
   }
 
   void material(const Element& at, const Element& attributes) const {
@@ -216,12 +230,12 @@ class MeshCheck {
     const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number)];
     for (const auto& [name, set] : textures.sets) {
       if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
-      asset_.warn(at.member("material"), "asks for TEXCOORD_" + text(set) + " by its " + name +
-                                             ", which the primitive does not have");
+      asset_.tolerate(at.member("material"), "asks for TEXCOORD_" + text(set) + " by its " + name +
+                                                 ", which the primitive does not have");
     }
     if (textures.needs_tangents && attributes.value->find("TANGENT") == nullptr) {
-      asset_.warn(at.member("material"),
-                  "asks for tangents, which neither the primitive nor a normal texture gives");
+      asset_.tolerate(at.member("material"),
+                      "asks for tangents, which neither the primitive nor a normal texture gives");
     }
   }
 

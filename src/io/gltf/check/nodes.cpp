@@ -33,13 +33,15 @@ std::vector<MeshParts> mesh_parts(const Asset& asset) {
 void check_matrix(Asset& asset, const Element& at) {
   for (const char* other : {"translation", "rotation", "scale"}) {
     if (at.value->find(other) != nullptr) {
-      asset.fail(at.member(other), "stands beside a matrix; give one or the other");
+      asset.tolerate(at.member(other), "stands beside a matrix; it is ignored");
+      Asset::drop(at, {other});
     }
   }
   const Element matrix = at.member("matrix");
   const auto item = [&](std::size_t i) { return matrix.value->items[i].number; };
   if (item(3) != 0 || item(7) != 0 || item(11) != 0 || item(15) != 1) {
-    asset.warn(matrix, "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
+    asset.tolerate(matrix,
+                   "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
   }
   const auto dot = [&](std::size_t a, std::size_t b) {
     return item(a) * item(b) + item(a + 1) * item(b + 1) + item(a + 2) * item(b + 2);
@@ -48,7 +50,7 @@ void check_matrix(Asset& asset, const Element& at) {
     const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
     const double cosine = dot(i, k) / std::sqrt(dot(i, i) * dot(k, k));
     if (!(std::abs(cosine) <= 1e-3)) {
-      asset.warn(matrix, "is no product of translation, rotation and scale, as glTF 2.0 asks");
+      asset.tolerate(matrix, "is no product of translation, rotation and scale, as glTF 2.0 asks");
       return;
     }
   }
@@ -57,22 +59,25 @@ void check_matrix(Asset& asset, const Element& at) {
 void check_rotation(Asset& asset, const Element& at) {
   double square = 0;
   for (const JsonValue& item : at.value->items) square += item.number * item.number;
-  if (square == 0) asset.fail(at, "is zero, must be a unit quaternion");
-  if (std::abs(square - 1) > 1e-3) asset.warn(at, "is no unit quaternion; it is normalised");
+  if (square == 0) {
+    asset.tolerate(at, "is zero, must be a unit quaternion; it turns nothing");
+    return Asset::set(at.item(3), 1);
+  }
+  if (std::abs(square - 1) > 1e-3) asset.tolerate(at, "is no unit quaternion; it is normalized");
 }
 
 void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& meshes) {
   const JsonValue* mesh = at.value->find("mesh");
   const bool has_skin = at.value->find("skin") != nullptr;
   if (mesh == nullptr) {
-    if (has_skin) asset.warn(at.member("skin"), "has no effect: the node has no mesh");
+    if (has_skin) asset.tolerate(at.member("skin"), "has no effect: the node has no mesh");
     if (at.value->find("weights") == nullptr) return;
-    asset.warn(at.member("weights"), "have no effect: the node has no mesh");
+    asset.tolerate(at.member("weights"), "have no effect: the node has no mesh");
     return Asset::drop(at, {"weights"});
   }
   const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
   if (has_skin && !parts.has_joints) {
-    asset.warn(at.member("skin"), "moves a mesh of which not every primitive has JOINTS_0");
+    asset.tolerate(at.member("skin"), "moves a mesh of which not every primitive has JOINTS_0");
   }
   check_weights(asset, at, parts.targets);
 }
@@ -90,9 +95,9 @@ void check_camera(const Asset& asset, const Element& at) {
 void check_weights(Asset& asset, const Element& at, std::size_t targets) {
   const JsonValue* weights = at.value->find("weights");
   if (weights == nullptr || weights->items.size() == targets) return;
-  asset.warn(at.member("weights"), "has " + std::to_string(weights->items.size()) + " items for " +
-                                       std::to_string(targets) +
-                                       " morph targets; they are ignored");
+  asset.tolerate(at.member("weights"), "has " + std::to_string(weights->items.size()) +
+                                           " items for " + std::to_string(targets) +
+                                           " morph targets; they are ignored");
   Asset::drop(at, {"weights"});
 }
 
@@ -110,8 +115,8 @@ void check_nodes(Asset& asset, const NodeForest& forest) {
     for (std::size_t k = 0; k < nodes.value->items.size(); ++k) {
       const Element node = nodes.item(k);
       if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number))) {
-        asset.warn(node,
-                   "is a child of node " + std::to_string(*parent) + "; scenes name roots only");
+        asset.tolerate(
+            node, "is a child of node " + std::to_string(*parent) + "; scenes name roots only");
       }
     }
   }

@@ -1,11 +1,11 @@
 #include "io/gltf/check/schema.hpp"
 
 #include "base/printable.hpp"
+#include "io/gltf/check/attribute_names.hpp"
+#include "io/gltf/check/rule_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,51 +14,6 @@ namespace microtrace::io::gltf {
 namespace {
 
 using Kind = JsonValue::Kind;
-
-std::string text_of(double number) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(17);
-  text << number;
-  return text.str();
-}
-
-template <typename Values, typename Text>
-std::string listed(const Values& values, Text&& text) {
-  std::string result;
-  for (const auto& value : values) {
-    if (!result.empty()) result += ", ";
-    result += text(value);
-  }
-  return result;
-}
-
-std::string range_of(const Rule& rule) {
-  std::string result;
-  if (std::isfinite(rule.min)) {
-    result += (rule.above_min ? " above " : " of at least ") + text_of(rule.min);
-  }
-  if (std::isfinite(rule.max)) {
-    result += (result.empty() ? " of" : " and") + std::string(" at most ") + text_of(rule.max);
-  }
-  return result;
-}
-
-/// JOINTS_0, TEXCOORD_12 and their like, and whatever an application calls _ITS_OWN.
-bool is_attribute_name(std::string_view name) {
-  constexpr std::array<std::string_view, 3> single = {"POSITION", "NORMAL", "TANGENT"};
-  constexpr std::array<std::string_view, 4> sets = {"TEXCOORD_", "COLOR_", "JOINTS_", "WEIGHTS_"};
-  if (name.starts_with('_') || std::ranges::find(single, name) != single.end()) return true;
-  return std::ranges::any_of(sets, [&](std::string_view set) {
-    return name.starts_with(set) && name.size() > set.size() &&
-           name.find_first_not_of("0123456789", set.size()) == std::string_view::npos &&
-           (name[set.size()] != '0' || name.size() == set.size() + 1);
-  });
-}
-
-bool is_instance_attribute_name(std::string_view name) {
-  return name.starts_with('_') || name == "TRANSLATION" || name == "ROTATION" || name == "SCALE";
-}
 
 class Checker {
  public:
@@ -75,7 +30,11 @@ class Checker {
     for (const JsonMember& member : at.value->members) {
       const Element element{&member.value, child(at.pointer, member.key)};
       const auto rule = std::ranges::find(rules, member.key, &Rule::key);
-      if (rule != rules.end()) {
+      const bool is_known =
+          rule != rules.end() || member.key == "extensions" || member.key == "name";
+      if (is_known && is_null(element) && !(rule != rules.end() && rule->required)) {
+        dropped.push_back(member.key);
+      } else if (rule != rules.end()) {
         if (!property(element, *rule)) dropped.push_back(member.key);
       } else if (member.key == "extensions") {
         extensions(element, place);
@@ -91,6 +50,13 @@ class Checker {
  private:
   void require(const Element& at, bool holds, const char* message) const {
     if (!holds) asset_.fail(at, message);
+  }
+
+  /// Which glTF 2.0 does not know, but programs write for what is absent.
+  bool is_null(const Element& at) const {
+    if (at.value->kind != Kind::null) return false;
+    asset_.tolerate(at, "is null, which is no value in glTF 2.0; it is taken to be absent");
+    return true;
   }
 
   /// False where the value is to be dropped.
@@ -145,13 +111,33 @@ class Checker {
     const std::string what = integer ? "must be an integer" : "must be a number";
     if (at.value->kind != Kind::number || (integer && !integral)) asset_.fail(at, what);
     if (number < rule.min || number > rule.max || (rule.above_min && number == rule.min)) {
-      asset_.fail(at, what + range_of(rule) + ", is " + text_of(number));
+      return repaired(at, rule, what + range_of(rule) + ", is " + text_of(number));
     }
     if (rule.values.empty() || std::ranges::find(rule.values, number) != rule.values.end()) {
       return true;
     }
-    unknown(at, listed(rule.values, text_of), text_of(number), rule.closed);
-    return rule.kept;
+    return unknown(at, rule, text_of(number));
+  }
+
+  /// A number out of its range; false where it is to be dropped.
+  bool repaired(const Element& at, const Rule& rule, const std::string& message) const {
+    switch (rule.repair) {
+      case Repair::none:
+        asset_.fail(at, message);
+      case Repair::clamp: {
+        asset_.tolerate(at, message + "; the nearest number of that range is taken");
+        const double least = rule.above_min ? std::nextafter(rule.min, rule.min + 1) : rule.min;
+        Asset::set(at, std::clamp(at.value->number, least, rule.max));
+        return true;
+      }
+      case Repair::drop:
+        asset_.tolerate(at, message + "; it is ignored");
+        return false;
+      case Repair::keep:
+        asset_.tolerate(at, message);
+        return true;
+    }
+    return true;
   }
 
   bool string(const Element& at, const Rule& rule) const {
@@ -160,15 +146,15 @@ class Checker {
     if (rule.strings.empty() || std::ranges::find(rule.strings, string) != rule.strings.end()) {
       return true;
     }
-    unknown(at, listed(rule.strings, in_quotes), in_quotes(string), rule.closed);
-    return rule.kept;
+    return unknown(at, rule, in_quotes(string));
   }
 
-  void unknown(const Element& at, const std::string& known, const std::string& found,
-               bool closed) const {
-    const std::string message = "must be one of " + known + ", is " + found;
-    if (closed) asset_.fail(at, message);
+  /// A value that is not in its list, which extensions may add to; false where it is to be dropped.
+  bool unknown(const Element& at, const Rule& rule, const std::string& found) const {
+    const std::string message = "must be one of " + values_of(rule) + ", is " + found;
+    if (rule.repair == Repair::none) asset_.fail(at, message);
     asset_.warn(at, message + "; it is ignored");
+    return rule.repair == Repair::keep;
   }
 
   void index(const Element& at, const Rule& rule) {
@@ -180,8 +166,8 @@ class Checker {
     }
     const JsonValue* items = asset_.find(array);
     if (items == nullptr && in_extension) {
-      asset_.warn(at,
-                  "is an index into " + array + ", which is absent; the extension is ignored here");
+      asset_.tolerate(
+          at, "is an index into " + array + ", which is absent; the extension is ignored here");
       lacks_other_part_ = true;
       return;
     }
@@ -201,7 +187,7 @@ class Checker {
                           std::to_string(size < rule.fewest ? rule.fewest : rule.most) +
                           " items, has " + std::to_string(size));
     }
-    if (size == 0) asset_.warn(at, "is empty, which glTF 2.0 forbids; leave it out instead");
+    if (size == 0) asset_.tolerate(at, "is empty, which glTF 2.0 forbids; leave it out instead");
     for (std::size_t i = 0; i < size; ++i) check(at.item(i));
   }
 
@@ -212,7 +198,7 @@ class Checker {
     std::ranges::sort(sorted);
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       if (sorted[i].first == sorted[i - 1].first) {
-        asset_.fail(at.item(sorted[i].second), "repeats an earlier item");
+        asset_.tolerate(at.item(sorted[i].second), "repeats an earlier item");
       }
     }
   }
@@ -220,20 +206,28 @@ class Checker {
   void attributes(const Element& at, const Rule& rule) {
     require(at, at.value->kind == Kind::object, "must be an object");
     if (at.value->members.empty() && rule.form != Form::attributes) {
-      asset_.warn(at, "is empty, which glTF 2.0 forbids");
+      asset_.tolerate(at, "is empty, which glTF 2.0 forbids");
     }
     const bool of_instances = rule.form == Form::instance_attributes;
+    std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
       const Element attribute{&member.value, child(at.pointer, member.key)};
-      require(attribute,
-              of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key),
-              "is no attribute of glTF 2.0; an application's own start with _");
-      if (rule.form == Form::draco_attributes) {
+      const bool has_name =
+          of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key);
+      if (!has_name) {
+        asset_.tolerate(attribute,
+                        "is no attribute of glTF 2.0, where an application's own begin with _; it "
+                        "is ignored");
+        dropped.push_back(member.key);
+      } else if (is_null(attribute)) {
+        dropped.push_back(member.key);
+      } else if (rule.form == Form::draco_attributes) {
         number(attribute, {.key = rule.key, .form = Form::integer, .min = 0});
       } else {
         index(attribute, rule);
       }
     }
+    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
   }
 
   void extensions(const Element& at, Place place) {
@@ -241,6 +235,10 @@ class Checker {
     std::vector<std::string> dropped;
     for (const JsonMember& member : at.value->members) {
       const Element extension{&member.value, child(at.pointer, member.key)};
+      if (is_null(extension)) {
+        dropped.push_back(member.key);
+        continue;
+      }
       require(extension, member.value.kind == Kind::object, "must be an object");
       if (!this->extension(extension, member.key, place)) dropped.push_back(member.key);
     }
@@ -250,7 +248,7 @@ class Checker {
   /// False where it is to be dropped.
   bool extension(const Element& at, const std::string& name, Place place) {
     if (!asset_.uses(name)) {
-      asset_.warn(at, "is not declared in extensionsUsed; the extension is ignored here");
+      asset_.tolerate(at, "is not declared in extensionsUsed; the extension is ignored here");
       return false;
     }
     const auto is_it = [&](const ExtensionRule& rule) { return rule.name == name; };
@@ -258,7 +256,7 @@ class Checker {
     if (std::ranges::none_of(extension_rules(), is_it)) return true;
     const auto rule = std::ranges::find_if(extension_rules(), here);
     if (rule == extension_rules().end()) {
-      asset_.warn(at, "is an extension that has no place in this object; it is ignored here");
+      asset_.tolerate(at, "is an extension that has no place in this object; it is ignored here");
       return false;
     }
     const bool outer_lacks = std::exchange(lacks_other_part_, false);

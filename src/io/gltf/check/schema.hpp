@@ -31,6 +31,7 @@ enum class Form {
 /// The kinds of objects that extensions add to.
 enum class Place {
   other,
+  nowhere,
   root,
   asset,
   animation,
@@ -47,6 +48,14 @@ enum class Place {
   texture_info,
 };
 
+/// What becomes of a value that is not in its rule's range or list.
+enum class Repair {
+  none,   ///< the asset is refused
+  clamp,  ///< the nearest number of the range takes its place
+  drop,   ///< its property is taken to be absent
+  keep,   ///< it stays, for readers to deal with
+};
+
 struct Rule {
   std::string_view key;
   Form form;
@@ -61,11 +70,11 @@ struct Rule {
   Place place = Place::other;                      ///< of the object or objects
   std::span<const double> values = {};             ///< the known numbers, if not empty
   std::span<const std::string_view> strings = {};  ///< the known strings, if not empty
-  bool kept = false;                               ///< others stay, for readers to pass over
-  bool closed = false;                             ///< no other number or string is survived
+  Repair repair = Repair::none;  ///< clamp and keep are for each number of an array
 };
 
 /// What an extension writes in one place: its object's rules.
+/// Place::nowhere is for extensions that add no object at all.
 struct ExtensionRule {
   std::string_view name;
   Place place;
@@ -79,12 +88,12 @@ extern const Rule texture_info_rules[2];
 extern const Rule normal_texture_rules[3];
 [[nodiscard]] std::span<const ExtensionRule> extension_rules();
 
-/// Checks the whole asset against the rules. Throws Error (invalid_scene) at the first broken one.
-/// Some are survived with a warning, and then the asset's JSON is put right, so that its readers
-/// need not look again: a value that is none of the known ones is dropped, where its object has a
-/// default or its users ask; so are extensions that extensionsUsed does not declare, that stand in
-/// an object that they do not belong to, or that depend on one which is absent. Properties that
-/// glTF 2.0 does not define and empty arrays stay.
+/// Checks the whole asset against the rules. Throws Error (invalid_scene) at the first broken one
+/// that can't be repaired. The others are repaired in the asset's JSON, with a warning, so that its
+/// readers need not look again: values as their rules' `repair` says; null is taken to be absent,
+/// and so are attributes of unknown names, and extensions that extensionsUsed does not declare,
+/// that stand in an object that they do not belong to, or that depend on one which is absent.
+/// Properties that glTF 2.0 does not define, repeated items and empty arrays stay.
 void check_schema(Asset& asset);
 
 }  // namespace microtrace::io::gltf

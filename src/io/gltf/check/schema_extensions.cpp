@@ -1,4 +1,4 @@
-#include "io/gltf/check/schema.hpp"
+#include "io/gltf/check/schema_rows.hpp"
 
 #include <numbers>
 
@@ -19,39 +19,9 @@ constexpr string_view meshopt_modes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
 constexpr string_view meshopt_filters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL",
                                            "COLOR"};
 
-constexpr Rule factor(string_view key) {
-  return {.key = key, .form = Form::number, .min = 0, .max = 1};
-}
-constexpr Rule at_least(string_view key, double min) {
-  return {.key = key, .form = Form::number, .min = min};
-}
-constexpr Rule number(string_view key) {
-  return {.key = key, .form = Form::number};
-}
-constexpr Rule color(string_view key, double max = 1, std::size_t channels = 3) {
-  return {.key = key,
-          .form = Form::numbers,
-          .min = 0,
-          .max = max,
-          .fewest = channels,
-          .most = channels};
-}
-constexpr Rule texture(string_view key) {
-  return {.key = key,
-          .form = Form::object,
-          .members = texture_info_rules,
-          .place = Place::texture_info};
-}
-constexpr Rule normal_texture(string_view key) {
-  return {.key = key,
-          .form = Form::object,
-          .members = normal_texture_rules,
-          .place = Place::texture_info};
-}
 constexpr Rule image(string_view key) {
-  return {.key = key, .form = Form::index, .target = "images"};
+  return index_of(key, "images");
 }
-constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 // Materials.
 constexpr Rule anisotropy[] = {factor("anisotropyStrength"), number("anisotropyRotation"),
@@ -64,7 +34,8 @@ constexpr Rule diffuse_transmission[] = {
     color("diffuseTransmissionColorFactor"), texture("diffuseTransmissionColorTexture")};
 constexpr Rule dispersion[] = {at_least("dispersion", 0)};
 constexpr Rule emissive_strength[] = {at_least("emissiveStrength", 0)};
-constexpr Rule ior[] = {at_least("ior", 0)};  // and none between 0 and 1: materials.cpp
+// And none between 0 and 1: materials.cpp.
+constexpr Rule ior[] = {{.key = "ior", .form = Form::number, .min = 0, .repair = Repair::drop}};
 constexpr Rule iridescence[] = {factor("iridescenceFactor"),
                                 texture("iridescenceTexture"),
                                 at_least("iridescenceIor", 1),
@@ -80,65 +51,60 @@ constexpr Rule specular_glossiness[] = {color("diffuseFactor", 1, 4), texture("d
                                         color("specularFactor"), factor("glossinessFactor"),
                                         texture("specularGlossinessTexture")};
 constexpr Rule transmission[] = {factor("transmissionFactor"), texture("transmissionTexture")};
-constexpr Rule volume[] = {
-    at_least("thicknessFactor", 0),
-    texture("thicknessTexture"),
-    {.key = "attenuationDistance", .form = Form::number, .min = 0, .above_min = true},
-    color("attenuationColor")};
+constexpr Rule volume[] = {at_least("thicknessFactor", 0), texture("thicknessTexture"),
+                           positive("attenuationDistance"), color("attenuationColor")};
 
 constexpr Rule variant_rules[] = {{.key = "name", .form = Form::string, .required = true}};
 constexpr Rule variants[] = {
     {.key = "variants", .form = Form::objects, .required = true, .members = variant_rules}};
 constexpr Rule mapping_rules[] = {
     {.key = "variants", .form = Form::indices, .required = true, .target = variants_array},
-    {.key = "material", .form = Form::index, .required = true, .target = "materials"},
+    index_of("material", "materials", true),
 };
 constexpr Rule mappings[] = {
     {.key = "mappings", .form = Form::objects, .required = true, .members = mapping_rules}};
 
 // Textures and images.
 constexpr Rule texture_transform[] = {
-    {.key = "offset", .form = Form::numbers, .fewest = 2, .most = 2},
+    vector("offset", 2),
     number("rotation"),
-    {.key = "scale", .form = Form::numbers, .fewest = 2, .most = 2},
-    {.key = "texCoord", .form = Form::integer, .min = 0}};
+    vector("scale", 2),
+    {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp}};
 constexpr Rule texture_source[] = {image("source")};
 
 // Lights.
-constexpr Rule spot_rules[] = {
-    {.key = "innerConeAngle", .form = Form::number, .min = 0, .max = quarter_turn},
-    {.key = "outerConeAngle",
-     .form = Form::number,
-     .min = 0,
-     .max = quarter_turn,
-     .above_min = true}};
-constexpr Rule light_rules[] = {
-    color("color"),
-    at_least("intensity", 0),
-    {.key = "type", .form = Form::string, .required = true, .strings = light_types, .kept = true},
-    {.key = "range", .form = Form::number, .min = 0, .above_min = true},
-    {.key = "spot", .form = Form::object, .members = spot_rules}};
+constexpr Rule spot_rules[] = {{.key = "innerConeAngle",
+                                .form = Form::number,
+                                .min = 0,
+                                .max = quarter_turn,
+                                .repair = Repair::clamp},
+                               {.key = "outerConeAngle",
+                                .form = Form::number,
+                                .min = 0,
+                                .max = quarter_turn,
+                                .above_min = true,
+                                .repair = Repair::clamp}};
+constexpr Rule light_rules[] = {color("color"),
+                                at_least("intensity", 0),
+                                choice("type", light_types, true, Repair::keep),
+                                positive("range"),
+                                {.key = "spot", .form = Form::object, .members = spot_rules}};
 constexpr Rule lights[] = {
     {.key = "lights", .form = Form::objects, .required = true, .members = light_rules}};
-constexpr Rule light_reference[] = {
-    {.key = "light", .form = Form::index, .required = true, .target = lights_array}};
+constexpr Rule light_reference[] = {index_of("light", lights_array, true)};
 
 // Geometry and nodes.
 constexpr Rule draco[] = {
-    {.key = "bufferView", .form = Form::index, .required = true, .target = "bufferViews"},
+    index_of("bufferView", "bufferViews", true),
     {.key = "attributes", .form = Form::draco_attributes, .required = true, .min = 0}};
 constexpr Rule meshopt_view[] = {
-    {.key = "buffer", .form = Form::index, .required = true, .target = "buffers"},
+    index_of("buffer", "buffers", true),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
     {.key = "byteLength", .form = Form::integer, .required = true, .min = 1},
     {.key = "byteStride", .form = Form::integer, .required = true, .min = 1, .max = 256},
     {.key = "count", .form = Form::integer, .required = true, .min = 1},
-    {.key = "mode",
-     .form = Form::string,
-     .required = true,
-     .strings = meshopt_modes,
-     .closed = true},
-    {.key = "filter", .form = Form::string, .strings = meshopt_filters, .closed = true}};
+    choice("mode", meshopt_modes, true, Repair::none),
+    choice("filter", meshopt_filters, false, Repair::none)};
 constexpr Rule meshopt_buffer[] = {{.key = "fallback", .form = Form::boolean}};
 constexpr Rule instancing[] = {{.key = "attributes",
                                 .form = Form::instance_attributes,
@@ -149,8 +115,7 @@ constexpr Rule animation_pointer[] = {{.key = "pointer", .form = Form::string, .
 
 // Metadata.
 constexpr Rule packets[] = {{.key = "packets", .form = Form::anything, .required = true}};
-constexpr Rule packet[] = {
-    {.key = "packet", .form = Form::index, .required = true, .target = packets_array}};
+constexpr Rule packet[] = {index_of("packet", packets_array, true)};
 
 constexpr ExtensionRule table[] = {
     {"EXT_mesh_gpu_instancing", Place::node, instancing},
@@ -179,6 +144,7 @@ constexpr ExtensionRule table[] = {
     {"KHR_materials_volume", Place::material, volume},
     {"KHR_meshopt_compression", Place::buffer, meshopt_buffer},
     {"KHR_meshopt_compression", Place::buffer_view, meshopt_view},
+    {"KHR_mesh_quantization", Place::nowhere, {}},
     {"KHR_node_visibility", Place::node, visibility},
     {"KHR_texture_basisu", Place::texture, texture_source},
     {"KHR_texture_transform", Place::texture_info, texture_transform},

@@ -1,4 +1,4 @@
-#include "io/gltf/check/schema.hpp"
+#include "io/gltf/check/schema_rows.hpp"
 
 #include <array>
 
@@ -11,7 +11,7 @@ namespace microtrace::io::gltf {
 
 constexpr Rule texture_info_rules[2] = {
     {.key = "index", .form = Form::index, .required = true, .target = "textures"},
-    {.key = "texCoord", .form = Form::integer, .min = 0},
+    {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp},
 };
 constexpr Rule normal_texture_rules[3] = {
     texture_info_rules[0],
@@ -44,16 +44,12 @@ constexpr Rule asset_rules[] = {
 };
 
 constexpr Rule sparse_indices_rules[] = {
-    {.key = "bufferView", .form = Form::index, .required = true, .target = "bufferViews"},
+    index_of("bufferView", "bufferViews", true),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
-    {.key = "componentType",
-     .form = Form::integer,
-     .required = true,
-     .values = index_types,
-     .closed = true},
+    {.key = "componentType", .form = Form::integer, .required = true, .values = index_types},
 };
 constexpr Rule sparse_values_rules[] = {
-    {.key = "bufferView", .form = Form::index, .required = true, .target = "bufferViews"},
+    index_of("bufferView", "bufferViews", true),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
 };
 constexpr Rule sparse_rules[] = {
@@ -62,20 +58,24 @@ constexpr Rule sparse_rules[] = {
     {.key = "values", .form = Form::object, .required = true, .members = sparse_values_rules},
 };
 constexpr Rule accessor_rules[] = {
-    {.key = "bufferView", .form = Form::index, .target = "bufferViews"},
+    index_of("bufferView", "bufferViews"),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
-    {.key = "componentType", .form = Form::integer, .required = true, .values = component_types},
+    {.key = "componentType",
+     .form = Form::integer,
+     .required = true,
+     .values = component_types,
+     .repair = Repair::drop},
     {.key = "normalized", .form = Form::boolean},
     {.key = "count", .form = Form::integer, .required = true, .min = 1},
-    {.key = "type", .form = Form::string, .required = true, .strings = accessor_types},
-    {.key = "max", .form = Form::numbers, .fewest = 1, .most = 16},
-    {.key = "min", .form = Form::numbers, .fewest = 1, .most = 16},
+    choice("type", accessor_types, true),
+    {.key = "max", .form = Form::numbers},
+    {.key = "min", .form = Form::numbers},
     {.key = "sparse", .form = Form::object, .members = sparse_rules},
 };
 
 constexpr Rule animation_target_rules[] = {
-    {.key = "node", .form = Form::index, .target = "nodes"},
-    {.key = "path", .form = Form::string, .required = true, .strings = paths, .kept = true},
+    index_of("node", "nodes"),
+    choice("path", paths, true, Repair::keep),
 };
 constexpr Rule channel_rules[] = {
     {.key = "sampler", .form = Form::integer, .required = true, .min = 0},
@@ -86,9 +86,9 @@ constexpr Rule channel_rules[] = {
      .place = Place::animation_target},
 };
 constexpr Rule animation_sampler_rules[] = {
-    {.key = "input", .form = Form::index, .required = true, .target = "accessors"},
-    {.key = "interpolation", .form = Form::string, .strings = interpolations},
-    {.key = "output", .form = Form::index, .required = true, .target = "accessors"},
+    index_of("input", "accessors", true),
+    choice("interpolation", interpolations),
+    index_of("output", "accessors", true),
 };
 constexpr Rule animation_rules[] = {
     {.key = "channels", .form = Form::objects, .required = true, .members = channel_rules},
@@ -103,89 +103,86 @@ constexpr Rule buffer_rules[] = {
     {.key = "byteLength", .form = Form::integer, .required = true, .min = 1},
 };
 constexpr Rule view_rules[] = {
-    {.key = "buffer", .form = Form::index, .required = true, .target = "buffers"},
+    index_of("buffer", "buffers", true),
     {.key = "byteOffset", .form = Form::integer, .min = 0},
     {.key = "byteLength", .form = Form::integer, .required = true, .min = 1},
     {.key = "byteStride", .form = Form::integer, .min = 4, .max = 252},
-    {.key = "target", .form = Form::integer, .values = view_targets},
+    choice("target", view_targets),
 };
 
 constexpr Rule orthographic_rules[] = {
     {.key = "xmag", .form = Form::number, .required = true},
     {.key = "ymag", .form = Form::number, .required = true},
-    {.key = "zfar", .form = Form::number, .required = true, .min = 0, .above_min = true},
-    {.key = "znear", .form = Form::number, .required = true, .min = 0},
+    {.key = "zfar",
+     .form = Form::number,
+     .required = true,
+     .min = 0,
+     .above_min = true,
+     .repair = Repair::keep},
+    {.key = "znear", .form = Form::number, .required = true, .min = 0, .repair = Repair::clamp},
 };
 constexpr Rule perspective_rules[] = {
-    {.key = "aspectRatio", .form = Form::number, .min = 0, .above_min = true},
-    {.key = "yfov", .form = Form::number, .required = true, .min = 0, .above_min = true},
-    {.key = "zfar", .form = Form::number, .min = 0, .above_min = true},
-    {.key = "znear", .form = Form::number, .required = true, .min = 0, .above_min = true},
+    positive("aspectRatio"),
+    {.key = "yfov",
+     .form = Form::number,
+     .required = true,
+     .min = 0,
+     .above_min = true,
+     .repair = Repair::keep},
+    positive("zfar"),
+    {.key = "znear",
+     .form = Form::number,
+     .required = true,
+     .min = 0,
+     .above_min = true,
+     .repair = Repair::clamp},
 };
 constexpr Rule camera_rules[] = {
     {.key = "orthographic", .form = Form::object, .members = orthographic_rules},
     {.key = "perspective", .form = Form::object, .members = perspective_rules},
-    {.key = "type", .form = Form::string, .required = true, .strings = camera_types},
+    choice("type", camera_types, true),
 };
 
 constexpr Rule image_rules[] = {
     {.key = "uri", .form = Form::string},
-    {.key = "mimeType", .form = Form::string, .strings = image_types, .kept = true},
-    {.key = "bufferView", .form = Form::index, .target = "bufferViews"},
+    choice("mimeType", image_types, false, Repair::keep),
+    index_of("bufferView", "bufferViews"),
 };
 constexpr Rule sampler_rules[] = {
-    {.key = "magFilter", .form = Form::integer, .values = mag_filters},
-    {.key = "minFilter", .form = Form::integer, .values = min_filters},
-    {.key = "wrapS", .form = Form::integer, .values = wrap_modes},
-    {.key = "wrapT", .form = Form::integer, .values = wrap_modes},
+    choice("magFilter", mag_filters),
+    choice("minFilter", min_filters),
+    choice("wrapS", wrap_modes),
+    choice("wrapT", wrap_modes),
 };
 constexpr Rule texture_rules[] = {
-    {.key = "sampler", .form = Form::index, .target = "samplers"},
-    {.key = "source", .form = Form::index, .target = "images"},
+    index_of("sampler", "samplers"),
+    index_of("source", "images"),
 };
 
 constexpr Rule occlusion_texture_rules[] = {
     texture_info_rules[0],
     texture_info_rules[1],
-    {.key = "strength", .form = Form::number, .min = 0, .max = 1},
+    factor("strength"),
 };
 constexpr Rule metallic_roughness_rules[] = {
-    {.key = "baseColorFactor", .form = Form::numbers, .min = 0, .max = 1, .fewest = 4, .most = 4},
-    {.key = "baseColorTexture",
-     .form = Form::object,
-     .members = texture_info_rules,
-     .place = Place::texture_info},
-    {.key = "metallicFactor", .form = Form::number, .min = 0, .max = 1},
-    {.key = "roughnessFactor", .form = Form::number, .min = 0, .max = 1},
-    {.key = "metallicRoughnessTexture",
-     .form = Form::object,
-     .members = texture_info_rules,
-     .place = Place::texture_info},
+    color("baseColorFactor", 1, 4), texture("baseColorTexture"),         factor("metallicFactor"),
+    factor("roughnessFactor"),      texture("metallicRoughnessTexture"),
 };
 constexpr Rule material_rules[] = {
     {.key = "pbrMetallicRoughness", .form = Form::object, .members = metallic_roughness_rules},
-    {.key = "normalTexture",
-     .form = Form::object,
-     .members = normal_texture_rules,
-     .place = Place::texture_info},
-    {.key = "occlusionTexture",
-     .form = Form::object,
-     .members = occlusion_texture_rules,
-     .place = Place::texture_info},
-    {.key = "emissiveTexture",
-     .form = Form::object,
-     .members = texture_info_rules,
-     .place = Place::texture_info},
-    {.key = "emissiveFactor", .form = Form::numbers, .min = 0, .max = 1, .fewest = 3, .most = 3},
-    {.key = "alphaMode", .form = Form::string, .strings = alpha_modes},
-    {.key = "alphaCutoff", .form = Form::number, .min = 0},
+    normal_texture("normalTexture"),
+    texture("occlusionTexture", occlusion_texture_rules),
+    texture("emissiveTexture"),
+    color("emissiveFactor"),
+    choice("alphaMode", alpha_modes),
+    at_least("alphaCutoff", 0),
     {.key = "doubleSided", .form = Form::boolean},
 };
 
 constexpr Rule primitive_rules[] = {
     {.key = "attributes", .form = Form::attributes, .required = true, .target = "accessors"},
-    {.key = "indices", .form = Form::index, .target = "accessors"},
-    {.key = "material", .form = Form::index, .target = "materials"},
+    index_of("indices", "accessors"),
+    index_of("material", "materials"),
     {.key = "mode", .form = Form::integer, .min = 0, .max = 6},
     {.key = "targets", .form = Form::targets, .target = "accessors"},
 };
@@ -199,22 +196,28 @@ constexpr Rule mesh_rules[] = {
 };
 
 constexpr Rule node_rules[] = {
-    {.key = "camera", .form = Form::index, .target = "cameras"},
+    index_of("camera", "cameras"),
     {.key = "children", .form = Form::indices, .target = "nodes"},
-    {.key = "skin", .form = Form::index, .target = "skins"},
-    {.key = "matrix", .form = Form::numbers, .fewest = 16, .most = 16},
-    {.key = "mesh", .form = Form::index, .target = "meshes"},
-    {.key = "rotation", .form = Form::numbers, .min = -1, .max = 1, .fewest = 4, .most = 4},
-    {.key = "scale", .form = Form::numbers, .fewest = 3, .most = 3},
-    {.key = "translation", .form = Form::numbers, .fewest = 3, .most = 3},
+    index_of("skin", "skins"),
+    vector("matrix", 16),
+    index_of("mesh", "meshes"),
+    {.key = "rotation",
+     .form = Form::numbers,
+     .min = -1,
+     .max = 1,
+     .fewest = 4,
+     .most = 4,
+     .repair = Repair::keep},
+    vector("scale", 3),
+    vector("translation", 3),
     {.key = "weights", .form = Form::numbers},
 };
 constexpr Rule scene_rules[] = {
     {.key = "nodes", .form = Form::indices, .target = "nodes"},
 };
 constexpr Rule skin_rules[] = {
-    {.key = "inverseBindMatrices", .form = Form::index, .target = "accessors"},
-    {.key = "skeleton", .form = Form::index, .target = "nodes"},
+    index_of("inverseBindMatrices", "accessors"),
+    index_of("skeleton", "nodes"),
     {.key = "joints", .form = Form::indices, .required = true, .target = "nodes"},
 };
 
@@ -245,7 +248,7 @@ constexpr Rule root_rules[] = {
     {.key = "meshes", .form = Form::objects, .members = mesh_rules, .place = Place::mesh},
     {.key = "nodes", .form = Form::objects, .members = node_rules, .place = Place::node},
     {.key = "samplers", .form = Form::objects, .members = sampler_rules},
-    {.key = "scene", .form = Form::index, .target = "scenes"},
+    index_of("scene", "scenes"),
     {.key = "scenes", .form = Form::objects, .members = scene_rules, .place = Place::scene},
     {.key = "skins", .form = Form::objects, .members = skin_rules},
     {.key = "textures", .form = Form::objects, .members = texture_rules, .place = Place::texture},

@@ -18,7 +18,7 @@ void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
     return forest.root(index_of(joint)) != forest.root(index_of(joints[0]));
   };
   if (std::ranges::any_of(joints, has_other_root)) {
-    asset.warn(at.member("joints"), "are nodes without a common root");
+    asset.tolerate(at.member("joints"), "are nodes without a common root");
   }
   const JsonValue* skeleton = at.value->find("skeleton");
   if (skeleton == nullptr) return;
@@ -26,7 +26,7 @@ void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
     return !forest.is_within(index_of(joint), index_of(*skeleton));
   };
   if (std::ranges::any_of(joints, is_outside)) {
-    asset.warn(at.member("skeleton"), "is not above all of the skin's joints");
+    asset.tolerate(at.member("skeleton"), "is not above all of the skin's joints");
   }
 }
 
@@ -72,7 +72,7 @@ void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& fores
     const JsonValue& skin = asset.array("skins")[index_of(*at.value->find("skin"))];
     const std::vector<JsonValue>& joints = skin.find("joints")->items;
     if (!joints.empty() && !in_scene[forest.root(index_of(joints[0]))]) {
-      asset.warn(at.member("skin"), "has joints that are in no scene");
+      asset.tolerate(at.member("skin"), "has joints that are in no scene");
     }
   }
 }

@@ -20,7 +20,7 @@ void check_view(Asset& asset, const Element& at) {
   }
   const JsonValue* target = at.value->find("target");
   if (target != nullptr && target->number == element_array_buffer) {
-    asset.warn(at.member("byteStride"), "stands in a view of indices, which lie without gaps");
+    asset.tolerate(at.member("byteStride"), "stands in a view of indices, which lie without gaps");
   }
 }
 
@@ -30,29 +30,30 @@ std::size_t components(const std::string& type) {
   return type.starts_with("MAT") ? n * n : n;
 }
 
-void check_bounds(const Asset& asset, const Element& at) {
+void check_bounds(Asset& asset, const Element& at) {
   const std::size_t expected = components(at.member("type").value->string);
   for (const char* key : {"min", "max"}) {
     const JsonValue* bounds = at.value->find(key);
     if (bounds == nullptr || bounds->items.size() == expected) continue;
-    asset.fail(at.member(key), "must have " + std::to_string(expected) + " items, has " +
-                                   std::to_string(bounds->items.size()));
+    asset.tolerate(at.member(key), "must have " + std::to_string(expected) + " items, has " +
+                                       std::to_string(bounds->items.size()) + "; it is ignored");
+    Asset::drop(at, {key});
   }
 }
 
 void check_accessor(Asset& asset, const Element& at) {
-  const JsonValue* component = at.value->find("componentType");
-  const JsonValue* normalized = at.value->find("normalized");
-  if (component == nullptr || at.value->find("type") == nullptr) {
+  if (at.value->find("componentType") == nullptr || at.value->find("type") == nullptr) {
     return;  // check_schema has warned of a type that it does not know
   }
   check_bounds(asset, at);
+  const JsonValue* component = at.value->find("componentType");
+  const JsonValue* normalized = at.value->find("normalized");
   if (at.value->find("byteOffset") != nullptr && at.value->find("bufferView") == nullptr) {
-    asset.warn(at.member("byteOffset"), "has no effect: the accessor has no bufferView");
+    asset.tolerate(at.member("byteOffset"), "has no effect: the accessor has no bufferView");
   }
   const bool can_be_normalized = component->number != f32 && component->number != u32;
   if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
-    asset.warn(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
+    asset.tolerate(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
     Asset::drop(at, {"normalized"});
   }
 }
