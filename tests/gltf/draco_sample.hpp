@@ -18,7 +18,7 @@ struct DracoSample {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-inline constexpr std::uint32_t draco_rows = 9, draco_columns = 12;  // of vertices
+inline constexpr std::uint32_t draco_rows = 9, draco_columns = 30;  // of vertices
 
 /// Makes a bowl of 14 bits with normals and colours (2 i, 7, 255, 255), sequential or by
 /// edgebreaker.

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,15 +37,6 @@ std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size
   return result;
 }
 
-/// Keeps a copy: the text may be an exception's own.
-void keep(void* context, const char* text) {
-  try {
-    *static_cast<std::string*>(context) = text;
-  } catch (const std::bad_alloc&) {
-    // Without a reason it is an error too.
-  }
-}
-
 const ModuleFunction& draco_function() {
   static const ModuleFunction function =
       find_module_function(draco_module_file_name, decode_draco_name);
@@ -52,17 +45,83 @@ const ModuleFunction& draco_function() {
 
 }  // namespace
 
-/// What is to be decoded into which accessors.
+/// What is to be decoded into which accessors, and what came of it.
 struct DracoDecoder::Job {
   Element at;
   std::size_t view = 0;
-  std::string_view bytes{};
-  int indices = 0;  // the accessor
-  std::size_t triangles = 0, points = 0;
-  std::vector<int> accessors{};  // of the attributes
+  int indices = 0;                   // the accessor
+  std::vector<int> accessors{};      // of the attributes
+  std::vector<std::size_t> sizes{};  // bytes of their elements
   std::vector<MicrotraceDracoAttribute> attributes{};
   std::map<int, Source> sources{};
+  MicrotraceDraco mesh{};
+  std::size_t left = 0;  // bytes that may be taken
+  std::vector<std::uint32_t> corners{};
+  std::vector<std::string> values{};
+  std::optional<MemoryAccount> work{};
+  std::string complaint{};
+  bool is_too_large = false;
+
+  /// Room for Draco's own work.
+  bool reserve(std::size_t triangles) {
+    work.emplace(temporary_memory(triangles * 200, "decompressing meshes"));
+    return true;
+  }
+
+  /// The room for the mesh; false where it would take too much.
+  bool prepare(std::size_t triangles, std::size_t points) {
+    std::size_t bytes = triangles * bytes_of_triangle;
+    for (const std::size_t size : sizes) bytes += points * size;
+    is_too_large = bytes > left;
+    if (is_too_large) return false;
+    left -= bytes;
+    take_memory(bytes, "decompressed meshes");
+    corners.resize(3 * triangles);
+    mesh.indices = corners.data();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      attributes[i].values = values.emplace_back(points * sizes[i], '\0').data();
+    }
+    return true;
+  }
+
+  /// Of three indices, as they are decoded and as an accessor takes them.
+  static constexpr std::size_t bytes_of_triangle = 3 * 2 * sizeof(std::uint32_t);
 };
+
+namespace {
+
+/// No exception may pass through the module.
+template <typename Job>
+int prepare_job(void* job, std::size_t triangles, std::size_t points) {
+  try {
+    return static_cast<Job*>(job)->prepare(triangles, points) ? 1 : 0;
+  } catch (const std::exception&) {
+    static_cast<Job*>(job)->is_too_large = true;
+    return 0;
+  }
+}
+
+template <typename Job>
+int reserve_for_job(void* job, std::size_t triangles) {
+  try {
+    return static_cast<Job*>(job)->reserve(triangles) ? 1 : 0;
+  } catch (const std::exception&) {
+    static_cast<Job*>(job)->is_too_large = true;
+    return 0;
+  }
+}
+
+/// Keeps a copy: the text may be an exception's own.
+template <typename Job>
+void keep_complaint(void* job, const char* text) {
+  try {
+    static_cast<Job*>(job)->complaint = text;
+  } catch (const std::bad_alloc&) {
+    // Without a reason it is an error too.
+  }
+}
+
+}  // namespace
 
 bool DracoDecoder::decode(const Element& primitive_at, const tinygltf::Primitive& primitive) {
   const auto at = extension(primitive_at, name_of_extension);
@@ -72,7 +131,9 @@ bool DracoDecoder::decode(const Element& primitive_at, const tinygltf::Primitive
   if (!bytes || !has_module(*at)) return false;
   if (primitive.indices < 0) asset_.fail(primitive_at, "lacks the indices that Draco fills");
 
-  Job job{.at = *at, .view = view, .bytes = *bytes, .indices = primitive.indices};
+  Job job{.at = *at, .view = view, .indices = primitive.indices, .left = left_};
+  job.mesh.bytes = bytes->data();
+  job.mesh.size = bytes->size();
   plan(primitive, job);
   const bool is_done = std::ranges::all_of(job.sources, [this](const auto& source) {
     const auto before = sources_.find(source.first);
@@ -95,12 +156,6 @@ bool DracoDecoder::has_module(const Element& at) {
 }
 
 void DracoDecoder::plan(const tinygltf::Primitive& primitive, Job& job) const {
-  const char* too_much = "can't hold as many indices and vertices as the accessors say";
-  const std::size_t count = accessor(job.indices).count;
-  job.triangles = count / 3;
-  if (count % 3 != 0 || job.triangles / most_triangles_per_byte > job.bytes.size()) {
-    asset_.fail(job.at, too_much);
-  }
   job.sources.emplace(job.indices, Source(job.view, id_of_indices));
   const Element names = job.at.member("attributes");
   for (const JsonMember& member : names.value->members) {
@@ -108,12 +163,10 @@ void DracoDecoder::plan(const tinygltf::Primitive& primitive, Job& job) const {
     if (attribute == primitive.attributes.end()) continue;
     const std::size_t id = whole_number(asset_, names, member.key, 0xFFFFFFFF);
     const tinygltf::Accessor& target = accessor(attribute->second);
-    if (job.attributes.empty()) job.points = target.count;
-    if (job.points != target.count) asset_.fail(job.at, "has attributes of different counts");
     if (components(target.type) > 4) asset_.fail(names.member(member.key), "is of matrices");
-    if (job.points > 3 * job.triangles) asset_.fail(job.at, too_much);
     if (!job.sources.emplace(attribute->second, Source(job.view, id)).second) continue;
     job.accessors.push_back(attribute->second);
+    job.sizes.push_back(element_size(target.type, target.componentType));
     job.attributes.push_back({.id = static_cast<std::uint32_t>(id),
                               .components = static_cast<std::uint32_t>(components(target.type)),
                               .type = static_cast<std::uint32_t>(target.componentType),
@@ -121,46 +174,44 @@ void DracoDecoder::plan(const tinygltf::Primitive& primitive, Job& job) const {
   }
 }
 
-void DracoDecoder::charge(const Job& job, std::size_t count, std::size_t size) {
-  if (count > left_ / size) {
-    asset_.fail(job.at, "brings the decompressed meshes to more than 4 GiB, the most that is read",
+void DracoDecoder::run(Job& job) {
+  job.mesh.most_triangles =
+      std::min(job.mesh.size * most_triangles_per_byte, job.left / Job::bytes_of_triangle);
+  job.mesh.attributes = job.attributes.data();
+  job.mesh.attribute_count = job.attributes.size();
+  const auto decode_draco = reinterpret_cast<MicrotraceDecodeDraco>(draco_function().address);
+  if (decode_draco(&job.mesh, reserve_for_job<Job>, prepare_job<Job>, keep_complaint<Job>, &job) ==
+      0) {
+    if (!job.is_too_large) asset_.fail(job.at, "can't be decoded: " + job.complaint);
+    asset_.fail(job.at,
+                "brings the decompressed meshes to more than 4 GiB, the most that is read, or to "
+                "more than there is memory for",
                 ErrorKind::limit);
   }
-  left_ -= count * size;
-  take_memory(count * size, "decompressed meshes");
-}
-
-void DracoDecoder::run(Job& job) {
-  charge(job, 3 * job.triangles, 2 * sizeof(std::uint32_t));
-  std::vector<std::string> values;
-  for (std::size_t i = 0; i < job.attributes.size(); ++i) {
-    const tinygltf::Accessor& target = accessor(job.accessors[i]);
-    const std::size_t size = element_size(target.type, target.componentType);
-    charge(job, job.points, size);
-    values.emplace_back(job.points * size, '\0');
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) job.attributes[i].values = values[i].data();
-  std::vector<std::uint32_t> corners(3 * job.triangles);
-  const MicrotraceDraco mesh{.bytes = job.bytes.data(),
-                             .size = job.bytes.size(),
-                             .triangles = job.triangles,
-                             .points = job.points,
-                             .indices = corners.data(),
-                             .attributes = job.attributes.data(),
-                             .attribute_count = job.attributes.size()};
-  // What Draco itself needs.
-  const MemoryAccount work = temporary_memory(job.triangles * 200, "decompressing meshes");
-  std::string complaint;
-  const auto decode_draco = reinterpret_cast<MicrotraceDecodeDraco>(draco_function().address);
-  if (decode_draco(&mesh, keep, &complaint) == 0) {
-    asset_.fail(job.at, "can't be decoded: " + complaint);
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    reader_.replace(job.accessors[i], std::move(values[i]));
+  left_ = job.left;
+  const std::size_t points = job.values.empty() ? 0 : job.values[0].size() / job.sizes[0];
+  check_counts(job, points);
+  for (std::size_t i = 0; i < job.values.size(); ++i) {
+    reader_.replace(job.accessors[i], std::move(job.values[i]));
   }
   reader_.replace(job.indices,
-                  narrowed(corners, component_size(accessor(job.indices).componentType)));
+                  narrowed(job.corners, component_size(accessor(job.indices).componentType)));
   for (const auto& [replaced, source] : job.sources) sources_[replaced] = source;
+}
+
+void DracoDecoder::check_counts(const Job& job, std::size_t points) const {
+  const tinygltf::Accessor& indices = accessor(job.indices);
+  const std::uint64_t numbers = std::uint64_t{1} << 8 * component_size(indices.componentType);
+  if (points >= numbers) {
+    asset_.fail(job.at,
+                "has " + std::to_string(points) +
+                    " vertices, more than indices of the accessor's componentType can name");
+  }
+  const auto differs = [&](int index) { return accessor(index).count != points; };
+  if (indices.count == job.corners.size() && std::ranges::none_of(job.accessors, differs)) return;
+  asset_.tolerate(job.at, "holds " + std::to_string(job.corners.size()) + " indices and " +
+                              std::to_string(points) +
+                              " vertices, not as many as the accessors say; all of it is drawn");
 }
 
 const tinygltf::Accessor& DracoDecoder::accessor(int index) const {

@@ -20,9 +20,9 @@ class DracoDecoder {
       : asset_(asset), model_(model), views_(views), reader_(reader) {}
 
   /// Gives the reader what the compressed bytes of a primitive hold, in place of its accessors'
-  /// elements. False where it has none or, with a warning, they can't be decoded and the asset does
-  /// not require it. The indices are then of triangles, whatever the primitive's mode. Throws
-  /// Error: invalid_scene, limit, unsupported.
+  /// elements, and of their counts. False where it has none or, with a warning, they can't be
+  /// decoded and the asset does not require it. The indices are then of triangles, whatever the
+  /// primitive's mode. Throws Error: invalid_scene, limit, unsupported.
   bool decode(const Element& at, const tinygltf::Primitive& primitive);
 
  private:
@@ -32,7 +32,7 @@ class DracoDecoder {
   [[nodiscard]] bool has_module(const Element& at);
   void plan(const tinygltf::Primitive& primitive, Job& job) const;
   void run(Job& job);
-  void charge(const Job& job, std::size_t count, std::size_t size);
+  void check_counts(const Job& job, std::size_t points) const;
   [[nodiscard]] const tinygltf::Accessor& accessor(int index) const;
 
   Asset& asset_;

@@ -23,11 +23,20 @@ const char* write_indices(const draco::Mesh& mesh, std::uint32_t* out) {
   return nullptr;
 }
 
-const char* decode(const MicrotraceDraco& wanted) {
+bool is_too_large(const MicrotraceDraco& wanted, std::size_t triangles, std::size_t points) {
+  return triangles > wanted.most_triangles || points / 3 > triangles;
+}
+
+const char* decode(const MicrotraceDraco& wanted, MicrotraceDracoReserve reserve,
+                   MicrotraceDracoPrepare prepare, void* context) {
+  constexpr const char* kNoRoom = "there is no room for it";
+  constexpr const char* kTooLarge =
+      "there are more triangles or vertices than so few bytes can hold";
   const std::optional<DracoHeader> header = read_draco_header(wanted.bytes, wanted.size);
   if (!header) return "the bytes are no mesh of Draco's bitstream version 2.2";
-  if (header->triangles != wanted.triangles || header->points > wanted.points)
-    return "there are not as many triangles and vertices as the accessors say";
+  if (is_too_large(wanted, header->triangles, header->points)) return kTooLarge;
+
+  if (reserve(context, header->triangles) == 0) return kNoRoom;
 
   draco::DecoderBuffer buffer;
   buffer.Init(wanted.bytes, wanted.size);
@@ -38,25 +47,27 @@ const char* decode(const MicrotraceDraco& wanted) {
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok()) return "the bytes are damaged";
   const std::unique_ptr<draco::Mesh> mesh = std::move(decoded).value();
-  if (mesh->num_faces() != wanted.triangles || mesh->num_points() != wanted.points)
-    return "there are not as many triangles and vertices as the accessors say";
+  const std::size_t points = mesh->num_points();
+  if (is_too_large(wanted, mesh->num_faces(), points)) return kTooLarge;
+  if (prepare(context, mesh->num_faces(), points) == 0) return kNoRoom;
 
   if (const char* wrong = write_indices(*mesh, wanted.indices)) return wrong;
   for (std::size_t i = 0; i < wanted.attribute_count; ++i) {
     const MicrotraceDracoAttribute& attribute = wanted.attributes[i];
     const draco::PointAttribute* source = mesh->GetAttributeByUniqueId(attribute.id);
     if (source == nullptr) return "there is no attribute of an id that the extension names";
-    if (const char* wrong = write_draco_values(*source, wanted.points, attribute)) return wrong;
+    if (const char* wrong = write_draco_values(*source, points, attribute)) return wrong;
   }
   return nullptr;
 }
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) int microtrace_decode_draco_v1(
-    const MicrotraceDraco* mesh, MicrotraceDracoComplain complain, void* context) {
+extern "C" __attribute__((visibility("default"))) int microtrace_decode_draco_v2(
+    const MicrotraceDraco* mesh, MicrotraceDracoReserve reserve, MicrotraceDracoPrepare prepare,
+    MicrotraceDracoComplain complain, void* context) {
   try {
-    const char* wrong = decode(*mesh);
+    const char* wrong = decode(*mesh, reserve, prepare, context);
     if (wrong != nullptr) complain(context, wrong);
     return wrong == nullptr ? 1 : 0;
   } catch (const std::exception& error) {
