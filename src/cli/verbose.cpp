@@ -49,7 +49,7 @@ std::string images_of(const Scene& scene) {
   return text;
 }
 
-std::string camera_of(const Arguments& arguments, const Scene& scene) {
+std::string camera_text(const Arguments& arguments, const Scene& scene) {
   const Viewpoint& viewpoint = arguments.viewpoint;
   if (viewpoint.eye) return "at --eye";
   if (viewpoint.orbit)
@@ -74,7 +74,7 @@ void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize siz
   tell(counted(scene.materials.size(), "material") + ", " +
        counted(scene.textures.size(), "texture") + ", " + images_of(scene));
   tell("light: " + light_of(scene));
-  tell("camera: " + camera_of(arguments, scene));
+  tell("camera: " + camera_text(arguments, scene));
   tell("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
        subject_of(arguments));
 }

@@ -11,7 +11,7 @@
 namespace microtrace::cli {
 namespace {
 
-std::string camera_of(const Arguments& arguments, const Scene& scene) {
+std::string camera_name(const Arguments& arguments, const Scene& scene) {
   const Viewpoint& viewpoint = arguments.viewpoint;
   if (!viewpoint.is_of_scene() || scene.cameras.empty()) return "the camera";
   return "the camera " + (viewpoint.camera.empty() ? scene.cameras[0].name : viewpoint.camera);
@@ -90,7 +90,7 @@ std::string light_of(const Scene& scene) {
 std::optional<Diagnostic> warning_of(const FilmView& view, const Arguments& arguments,
                                      const Scene& scene) {
   if (view.is_empty && !arguments.crop && !scene.objects.empty()) {
-    return warning_about(arguments, camera_of(arguments, scene) +
+    return warning_about(arguments, camera_name(arguments, scene) +
                                         " sees nothing of the scene; take another by --camera, or "
                                         "look at all of it by --view 30,25");
   }
