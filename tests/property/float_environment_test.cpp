@@ -143,8 +143,15 @@ std::string lit_ppm(const Scene& scene) {
   return encode_ppm(film);
 }
 
+/// Made once: the standard library computes the capacities of paths by floating-point numbers,
+/// which a host's traps would end.
+const std::filesystem::path& scenes_folder() {
+  static const std::filesystem::path folder = tests::source_folder() / "scenes";
+  return folder;
+}
+
 std::string lit_json_ppm() {
-  return lit_ppm(parse_scene(kLit, "lit.json", tests::source_folder() / "scenes").scene);
+  return lit_ppm(parse_scene(kLit, "lit.json", scenes_folder()).scene);
 }
 
 std::string lit_gltf_ppm() {
@@ -165,7 +172,7 @@ TEST_P(HostRules, ChangeNoPictureWithLight) {
 // Steps that a program may take on its own.
 TEST_P(HostRules, ChangeNoStep) {
   const auto steps = [] {
-    const Scene scene = parse_scene(kLit, "lit.json", tests::source_folder() / "scenes").scene;
+    const Scene scene = parse_scene(kLit, "lit.json", scenes_folder()).scene;
     const RayGenerator rays(default_camera(scene, {24, 18}), {24, 18});
     std::vector<double> numbers;
     const auto add = [&](const auto& vector) {
