@@ -3,7 +3,7 @@
 
 usage: make_seeds.py PROJECT_FOLDER FOLDER
 
-FOLDER/json_scene, FOLDER/gltf and FOLDER/image hold small files, json_scene.dict, gltf.dict and image.dict the words of each format. glTF
+A folder for each format holds small files, FORMAT.dict its words. glTF
 assets with a binary chunk are written in the target's own form: JSON, a zero byte, the chunk.
 """
 
@@ -269,6 +269,50 @@ def lit():
     return asset
 
 
+def materials():
+    """One material of each model of light, on quadrilaterals behind one another, with a lamp among them."""
+    asset = Asset()
+    asset.attribute("TEXCOORD_0", "2f", "VEC2", [(0, 0), (1, 0), (1, 1), (0, 1)])
+    asset.add("images", {"bufferView": asset.view(png(3, 2)), "mimeType": "image/png"})
+    asset.add("textures", {"source": 0})
+    texture = {"index": 0}
+    models = [
+        ({"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.4},
+          "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": 0.5, "attenuationColor": [1, 0.5, 0]},
+          "KHR_materials_dispersion": {"dispersion": 0.5}}, {"metallicFactor": 0, "roughnessFactor": 0.1}),
+        ({"KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.2, "clearcoatNormalTexture": texture},
+          "KHR_materials_sheen": {"sheenColorFactor": [1, 0.5, 1], "sheenRoughnessFactor": 0.3}}, {"metallicRoughnessTexture": texture}),
+        ({"KHR_materials_anisotropy": {"anisotropyStrength": 0.7, "anisotropyRotation": 1, "anisotropyTexture": texture},
+          "KHR_materials_iridescence": {"iridescenceFactor": 1, "iridescenceThicknessTexture": texture}}, {"roughnessFactor": 0.4}),
+        ({"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5, "diffuseTransmissionColorFactor": [0, 1, 0]},
+          "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [2, 1, 0]}}, {"metallicFactor": 0}),
+        ({"KHR_materials_emissive_strength": {"emissiveStrength": 20}}, {}),
+    ]
+    primitives = asset.json["meshes"][0]["primitives"] = []
+    for extensions, model in models:
+        for extension in extensions:
+            asset.uses(extension)
+        number = asset.add("materials", {"pbrMetallicRoughness": model, "extensions": extensions, "doubleSided": True,
+                                         "emissiveFactor": [1, 1, 1] if "KHR_materials_emissive_strength" in extensions else [0, 0, 0]})
+        asset.json["meshes"].append({"primitives": [{**asset.primitive, "material": number}]})
+        node = asset.add("nodes", {"mesh": len(asset.json["meshes"]) - 1, "translation": [number * 0.3 - 0.6, 0, -0.4 * number],
+                                   "rotation": [0, 0.2, 0, 0.98]})
+        asset.json["scenes"][0]["nodes"].append(node)
+    primitives.append(asset.primitive)
+    return asset
+
+
+def checkpoint(ranges, width=3, height=2):
+    """The samples of a picture as src/io/checkpoint/checkpoint.cpp writes them, but for the digest at the end."""
+    identity = b"--seed\t1\n"
+    samples = sum(last - first for first, last in ranges)
+    head = b"microtrace samples\n" + struct.pack("<II", 1, len(identity)) + identity
+    head += struct.pack("<IIdI", 1, samples, 0.5, 1) + struct.pack("<6I3f", width, height, 0, 0, width, height, 0, 0.25, 1)
+    head += struct.pack("<I", len(ranges)) + b"".join(struct.pack("<2I", *r) for r in ranges)
+    pixel = b"".join(struct.pack("<Q", word) for word in (0, samples, 1 << 63, samples, 5, 2, samples << 46, 0, 9, samples))
+    return head + (pixel + struct.pack("<I", samples)) * (width * height)
+
+
 def strips():
     asset = Asset()
     for mode in range(7):
@@ -293,7 +337,7 @@ def compressed():
 def main():
     project, folder = Path(sys.argv[1]), Path(sys.argv[2])
     shutil.rmtree(folder, ignore_errors=True)
-    for name in ("json_scene", "gltf", "image"):
+    for name in ("json_scene", "gltf", "image", "checkpoint"):
         (folder / name).mkdir(parents=True)
 
     for path in [*project.glob("tests/io/good/*.json"), *project.glob("scenes/*.json"), *project.glob("scenes/degenerate/*.json")]:
@@ -303,7 +347,8 @@ def main():
     numbers = ["0", "-0", "1e38", "1e39", "1e-45", "1e400", "0.5", "4294967296", "null", "true", "\\ud800", "\\u0000"]
     (folder / "json_scene.dict").write_text(dictionary([*words_of_schema(schema), *numbers]))
 
-    for make in (plain, textured, embedded_image, animated, pointed, morphed, skinned, sparse, quantized, instanced, lit, strips, compressed):
+    for make in (plain, textured, embedded_image, animated, pointed, morphed, skinned, sparse, quantized, instanced, lit, materials, strips,
+                 compressed):
         (folder / "gltf" / make.__name__).write_bytes(make().packed())
         if make in (plain, embedded_image):
             (folder / "gltf" / f"{make.__name__}.gltf").write_bytes(make().embedded())
@@ -314,6 +359,9 @@ def main():
         (folder / "image" / name).write_bytes(data)
     for path in project.glob("tests/image/ktx2/*.ktx2"):
         shutil.copy(path, folder / "image" / path.name)
+    for name, ranges in {"none": [], "one": [(0, 4)], "two": [(0, 4), (8, 9)]}.items():
+        (folder / "checkpoint" / name).write_bytes(checkpoint(ranges))
+    (folder / "checkpoint.dict").write_text('"microtrace samples"\n"--seed"\n')
     # Markers of JPEG, chunks of WebP; those of PNG carry checksums.
     words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]
     words += ["RIFF", "WEBP", "VP8 ", "VP8L", "VP8X", "ALPH", "ANIM", "ICCP", "IDAT", "PLTE", "tRNS"]

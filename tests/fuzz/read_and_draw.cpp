@@ -1,9 +1,11 @@
 #include "read_and_draw.hpp"
 
 #include <microtrace/io.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/primitives.hpp>
 #include <microtrace/render.hpp>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -57,24 +59,44 @@ void check(const Scene& scene) {
   }
 }
 
-}  // namespace
-
-void read_and_draw(std::string_view bytes, const std::string& name) {
-  const std::optional<LoadedScene> loaded = read(bytes, name);
-  if (!loaded) return;
-  for (const Diagnostic& warning : loaded->warnings)
-    expect(!warning.message.empty(), "every warning has a message");
-  const Scene& scene = loaded->scene;
-  check(scene);
-  constexpr PrimitiveId kFew = 1000;
-  if (scene.cameras.empty() || Primitives(scene).count() > kFew) return;
+std::optional<Film> draw(const Scene& scene, const RenderOptions& options) {
   try {
-    static_cast<void>(
-        render(scene, scene.cameras[0].camera, {.width = 4, .height = 3}, {.threads = 1}));
+    return render(scene, scene.cameras[0].camera, {.width = 4, .height = 3}, options);
   } catch (const Error& error) {
     expect(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::limit,
            "what is read can be drawn");
+    return std::nullopt;
   }
+}
+
+/// With light, and where the file has no environment under the studio or by its own lights alone.
+void draw_lit(Scene& scene, bool studio) {
+  static RenderCache cache;  // the studio's tables
+  const PathIntegrator path({.max_depth = 8});
+  if (!scene.environment && studio) scene.environment = Environment{.content = Studio{}};
+  const std::optional<Film> film =
+      draw(scene, {.threads = 1, .integrator = &path, .samples = 2, .cache = &cache});
+  for (std::uint32_t y = 0; film && y < film->size().height; ++y) {
+    for (const Vec3& pixel : film->row(y)) {
+      expect(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z),
+             "light is finite");
+    }
+  }
+}
+
+}  // namespace
+
+void read_and_draw(std::string_view bytes, const std::string& name) {
+  std::optional<LoadedScene> loaded = read(bytes, name);
+  if (!loaded) return;
+  for (const Diagnostic& warning : loaded->warnings)
+    expect(!warning.message.empty(), "every warning has a message");
+  Scene& scene = loaded->scene;
+  check(scene);
+  constexpr PrimitiveId kFew = 1000;
+  if (scene.cameras.empty() || Primitives(scene).count() > kFew) return;
+  static_cast<void>(draw(scene, {.threads = 1}));
+  draw_lit(scene, bytes.size() % 4 < 2);
 }
 
 }  // namespace microtrace::fuzz

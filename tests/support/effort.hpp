@@ -42,7 +42,7 @@ inline void announce(int rays, int hits) {
 namespace traversal {
 
 // Sanitizers slow these tests down by a factor of about ten.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr std::uint64_t kUsualRays = 100'000;
 #else
 inline constexpr std::uint64_t kUsualRays = 1'000'000;
