@@ -33,13 +33,16 @@ constexpr std::array<std::string_view, 17> foreign_endings{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
+/// What follows white space and a byte order mark; empty where nothing does.
+std::string_view behind_space(std::string_view text) {
+  return text.substr(std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size()));
+}
+
 /// Throws if the ending names another format and the bytes are neither JSON's nor a GLB file's.
 void refuse_foreign_format(const std::string& ending, std::string_view first,
                            const std::string& name) {
   if (std::ranges::find(foreign_endings, ending) == foreign_endings.end()) return;
-  const std::size_t start = first.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (first.starts_with(glb_magic) || (start != std::string_view::npos && first[start] == '{'))
-    return;
+  if (first.starts_with(glb_magic) || behind_space(first).starts_with('{')) return;
   throw Error(ErrorKind::unsupported, name,
               "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + ending +
                   "; convert the file, for example with Blender (File > Export > glTF 2.0) or with "
@@ -49,11 +52,11 @@ void refuse_foreign_format(const std::string& ending, std::string_view first,
 
 /// Throws if a JSON text can't start like this, as its whole would; garbage need not be read on.
 void require_start_of_json(std::string_view first, const std::string& name) {
-  const std::size_t start = first.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (start == std::string_view::npos) return;
+  const std::string_view text = behind_space(first);
+  if (text.empty()) return;
   // Any other start is a first token that is no JSON, and complete within a chunk.
   const bool may_go_on =
-      std::string_view("{[\"-0123456789tfn").find(first[start]) != std::string_view::npos;
+      std::string_view("{[\"-0123456789tfn").find(text[0]) != std::string_view::npos;
   if (!may_go_on) const io::JsonDocument document(first, name);
 }
 

@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace {
 
@@ -34,7 +35,7 @@ class MemoryFile : public Imf::OStream {
   std::uint64_t tellp() override { return place_; }
   void seekp(std::uint64_t place) override { place_ = static_cast<std::size_t>(place); }
 
-  [[nodiscard]] const std::string& bytes() const { return bytes_; }
+  [[nodiscard]] std::string take_bytes() { return std::move(bytes_); }
 
  private:
   std::string bytes_;
@@ -69,7 +70,7 @@ std::string encode(const MicrotracePicture& picture) {
     output.setFrameBuffer(pixels);
     output.writePixels(static_cast<int>(picture.height));
   }  // writes the table of its chunks
-  return file.bytes();
+  return file.take_bytes();
 }
 
 }  // namespace
