@@ -26,15 +26,14 @@ double random(std::uint64_t seed, std::uint64_t counter) {
   return static_cast<double>(random_bits(seed, counter) >> 11U) * 0x1p-53;
 }
 
-// Uniform on the unit sphere.
+}  // namespace
+
 DVec3 random_point(std::uint64_t seed, std::uint64_t counter) {
   const double z = 2 * random(seed, 2 * counter) - 1;
   const double angle = 2 * std::numbers::pi * random(seed, 2 * counter + 1);
   const double r = std::sqrt(std::max(0.0, 1 - z * z));
   return {r * std::cos(angle), r * std::sin(angle), z};
 }
-
-}  // namespace
 
 double extent(const Mesh& mesh) {
   Vec3 lo{std::numeric_limits<float>::infinity()}, hi = -lo;

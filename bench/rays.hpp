@@ -23,6 +23,9 @@ struct Traced {
   std::span<const std::optional<Hit>> hits;
 };
 
+/// Uniform on the unit sphere; another for each seed and counter.
+[[nodiscard]] DVec3 random_point(std::uint64_t seed, std::uint64_t counter);
+
 /// The diagonal of the mesh's bounding box, world units.
 [[nodiscard]] double extent(const Mesh& mesh);
 

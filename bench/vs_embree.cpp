@@ -2,9 +2,9 @@
 // compared and how.
 
 #include "accel/kernels/dispatch.hpp"
+#include "arguments.hpp"
 #include "vs_embree_report.hpp"
 
-#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <embree3/rtcore_config.h>
@@ -12,7 +12,6 @@
 #include <fstream>
 #include <functional>
 #include <stdexcept>
-#include <string_view>
 
 namespace {
 
@@ -32,25 +31,6 @@ struct Arguments {
   CompareOptions options;
   bool scaling = false, quick = false;
 };
-
-unsigned number(std::string_view text) {
-  unsigned value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value == 0 || value > 1024)
-    throw std::invalid_argument("not a number from 1 to 1024: " + std::string(text));
-  return value;
-}
-
-std::vector<std::string> split_names(const std::string& text) {
-  std::vector<std::string> names{""};
-  for (const char c : text) {
-    if (c == ',')
-      names.emplace_back();
-    else
-      names.back() += c;
-  }
-  return names;
-}
 
 Arguments parse(std::span<char*> words) {
   Arguments arguments;

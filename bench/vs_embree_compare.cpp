@@ -3,8 +3,8 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/stage_counts.hpp"
 #include "rays.hpp"
+#include "timing.hpp"
 #include "vs_embree_question.hpp"
-#include "vs_embree_timing.hpp"
 
 #include <microtrace/bvh.hpp>
 

@@ -1,7 +1,7 @@
 #include "vs_embree_question.hpp"
 
 #include "rays.hpp"
-#include "vs_embree_timing.hpp"
+#include "timing.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -161,13 +161,15 @@ Mesh hall(std::size_t triangles) {
   return mesh;
 }
 
-Mesh turned(Mesh mesh) {
+DVec3 turned(const DVec3& p) {
   const double c1 = cos_degrees(25), s1 = sin_degrees(25), c2 = cos_degrees(15),
                s2 = sin_degrees(15);
-  for (Vec3& p : mesh.positions) {
-    const double x = c1 * p.x + s1 * p.z, z = c1 * p.z - s1 * p.x;
-    p = Vec3(DVec3(x, c2 * p.y + s2 * z, c2 * z - s2 * p.y));
-  }
+  const double x = c1 * p.x + s1 * p.z, z = c1 * p.z - s1 * p.x;
+  return {x, c2 * p.y + s2 * z, c2 * z - s2 * p.y};
+}
+
+Mesh turned(Mesh mesh) {
+  for (Vec3& p : mesh.positions) p = Vec3(turned(DVec3(p)));
   return mesh;
 }
 

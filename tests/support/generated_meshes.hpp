@@ -2,6 +2,7 @@
 /// Meshes of any size for tests and measurements: the same bits on every machine. Each has about as
 /// many triangles as asked for: at least a fifth less, at most a fifth more from 1000 on.
 
+#include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
 
 #include <cstddef>
@@ -21,5 +22,8 @@ namespace microtrace::generated {
 
 /// Turned so that no face of a hall lies along an axis: boxes fit badly.
 [[nodiscard]] Mesh turned(Mesh mesh);
+
+/// The same for a point or a direction, not rounded.
+[[nodiscard]] DVec3 turned(const DVec3& p);
 
 }  // namespace microtrace::generated

@@ -1,4 +1,4 @@
-#include "vs_embree_timing.hpp"
+#include "timing.hpp"
 
 #include <algorithm>
 #include <chrono>

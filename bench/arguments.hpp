@@ -1,0 +1,16 @@
+#pragma once
+/// Reading the command lines of benchmarks.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::bench {
+
+/// Throws std::invalid_argument if the text is not a number from 1 to 1024.
+[[nodiscard]] unsigned number(std::string_view text);
+
+/// The parts between commas.
+[[nodiscard]] std::vector<std::string> split_names(const std::string& text);
+
+}  // namespace microtrace::bench
