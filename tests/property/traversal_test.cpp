@@ -131,6 +131,47 @@ TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
   EXPECT_GT(hits, count / 8);
 }
 
+// Rays that begin next to a triangle's corner and run along its plane, so that rounding may take
+// the far side of it for the near one: what they meet on the other side lies ahead all the same.
+TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
+  Random random = traversal::announced_random(28);
+  std::size_t hits_of_own = 0;
+  for (int round = 0; round < 60; ++round) {
+    Scene scene;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 a = random.in_cube(1), b = random.in_cube(1), c = random.in_cube(1);
+      scene.objects.push_back({.name = "", .shape = Triangle{a, b, c}});
+    }
+    std::vector<Ray> rays;
+    std::vector<PrimitiveId> owns;
+    for (int i = 0; i < 64; ++i) {
+      const PrimitiveId own = random.bits() % 20;
+      const Triangle& t = std::get<Triangle>(scene.objects[own].shape);
+      const Vec3 opposite = t.b + (t.c - t.b) * static_cast<float>(random.unit());
+      const Vec3 d = (opposite - t.a) * random.power_of_two(-6, 6);
+      rays.push_back({.o = random.jitter(t.a, 3), .t_min = 0, .d = random.jitter(d, 1)});
+      // Eight from one place, as in a tile.
+      for (int k = 0; k < 7; ++k)
+        rays.push_back({.o = rays.back().o, .t_min = 0, .d = random.jitter(d, 1)});
+      owns.insert(owns.end(), 8, own);
+    }
+    const Primitives primitives(scene);
+    Answers expected;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      expected.push_back(by_definition(primitives, rays[i]));
+      hits_of_own += expected.back() && expected.back()->id == owns[i] ? 1 : 0;
+    }
+    for (const Kernels* kernels : available_kernels()) {
+      SCOPED_TRACE(kernels->name);
+      setenv("MICROTRACE_ISA", kernels->name, 1);
+      check_calls(Bvh(scene), rays, expected);
+      unsetenv("MICROTRACE_ISA");
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(hits_of_own, 2000U);
+}
+
 TEST(TraversalOfADeepTree, GivesStreamsTheAnswersOfSingleRays) {
   Random random(14);
   Scene scene;

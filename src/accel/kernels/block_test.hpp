@@ -72,7 +72,9 @@ struct VolumeTest {
     const F within = lesser(lesser(u, v), size - (u + v));
     maybe = less_equal<N>(-edge_error, within);
     maybe &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
-    maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin);
+    // Where signed_size may have the wrong sign, so does height: nothing is behind for certain.
+    maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin) |
+             less_equal<N>(size, lanes_of<N>(size_error));
     certain = maybe & less<N>(edge_error, within) & less<N>(lanes_of<N>(16 * size_error), size);
   }
 };

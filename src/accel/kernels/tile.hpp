@@ -199,7 +199,8 @@ class TileWalk {
     const F t_begin = load<N>(tile_.t_begin + i);
     const F limit = lesser(best_hi, all<N>(kFarthestHit));
     maybe &= less_equal<N>(q.height - q.size * limit, limit * q.size_error + q.height_error);
-    maybe &= less_equal<N>(q.size * t_begin - q.height, t_begin * q.size_error + q.height_error);
+    maybe &= less_equal<N>(q.size * t_begin - q.height, t_begin * q.size_error + q.height_error) |
+             less_equal<N>(q.size, all<N>(q.size_error));
     if (maybe == 0) return;
 
     certain &= maybe;
