@@ -202,7 +202,7 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
   QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
-                    impl_->has_tree ? impl_->view() : TreeView{});
+                    impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {

@@ -63,9 +63,10 @@ class QuickSpawn {
 /// Several hits at a time.
 class QuickSpawns {
  public:
-  /// `outside` names the primitives that are not in the tree.
+  /// `outside` names the primitives that are not in the tree. Without leaves there is no tree.
   QuickSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
-              const Kernels& kernels, const SpawnKernels& spawn_kernels, const TreeView& tree)
+              const Kernels& kernels, const SpawnKernels& spawn_kernels,
+              const std::optional<TreeView>& tree)
       : primitives_(primitives),
         outside_(outside),
         kernels_(kernels),
@@ -102,7 +103,7 @@ class QuickSpawns {
   std::span<const PrimitiveId> outside_;
   const Kernels& kernels_;
   const SpawnKernels& spawn_kernels_;
-  const TreeView tree_;
+  const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
   std::array<Departure, kHits> surfaces_;
   std::array<std::size_t, kSpawns> hit_of_;  // for each spawn

@@ -77,11 +77,11 @@ bool QuickSpawns::is_alone(const PlaceQuery& found, PrimitiveId own, const Vec3&
   if (found.count < 0) return false;
   const auto is_passed = [&](std::uint32_t place) {
     if (place >= kOtherPlace) {
-      const PrimitiveId id = tree_.others[place - kOtherPlace];
+      const PrimitiveId id = tree_->others[place - kOtherPlace];
       return id == own || is_passed_by(id, p, reach);
     }
-    return tree_.blocks[place / kWidth].id[place % kWidth] == own ||
-           passes(triangle_at(tree_, place), DVec3(p), reach);
+    return tree_->blocks[place / kWidth].id[place % kWidth] == own ||
+           passes(triangle_at(*tree_, place), DVec3(p), reach);
   };
   return std::all_of(found.places, found.places + found.count, is_passed) &&
          std::all_of(outside_.begin(), outside_.end(),
@@ -112,7 +112,7 @@ void QuickSpawns::find_neighbours() {
     }
     point.is_sure ? set_box(point.p, point.reach, query) : set_empty(query);
   }
-  if (tree_.nodes != nullptr) kernels_.touching(tree_, queries_.data(), static_cast<int>(hits_));
+  if (tree_) kernels_.touching(*tree_, queries_.data(), static_cast<int>(hits_));
   for (std::size_t k = 0; k < hits_; ++k) {
     const auto& [is_sure, p, reach] = points[k];
     surfaces_[k].is_alone = is_sure && is_alone(queries_[k], surfaces_[k].id, p, reach);

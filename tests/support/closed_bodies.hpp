@@ -1,0 +1,34 @@
+#pragma once
+/// Closed meshes of few triangles, of any size and at any distance from the origin.
+
+#include "support/adversarial_rays.hpp"
+
+#include <microtrace/shape.hpp>
+
+#include <array>
+
+namespace microtrace::adversarial {
+
+enum class BodyKind {
+  hull,         ///< the convex hull of random points
+  prism,        ///< of three to fifteen sides
+  icosahedron,  ///< turned at random
+  double_cone,  ///< two apexes over a polygon
+  star,         ///< a double cone whose rim alternates between two radii
+  box,          ///< axis-aligned
+  plate,        ///< a prism one to four ulps thick, often along an axis
+  shell,        ///< the space between a body and a copy of it, one to four ulps away
+};
+
+inline constexpr std::array body_kinds = {
+    BodyKind::hull, BodyKind::prism, BodyKind::icosahedron, BodyKind::double_cone,
+    BodyKind::star, BodyKind::box,   BodyKind::plate,       BodyKind::shell};
+
+[[nodiscard]] const char* name(BodyKind kind);
+
+/// 4 to 64 triangles, or twice that for a shell. Each edge has an even number of triangles, so a
+/// point is inside if a ray from it crosses an odd number. Rounding may make triangles without area
+/// or lay one onto another.
+[[nodiscard]] Mesh closed_body(Random& random, BodyKind kind, const Vec3& center, float size);
+
+}  // namespace microtrace::adversarial
