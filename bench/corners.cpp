@@ -1,8 +1,6 @@
 // Scenes whose walls lie along the axes, touch and share planes, beside the same scenes turned by
 // an odd angle: time per question, and how many questions reach each stage behind float32.
 
-#include "accel/kernels/dispatch.hpp"
-#include "accel/stage_counts.hpp"
 #include "arguments.hpp"
 #include "rays.hpp"
 #include "support/architecture.hpp"
@@ -11,6 +9,7 @@
 #include <microtrace/bvh.hpp>
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/stage_counts.hpp>
 
 #include <algorithm>
 #include <array>
@@ -68,13 +67,11 @@ class Tracer {
   template <class F>
   void measure(Kind kind, std::size_t questions, const F& ask) {
     Cost& cost = costs_[kind];
-    const StageCounts before = stage_counts(best_kernels());
+    const StageCounts before = stage_counts();
     cost.seconds += seconds(1, ask);
-    const StageCounts after = stage_counts(best_kernels());
+    const StageCounts after = stage_counts();
     cost.questions += questions;
-    cost.stages.edges += after.edges - before.edges;
-    cost.stages.filters += after.filters - before.filters;
-    cost.stages.exact += after.exact - before.exact;
+    cost.stages += after - before;
   }
 
   void follow(std::vector<Ray> rays, std::uint64_t seed) {
@@ -176,12 +173,13 @@ void print_row(const std::string& name, const char* kind, const Cost& aligned, c
   };
   const double ns = share(1e9 * aligned.seconds, aligned),
                ns_turned = share(1e9 * turned.seconds, turned);
-  std::printf("%-16s %-7s %8zu %8.1f %8.1f %6.2f |%8.1f %8.1f %8.1f |%8.1f %8.1f %8.1f\n",
-              name.c_str(), kind, aligned.questions, ns, ns_turned, ns / ns_turned,
-              per_10_000(aligned.stages.edges, aligned),
-              per_10_000(aligned.stages.filters, aligned),
-              per_10_000(aligned.stages.exact, aligned), per_10_000(turned.stages.edges, turned),
-              per_10_000(turned.stages.filters, turned), per_10_000(turned.stages.exact, turned));
+  std::printf(
+      "%-16s %-7s %8zu %8.1f %8.1f %6.2f |%8.1f %8.1f %8.1f %8.2f |%8.1f %8.1f %8.1f %8.2f\n",
+      name.c_str(), kind, aligned.questions, ns, ns_turned, ns / ns_turned,
+      per_10_000(aligned.stages.edges, aligned), per_10_000(aligned.stages.filters, aligned),
+      per_10_000(aligned.stages.grid, aligned), per_10_000(aligned.stages.dyadic, aligned),
+      per_10_000(turned.stages.edges, turned), per_10_000(turned.stages.filters, turned),
+      per_10_000(turned.stages.grid, turned), per_10_000(turned.stages.dyadic, turned));
   std::fflush(stdout);
 }
 
@@ -247,9 +245,10 @@ Arguments parse(std::span<char*> words) {
 
 void run(const Arguments& arguments) {
   if (arguments.picture_samples == 0) {
-    std::printf("%60s per 10^4 questions\n%-16s %-7s %8s %8s %8s %6s |%8s %8s %8s |%8s turned\n",
-                "", "scene", "kind", "asked", "ns", "turned", "ratio", "edges", "filters", "exact",
-                "");
+    std::printf(
+        "%60s per 10^4 questions\n%-16s %-7s %8s %8s %8s %6s |%8s %8s %8s %8s |%8s turned\n", "",
+        "scene", "kind", "asked", "ns", "turned", "ratio", "edges", "filters", "grid", "dyadic",
+        "");
   } else {
     std::printf("%-16s %9s %9s %6s\n", "scene", "CPU s", "turned", "ratio");
   }

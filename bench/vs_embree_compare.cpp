@@ -1,12 +1,11 @@
 #include "vs_embree_compare.hpp"
 
-#include "accel/kernels/dispatch.hpp"
-#include "accel/stage_counts.hpp"
 #include "rays.hpp"
 #include "timing.hpp"
 #include "vs_embree_question.hpp"
 
 #include <microtrace/bvh.hpp>
+#include <microtrace/stage_counts.hpp>
 
 #include <array>
 #include <functional>
@@ -118,15 +117,15 @@ RayRow compare_rays(const Bvh& bvh, const std::vector<Peer>& peers, Kind kind, Q
     question.ask_embree(*choice.scene, choice.mode, threads);
   };
   ask(robust);
-  const StageCounts before = stage_counts(best_kernels());
+  const StageCounts before = stage_counts();
   question.ask_microtrace(bvh, threads);
-  const StageCounts after = stage_counts(best_kernels());
+  const StageCounts after = stage_counts();
   const auto per_ray = [&](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(question.size());
   };
   row.edges = per_ray(after.edges - before.edges);
   row.filters = per_ray(after.filters - before.filters);
-  row.exact = per_ray(after.exact - before.exact);
+  row.exact = per_ray(after.grid + after.dyadic - before.grid - before.dyadic);
   row.disagreements_robust = question.disagreements();
   ask(fast);
   row.disagreements_fast = question.disagreements();

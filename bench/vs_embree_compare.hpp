@@ -32,7 +32,7 @@ struct RayRow {
                                        ///< call, flag
   double disagreements_fast = 0;       ///< share of rays that hit one thing here, another there
   double disagreements_robust = 0;
-  /// Our questions to the stages behind float32, for each ray; see src/accel/stage_counts.hpp. With
+  /// Our questions to the stages behind float32, for each ray; see StageCounts. With
   /// several threads not known.
   double edges = 0, filters = 0, exact = 0;
 };

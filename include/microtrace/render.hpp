@@ -11,6 +11,7 @@
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/stage_counts.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -34,6 +35,7 @@ struct RenderCounts {
   std::uint64_t invalid_samples = 0;    ///< of random integrators, no numbers: counted as black
   std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
   RayCounts rays{};                     ///< the integrator's, of all its pictures so far
+  StageCounts stages{};                 ///< where visibility was decided
   std::uint32_t missing_threads = 0;    ///< threads that the system refused to start
 };
 

@@ -4,7 +4,6 @@
 #include "accel/closest_hit.hpp"
 #include "accel/filters/shape_filter.hpp"
 #include "accel/slow_path.hpp"
-#include "exact/intersect.hpp"
 
 #include <microtrace/primitives.hpp>
 
@@ -16,11 +15,6 @@
 namespace microtrace {
 
 class Bundle {
- private:
-  [[nodiscard]] auto root_on(const Ray& ray) const {
-    return [this, &ray](PrimitiveId id) { return exact_root(*primitives_, id, ray); };
-  }
-
  public:
   static constexpr std::size_t kCapacity = kTileRays;
 
@@ -40,7 +34,7 @@ class Bundle {
   template <class AnyShape>
   void meet(PrimitiveId id, const AnyShape& shape) {
     for_each_verdict(shape, [&](std::size_t i, const Verdict& verdict) {
-      closest_[i].consider(id, verdict, root_on(rays_[i]));
+      closest_[i].consider(id, verdict, ExactHits(*primitives_, rays_[i]));
     });
   }
 
@@ -59,7 +53,7 @@ class Bundle {
   [[nodiscard]] Best best(std::size_t i) const { return best_of(closest_[i], rays_[i]); }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t i) const {
-    return closest_[i].rounded(root_on(rays_[i]));
+    return closest_[i].rounded(ExactHits(*primitives_, rays_[i]));
   }
 
  private:

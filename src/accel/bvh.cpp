@@ -7,8 +7,10 @@
 #include "accel/slow_path.hpp"
 #include "accel/spawn/quick_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
+#include "accel/stage_counts.hpp"
 #include "accel/tile_judge.hpp"
 #include "base/memory_account.hpp"
+#include "exact/intersect.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -37,6 +39,7 @@ struct Bvh::Impl {
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, PrimitiveId after) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
+  [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
 
   /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
   /// kernels.
@@ -134,6 +137,17 @@ std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
   return judge.hit(best.id);
 }
 
+std::optional<Vec3> Bvh::Impl::search_origin(const Spawn& spawn) const {
+  ++slow_stages.searched_origins;
+  std::optional<Vec3> origin;
+  if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives.count()) {
+    origin = spawn_among(primitives, has_tree ? &tree : nullptr, outside, *spawn.ray, spawn.hit.id,
+                         spawn.direction);
+  }
+  if (!origin) ++slow_stages.missing_origins;
+  return origin;
+}
+
 bool Bvh::Impl::occluded(const Ray& ray) const {
   const double t_scale = kernel_t_scale(ray);
   if (t_scale == 0) return ask_all(primitives, ray).has_value();
@@ -192,22 +206,21 @@ std::optional<Hit> Bvh::next(const Ray& ray, const Hit& after) const {
 
 std::optional<Vec3> Bvh::spawn_origin(const Ray& ray, const Hit& hit, const Vec3& direction) const {
   const FloatEnvironment environment;
-  if (!exact::is_valid(ray) || hit.id >= impl_->primitives.count()) return std::nullopt;
-  return spawn_among(impl_->primitives, impl_->has_tree ? &impl_->tree : nullptr, impl_->outside,
-                     ray, hit.id, direction);
+  ++slow_stages.origins;
+  return impl_->search_origin({.ray = &ray, .hit = hit, .direction = direction});
 }
 
 void Bvh::spawn_origins(std::span<const Spawn> spawns,
                         std::span<std::optional<Vec3>> origins) const {
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
+  slow_stages.origins += spawns.size();
   QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
                     impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {
-      if (!origins[i])
-        origins[i] = spawn_origin(*spawns[i].ray, spawns[i].hit, spawns[i].direction);
+      if (!origins[i]) origins[i] = impl_->search_origin(spawns[i]);
     }
     spawns = spawns.subspan(done);
     origins = origins.subspan(done);

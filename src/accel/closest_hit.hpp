@@ -2,32 +2,26 @@
 /// The nearest hit so far of one ray, kept exact: doubles around its t decide as long as they can,
 /// exact arithmetic where two hits are too close to tell apart.
 
+#include "accel/exact_hits.hpp"
 #include "accel/filters/filter.hpp"
-#include "exact/root.hpp"
 
 #include <microtrace/hit.hpp>
 
-#include <concepts>
+#include <limits>
 #include <optional>
 
 namespace microtrace {
 
-/// Gives the exact root of a primitive that the ray is known to hit.
-template <class F>
-concept RootOf = requires(const F& f, PrimitiveId id) {
-  { f(id) } -> std::convertible_to<std::optional<exact::Root>>;
-};
-
 class ClosestHit {
  public:
   /// Takes the verdict of a filter on primitive `id` into account.
-  void consider(PrimitiveId id, const Verdict& verdict, const RootOf auto& root_of) {
+  void consider(PrimitiveId id, const Verdict& verdict, const ExactHits& exactly) {
     if (verdict.certainty == Certainty::miss || verdict.lo > hi_) return;
-    if (verdict.certainty == Certainty::hit && verdict.hi < lo_) {
-      replace(id, {.lo = verdict.lo, .hi = verdict.hi});
-      return;
-    }
-    consider_exactly(id, root_of);
+    const std::optional<exact::Enclosure> bounds =
+        verdict.certainty == Certainty::hit ? exact::Enclosure{.lo = verdict.lo, .hi = verdict.hi}
+                                            : exactly.bounds(id);
+    if (!bounds || bounds->lo > hi_) return;
+    if (!found_ || bounds->hi < lo_ || precedes(id, exactly)) replace(id, *bounds);
   }
 
   struct Candidate {
@@ -40,24 +34,16 @@ class ClosestHit {
   }
 
   /// The hit with its t rounded to the nearest float32.
-  [[nodiscard]] std::optional<Hit> rounded(const RootOf auto& root_of) const {
+  [[nodiscard]] std::optional<Hit> rounded(const ExactHits& exactly) const {
     if (!found_) return std::nullopt;
     const auto below = static_cast<float>(lo_), above = static_cast<float>(hi_);
-    return Hit{.id = id_, .t = below == above ? below : exact::round_to_float(*root_of(id_))};
+    return Hit{.id = id_, .t = below == above ? below : exactly.t(id_)};
   }
 
  private:
-  void consider_exactly(PrimitiveId id, const RootOf auto& root_of) {
-    const std::optional<exact::Root> root = root_of(id);
-    if (!root) return;
-    const exact::Enclosure bounds = exact::enclose(*root);
-    if (bounds.lo > hi_) return;
-    if (!found_ || bounds.hi < lo_ || precedes(id, *root, *root_of(id_))) replace(id, bounds);
-  }
-
   // Of equal t the lower number.
-  [[nodiscard]] bool precedes(PrimitiveId id, const exact::Root& t, const exact::Root& best) const {
-    const auto order = t <=> best;
+  [[nodiscard]] bool precedes(PrimitiveId id, const ExactHits& exactly) const {
+    const auto order = exactly.order(id, id_);
     return order < 0 || (order == 0 && id < id_);
   }
 

@@ -2,7 +2,6 @@
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/stage_counts.hpp"
-#include "exact/intersect.hpp"
 
 #include <cmath>
 
@@ -30,12 +29,6 @@ Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale) {
   const auto found = closest.candidate();
   return found ? outwards(found->lo * t_scale, found->hi * t_scale, found->id)
                : no_hit(ray, t_scale);
-}
-
-std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
-                                      const Ray& ray) {
-  ++slow_stages.exact;
-  return primitives.visit(id, [&](const auto& shape) { return exact::first_hit(shape, ray); });
 }
 
 Judge::Judge(const Primitives& primitives, const Ray& ray, double t_scale, const KnownHit* after)
@@ -68,8 +61,7 @@ Hit Judge::hit(std::uint32_t id) const {
       const auto below = static_cast<float>(verdict.lo), above = static_cast<float>(verdict.hi);
       if (verdict.certainty == Certainty::hit && below == above) return Hit{.id = id, .t = below};
     }
-    ++slow_stages.exact;
-    return Hit{.id = id, .t = exact::round_to_float(*exact::first_hit(shape, *ray_))};
+    return Hit{.id = id, .t = ExactHits(*primitives_, *ray_).t(id)};
   });
 }
 
@@ -80,10 +72,9 @@ SlowPath Judge::slow_path() {
 }
 
 void Judge::consider(std::uint32_t id, ClosestHit& closest) const {
-  const auto root_of = [this](PrimitiveId which) { return exact_root(*primitives_, which, *ray_); };
   const Verdict verdict = this->verdict(id);
   const auto next = after_ == nullptr ? std::optional(id) : after_->next(id, verdict);
-  if (next) closest.consider(*next, verdict, root_of);
+  if (next) closest.consider(*next, verdict, ExactHits(*primitives_, *ray_));
 }
 
 Verdict Judge::verdict(PrimitiveId id) const {
@@ -104,18 +95,18 @@ KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
   exists_ = verdict.certainty == Certainty::hit;
   bounds_ = {.lo = verdict.lo, .hi = verdict.hi};
   if (verdict.certainty != Certainty::unsure) return;
-  const std::optional<exact::Root> root = exact_root(primitives, id, ray);
-  exists_ = root.has_value();
-  if (root) bounds_ = exact::enclose(*root);
+  const auto bounds = ExactHits(primitives, ray).bounds(id);
+  exists_ = bounds.has_value();
+  if (bounds) bounds_ = *bounds;
 }
 
 std::optional<PrimitiveId> KnownHit::next(PrimitiveId id, const Verdict& verdict) const {
   if (twins_->stands_for(id, id_)) return twins_->above(id, id_);
   if (verdict.certainty == Certainty::miss || verdict.lo > bounds_.hi) return id;
   if (verdict.certainty == Certainty::hit && verdict.hi < bounds_.lo) return std::nullopt;
-  const std::optional<exact::Root> root = exact_root(*primitives_, id, *ray_);
-  if (!root) return id;
-  const auto order = *root <=> *exact_root(*primitives_, id_, *ray_);
+  const ExactHits exactly(*primitives_, *ray_);
+  if (verdict.certainty != Certainty::hit && !exactly.bounds(id)) return id;
+  const auto order = exactly.order(id, id_);
   if (order == 0) return twins_->above(id, id_);
   return order > 0 ? std::optional(id) : std::nullopt;
 }

@@ -26,10 +26,6 @@ namespace microtrace {
 [[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
 [[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale = 1);
 
-/// Where primitive id is hit, decided exactly.
-[[nodiscard]] std::optional<exact::Root> exact_root(const Primitives& primitives, PrimitiveId id,
-                                                    const Ray& ray);
-
 class KnownHit;
 
 /// One ray's questions to primitives, by number.

@@ -1,7 +1,10 @@
 #include "cli/statistics.hpp"
 
+#include <array>
+#include <cstdint>
 #include <cstdio>
 #include <sys/resource.h>
+#include <utility>
 
 namespace microtrace::cli {
 namespace {
@@ -28,9 +31,29 @@ void report_rays(const RayCounts& counts, bool is_json) {
   tell("path", counts.path);
   tell("shadow", counts.shadow);
   if (is_json) {
-    std::fprintf(stderr, "\"beyond\": %llu}}\n", number(counts.beyond));
+    std::fprintf(stderr, "\"beyond\": %llu}", number(counts.beyond));
   } else if (counts.beyond > 0) {
     std::fprintf(stderr, "  beyond     %llu\n", number(counts.beyond));
+  }
+}
+
+void report_stages(const StageCounts& counts, bool is_json) {
+  const std::array<std::pair<const char*, std::uint64_t>, 7> rows{
+      {{"edges", counts.edges},
+       {"filters", counts.filters},
+       {"grid", counts.grid},
+       {"dyadic", counts.dyadic},
+       {"origins", counts.origins},
+       {"searched_origins", counts.searched_origins},
+       {"missing_origins", counts.missing_origins}}};
+  std::fputs(is_json ? R"(, "stages": {)" : "beyond float32\n", stderr);
+  for (const auto& [name, count] : rows) {
+    const bool is_last = name == rows.back().first;
+    const auto n = static_cast<unsigned long long>(count);
+    if (is_json)
+      std::fprintf(stderr, "\"%s\": %llu%s", name, n, is_last ? "}}\n" : ", ");
+    else
+      std::fprintf(stderr, "  %-17s%llu\n", name, n);
   }
 }
 
@@ -73,6 +96,7 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
                static_cast<double>(memory.peak()) / (1 << 20), counts.samples_per_pixel, rays,
                rays / render_);
   report_rays(counts.rays, kind == Statistics::json);
+  report_stages(counts.stages, kind == Statistics::json);
 }
 
 }  // namespace microtrace::cli

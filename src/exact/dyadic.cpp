@@ -7,8 +7,6 @@
 namespace microtrace::exact {
 namespace {
 
-__extension__ using Wide = unsigned __int128;
-
 constexpr int limb_bits = 64;
 
 std::uint64_t low(Wide x) {
@@ -177,14 +175,9 @@ Dyadic operator*(const Dyadic& x, const Dyadic& y) {
   return result;
 }
 
-Dyadic::Leading Dyadic::leading() const {
+Leading Dyadic::leading() const {
   assert(sign_ != 0);
-  const std::uint64_t first = at(top() - 1);
-  const int zeros = std::countl_zero(first);
-  const std::uint64_t second = at(top() - 2);
-  const std::uint64_t bits = zeros == 0 ? first : first << zeros | second >> (limb_bits - zeros);
-  constexpr int dropped = limb_bits - 53;
-  return {static_cast<double>(bits >> dropped) * 0x1p-53, limb_bits * top() - zeros};
+  return leading_of(at(top() - 1), at(top() - 2), limb_bits * top());
 }
 
 }  // namespace microtrace::exact

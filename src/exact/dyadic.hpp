@@ -3,6 +3,8 @@
 /// float is one, and sums, differences and products of them are again. Nothing rounds, nothing
 /// allocates.
 
+#include "exact/limbs.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -47,12 +49,7 @@ class Dyadic {
   /// The sign of x - y.
   friend int compare(const Dyadic& x, const Dyadic& y);
 
-  /// The magnitude's leading bits: |x| = (mantissa + delta) 2^exponent, 1/2 <= mantissa < 1 of 53
-  /// bits, and 0 <= delta < 2^-53. Not for zero.
-  struct Leading {
-    double mantissa;
-    int exponent;
-  };
+  /// Not for zero.
   [[nodiscard]] Leading leading() const;
 
  private:

@@ -1,5 +1,7 @@
 #include "exact/implicit.hpp"
 
+#include "exact/flat.hpp"
+#include "exact/questions.hpp"
 #include "exact/range.hpp"
 
 namespace microtrace::exact {
@@ -18,11 +20,13 @@ int sign(const Root& x) {
 }  // namespace
 
 Implicit::Implicit(const Vector& normal, const Vec3& point)
-    : linear_(normal), constant_(-dot(normal, vector(point))) {}
+    : linear_(normal), constant_(-dot(normal, vector(point))) {
+  ++questions.dyadic;
+}
 
 Implicit::Implicit(const Triangle& triangle)
     : Implicit(
-          cross(vector(triangle.b) - vector(triangle.a), vector(triangle.c) - vector(triangle.a)),
+          normal_of(CornersOf<Dyadic>{vector(triangle.a), vector(triangle.b), vector(triangle.c)}),
           triangle.a) {}
 
 Implicit::Implicit(const Plane& plane) : Implicit(vector(plane.normal), plane.point) {}
@@ -30,13 +34,16 @@ Implicit::Implicit(const Plane& plane) : Implicit(vector(plane.normal), plane.po
 Implicit::Implicit(const Disc& disc) : Implicit(vector(disc.normal), disc.center) {}
 
 Implicit::Implicit(const Sphere& sphere) : squares_{1.0F, 1.0F, 1.0F} {
+  ++questions.dyadic;
   const Vector c = vector(sphere.center);
   linear_ = Dyadic(-2.0F) * c;
   constant_ = dot(c, c) - square(sphere.radius);
 }
 
 Implicit::Implicit(const Quadric& q)
-    : squares_{q.a, q.b, q.c}, mixed_{q.f, q.e, q.d}, linear_{q.g, q.h, q.i}, constant_(q.j) {}
+    : squares_{q.a, q.b, q.c}, mixed_{q.f, q.e, q.d}, linear_{q.g, q.h, q.i}, constant_(q.j) {
+  ++questions.dyadic;
+}
 
 Dyadic Implicit::value(const Vector& p) const {
   return quadratic(p) + dot(linear_, p) + constant_;
@@ -47,13 +54,13 @@ Dyadic Implicit::slope(const Vector& p, const Vector& e) const {
 }
 
 Dyadic Implicit::quadratic(const Vector& e) const {
-  return dot(squares_, {square(e.x), square(e.y), square(e.z)}) +
-         dot(mixed_, {e.y * e.z, e.x * e.z, e.x * e.y});
+  return dot(squares_, Vector{square(e.x), square(e.y), square(e.z)}) +
+         dot(mixed_, Vector{e.y * e.z, e.x * e.z, e.x * e.y});
 }
 
 Dyadic Implicit::bilinear(const Vector& p, const Vector& e) const {
-  return twice(dot(squares_, {p.x * e.x, p.y * e.y, p.z * e.z})) +
-         dot(mixed_, {p.y * e.z + p.z * e.y, p.x * e.z + p.z * e.x, p.x * e.y + p.y * e.x});
+  return twice(dot(squares_, Vector{p.x * e.x, p.y * e.y, p.z * e.z})) +
+         dot(mixed_, Vector{p.y * e.z + p.z * e.y, p.x * e.z + p.z * e.x, p.x * e.y + p.y * e.x});
 }
 
 int Implicit::sign_at(const Ray& ray, const Root& t) const {
@@ -89,16 +96,12 @@ int Implicit::zeros_ahead(const Vec3& p, const Vec3& e) const {
 }
 
 bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray, const Root& t) {
-  const Vector from = vector(q), o = vector(ray.o) - from, d = vector(ray.d);
-  const Vector a = vector(triangle.a) - from, b = vector(triangle.b) - from,
-               c = vector(triangle.c) - from;
-  // On which side of each edge the line passes, as in first_hit.
-  const auto side = [&](const Vector& p, const Vector& r) {
-    const Vector normal = cross(p, r);
-    return sign(linear_in(t, dot(o, normal), dot(d, normal)));
-  };
-  const int u = side(b, c), v = side(c, a), w = side(a, b);
-  return u * v >= 0 && v * w >= 0 && w * u >= 0;
+  ++questions.dyadic;
+  const Vector from = vector(q);
+  const CornersOf<Dyadic> corners{vector(triangle.a) - from, vector(triangle.b) - from,
+                                  vector(triangle.c) - from};
+  return is_in_cone(corners, vector(ray.o) - from, vector(ray.d),
+                    [&](const Dyadic& x, const Dyadic& y) { return sign(linear_in(t, x, y)); });
 }
 
 Vec3 round_point(const Ray& ray, const Root& t) {

@@ -20,6 +20,8 @@ class Implicit {
   explicit Implicit(const Sphere& sphere);
   explicit Implicit(const Quadric& quadric);
 
+  /// The part of F of degree one: of a flat surface, its normal.
+  [[nodiscard]] const Vector& linear() const { return linear_; }
   /// F(p).
   [[nodiscard]] Dyadic value(const Vector& p) const;
   /// The derivative of F at p along e.

@@ -1,6 +1,6 @@
 #pragma once
-/// The first hit of a ray with a shape, decided in exact arithmetic: slow, scalar, right. All speed
-/// comes from asking rarely; src/accel asks only where its rounded computation can't be sure.
+/// The first hit of a ray with a shape, decided by numbers of any width: slow, scalar, right. All
+/// speed comes from asking rarely; of triangles, triangle_hit.hpp answers nearly always without it.
 
 #include "exact/root.hpp"
 

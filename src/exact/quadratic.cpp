@@ -1,4 +1,5 @@
 #include "exact/intersect.hpp"
+#include "exact/questions.hpp"
 #include "exact/range.hpp"
 #include "exact/vector.hpp"
 
@@ -42,6 +43,7 @@ Dyadic bilinear_part(const Quadric& q, const Vector& p, const Vector& r) {
 }  // namespace
 
 std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
+  ++questions.dyadic;
   if (!is_valid(ray) || !is_finite(sphere.center) || !std::isfinite(sphere.radius) ||
       sphere.radius < 0) {
     return std::nullopt;
@@ -52,6 +54,7 @@ std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
 }
 
 std::optional<Root> first_hit(const Quadric& quadric, const Ray& ray) {
+  ++questions.dyadic;
   if (!is_valid(ray) || !is_finite(quadric)) return std::nullopt;
   const Vector o = vector(ray.o), d = vector(ray.d);
   // F(o + t d) = alpha t^2 + beta t + gamma.

@@ -1,10 +1,7 @@
 #include "exact/root.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace microtrace::exact {
@@ -29,15 +26,9 @@ int sign_of_sum(const Dyadic& x, int s, const Dyadic& a, int t, const Dyadic& b)
   return x.sign() * sign_of_sum(square(x) - a - b, -s * t, twice(twice(a * b)));
 }
 
-/// A positive number mantissa * 2^exponent, known to a relative error stated where it is made.
-struct Scaled {
-  double mantissa;
-  int exponent;
-};
-
 /// |x|, x not zero: 53 bits truncated, error 2 u with u = 2^-53.
 Scaled magnitude(const Dyadic& x) {
-  const Dyadic::Leading leading = x.leading();
+  const Leading leading = x.leading();
   return {leading.mantissa, leading.exponent};
 }
 
@@ -58,25 +49,10 @@ Scaled magnitude_plus_sqrt(const Dyadic& p, const Dyadic& q) {
   return {large.mantissa + std::ldexp(root.mantissa, shift), large.exponent};
 }
 
-/// Bounds of a positive number with mantissa in [1/8, 8] and an error of 9 u at most: 16 u leaves
-/// room for the rounding of the bounds and for second-order terms. Beyond 2^1000 or below 2^-1000
-/// they are as wide as the range of double.
-Enclosure bounds(const Scaled& x) {
-  constexpr double margin = 0x1p-49;
-  constexpr int limit = 1000;
-  if (x.exponent > limit) {
-    return {std::ldexp(0.125, limit), std::numeric_limits<double>::infinity()};
-  }
-  if (x.exponent < -limit) return {0.0, std::ldexp(8.0, -limit)};
-  return {std::ldexp(x.mantissa * (1 - margin), x.exponent),
-          std::ldexp(x.mantissa * (1 + margin), x.exponent)};
-}
-
 }  // namespace
 
 Root rational(const Dyadic& p, const Dyadic& r) {
-  if (r.sign() < 0) return {-p, {}, -r, 0};
-  return {p, {}, r, 0};
+  return rational(ratio(p, r));
 }
 
 Root rational(float t) {
@@ -95,6 +71,10 @@ std::strong_ordering operator<=>(const Root& x, const Root& y) {
 
 bool operator==(const Root& x, const Root& y) {
   return (x <=> y) == 0;
+}
+
+double to_double(const Dyadic& x) {
+  return x.sign() == 0 ? 0 : middle(x.sign(), x.leading());
 }
 
 Enclosure enclose(const Root& t) {
@@ -117,24 +97,13 @@ Enclosure enclose(const Root& t) {
     numerator = magnitude_plus_sqrt(t.p, q);
     denominator = magnitude(t.r);
   }
-  const Enclosure magnitudes = bounds(
-      {numerator.mantissa / denominator.mantissa, numerator.exponent - denominator.exponent});
-  if (sign < 0) return {-magnitudes.hi, -magnitudes.lo};
-  return magnitudes;
+  return bounds(
+      sign, {numerator.mantissa / denominator.mantissa, numerator.exponent - denominator.exponent});
 }
 
 float round_to_float(const Root& t) {
-  const Enclosure e = enclose(t);
-  const auto below = static_cast<float>(e.lo);
-  const auto above = static_cast<float>(e.hi);
-  if (std::bit_cast<std::uint32_t>(below) == std::bit_cast<std::uint32_t>(above)) return below;
-  // The enclosure straddles the midpoint of two neighbouring floats. IEEE 754 rounds as if 2^128
-  // followed the largest.
-  const auto value = [](float f) { return std::isinf(f) ? std::copysign(0x1p128, f) : double{f}; };
-  const Root midpoint = rational(Dyadic((value(below) + value(above)) / 2), Dyadic(1.0f));
-  const std::strong_ordering order = t <=> midpoint;
-  if (order != 0) return order < 0 ? below : above;
-  return std::bit_cast<std::uint32_t>(below) % 2 == 0 ? below : above;
+  return round_to_float(enclose(t),
+                        [&](double x) { return t <=> rational(Dyadic(x), Dyadic(1.0F)); });
 }
 
 }  // namespace microtrace::exact

@@ -3,6 +3,7 @@
 /// coefficients.
 
 #include "exact/dyadic.hpp"
+#include "exact/ratio.hpp"
 
 #include <compare>
 
@@ -14,6 +15,11 @@ struct Root {
   int sign = 0;
 };
 
+/// As a root.
+[[nodiscard]] inline Root rational(const Ratio<Dyadic>& t) {
+  return {t.p, {}, t.r, 0};
+}
+
 /// The rational p / r, r not zero.
 [[nodiscard]] Root rational(const Dyadic& p, const Dyadic& r);
 
@@ -24,16 +30,14 @@ struct Root {
 [[nodiscard]] std::strong_ordering operator<=>(const Root& x, const Root& y);
 [[nodiscard]] bool operator==(const Root& x, const Root& y);
 
-/// Doubles lo <= hi around a number.
-struct Enclosure {
-  double lo, hi;
-};
+/// A double next to x: see middle().
+[[nodiscard]] double to_double(const Dyadic& x);
 
 /// Doubles around t, a few units in the last place apart; where |t| is about 2^1000 or more, or
 /// 2^-1000 or less, the upper bound may be infinity or the lower one 0.
 [[nodiscard]] Enclosure enclose(const Root& t);
 
-/// The float32 nearest to t, ties to even, overflow to infinity: IEEE 754 roundTiesToEven.
+/// The float32 nearest to t.
 [[nodiscard]] float round_to_float(const Root& t);
 
 }  // namespace microtrace::exact

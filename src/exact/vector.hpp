@@ -1,46 +1,54 @@
 #pragma once
-/// Vectors of exact numbers, so that formulas read as they are written.
+/// Vectors of exact numbers, so that formulas read as they are written, whatever the numbers are.
 
 #include "exact/dyadic.hpp"
 
 #include <microtrace/math.hpp>
 
-#include <array>
-
 namespace microtrace::exact {
 
-struct Vector {
-  Dyadic x, y, z;
+template <class Number>
+struct VectorOf {
+  Number x, y, z;
 
-  const Dyadic& operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
+  const Number& operator[](int k) const { return k == 0 ? x : k == 1 ? y : z; }
 };
+
+using Vector = VectorOf<Dyadic>;
 
 [[nodiscard]] inline Vector vector(const Vec3& v) {
   return {v.x, v.y, v.z};
 }
 
-inline Vector operator-(const Vector& a, const Vector& b) {
+template <class Number>
+VectorOf<Number> operator-(const VectorOf<Number>& a, const VectorOf<Number>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-inline Vector operator+(const Vector& a, const Vector& b) {
+template <class Number>
+VectorOf<Number> operator+(const VectorOf<Number>& a, const VectorOf<Number>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-inline Vector operator*(const Dyadic& s, const Vector& a) {
+template <class Number, class Other>
+auto operator*(const Number& s, const VectorOf<Other>& a) -> VectorOf<decltype(s * a.x)> {
   return {s * a.x, s * a.y, s * a.z};
 }
 
-[[nodiscard]] inline Dyadic dot(const Vector& a, const Vector& b) {
+template <class Number, class Other>
+[[nodiscard]] auto dot(const VectorOf<Number>& a, const VectorOf<Other>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-[[nodiscard]] inline Vector cross(const Vector& a, const Vector& b) {
+template <class Number>
+[[nodiscard]] auto cross(const VectorOf<Number>& a, const VectorOf<Number>& b)
+    -> VectorOf<decltype(a.x * b.x)> {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 /// The first component that is not zero, or -1.
-[[nodiscard]] inline int nonzero_component(const Vector& a) {
+template <class Number>
+[[nodiscard]] int nonzero_component(const VectorOf<Number>& a) {
   for (int k = 0; k < 3; ++k) {
     if (a[k].sign() != 0) return k;
   }

@@ -194,6 +194,7 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   }
   if (options.counts != nullptr) {
     options.counts->rays = integrator.ray_counts();
+    options.counts->stages = threads.stages;
     options.counts->missing_threads = threads.missing;
   }
   film.display = integrator.display(film);

@@ -48,7 +48,7 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   std::mutex report;
   std::exception_ptr failure;
 
-  const auto work = [&] {
+  const auto draw_some = [&] {
     try {
       for (std::uint64_t first; (first = next.fetch_add(run)) < count;) {
         const std::uint64_t last = std::min(first + run, count);
@@ -64,6 +64,13 @@ void for_each_tile(const PixelRect& window, Threads& threads,
       const std::scoped_lock lock(report);
       if (!failure) failure = std::current_exception();
     }
+  };
+
+  const auto work = [&] {
+    const StageCounts before = stage_counts();
+    draw_some();
+    const std::scoped_lock lock(report);
+    threads.stages += stage_counts() - before;
   };
 
   {

@@ -2,6 +2,7 @@
 /// A picture cut into tiles, shared among threads.
 
 #include <microtrace/film.hpp>
+#include <microtrace/stage_counts.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,7 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 struct Threads {
   unsigned wanted = 1;   ///< at least 1
   unsigned missing = 0;  ///< the most of them that the system ever refused to start
+  StageCounts stages{};  ///< of what they drew
 };
 
 /// Calls draw once for every tile of the window, on those threads; then progress with the share

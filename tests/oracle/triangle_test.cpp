@@ -1,6 +1,7 @@
 /// first_hit(Triangle) and first_hit(Plane) against CGAL: every hit or miss, the parameter and its
 /// order on a share of the hits.
 
+#include "exact/grid.hpp"
 #include "exact/intersect.hpp"
 #include "oracle/cgal_intersections.hpp"
 #include "oracle/rounding_check.hpp"
@@ -50,6 +51,25 @@ int sign(std::strong_ordering order) {
   return order < 0 ? -1 : order > 0;
 }
 
+/// Whether integers of fixed width, where they hold the numbers, say what the oracle says.
+template <int Limbs>
+::testing::AssertionResult is_right(const exact::GridHit<Limbs>& hit, bool is_hit) {
+  using exact::Found;
+  if (hit.found() == Found::unknown || (hit.found() == Found::hit) == is_hit)
+    return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << "the grid says " << !is_hit;
+}
+
+template <int Limbs>
+::testing::AssertionResult is_right(const exact::GridHit<Limbs>& hit, const Rational& expected) {
+  if (hit.found() != exact::Found::hit) return ::testing::AssertionSuccess();
+  if (!is_enclosed(expected, hit.bounds()))
+    return ::testing::AssertionFailure() << "the grid's bounds do not enclose t = " << expected;
+  if (const auto t = hit.t(); t && !is_nearest(*t, expected))
+    return ::testing::AssertionFailure() << "the grid rounds " << expected << " to " << *t;
+  return ::testing::AssertionSuccess();
+}
+
 class TriangleKinds : public ::testing::TestWithParam<TriangleKind> {};
 
 TEST_P(TriangleKinds, AgreesOnHitParameterAndOrder) {
@@ -60,10 +80,16 @@ TEST_P(TriangleKinds, AgreesOnHitParameterAndOrder) {
   const auto check = [&](const Triangle& triangle, const Ray& ray) {
     ++ray_count;
     const auto found = first_hit(triangle, ray);
+    const exact::GridHit<2> narrow(triangle, ray);
+    const exact::GridHit<3> wide(triangle, ray);
     ASSERT_EQ(found.has_value(), hits(triangle, ray)) << adversarial::reproduction(ray, triangle);
+    ASSERT_TRUE(is_right(narrow, found.has_value())) << adversarial::reproduction(ray, triangle);
+    ASSERT_TRUE(is_right(wide, found.has_value())) << adversarial::reproduction(ray, triangle);
     if (!found || ++hit_count % 4 != 0) return;
     const Parameter t = parameter(triangle, ray, *found);
     ASSERT_TRUE(is_right(t)) << adversarial::reproduction(ray, triangle);
+    ASSERT_TRUE(is_right(narrow, t.expected)) << adversarial::reproduction(ray, triangle);
+    ASSERT_TRUE(is_right(wide, t.expected)) << adversarial::reproduction(ray, triangle);
     if (previous) {
       ASSERT_EQ(sign(t.found <=> previous->found), CGAL::compare(t.expected, previous->expected))
           << adversarial::reproduction(ray, triangle);

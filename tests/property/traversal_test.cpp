@@ -3,6 +3,7 @@
 
 #include "accel/bundle.hpp"
 #include "accel/kernels/dispatch.hpp"
+#include "exact/intersect.hpp"
 #include "support/adversarial_scenes.hpp"
 #include "support/effort.hpp"
 

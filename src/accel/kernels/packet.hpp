@@ -184,11 +184,25 @@ class PacketWalk {
         const Lanes begun = less_equal<N>(load<N>(stream_.t_min + at), t.lo);
         const Lanes hit = maybe & test.certain & before & begun;
         close(block.id[k], std::uint64_t{hit} << i);
-        decide_slowly(block.id[k], std::uint64_t{maybe & ~hit & ~(test.certain & after)} << i);
+        const Lanes open = maybe & ~hit & ~(test.certain & after);
+        if (open != 0) decide(block, k, std::uint64_t{open} << i);
         lanes &= static_cast<Lanes>(open_ >> i);
         if (lanes == 0) break;
       }
     });
+  }
+
+  // What float32 leaves open: mostly triangles that rays have just left.
+  void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
+    std::uint64_t rest = 0;
+    for (; rays != 0; rays &= rays - 1) {
+      const int at = first_ + first_lane(rays);
+      const float o[3] = {stream_.o[0][at], stream_.o[1][at], stream_.o[2][at]};
+      const float d[3] = {stream_.d[0][at], stream_.d[1][at], stream_.d[2][at]};
+      if (!is_left_behind(block, k, o, d) && within_edges(block, k, o, d) != Within::no)
+        rest |= rays & -rays;
+    }
+    decide_slowly(block.id[k], rest);
   }
 
   void close(std::uint32_t id, std::uint64_t rays) {

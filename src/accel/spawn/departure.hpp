@@ -5,6 +5,7 @@
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/range.hpp"
+#include "exact/triangle_hit.hpp"
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -56,18 +57,12 @@ struct Nudge {
   return {.axis = best, .up = !(v[best] < 0)};
 }
 
-inline double to_double(const exact::Dyadic& x) {
-  // The middle, so that x and -x have one size.
-  const exact::Enclosure bounds = exact::enclose(exact::rational(x, 1.0F));
-  return (bounds.lo + bounds.hi) / 2;
-}
-
 inline DVec3 gradient_of(const exact::Implicit& f, const Vec3& p) {
   DVec3 g{0};
   for (int k = 0; k < 3; ++k) {
     Vec3 e{0};
     e[k] = 1;
-    g[k] = to_double(f.slope(exact::vector(p), exact::vector(e)));
+    g[k] = exact::to_double(f.slope(exact::vector(p), exact::vector(e)));
   }
   return g;
 }
@@ -166,12 +161,13 @@ class TriangleSurface {
         if (const auto p = rounded_point(ray, verdict, shared_coordinates(triangle_))) return p;
       }
     }
-    return ExactSurface(triangle_).point(ray);
+    exact::TriangleHit hit(triangle_, ray);
+    return hit.exists() ? std::optional(hit.point()) : std::nullopt;
   }
-  [[nodiscard]] int side(const Ray& ray, const Vec3& direction) const {
+  [[nodiscard]] int side(const Ray& /*ray*/, const Vec3& direction) const {
     const Approximate slope = normal_.along(direction);
     if (slope.is_positive() || slope.is_negative()) return slope.value > 0 ? 1 : -1;
-    return exact::Implicit(triangle_).sign_behind(ray, exact::rational(0.0F), direction);
+    return plane().slope(direction);
   }
   [[nodiscard]] DVec3 gradient(const Vec3& p) const {
     double largest = 0, error = 0;
@@ -180,11 +176,17 @@ class TriangleSurface {
       error += gamma(5) * normal_.permanent[k] * spacing(p[k]);
     }
     // So far the choice of the axis and its sign are right, or as good.
-    return error <= 0x1p-9 * largest ? normal_.value : gradient_of(exact::Implicit(triangle_), p);
+    return error <= 0x1p-9 * largest ? normal_.value : plane().normal();
   }
-  [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& direction, int side) const {
-    if (const int sign = certain_sign(p, DVec3(0)); sign != 0) return sign == side;
-    return is_clear_of(exact::Implicit(triangle_), p, direction, side);
+  // A ray that goes to a side doesn't come back from there.
+  [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& /*direction*/, int side) const {
+    return sign_at(p) == side;
+  }
+  [[nodiscard]] bool has_area() const { return plane().has_area(); }
+  /// The sign of the plane's function at q.
+  [[nodiscard]] int sign_at(const Vec3& q) const {
+    if (const int sign = certain_sign(q, DVec3(0)); sign != 0) return sign;
+    return plane().side(q);
   }
 
   /// The sign of the plane's function in all of the box x +- radius; 0 if that is not known.
@@ -193,8 +195,14 @@ class TriangleSurface {
   }
 
  private:
+  [[nodiscard]] exact::TrianglePlane& plane() const {
+    if (!plane_) plane_.emplace(triangle_);
+    return *plane_;
+  }
+
   const Triangle& triangle_;
   CrossProduct normal_;
+  mutable std::optional<exact::TrianglePlane> plane_;  // made on first need
 };
 
 /// The beginning of a search for an origin.

@@ -19,11 +19,6 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return true;
 }
 
-bool has_area(const Triangle& t) {
-  const exact::Vector a = exact::vector(t.a);
-  return exact::nonzero_component(cross(exact::vector(t.b) - a, exact::vector(t.c) - a)) >= 0;
-}
-
 /// The other surfaces near a hit, and on which side of each the origin of the new ray must be:
 /// where the ray was just before the hit, if the new one goes back there, else where the ray gets
 /// just behind it.
@@ -56,10 +51,10 @@ class Neighbours {
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       const int sign = primitives_.visit(side.id, [&](const auto& shape) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-          if (const int s = TriangleSurface(shape).certain_sign(q, DVec3(0)); s != 0) return s;
-        }
-        return exact::Implicit(shape).value(exact::vector(q)).sign();
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
+          return TriangleSurface(shape).sign_at(q);
+        else
+          return exact::Implicit(shape).value(exact::vector(q)).sign();
       });
       if (sign != 0 && (side.sign == 0 || sign == side.sign)) return true;
       return primitives_.visit(side.id,
@@ -85,6 +80,7 @@ class Neighbours {
   // Whether the straight way from the hit to q, whose ends are not on one side of a surface, meets
   // it.
   bool may_be_between(const Triangle& triangle, const Vec3& q) const {
+    if (auto* hit = triangle_hit()) return hit->meets_segment(triangle, q);
     return exact::meets_segment(triangle, q, ray_, root());
   }
   template <class Other>
@@ -92,17 +88,32 @@ class Neighbours {
     return true;
   }
 
+  // Null if it is none that is hit.
+  exact::TriangleHit* triangle_hit() const {
+    if (!triangle_hit_ && !root_) {
+      primitives_.visit(id_, [&](const auto& shape) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
+          triangle_hit_.emplace(shape, ray_);
+      });
+    }
+    return triangle_hit_ ? &*triangle_hit_ : nullptr;
+  }
+
   const exact::Root& root() const {
-    if (!root_) root_ = exact_root(primitives_, id_, ray_);
+    if (!root_) root_ = ExactHits(primitives_, ray_).root(id_);
     return *root_;
   }
 
   // Nothing for what has no sides.
   std::optional<int> side_of_witness(const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-      if (const int sign = TriangleSurface(shape).certain_sign(point_, radius_); sign != 0)
-        return sign;
-      if (!has_area(shape)) return std::nullopt;
+      const TriangleSurface surface(shape);
+      if (const int sign = surface.certain_sign(point_, radius_); sign != 0) return sign;
+      if (!surface.has_area()) return std::nullopt;
+      if (auto* hit = triangle_hit()) {
+        const int side = hit->side(shape);
+        return side != 0 ? side : surface.side(ray_, witness_);
+      }
     }
     const exact::Implicit f(shape);
     const int sign = f.sign_at(ray_, root());
@@ -113,7 +124,8 @@ class Neighbours {
   const Ray& ray_;
   PrimitiveId id_;
   Vec3 witness_;
-  DVec3 point_, radius_;  // around the exact point of the hit
+  DVec3 point_, radius_;                                    // around the exact point of the hit
+  mutable std::optional<exact::TriangleHit> triangle_hit_;  // made on first need, as the next
   mutable std::optional<exact::Root> root_;
   std::vector<Side> sides_;
 };

@@ -1,0 +1,128 @@
+#pragma once
+/// Formulas of triangles and their planes, for exact numbers of any kind.
+
+#include "exact/dyadic.hpp"
+#include "exact/integer.hpp"
+#include "exact/ratio.hpp"
+#include "exact/vector.hpp"
+
+#include <optional>
+
+namespace microtrace::exact {
+
+template <class Number>
+struct CornersOf {
+  VectorOf<Number> a, b, c;
+};
+
+/// What a form of degree three in such numbers is made of.
+template <class Number>
+using Volume = decltype(Number() * Number() * Number());
+
+/// Where a line o + t d is in a triangle: for t in [lo, hi].
+template <class Number>
+struct StretchOf {
+  Ratio<Volume<Number>> lo, hi;
+  bool is_point;  ///< lo = hi
+
+  /// Takes one more t in.
+  void add(const Ratio<Volume<Number>>& t) {
+    if (compare(t, lo) < 0) lo = t;
+    if (compare(t, hi) > 0) hi = t;
+    is_point = compare(lo, hi) == 0;
+  }
+};
+
+/// x as wide as another number.
+[[nodiscard]] inline const Dyadic& as_wide_as(const Dyadic&, const Dyadic& x) {
+  return x;
+}
+template <int More, int Limbs>
+[[nodiscard]] Integer<More> as_wide_as(const Integer<More>&, const Integer<Limbs>& x) {
+  return x.template widened<More>();
+}
+
+/// The t for which t d lies on the segment from p to q, given that det(d, p, q) = 0.
+template <class Number, class Add>
+void for_each_end(const VectorOf<Number>& d, const VectorOf<Number>& p, const VectorOf<Number>& q,
+                  const Add& add) {
+  // Offsets of p and q from the line, turned by 90 degrees: multiples of one vector, as d, p and q
+  // lie in a plane.
+  const auto offset_p = cross(d, p);
+  const auto offset_q = cross(d, q);
+  const auto along = offset_q - offset_p;  // d x (q - p)
+  const int k = nonzero_component(along);
+  if (k < 0) {
+    if (nonzero_component(offset_p) >= 0) return;  // parallel, beside the line
+    const int i = nonzero_component(d);
+    add(p[i], d[i]);
+    add(q[i], d[i]);
+    return;
+  }
+  if (offset_p[k].sign() * offset_q[k].sign() > 0) return;  // on the same side of the line
+  // t d = p + s (q - p): taking the cross product with q - p leaves t d x (q - p) = p x q.
+  add(cross(p, q)[k], along[k]);
+}
+
+/// Where the line t d meets a triangle, for corners seen from its origin; nothing if it doesn't.
+template <class Number>
+[[nodiscard]] std::optional<StretchOf<Number>> meet(const VectorOf<Number>& d,
+                                                    const CornersOf<Number>& corners) {
+  using Form = Volume<Number>;
+  const auto& [a, b, c] = corners;
+  // The line's signed volumes with the edges: its point in the plane has barycentric coordinates u
+  // : v : w.
+  const auto b_cross_c = cross(b, c);
+  const Form u = dot(d, b_cross_c);
+  const Form v = dot(d, cross(c, a));
+  if (u.sign() * v.sign() < 0) return std::nullopt;
+  const Form w = dot(d, cross(a, b));
+  if (u.sign() * w.sign() < 0 || v.sign() * w.sign() < 0) return std::nullopt;
+
+  if (u.sign() != 0 || v.sign() != 0 || w.sign() != 0) {
+    const auto t = ratio<Form>(dot(a, b_cross_c), u + v + w);
+    return StretchOf<Number>{.lo = t, .hi = t, .is_point = true};
+  }
+  // The line lies in the triangle's plane, or the triangle is degenerate. The line then enters and
+  // leaves the convex hull of the corners on its edges.
+  std::optional<StretchOf<Number>> stretch;
+  const auto add = [&](const auto& p, const auto& r) {
+    const auto t = ratio<Form>(as_wide_as(u, p), as_wide_as(u, r));
+    if (!stretch)
+      stretch = {.lo = t, .hi = t, .is_point = true};
+    else
+      stretch->add(t);
+  };
+  for_each_end(d, a, b, add);
+  for_each_end(d, b, c, add);
+  for_each_end(d, c, a, add);
+  return stretch;
+}
+
+/// A triangle's normal (b - a) x (c - a).
+template <class Number>
+[[nodiscard]] auto normal_of(const CornersOf<Number>& t) {
+  return cross(t.b - t.a, t.c - t.a);
+}
+
+/// The sign of x + t y.
+template <class Number>
+[[nodiscard]] int sign_of_sum(const Number& x, const Ratio<Number>& t, const Number& y) {
+  return (x * t.r + y * t.p).sign();
+}
+
+/// Whether the line from the origin through o + t d meets a triangle or one of its edges: by the
+/// sides on which it passes the edges.
+template <class Number>
+[[nodiscard]] bool is_in_cone(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
+                              const VectorOf<Number>& d, const auto& side_at) {
+  const auto& [a, b, c] = triangle;
+  const auto side = [&](const VectorOf<Number>& p, const VectorOf<Number>& r) {
+    const auto normal = cross(p, r);
+    return side_at(dot(o, normal), dot(d, normal));
+  };
+  const int u = side(b, c), v = side(c, a), w = side(a, b);
+  return u * v >= 0 && v * w >= 0 && w * u >= 0;
+}
+
+}  // namespace microtrace::exact

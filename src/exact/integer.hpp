@@ -1,0 +1,131 @@
+#pragma once
+/// Integers of fixed width, so that a question about coordinates on one grid is answered exactly
+/// without a loop over lengths: a product is as wide as its factors together, a sum as its terms.
+
+#include "exact/limbs.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace::exact {
+
+/// An integer of 64 * Limbs bits in two's complement, the lowest limb first.
+///
+/// Overflow can't happen where all numbers begin as Integer<L> below 2^(64 L - 8) in magnitude: a
+/// form of degree k has 64 L k bits and is below c 2^(k (64 L - 8)), where c sums its coefficients'
+/// magnitudes, and no form evaluated has c >= 2^(8 k - 1).
+template <int Limbs>
+class Integer {
+ public:
+  constexpr Integer() = default;  ///< zero
+
+  /// magnitude 2^shift with that sign, which must fit; shift >= 0.
+  static Integer shifted(bool is_negative, std::uint64_t magnitude, int shift) {
+    Integer size;
+    size.limbs_[0] = magnitude;
+    size = size << shift;
+    return is_negative ? -size : size;
+  }
+
+  [[nodiscard]] bool is_negative() const { return limbs_[Limbs - 1] >> 63U != 0; }
+
+  /// -1, 0 or 1.
+  [[nodiscard]] int sign() const {
+    if (is_negative()) return -1;
+    std::uint64_t any = 0;
+    for (const std::uint64_t limb : limbs_) any |= limb;
+    return any != 0 ? 1 : 0;
+  }
+
+  friend Integer operator+(const Integer& x, const Integer& y) {
+    Integer sum;
+    Wide carry = 0;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      carry += Wide{x.limbs_[i]} + y.limbs_[i];
+      sum.limbs_[i] = static_cast<std::uint64_t>(carry);
+      carry >>= 64;
+    }
+    return sum;
+  }
+  friend Integer operator-(const Integer& x, const Integer& y) {
+    Integer difference;
+    Wide borrow = 0;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      const Wide digit = Wide{x.limbs_[i]} - y.limbs_[i] - borrow;
+      difference.limbs_[i] = static_cast<std::uint64_t>(digit);
+      borrow = digit >> 64 & 1;
+    }
+    return difference;
+  }
+  Integer operator-() const { return Integer() - *this; }
+
+  template <int Others>
+  friend Integer<Limbs + Others> operator*(const Integer& x, const Integer<Others>& y) {
+    // As if unsigned; a negative factor then counts 2^64Limbs times the other one too much.
+    Integer<Limbs + Others> product;
+    for (std::size_t i = 0; i < Limbs; ++i) {
+      Wide carry = 0;
+      for (std::size_t j = 0; j < Others; ++j) {
+        carry += Wide{x.limb(i)} * y.limb(j) + product.limb(i + j);
+        product.limb(i + j) = static_cast<std::uint64_t>(carry);
+        carry >>= 64;
+      }
+      product.limb(i + Others) = static_cast<std::uint64_t>(carry);
+    }
+    if (x.is_negative()) product.subtract_above(y, Limbs);
+    if (y.is_negative()) product.subtract_above(x, Others);
+    return product;
+  }
+
+  /// The same number with more limbs.
+  template <int More>
+  [[nodiscard]] Integer<More> widened() const {
+    static_assert(More >= Limbs);
+    Integer<More> result;
+    for (std::size_t i = 0; i < More; ++i)
+      result.limb(i) = i < Limbs ? limbs_[i] : is_negative() ? ~std::uint64_t{0} : 0;
+    return result;
+  }
+
+  /// Times 2^shift, which must fit: 0 <= shift < 64 Limbs.
+  [[nodiscard]] Integer operator<<(int shift) const {
+    const auto whole = static_cast<std::size_t>(shift / 64);
+    const int part = shift % 64;
+    Integer result;
+    for (std::size_t i = whole; i < Limbs; ++i) {
+      const std::uint64_t below =
+          part == 0 || i == whole ? 0 : limbs_[i - whole - 1] >> (64 - part);
+      result.limbs_[i] = limbs_[i - whole] << part | below;
+    }
+    return result;
+  }
+
+  /// See Leading. Not for zero.
+  [[nodiscard]] Leading leading() const {
+    const Integer size = is_negative() ? -*this : *this;
+    std::size_t top = Limbs - 1;
+    while (size.limbs_[top] == 0) --top;
+    return leading_of(size.limbs_[top], top == 0 ? 0 : size.limbs_[top - 1],
+                      static_cast<int>(64 * (top + 1)));
+  }
+
+  [[nodiscard]] std::uint64_t limb(std::size_t i) const { return limbs_[i]; }
+  std::uint64_t& limb(std::size_t i) { return limbs_[i]; }
+
+  /// Takes 2^(64 position) y away, modulo the width.
+  template <int Others>
+  void subtract_above(const Integer<Others>& y, std::size_t position) {
+    Wide borrow = 0;
+    for (std::size_t i = 0; i + position < Limbs; ++i) {
+      const Wide digit = Wide{limbs_[i + position]} - y.limb(i) - borrow;
+      limbs_[i + position] = static_cast<std::uint64_t>(digit);
+      borrow = digit >> 64 & 1;
+    }
+  }
+
+ private:
+  std::array<std::uint64_t, Limbs> limbs_{};
+};
+
+}  // namespace microtrace::exact
