@@ -43,14 +43,22 @@ class MICROTRACE_EXPORT Bvh {
   /// the ray does not hit.
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
 
-  /// Where a ray that leaves the hit of `ray` into `direction` begins: spawn_origin (spawn.hpp),
-  /// which minds the other surfaces too. What is promised there holds, but for nearness: the origin
-  /// may be some 2^10 representable numbers away. And the straight way to it meets no triangle and
-  /// no disc, and leaves no sphere or quadric, if it comes from where `ray` was just before the hit
-  /// (or, if the new ray does not go back to that side of the surface, where `ray` would be just
-  /// behind it). So a path leaves a closed mesh only where it passes through a surface on purpose,
-  /// not in creases and corners. Nothing also where there is no such float32 point: between walls
-  /// closer together than that.
+  /// The origin of a ray that leaves the hit of `ray` into `direction`: as spawn_origin of
+  /// spawn.hpp has it, with the other surfaces taken into account. All that is promised there holds
+  /// but nearness: the origin may be some 2^10 representable numbers away.
+  ///
+  /// Let w be the point of `ray` just before the hit, if the new ray goes back to that side of the
+  /// surface, else the point just behind it. The straight way from w to the origin, w itself left
+  /// out, meets no triangle that has an area, no disc and no plane, and of each sphere and quadric
+  /// the origin is on the side where w is. So a path leaves a closed mesh only where it passes
+  /// through a surface on purpose, not in creases and corners. Exceptions:
+  ///
+  /// - If `ray` runs within a surface, w is a point of it, and there is no side to keep: the origin
+  ///   may be on either side of that surface.
+  /// - Triangles without area bound nothing: the way may cross them.
+  ///
+  /// Nothing if there is no such float32 point: between walls closer together than that. The answer
+  /// does not depend on BvhOptions, and no coordinate is -0.
   [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
                                                  const Vec3& direction) const;
 
@@ -61,8 +69,9 @@ class MICROTRACE_EXPORT Bvh {
     Vec3 direction;  ///< of the new ray
   };
 
-  /// origins[i] is spawn_origin's answer to spawns[i]; both have one length. Much sooner than
-  /// asking one by one, most so where those of one hit follow each other.
+  /// origins[i] is spawn_origin's answer to spawns[i] bit for bit, whatever is asked together; both
+  /// have one length. Much faster than asking one by one, most so where those of one hit follow
+  /// each other.
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
   /// Whether intersect(ray) would find something; sooner.

@@ -26,7 +26,7 @@ namespace microtrace {
 /// no coplanar neighbour, and none across a convex edge.
 /// 4. Near. Each coordinate is the exact one rounded to the nearest float32; then one of them is
 /// moved further, by at most 4 representable numbers for a flat surface, at most 64 for a curved
-/// one.
+/// one. No coordinate is -0.
 ///
 /// Not promised: that the origin is on the right side of other surfaces as near to the hit point as
 /// those few roundings. In a concave crease it may have left the room by the other wall;

@@ -111,17 +111,42 @@ template <class Number>
   return (x * t.r + y * t.p).sign();
 }
 
-/// Whether the line from the origin through o + t d meets a triangle or one of its edges: by the
-/// sides on which it passes the edges.
+/// Whether a triangle with an area has a point on the segment from the origin to o + t d, all in
+/// one plane. If not, the line of an edge or of the segment has them on strictly different sides.
+/// side_at(x, y) is the sign of x + t y.
 template <class Number>
-[[nodiscard]] bool is_in_cone(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
-                              const VectorOf<Number>& d, const auto& side_at) {
+[[nodiscard]] bool meets_segment_of_plane(const CornersOf<Number>& triangle,
+                                          const VectorOf<Number>& o, const VectorOf<Number>& d,
+                                          const auto& side_at) {
+  const int k = nonzero_component(normal_of(triangle));
+  const auto area = [&](const VectorOf<Number>& x, const VectorOf<Number>& y) {
+    return as_wide_as(Volume<Number>(), cross(x, y)[k]);
+  };
+  const auto is_apart_by = [&](const auto& a, const auto& b, const auto& c) {
+    const VectorOf<Number> edge = b - a;
+    const int within = area(edge, c - a).sign();
+    return area(a, edge).sign() == -within && side_at(area(edge, o - a), area(edge, d)) == -within;
+  };
+  const auto& [a, b, c] = triangle;
+  if (is_apart_by(a, b, c) || is_apart_by(b, c, a) || is_apart_by(c, a, b)) return false;
+  const auto side = [&](const VectorOf<Number>& p) { return side_at(area(o, p), area(d, p)); };
+  const int first = side(a);
+  return first == 0 || side(b) != first || side(c) != first;
+}
+
+/// Whether a triangle with an area has a point on the segment from the origin to o + t d, of whose
+/// ends not both are strictly on one side of its plane: by the sides on which the segment's line
+/// passes the edges.
+template <class Number>
+[[nodiscard]] bool meets_segment_to(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
+                                    const VectorOf<Number>& d, const auto& side_at) {
   const auto& [a, b, c] = triangle;
   const auto side = [&](const VectorOf<Number>& p, const VectorOf<Number>& r) {
     const auto normal = cross(p, r);
     return side_at(dot(o, normal), dot(d, normal));
   };
   const int u = side(b, c), v = side(c, a), w = side(a, b);
+  if (u == 0 && v == 0 && w == 0) return meets_segment_of_plane(triangle, o, d, side_at);
   return u * v >= 0 && v * w >= 0 && w * u >= 0;
 }
 

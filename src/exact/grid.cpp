@@ -232,8 +232,8 @@ std::optional<bool> GridHit<Limbs>::meets_segment(const Triangle& other, const V
   if (!from) return std::nullopt;
   const auto corners = points_(other, *from);
   if (!corners) return std::nullopt;
-  return is_in_cone(*corners, o_ - *from, d_,
-                    [&](const auto& x, const auto& y) { return sign_of_sum(x, t_, y); });
+  return meets_segment_to(*corners, o_ - *from, d_,
+                          [&](const auto& x, const auto& y) { return sign_of_sum(x, t_, y); });
 }
 
 template class Grid<2>;

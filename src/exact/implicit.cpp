@@ -100,8 +100,9 @@ bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray, cons
   const Vector from = vector(q);
   const CornersOf<Dyadic> corners{vector(triangle.a) - from, vector(triangle.b) - from,
                                   vector(triangle.c) - from};
-  return is_in_cone(corners, vector(ray.o) - from, vector(ray.d),
-                    [&](const Dyadic& x, const Dyadic& y) { return sign(linear_in(t, x, y)); });
+  return meets_segment_to(
+      corners, vector(ray.o) - from, vector(ray.d),
+      [&](const Dyadic& x, const Dyadic& y) { return sign(linear_in(t, x, y)); });
 }
 
 Vec3 round_point(const Ray& ray, const Root& t) {

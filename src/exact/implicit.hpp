@@ -49,8 +49,8 @@ class Implicit {
   Dyadic constant_;
 };
 
-/// Whether a triangle has a point on the segment from q to o + t d, of whose ends not both are
-/// strictly on one side of its plane. True also for any segment within the plane.
+/// Whether a triangle with an area has a point on the segment from q to o + t d, of whose ends not
+/// both are strictly on one side of its plane.
 [[nodiscard]] bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray,
                                  const Root& t);
 

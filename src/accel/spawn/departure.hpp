@@ -18,6 +18,7 @@
 #include <limits>
 #include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace {
@@ -30,13 +31,21 @@ inline double spacing(float x) {
   return std::bit_cast<double>(std::uint64_t{std::max(exponent, 1U) + 1023 - 150} << 52U);
 }
 
+/// -0 made 0, as coordinates of origins have it; other numbers as they are.
+inline float unsigned_zero(float x) {
+  return x + 0.0F;
+}
+inline Vec3 unsigned_zeros(const Vec3& v) {
+  return v + Vec3(0.0F);
+}
+
 /// The next representable number above x (`up`) or below it; x finite.
 inline float neighbour(float x, bool up) {
   if (x == 0)
     return up ? std::numeric_limits<float>::denorm_min()
               : -std::numeric_limits<float>::denorm_min();
   const auto bits = std::bit_cast<std::uint32_t>(x);
-  return std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1);
+  return unsigned_zero(std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1));
 }
 
 /// How an origin is moved off a surface: one coordinate, number by number.
@@ -86,7 +95,7 @@ class ExactSurface {
     t_ = exact::first_hit(shape_, ray);
     if (!t_) return std::nullopt;
     f_.emplace(shape_);
-    return exact::round_point(ray, *t_);
+    return unsigned_zeros(exact::round_point(ray, *t_));
   }
   [[nodiscard]] int side(const Ray& ray, const Vec3& direction) const {
     return f_->sign_behind(ray, *t_, direction);
@@ -114,35 +123,73 @@ class ExactSurface {
   return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
 }
 
-/// Coordinates that all points of a flat surface share: those of floors and walls.
-struct SharedCoordinates {
-  std::array<bool, 3> are_shared{};
-  Vec3 at{0};
+/// o + t d, and how far off at most, axis by axis.
+struct PointOnRay {
+  DVec3 value, error;
+
+  PointOnRay(const Ray& ray, const Verdict& t) {
+    const DVec3 o(ray.o), d(ray.d), along = (t.lo + t.hi) / 2 * d;
+    value = o + along;
+    error = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(along)) +
+            DVec3(kUnderflow);
+  }
 };
-[[nodiscard]] inline SharedCoordinates shared_coordinates(const Triangle& t) {
-  SharedCoordinates result{.at = t.a};
-  for (int k = 0; k < 3; ++k)
-    result.are_shared[static_cast<std::size_t>(k)] = t.a[k] == t.b[k] && t.a[k] == t.c[k];
+
+/// Coordinate k of a point of the plane through a, by the two others:
+///
+///     p_k = a_k - w,   w = s / n_k,   s = sum over j != k of n_j r_j,   r = p - a.
+///
+/// Its error is relative to |n_j / n_k| and |p_k|, not to the ray's origin as that of o_k + t d_k
+/// is: floors at height 0 and walls off an axis by an ulp have coordinates next to 0, which only
+/// this tells. With P the permanent of n, |n| errs by gamma_4 P, and with e the error of p, s errs
+/// by sum |n_j| e_j + gamma_7 P_j (|r_j| + e_j): n's four roundings, one of r_j, one of the
+/// product, one of the sum. The quotient has |w| (gamma_4 P_k) / |n_k| more, and a rounding, the
+/// difference one of the result.
+[[nodiscard]] inline Approximate coordinate_in_plane(const Vec3& a, const CrossProduct& n,
+                                                     const PointOnRay& p, int k) {
+  const double size = std::abs(n.value[k]) - gamma(6) * n.permanent[k];
+  if (!(size > 0)) return {.value = 0, .error = std::numeric_limits<double>::infinity()};
+  double s = 0, s_error = 0;
+  for (const int j : {(k + 1) % 3, (k + 2) % 3}) {
+    const double r = p.value[j] - a[j], e = p.error[j];
+    s += n.value[j] * r;
+    s_error += std::abs(n.value[j]) * e + gamma(10) * n.permanent[j] * (std::abs(r) + e);
+  }
+  const double w = s / n.value[k], value = a[k] - w;
+  return {.value = value,
+          .error = (s_error + gamma(8) * n.permanent[k] * std::abs(w)) / size * (1 + gamma(16)) +
+                   gamma(2) * std::abs(value) + kUnderflow};
+}
+
+/// The float32 to which every number of [lo, hi] rounds, if that is one.
+[[nodiscard]] inline std::optional<float> rounded(double lo, double hi) {
+  const auto below = static_cast<float>(lo), above = static_cast<float>(hi);
+  return below == above ? std::optional(unsigned_zero(below)) : std::nullopt;
+}
+
+/// The point rounded to float32, where its bounds leave no doubt.
+[[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p) {
+  Vec3 result{0};
+  for (int k = 0; k < 3; ++k) {
+    const auto x = rounded(p.value[k] - p.error[k], p.value[k] + p.error[k]);
+    if (!x) return std::nullopt;
+    result[k] = *x;
+  }
   return result;
 }
 
-/// The point at a parameter, rounded to float32, where its bounds leave no doubt.
-[[nodiscard]] inline std::optional<Vec3> rounded_point(const Ray& ray, const Verdict& t,
-                                                       const SharedCoordinates& shared) {
-  Vec3 p{0};
+/// The same for a point of the plane through a with that normal.
+[[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p, const Vec3& a,
+                                                       const CrossProduct& normal) {
+  Vec3 result{0};
   for (int k = 0; k < 3; ++k) {
-    if (shared.are_shared[static_cast<std::size_t>(k)]) {
-      p[k] = shared.at[k];  // often 0, which no bounds round to
-      continue;
-    }
-    const double o = ray.o[k], d = ray.d[k], middle = (t.lo + t.hi) / 2;
-    const double x = o + middle * d;
-    const double error =
-        (t.hi - t.lo) * std::abs(d) + gamma(8) * (std::abs(o) + std::abs(middle * d)) + kUnderflow;
-    p[k] = static_cast<float>(x - error);
-    if (p[k] != static_cast<float>(x + error)) return std::nullopt;
+    const Approximate in_plane = coordinate_in_plane(a, normal, p, k);
+    const auto x = rounded(std::max(p.value[k] - p.error[k], in_plane.value - in_plane.error),
+                           std::min(p.value[k] + p.error[k], in_plane.value + in_plane.error));
+    if (!x) return std::nullopt;
+    result[k] = *x;
   }
-  return p;
+  return result;
 }
 
 /// A triangle asked in float64 first.
@@ -158,11 +205,11 @@ class TriangleSurface {
           seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
       if (verdict.certainty == Certainty::miss) return std::nullopt;
       if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded_point(ray, verdict, shared_coordinates(triangle_))) return p;
+        if (const auto p = rounded_point({ray, verdict}, triangle_.a, normal_)) return p;
       }
     }
     exact::TriangleHit hit(triangle_, ray);
-    return hit.exists() ? std::optional(hit.point()) : std::nullopt;
+    return hit.exists() ? std::optional(unsigned_zeros(hit.point())) : std::nullopt;
   }
   [[nodiscard]] int side(const Ray& /*ray*/, const Vec3& direction) const {
     const Approximate slope = normal_.along(direction);

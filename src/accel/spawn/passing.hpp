@@ -7,6 +7,7 @@
 #include <microtrace/shape.hpp>
 
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -19,20 +20,21 @@ inline CrossProduct normal_of(const Triangle& t) {
 
 /// Twice the area of a b p, seen along an axis, for all of the box p +- radius.
 inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec3& p,
-                              double radius) {
+                              const DVec3& radius) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const DVec3 edge = DVec3(b) - DVec3(a), from_a = p - DVec3(a);
   const double left = edge[i] * from_a[j], right = edge[j] * from_a[i];
   // Each factor one rounding, the products one, the difference one.
   return {.value = left - right,
           .error = gamma(5) * (std::abs(left) + std::abs(right)) +
-                   2 * radius * (std::abs(edge[i]) + std::abs(edge[j])) + kUnderflow};
+                   2 * (radius[j] * std::abs(edge[i]) + radius[i] * std::abs(edge[j])) +
+                   kUnderflow};
 }
 
 /// Whether all of the box p +- radius lies beside the triangle, as seen along the axis nearest to
 /// its normal: so it is where triangles share a plane.
 inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3& p,
-                      double radius) {
+                      const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
   if (!(size[axis] > 2 * gamma(5) * normal.permanent[axis] + kUnderflow)) return false;
@@ -45,31 +47,65 @@ inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3
 }
 
 /// |x - center|^2 - r^2 for all x of the box p +- radius.
-inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, double radius) {
+inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, const DVec3& radius) {
   const DVec3 from_center = p - DVec3(center), size = glm::abs(from_center);
   const double square = glm::dot(from_center, from_center), r2 = double{r} * r;
   return {.value = square - r2,
-          .error = gamma(8) * (square + r2) + 2 * radius * (size.x + size.y + size.z) +
-                   4 * radius * radius + kUnderflow};
+          .error = gamma(8) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
+}
+
+/// A plane across an axis, as floors and walls have it.
+struct AxisPlane {
+  int axis;
+  float at;
+
+  /// The plane through a with that normal, if it is one.
+  static std::optional<AxisPlane> of(const Vec3& a, const DVec3& normal_permanent) {
+    for (int k = 0; k < 3; ++k) {
+      if (normal_permanent[(k + 1) % 3] == 0 && normal_permanent[(k + 2) % 3] == 0)
+        return AxisPlane{.axis = k, .at = a[k]};
+    }
+    return std::nullopt;
+  }
+};
+
+// Whether a surface lies within the plane.
+
+inline bool lies_in(const AxisPlane& plane, const Triangle& t) {
+  const int k = plane.axis;
+  return t.a[k] == plane.at && t.b[k] == plane.at && t.c[k] == plane.at;
+}
+inline bool lies_in(const AxisPlane& plane, const Plane& s) {
+  const auto own = AxisPlane::of(s.point, DVec3(s.normal));
+  return own && own->axis == plane.axis && own->at == plane.at;
+}
+inline bool lies_in(const AxisPlane& plane, const Disc& s) {
+  return lies_in(plane, Plane{.point = s.center, .normal = s.normal});
+}
+inline bool lies_in(const AxisPlane&, const Sphere&) {
+  return false;
+}
+inline bool lies_in(const AxisPlane&, const Quadric&) {
+  return false;
 }
 
 // Whether no way between two points of the box p +- radius meets the surface: for certain.
 
-inline bool passes(const Triangle& t, const DVec3& p, double radius) {
+inline bool passes(const Triangle& t, const DVec3& p, const DVec3& radius) {
   const CrossProduct normal = normal_of(t);
-  return certain_side(t.a, normal, p, DVec3(radius)) != 0 || is_beside(t, normal, p, radius);
+  return certain_side(t.a, normal, p, radius) != 0 || is_beside(t, normal, p, radius);
 }
-inline bool passes(const Plane& s, const DVec3& p, double radius) {
-  return certain_side(s.point, CrossProduct(DVec3(s.normal)), p, DVec3(radius)) != 0;
+inline bool passes(const Plane& s, const DVec3& p, const DVec3& radius) {
+  return certain_side(s.point, CrossProduct(DVec3(s.normal)), p, radius) != 0;
 }
-inline bool passes(const Disc& s, const DVec3& p, double radius) {
-  return certain_side(s.center, CrossProduct(DVec3(s.normal)), p, DVec3(radius)) != 0;
+inline bool passes(const Disc& s, const DVec3& p, const DVec3& radius) {
+  return certain_side(s.center, CrossProduct(DVec3(s.normal)), p, radius) != 0;
 }
-inline bool passes(const Sphere& s, const DVec3& p, double radius) {
+inline bool passes(const Sphere& s, const DVec3& p, const DVec3& radius) {
   const Approximate f = ball_value(s.center, s.radius, p, radius);
   return f.is_positive() || f.is_negative();
 }
-inline bool passes(const Quadric& q, const DVec3& p, double radius) {
+inline bool passes(const Quadric& q, const DVec3& p, const DVec3& radius) {
   const DVec3 squares(q.a, q.b, q.c), mixed(q.f, q.e, q.d), linear(q.g, q.h, q.i);
   const auto form = [](const DVec3& s, const DVec3& m, const DVec3& x) {
     return s.x * x.x * x.x + s.y * x.y * x.y + s.z * x.z * x.z + m.z * x.x * x.y + m.y * x.x * x.z +
@@ -78,7 +114,7 @@ inline bool passes(const Quadric& q, const DVec3& p, double radius) {
   const double value = form(squares, mixed, p) + glm::dot(linear, p) + double{q.j};
   // With all terms positive the polynomial's growth bounds its change within the box; the products
   // of float64 have three roundings, up to eight sums follow.
-  const DVec3 size = glm::abs(p), further = size + DVec3(radius);
+  const DVec3 size = glm::abs(p), further = size + radius;
   const auto greatest = [&](const DVec3& x) {
     return form(glm::abs(squares), glm::abs(mixed), x) + glm::dot(glm::abs(linear), x);
   };

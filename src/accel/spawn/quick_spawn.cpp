@@ -12,15 +12,9 @@
 namespace microtrace {
 namespace {
 
-SharedCoordinates shared_coordinates(const Vec3& point, const Vec3& normal) {
-  SharedCoordinates result{.at = point};
-  for (int k = 0; k < 3; ++k) {
-    Vec3 others = normal;
-    others[k] = 0;
-    result.are_shared[static_cast<std::size_t>(k)] = others == Vec3(0);
-  }
-  return result;
-}
+/// As often is an origin moved off a sphere at most: as often as spawn_among does before it looks
+/// further away.
+constexpr int kBallSteps = 8;
 
 bool is_filterable(const Ray& ray) {
   return microtrace::is_filterable(ray.o) && microtrace::is_filterable(ray.d);
@@ -30,45 +24,48 @@ bool is_filterable(const Ray& ray) {
 
 QuickSpawn::QuickSpawn(const Plane& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
-    set_flat({.a = s.point, .normal = CrossProduct(DVec3(s.normal))},
-             shared_coordinates(s.point, s.normal), ray);
+    set_flat({.a = s.point, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
 QuickSpawn::QuickSpawn(const Disc& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
-    set_flat({.a = s.center, .normal = CrossProduct(DVec3(s.normal))},
-             shared_coordinates(s.center, s.normal), ray);
+    set_flat({.a = s.center, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
 QuickSpawn::QuickSpawn(const Quadric&, const Ray&) {}
 
 QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
   if (!microtrace::is_filterable(s) || !is_filterable(ray)) return;
-  const DVec3 o(ray.o), d(ray.d);
-  const Verdict t = SphereFilter(s, ray.o)(d, {.t_min = ray.t_min, .t_max = ray.t_max});
+  const Verdict t = SphereFilter(s, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty != Certainty::hit) return;
-  p_ = rounded_point(ray, t, {});
+  const PointOnRay x(ray, t);
+  p_ = rounded_point(x);
   if (!p_) return;
-  const double middle = (t.lo + t.hi) / 2;
-  const DVec3 x = o + middle * d;
   surface_ = Ball{.sphere = s,
-                  .from_center = x - DVec3(s.center),
-                  .error = (t.hi - t.lo) * glm::abs(d) +
-                           gamma(10) * (glm::abs(o) + glm::abs(middle * d) + glm::abs(x)) +
-                           DVec3(kUnderflow)};
+                  .from_center = x.value - DVec3(s.center),
+                  .error = x.error + gamma(2) * glm::abs(x.value - DVec3(s.center))};
   double largest = 0, second = 0;
   for (int k = 0; k < 3; ++k) {
     const double unit = spacing((*p_)[k]);
     const double gain = std::abs(double{(*p_)[k]} - s.center[k]) * unit;
-    reach_ = std::max(reach_, (kQuickSteps + 1) * unit);
     second = std::max(second, std::min(gain, largest));
     if (gain > largest) axis_ = k, largest = gain;
   }
   // Else the choice of the axis is exact arithmetic's.
-  if (!(largest > second * (1 + 0x1p-30))) p_.reset();
+  if (!(largest > second * (1 + 0x1p-30)))
+    p_.reset();
+  else
+    set_reach(kBallSteps);
 }
 
-void QuickSpawn::set_flat(const Flat& flat, const SharedCoordinates& shared, const Ray& ray) {
+void QuickSpawn::set_reach(int steps) {
+  for (int k = 0; k < 3; ++k) {
+    const double unit = spacing((*p_)[k]);
+    reach_[k] = k == axis_ ? reach_of(steps, unit) : unit / 2;
+  }
+}
+
+void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
   // As in TrianglePlaneFilter.
@@ -78,18 +75,25 @@ void QuickSpawn::set_flat(const Flat& flat, const SharedCoordinates& shared, con
   const Verdict t = quotient_verdict(height, flat.normal.along(DVec3(ray.d)),
                                      {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty == Certainty::unsure) return;
-  p_ = rounded_point(ray, t, shared);
+  p_ = rounded_point({ray, t}, flat.a, flat.normal);
   if (!p_) return;
   surface_ = flat;
   double largest = 0, error = 0;
   for (int k = 0; k < 3; ++k) {
     const double unit = spacing((*p_)[k]), gain = std::abs(flat.normal.value[k]) * unit;
-    reach_ = std::max(reach_, (kQuickSteps + 1) * unit);
     error += gamma(5) * flat.normal.permanent[k] * unit;
     if (gain > largest) axis_ = k, largest = gain;
   }
   // Else the choice of the axis is exact arithmetic's (TriangleSurface::gradient).
-  if (!(error <= 0x1p-9 * largest)) p_.reset();
+  if (!(error <= 0x1p-9 * largest))
+    p_.reset();
+  else
+    set_reach(kFlatSteps);
+}
+
+std::optional<AxisPlane> QuickSpawn::axis_plane() const {
+  const auto* flat = std::get_if<Flat>(&surface_);
+  return flat == nullptr ? std::nullopt : AxisPlane::of(flat->a, flat->normal.permanent);
 }
 
 std::optional<Vec3> QuickSpawn::origin(const Vec3& direction) const {
@@ -105,7 +109,7 @@ std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) 
   const int side = slope.is_positive() ? 1 : -1;
   const bool up = (flat.normal.value[axis_] > 0) == (side > 0);
   Vec3 q = *p_;
-  for (int step = 0; step <= kQuickSteps; ++step) {
+  for (int step = 0; step <= kFlatSteps; ++step) {
     const int sign = certain_side(flat.a, flat.normal, DVec3(q), DVec3(0));
     if (sign == side) return q;
     // No term but zeros: on the plane, as often on floors and walls.
@@ -127,8 +131,8 @@ std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) 
   const DVec3 center(ball.sphere.center);
   const bool up = ((*p_)[axis_] > center[axis_]) == (side > 0);
   Vec3 q = *p_;
-  for (int step = 0; step <= kQuickSteps; ++step) {
-    const Approximate f = ball_value(ball.sphere.center, ball.sphere.radius, DVec3(q), 0);
+  for (int step = 0; step <= kBallSteps; ++step) {
+    const Approximate f = ball_value(ball.sphere.center, ball.sphere.radius, DVec3(q), DVec3(0));
     if (!f.is_positive() && !f.is_negative()) return std::nullopt;
     if (f.is_positive() == (side > 0)) {
       // From within there is one way out; from outside it must not lead back.

@@ -4,6 +4,7 @@
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
+#include "accel/spawn/passing.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/hit.hpp>
@@ -19,8 +20,6 @@
 
 namespace microtrace {
 
-struct SharedCoordinates;
-
 /// The point where a ray hits a surface other than a triangle, for rays that leave it. Answers are
 /// spawn_among's.
 class QuickSpawn {
@@ -34,8 +33,10 @@ class QuickSpawn {
 
   /// Rounded; nothing if it is not known well enough to look at what is near.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
-  /// Origins lie so near to the point, axis by axis.
-  [[nodiscard]] double reach() const { return reach_; }
+  /// Origins and the exact point lie so near to it, axis by axis.
+  [[nodiscard]] const DVec3& reach() const { return reach_; }
+  /// That of the surface, if it has one.
+  [[nodiscard]] std::optional<AxisPlane> axis_plane() const;
 
   /// Nothing if float64 can't tell. Good only where no other surface comes between.
   [[nodiscard]] std::optional<Vec3> origin(const Vec3& direction) const;
@@ -50,13 +51,14 @@ class QuickSpawn {
     DVec3 from_center, error;  ///< to the exact point, and how far off axis by axis
   };
 
-  void set_flat(const Flat& flat, const SharedCoordinates& shared, const Ray& ray);
+  void set_flat(const Flat& flat, const Ray& ray);
+  void set_reach(int steps);
   [[nodiscard]] std::optional<Vec3> origin(const Flat& flat, const Vec3& direction) const;
   [[nodiscard]] std::optional<Vec3> origin(const Ball& ball, const Vec3& direction) const;
 
   std::variant<std::monostate, Flat, Ball> surface_;
   std::optional<Vec3> p_;
-  double reach_ = 0;
+  DVec3 reach_{0};
   int axis_ = 0;  // along which origins are moved
 };
 
@@ -93,9 +95,8 @@ class QuickSpawns {
   void add(const Bvh::Spawn& spawn);
   void put(const Triangle& triangle, const Ray& ray, std::size_t lane);
   void find_neighbours();
-  [[nodiscard]] bool is_alone(const PlaceQuery& found, PrimitiveId id, const Vec3& p,
-                              double reach) const;
-  [[nodiscard]] bool is_passed_by(PrimitiveId id, const Vec3& p, double reach) const;
+  [[nodiscard]] std::optional<AxisPlane> axis_plane_of(std::size_t hit) const;
+  [[nodiscard]] bool is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const;
   void put(std::size_t hit, const Vec3& direction, std::size_t lane);
   void leave_triangles(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 

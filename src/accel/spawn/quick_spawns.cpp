@@ -23,12 +23,15 @@ void put_vector(SpawnFloats (&lanes)[3], std::size_t lane, const Vec3& v) {
 Vec3 vector_of(const SpawnFloats (&lanes)[3], std::size_t lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
+DVec3 vector_of(const double (&lanes)[3][kSpawnLanes], std::size_t lane) {
+  return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
+}
 
-/// Around the box p +- reach: rounded outwards by a part of the reach, which has room for it.
-void set_box(const Vec3& p, double reach, PlaceQuery& query) {
+/// Around the box p +- reach, which is rounded by less than the reach.
+void set_box(const Vec3& p, const DVec3& reach, PlaceQuery& query) {
   for (int k = 0; k < 3; ++k) {
-    query.lo[k] = static_cast<float>(p[k] - 1.5 * reach);
-    query.hi[k] = static_cast<float>(p[k] + 1.5 * reach);
+    query.lo[k] = static_cast<float>(p[k] - 2 * reach[k]);
+    query.hi[k] = static_cast<float>(p[k] + 2 * reach[k]);
   }
 }
 
@@ -66,33 +69,39 @@ void QuickSpawns::add(const Bvh::Spawn& spawn) {
   ++hits_;
 }
 
-bool QuickSpawns::is_passed_by(PrimitiveId id, const Vec3& p, double reach) const {
-  return primitives_.visit(id, [&](const auto& shape) {
-    return is_filterable(shape) && passes(shape, DVec3(p), reach);
-  });
+std::optional<AxisPlane> QuickSpawns::axis_plane_of(std::size_t hit) const {
+  if (!surfaces_[hit].is_triangle) return surfaces_[hit].other->axis_plane();
+  return AxisPlane::of(vector_of(departures_.a, hit), vector_of(departures_.permanent, hit));
 }
 
-bool QuickSpawns::is_alone(const PlaceQuery& found, PrimitiveId own, const Vec3& p,
-                           double reach) const {
+bool QuickSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const {
+  const PlaceQuery& found = queries_[hit];
   if (found.count < 0) return false;
+  const PrimitiveId own = surfaces_[hit].id;
+  const std::optional<AxisPlane> plane = axis_plane_of(hit);
+  // What lies in the plane that the ray leaves is on no way off it.
+  const auto is_passed_by = [&](const auto& shape) {
+    return passes(shape, DVec3(p), reach) || (plane && lies_in(*plane, shape));
+  };
+  const auto is_primitive_passed = [&](PrimitiveId id) {
+    return id == own || primitives_.visit(id, [&](const auto& shape) {
+      return is_filterable(shape) && is_passed_by(shape);
+    });
+  };
   const auto is_passed = [&](std::uint32_t place) {
-    if (place >= kOtherPlace) {
-      const PrimitiveId id = tree_->others[place - kOtherPlace];
-      return id == own || is_passed_by(id, p, reach);
-    }
+    if (place >= kOtherPlace) return is_primitive_passed(tree_->others[place - kOtherPlace]);
     return tree_->blocks[place / kWidth].id[place % kWidth] == own ||
-           passes(triangle_at(*tree_, place), DVec3(p), reach);
+           is_passed_by(triangle_at(*tree_, place));
   };
   return std::all_of(found.places, found.places + found.count, is_passed) &&
-         std::all_of(outside_.begin(), outside_.end(),
-                     [&](PrimitiveId id) { return id == own || is_passed_by(id, p, reach); });
+         std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
 }
 
 void QuickSpawns::find_neighbours() {
   struct Point {
     bool is_sure;
     Vec3 p;
-    double reach;
+    DVec3 reach;
   };
   std::array<Point, kHits> points;
   for (std::size_t k = 0; k < hits_; ++k) {
@@ -103,19 +112,19 @@ void QuickSpawns::find_neighbours() {
     if (surface.is_triangle) {
       point = {.is_sure = departures_.is_sure[k] != 0,
                .p = vector_of(departures_.p, k),
-               .reach = departures_.reach[k]};
+               .reach = vector_of(departures_.reach, k)};
     } else {
       const bool is_sure = surface.other && surface.other->point();
       point = {.is_sure = is_sure,
                .p = is_sure ? *surface.other->point() : Vec3(0),
-               .reach = is_sure ? surface.other->reach() : 0};
+               .reach = is_sure ? surface.other->reach() : DVec3(0)};
     }
     point.is_sure ? set_box(point.p, point.reach, query) : set_empty(query);
   }
   if (tree_) kernels_.touching(*tree_, queries_.data(), static_cast<int>(hits_));
   for (std::size_t k = 0; k < hits_; ++k) {
     const auto& [is_sure, p, reach] = points[k];
-    surfaces_[k].is_alone = is_sure && is_alone(queries_[k], surfaces_[k].id, p, reach);
+    surfaces_[k].is_alone = is_sure && is_alone(k, p, reach);
   }
 }
 

@@ -1,4 +1,5 @@
 #include "accel/spawn/departure.hpp"
+#include "accel/spawn/kernels/kernel.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/spawn.hpp>
@@ -6,11 +7,8 @@
 namespace microtrace {
 namespace {
 
-/// The representable numbers by which an origin is moved at most. A flat surface needs no more than
-/// four: with w_k = spacing(p_k) the rounded point is at most 1/2 sum |n_k| w_k <= 3/2 |n_i| w_i
-/// behind it, i being the axis chosen, and a step gains |n_i| w_i, or half of that below a power of
-/// two.
-constexpr int kFlatSteps = 4, kCurvedSteps = 64;
+/// As kFlatSteps, for a surface that has no such bound.
+constexpr int kCurvedSteps = 64;
 
 template <class Surface>
 std::optional<Vec3> spawn(Surface surface, const Ray& ray, const Vec3& direction, int most_steps) {

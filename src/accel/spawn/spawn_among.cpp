@@ -24,8 +24,10 @@ bool overlap(const Bounds& a, const Bounds& b) {
 /// just behind it.
 class Neighbours {
  public:
-  Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, bool goes_back)
-      : primitives_(primitives), ray_(ray), id_(id), witness_(goes_back ? -ray.d : ray.d) {
+  /// p is the hit's point, rounded.
+  Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
+             bool goes_back)
+      : primitives_(primitives), ray_(ray), id_(id), p_(p), witness_(goes_back ? -ray.d : ray.d) {
     const exact::Enclosure t = KnownHit(primitives, ray, id, Twins()).bounds();
     const double middle = (t.lo + t.hi) / 2;
     const DVec3 o(ray.o), d(ray.d);
@@ -83,6 +85,17 @@ class Neighbours {
     if (auto* hit = triangle_hit()) return hit->meets_segment(triangle, q);
     return exact::meets_segment(triangle, q, ray_, root());
   }
+  // By the disc's box alone, so that it is of no account which leaf of the tree has the disc.
+  bool may_be_between(const Disc& disc, const Vec3& q) const {
+    const build::Box box = build::box_of(disc);
+    Bounds way{.lo = q, .hi = q};
+    for (int k = 0; k < 3; ++k) {
+      way.lo[k] = std::min(q[k], neighbour(p_[k], false));
+      way.hi[k] = std::max(q[k], neighbour(p_[k], true));
+    }
+    return overlap(
+        way, {.lo = {box.lo[0], box.lo[1], box.lo[2]}, .hi = {box.hi[0], box.hi[1], box.hi[2]}});
+  }
   template <class Other>
   bool may_be_between(const Other&, const Vec3&) const {
     return true;
@@ -123,7 +136,7 @@ class Neighbours {
   const Primitives& primitives_;
   const Ray& ray_;
   PrimitiveId id_;
-  Vec3 witness_;
+  Vec3 p_, witness_;
   DVec3 point_, radius_;                                    // around the exact point of the hit
   mutable std::optional<exact::TriangleHit> triangle_hit_;  // made on first need, as the next
   mutable std::optional<exact::Root> root_;
@@ -151,11 +164,11 @@ std::optional<Vec3> search(Surface surface, const Primitives& primitives, const 
   const DVec3 along = start->goes_back ? -DVec3(ray.d) : DVec3(ray.d);
   const double length = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
   const double unit = std::max({spacing(start->p.x), spacing(start->p.y), spacing(start->p.z)});
-  Neighbours neighbours(primitives, ray, id, start->goes_back);
+  Neighbours neighbours(primitives, ray, id, start->p, start->goes_back);
 
   double reach = 0;
   for (int level = 0; level < kLevels; ++level) {
-    Vec3 q(DVec3(start->p) + along * (reach / length));
+    Vec3 q = unsigned_zeros(DVec3(start->p) + along * (reach / length));
     const Bounds box = around(start->p, q, 4 * kSteps * unit);
     const auto add = [&](PrimitiveId other) { neighbours.add(other, box); };
     std::for_each(outside.begin(), outside.end(), add);

@@ -31,24 +31,43 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
   const D lo = t - t_error, hi = t + t_error;
   is_sure &= (size > 4 * slope.error) & (lo >= widened<N>(lanes.t_min + i)) &
              (hi <= widened<N>(lanes.t_max + i));
-  // rounded_point()
+  // PointOnRay, and the terms of coordinate_in_plane()
   const D middle = (lo + hi) / 2;
-  D reach{}, largest{}, error{}, axis{};
-  Doubles3<N> p;
+  Doubles3<N> x, x_error, term, term_error;
   for (int k = 0; k < 3; ++k) {
-    const D along = middle * d.v[k], x = o.v[k] + along;
-    const D x_error = (hi - lo) * magnitude(d.v[k]) +
-                      8 * kRoundingUnit * (magnitude(o.v[k]) + magnitude(along)) + kAllUnderflow;
-    const auto below = __builtin_convertvector(x - x_error, Float<N>);
-    const auto above = __builtin_convertvector(x + x_error, Float<N>);
-    const D rounded = __builtin_convertvector(below, D);
-    const auto is_shared = (a.v[k] == b.v[k]) & (a.v[k] == c.v[k]);
-    is_sure &= is_shared | (rounded == __builtin_convertvector(above, D));
-    p.v[k] = is_shared ? a.v[k] : rounded;
-    const D unit = spacings<N>(p.v[k]), gain = magnitude(normal.value.v[k]) * unit;
-    const D further = (kQuickSteps + 1) * unit;
-    reach = greater(further, reach);
-    error = error + 5 * kRoundingUnit * normal.permanent.v[k] * unit;
+    const D along = middle * d.v[k];
+    x.v[k] = o.v[k] + along;
+    x_error.v[k] = (hi - lo) * magnitude(d.v[k]) +
+                   8 * kRoundingUnit * (magnitude(o.v[k]) + magnitude(along)) + kAllUnderflow;
+    const D r = x.v[k] - a.v[k];
+    term.v[k] = normal.value.v[k] * r;
+    term_error.v[k] = magnitude(normal.value.v[k]) * x_error.v[k] +
+                      10 * kRoundingUnit * normal.permanent.v[k] * (magnitude(r) + x_error.v[k]);
+  }
+  // rounded_point()
+  D largest{}, error{}, axis{};
+  Doubles3<N> p, units;
+  for (int k = 0; k < 3; ++k) {
+    const int i1 = (k + 1) % 3, i2 = (k + 2) % 3;
+    const D& permanent = normal.permanent.v[k];
+    const D n_size = magnitude(normal.value.v[k]) - 6 * kRoundingUnit * permanent;
+    const D w = (term.v[i1] + term.v[i2]) / normal.value.v[k], in_plane = a.v[k] - w;
+    const D w_error =
+        (term_error.v[i1] + term_error.v[i2] + 8 * kRoundingUnit * permanent * magnitude(w)) /
+        n_size * (1 + 16 * kRoundingUnit);
+    const D in_plane_error = n_size > 0
+                                 ? w_error + 2 * kRoundingUnit * magnitude(in_plane) + kAllUnderflow
+                                 : D{} + __builtin_inf();
+    // Where that says nothing it may be NaN, which leaves the other bound.
+    const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
+            above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
+    const D least = __builtin_convertvector(__builtin_convertvector(below, Float<N>), D),
+            greatest = __builtin_convertvector(__builtin_convertvector(above, Float<N>), D);
+    is_sure &= least == greatest;
+    p.v[k] = least + D{};  // -0 made 0
+    units.v[k] = spacings<N>(p.v[k]);
+    const D gain = magnitude(normal.value.v[k]) * units.v[k];
+    error = error + 5 * kRoundingUnit * normal.permanent.v[k] * units.v[k];
     axis = gain > largest ? D{} + k : axis;
     largest = greater(gain, largest);
   }
@@ -57,7 +76,10 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
   for (int k = 0; k < 3; ++k) narrowed<N>(p.v[k], lanes.p[k] + i);
   store3<N>(normal.value, lanes.n, i);
   store3<N>(normal.permanent, lanes.permanent, i);
-  __builtin_memcpy(lanes.reach + i, &reach, sizeof reach);
+  Doubles3<N> reach;
+  for (int k = 0; k < 3; ++k)
+    reach.v[k] = axis == k ? reach_of(kFlatSteps, 1) * units.v[k] : units.v[k] / 2;
+  store3<N>(reach, lanes.reach, i);
   narrowed<N>(axis, lanes.axis + i);
   narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
 }

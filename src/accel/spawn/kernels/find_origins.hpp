@@ -28,7 +28,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
   const Mask up = (component<N>(normal.value, axis) > 0) == (to_front != 0);
   const auto up_floats = __builtin_convertvector(up, typename FloatVector<N>::bits_type);
   Mask open = filterable<N>(direction) & (to_front | to_back), is_sure{};
-  for (int step = 0; step <= kQuickSteps; ++step) {
+  for (int step = 0; step <= kFlatSteps; ++step) {
     const auto from_a = q - a;
     // certain_side()
     const D value = dot<N>(from_a, normal.value);
@@ -41,7 +41,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
-    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D);
+    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D) + D{};  // -0 made 0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);

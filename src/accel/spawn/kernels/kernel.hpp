@@ -8,8 +8,17 @@ namespace microtrace {
 
 inline constexpr int kSpawnLanes = 16;
 
-/// How often an origin is moved at most: as often as spawn_among does before it looks further away.
-inline constexpr int kQuickSteps = 8;
+/// The representable numbers by which an origin is moved off a flat surface at most. It needs no
+/// more: with w_k = spacing(p_k) the rounded point is at most 1/2 sum |n_k| w_k <= 3/2 |n_i| w_i
+/// behind it, i being the axis chosen, and a step gains |n_i| w_i, or half of that below a power of
+/// two.
+inline constexpr int kFlatSteps = 4;
+
+/// How far from p_k such steps may lead: a step away from 0 spans w_k, and all but the first maybe
+/// twice that.
+constexpr double reach_of(int steps, double w_k) {
+  return 2 * steps * w_k;
+}
 
 using SpawnFloats = float[kSpawnLanes];
 
@@ -22,7 +31,7 @@ struct alignas(64) DepartureLanes {
   SpawnFloats p[3];                                     ///< rounded
   SpawnFloats axis;                                     ///< along which origins are moved, 0 to 2
   double n[3][kSpawnLanes], permanent[3][kSpawnLanes];  ///< CrossProduct
-  double reach[kSpawnLanes];                            ///< origins lie so near to p, axis by axis
+  double reach[3][kSpawnLanes];  ///< origins and the exact point lie so near to p, axis by axis
 };
 
 /// Directions in which rays leave such points.
