@@ -221,6 +221,17 @@ class Escape : public testing::TestWithParam<BodyKind> {
     return hits;
   }
 
+  void check_occlusion(const Bvh& bvh, const std::vector<std::optional<Hit>>& hits) {
+    std::vector<Ray> rays;
+    for (const Path& path : paths_) rays.push_back(path.ray);
+    const auto occluded = std::make_unique<bool[]>(rays.size());
+    bvh.occluded(rays, std::span(occluded.get(), rays.size()));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      EXPECT_EQ(occluded[i], hits[i].has_value());
+      EXPECT_EQ(bvh.occluded(rays[i]), hits[i].has_value());
+    }
+  }
+
   // Together; now and then one by one too, which must be the same.
   std::vector<std::optional<Vec3>> ask_origins(const Bvh& bvh,
                                                const std::vector<Bvh::Spawn>& spawns) {
@@ -237,6 +248,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
 
   void bounce(const World& world, Count& count) {
     const std::vector<std::optional<Hit>> hits = ask_hits(world.bvh());
+    if (random_.one_in(4)) check_occlusion(world.bvh(), hits);
     std::vector<Path> met;
     std::vector<Bvh::Spawn> spawns;
     for (std::size_t i = 0; i < paths_.size(); ++i) {

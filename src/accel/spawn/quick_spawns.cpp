@@ -81,7 +81,7 @@ bool QuickSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) c
   const std::optional<AxisPlane> plane = axis_plane_of(hit);
   // What lies in the plane that the ray leaves is on no way off it.
   const auto is_passed_by = [&](const auto& shape) {
-    return passes(shape, DVec3(p), reach) || (plane && lies_in(*plane, shape));
+    return (plane && lies_in(*plane, shape)) || passes(shape, DVec3(p), reach);
   };
   const auto is_primitive_passed = [&](PrimitiveId id) {
     return id == own || primitives_.visit(id, [&](const auto& shape) {
