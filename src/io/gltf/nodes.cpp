@@ -176,11 +176,16 @@ DMat4 composed(const DVec3& translation, const glm::dvec4& rotation, const DVec3
 }
 
 std::string UniqueNames::make(const std::string& name) {
-  std::string result = name;
-  for (std::size_t& use = uses_[name]; use > 0 && uses_.contains(result);) {
-    result = name + " (" + std::to_string(++use) + ")";
+  const auto first = uses_.find(std::string_view(name));
+  if (first == uses_.end()) {
+    uses_.emplace(name, 1);
+    return name;
   }
-  ++uses_[result];
+  std::size_t& use = first->second;  // stays where it is when names are added
+  std::string result;
+  do {
+    result = name + " (" + std::to_string(++use) + ")";
+  } while (!uses_.emplace(result, 1).second);
   return result;
 }
 

@@ -9,6 +9,8 @@
 #include <microtrace/math.hpp>
 
 #include <cstddef>
+#include <functional>
+#include <memory_resource>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -64,9 +66,20 @@ class NodeTree {
 class UniqueNames {
  public:
   [[nodiscard]] std::string make(const std::string& name);
+  void reserve(std::size_t names) { uses_.reserve(names); }
 
  private:
-  std::unordered_map<std::string, std::size_t> uses_;
+  struct Hash {
+    using is_transparent = void;
+    // Without noexcept, which makes libstdc++ store the hashes and spare most looks at names.
+    std::size_t operator()(std::string_view name) const {
+      return std::hash<std::string_view>{}(name);
+    }
+  };
+
+  // Millions of instances have names: an arena takes them, and gives them back, at once.
+  std::pmr::monotonic_buffer_resource memory_;
+  std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };
 
 /// At most `size` bytes from the start of UTF-8 text, cut between characters.

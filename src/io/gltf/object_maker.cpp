@@ -19,14 +19,15 @@ constexpr std::size_t bytes_of_object = sizeof(Object) + 512;
 
 }  // namespace
 
-void ObjectMaker::check_size(const std::vector<PlacedNode>& nodes) const {
-  std::size_t triangles = 0, vertices = 0;
+void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
+  std::size_t objects = 0, triangles = 0, vertices = 0;
   std::uint64_t bytes = 0;
   for (const PlacedNode& placed : nodes) {
     const int mesh = model_.nodes[placed.node].mesh;
     if (mesh < 0 || !placed.visible) continue;
     const std::vector<DMat4>* instances = instances_.of(placed.node);
     const std::size_t times = instances != nullptr ? instances->size() : 1;
+    objects += times * surfaces_[static_cast<std::size_t>(mesh)].size();
     for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
       const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
@@ -39,6 +40,8 @@ void ObjectMaker::check_size(const std::vector<PlacedNode>& nodes) const {
                 ErrorKind::limit);
   }
   take_memory(bytes, "the meshes of the scene, instances counted");
+  objects_.reserve(objects);
+  names_.reserve(objects);
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {

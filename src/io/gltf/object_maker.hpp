@@ -30,7 +30,7 @@ class ObjectMaker {
         poser_(poser) {}
 
   /// Throws Error (limit) before memory is taken for too many instances. Counts the memory of all.
-  void check_size(const std::vector<PlacedNode>& nodes) const;
+  void make_room(const std::vector<PlacedNode>& nodes);
 
   /// An object for each surface of the node's mesh, if it has one and is seen.
   void add_mesh(const PlacedNode& placed);

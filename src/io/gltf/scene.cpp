@@ -131,7 +131,7 @@ struct GltfFile::Content {
     const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
     gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
     gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser);
-    maker.check_size(nodes);
+    maker.make_room(nodes);
     for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
     LoadedScene result;
     result.scene.objects = maker.take();
