@@ -207,7 +207,8 @@ std::optional<Hit> Bvh::next(const Ray& ray, const Hit& after) const {
 std::optional<Vec3> Bvh::spawn_origin(const Ray& ray, const Hit& hit, const Vec3& direction) const {
   const FloatEnvironment environment;
   ++slow_stages.origins;
-  return impl_->search_origin({.ray = &ray, .hit = hit, .direction = direction});
+  const Hit represented{.id = impl_->tree.twins.representative(hit.id), .t = hit.t};
+  return impl_->search_origin({.ray = &ray, .hit = represented, .direction = direction});
 }
 
 void Bvh::spawn_origins(std::span<const Spawn> spawns,
@@ -215,6 +216,13 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
   slow_stages.origins += spawns.size();
+  std::vector<Spawn> represented;
+  if (const Twins& twins = impl_->tree.twins; !twins.empty()) {
+    // A triangle of the tree in the place of the surface would be a wall to pass.
+    represented.assign(spawns.begin(), spawns.end());
+    for (Spawn& spawn : represented) spawn.hit.id = twins.representative(spawn.hit.id);
+    spawns = represented;
+  }
   QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
                     impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
   while (!spawns.empty()) {

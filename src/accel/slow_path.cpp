@@ -101,7 +101,7 @@ KnownHit::KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
 }
 
 std::optional<PrimitiveId> KnownHit::next(PrimitiveId id, const Verdict& verdict) const {
-  if (twins_->stands_for(id, id_)) return twins_->above(id, id_);
+  if (id == twins_->representative(id_)) return twins_->above(id, id_);
   if (verdict.certainty == Certainty::miss || verdict.lo > bounds_.hi) return id;
   if (verdict.certainty == Certainty::hit && verdict.hi < bounds_.lo) return std::nullopt;
   const ExactHits exactly(*primitives_, *ray_);

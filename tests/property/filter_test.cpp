@@ -76,6 +76,22 @@ TEST(Filter, Triangle) {
   }
 }
 
+// Points and ends of segments that rays meet exactly although a - o has more bits than float64.
+TEST(Filter, TriangleWithoutAreaWhereTheWayRounds) {
+  Random random(3);
+  Count count;
+  for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {
+    const Vec3 d = random.on_grid(15);
+    if (d == Vec3(0)) continue;
+    const auto number = [&] { return static_cast<float>(random.between(1, 0xFFFFF)); };
+    const Vec3 a = number() * random.power_of_two(-70, -20) * d, b = random.in_cube(1);
+    const Ray ray{.o = number() * d, .t_min = 0, .d = -d};
+    ASSERT_TRUE(exact::first_hit(Triangle{a, a, a}, ray));
+    check(ray, Triangle{a, a, a}, count);
+    check(ray, Triangle{b, a, a}, count);
+  }
+}
+
 template <class MakeCase>
 void check_all_kinds(MakeCase make_case) {
   for (const ShapeKind kind : shape_kinds) {

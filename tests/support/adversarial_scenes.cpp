@@ -5,11 +5,37 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace microtrace::adversarial {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// A point, a segment with two corners at one end, or with one within; or a triangle among them. Of
+// the few points of a small grid many come more than once.
+Corners degenerate_corners(Random& random) {
+  const bool on_grid = random.one_in(2);
+  const auto anywhere = [&] { return on_grid ? random.on_grid(2) : random.in_cube(2); };
+  Corners corners;
+  const Vec3 a = anywhere();
+  switch (random.between(0, 3)) {
+    case 0:
+      return {a, a, a};
+    case 1:
+      corners = {a, a, anywhere()};
+      break;
+    case 2: {
+      const Vec3 edge = on_grid ? random.on_grid(1) : random.in_cube(0.5F);
+      corners = {a, a + edge, a + 2.0F * edge};
+      break;
+    }
+    default:
+      return {a, a + random.in_cube(0.5F), a + random.in_cube(0.5F)};
+  }
+  std::swap(corners[0], corners[static_cast<std::size_t>(random.between(0, 2))]);
+  return corners;
+}
 
 Mesh random_mesh(Random& random, SceneKind kind) {
   const auto near = [&](const Vec3& c, float size) { return c + random.in_cube(size); };
@@ -47,6 +73,8 @@ Mesh random_mesh(Random& random, SceneKind kind) {
         corners[1][axis] = corners[2][axis] = corners[0][axis];
         return corners;
       });
+    case SceneKind::degenerate:
+      return mesh_of(random.between(1, 300), [&] { return degenerate_corners(random); });
     case SceneKind::any_size:
       break;
   }
@@ -103,6 +131,8 @@ const char* name(SceneKind kind) {
       return "slivers";
     case SceneKind::walls:
       return "walls";
+    case SceneKind::degenerate:
+      return "degenerate";
     case SceneKind::any_size:
       return "any_size";
   }

@@ -31,12 +31,13 @@ enum class SceneKind {
   far_from_zero,  ///< 2^20 triangle sizes away from (0, 0, 0)
   slivers,        ///< heights down to 2^-26 of the length
   walls,          ///< in planes x, y or z = an integer: rays along edges and within planes
+  degenerate,     ///< points and segments, some many times, among small triangles
   any_size,       ///< 2^-140 to 2^60, beyond what kernels take; some not finite
 };
 
 inline constexpr std::array scene_kinds = {
     SceneKind::soup,    SceneKind::lattice, SceneKind::huge_and_tiny, SceneKind::far_from_zero,
-    SceneKind::slivers, SceneKind::walls,   SceneKind::any_size};
+    SceneKind::slivers, SceneKind::walls,   SceneKind::degenerate,    SceneKind::any_size};
 
 [[nodiscard]] const char* name(SceneKind kind);
 

@@ -4,6 +4,8 @@
 
 #include <microtrace/error.hpp>
 
+#include <array>
+
 namespace microtrace::build {
 namespace {
 
@@ -15,6 +17,23 @@ bool fits_blocks(const Box& b) {
   return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
 }
 
+// Of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
+// splittable pseudorandom number generators, 2014).
+std::uint64_t hash_of(const Vec3& p) {
+  const auto [x, y, z] = std::bit_cast<std::array<std::uint32_t, 3>>(p + 0.0F);  // -0 becomes 0
+  const std::uint64_t xy = (std::uint64_t{x} << 32U | y) * 0xBF58476D1CE4E5B9U;
+  const std::uint64_t hash = ((xy ^ xy >> 27U) + z) * 0x94D049BB133111EBU;
+  return hash ^ hash >> 31U;
+}
+
+// Of the set of corners, in whatever order.
+std::uint32_t hash_of(const Triangle& t) {
+  std::uint64_t sum = hash_of(t.a);
+  if (t.b != t.a) sum += hash_of(t.b);
+  if (t.c != t.a && t.c != t.b) sum += hash_of(t.c);
+  return static_cast<std::uint32_t>(sum >> 32U);
+}
+
 class Gatherer {
  public:
   explicit Gatherer(References& to) : to_(to) {}
@@ -23,6 +42,7 @@ class Gatherer {
     if (is_empty(t)) return;
     const Box box = box_of(t);
     to_.bounded.emplace_back(box, id, fits_blocks(box) ? kTriangleWeight : kOtherWeight);
+    to_.hashes.push_back(hash_of(t));
   }
   void operator()(PrimitiveId id, const Sphere& s) { add_curved(id, s); }
   void operator()(PrimitiveId id, const Disc& d) { add_curved(id, d); }
@@ -38,10 +58,12 @@ class Gatherer {
   void add_curved(PrimitiveId id, const S& shape) {
     if (is_empty(shape)) return;
     const Box box = box_of(shape);
-    if (is_finite(box))
+    if (is_finite(box)) {
       to_.bounded.emplace_back(box, id, kOtherWeight);
-    else
+      to_.hashes.push_back(id);
+    } else {
       to_.unbounded.push_back(id);
+    }
   }
 
   References& to_;
@@ -54,12 +76,21 @@ References gather(const Primitives& primitives) {
   std::size_t count = 0;
   primitives.for_each([&](PrimitiveId, const auto&) { ++count; });
   references.bounded.reserve(count);
+  references.hashes.reserve(count);
   primitives.for_each(Gatherer(references));
   std::uint64_t weight = 0;
   for (const Reference& r : references.bounded) weight += r.weight();
   if (weight > kMostWeight)
     throw Error(ErrorKind::limit, "", "the scene has more than 2^30 triangles; leave some out");
   return references;
+}
+
+void set_points_apart(PageVector<Reference>& references) {
+  for (Reference& r : references) {
+    const Int4 differs = r.box.lo != r.box.hi;
+    if (r.weight() == kTriangleWeight && (differs[0] | differs[1] | differs[2]) == 0)
+      r = Reference(r.box, r.id(), kOtherWeight);
+  }
 }
 
 }  // namespace microtrace::build

@@ -32,11 +32,17 @@ static_assert(sizeof(Reference) == 32);
 
 struct References {
   PageVector<Reference> bounded;
+  /// A number for each of these, the same for triangles with the same corners.
+  PageVector<std::uint32_t> hashes;
   std::vector<PrimitiveId> unbounded;
 };
 
 /// Sorts a scene's primitives into those with a finite box, those without, and those without a
 /// point, which are left out. Throws Error (limit) if there are more than one tree can hold.
 [[nodiscard]] References gather(const Primitives& primitives);
+
+/// Gives triangles whose corners are one point the weight of other primitives: float32 can't tell
+/// that a ray misses them, so they need boxes of their own.
+void set_points_apart(PageVector<Reference>& references);
 
 }  // namespace microtrace::build

@@ -30,7 +30,9 @@ void plan(BinaryTree& binary, WorkerPool& pool) {
 Tree build_tree(const Primitives& primitives, const BuildOptions& options) {
   References references = gather(primitives);
   Tree tree;
-  tree.twins = Twins(references.bounded, primitives);
+  tree.twins = Twins(references, primitives);
+  references.hashes = {};
+  set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);
   tree.unbounded = std::move(references.unbounded);
   WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
+#include <span>
 #include <tuple>
 
 namespace microtrace {
@@ -10,94 +12,112 @@ namespace {
 
 using build::Reference;
 
-/// The corners in an order that does not depend on where the triangle begins and how it turns.
-using Corners = std::array<std::array<std::uint32_t, 3>, 3>;
+using Corner = std::array<std::uint32_t, 3>;
 
-Corners corners_of(const Triangle& t) {
+/// The corners in ascending order; if only two differ, the lesser one twice.
+using Corners = std::array<Corner, 3>;
+
+Corners corners_of(PrimitiveId id, const Primitives& primitives) {
+  Triangle t;
+  primitives.visit(id, [&](const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) t = shape;
+  });
   const auto bits = [](const Vec3& p) {
-    return std::array{std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                      std::bit_cast<std::uint32_t>(p.z)};
+    const Vec3 q = p + 0.0F;  // -0 becomes 0
+    return std::bit_cast<Corner>(q);
   };
   Corners corners{bits(t.a), bits(t.b), bits(t.c)};
   std::ranges::sort(corners);
+  if (corners[1] == corners[2]) corners[1] = corners[0];
   return corners;
 }
 
-std::uint64_t hash_of(const Corners& corners) {
-  std::uint64_t hash = 0;
-  for (const auto& corner : corners) {
-    for (const std::uint32_t number : corner) {
-      hash = (hash ^ number) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 29U;
-    }
+/// A set of hashes that may seem to have one that it has not: B. Bloom, Space/time trade-offs in
+/// hash coding with allowable errors, 1970, with one bit for each.
+class BloomFilter {
+ public:
+  /// With so many hashes in it, it is wrong about one of sixteen others at most.
+  explicit BloomFilter(std::size_t hashes)
+      : shift_(std::max(0, std::countl_zero(16 * hashes | 64) - 32)),
+        words_((~std::uint32_t{0} >> shift_) / 64 + 1, 0) {}
+
+  [[nodiscard]] bool contains(std::uint32_t hash) const {
+    const std::uint32_t bit = hash >> shift_;
+    return (words_[bit / 64] >> (bit % 64) & 1U) != 0;
   }
-  return hash;
+  void insert(std::uint32_t hash) {
+    const std::uint32_t bit = hash >> shift_;
+    words_[bit / 64] |= std::uint64_t{1} << (bit % 64);
+  }
+
+ private:
+  int shift_;
+  PageVector<std::uint64_t> words_;
+};
+
+/// The places of hashes that are there more than once, ascending, and a few others. Nearly all are
+/// there once: sorting them would take much longer.
+std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
+  BloomFilter once(hashes.size());
+  std::vector<std::uint32_t> again;
+  for (const std::uint32_t hash : hashes) {
+    if (once.contains(hash)) again.push_back(hash);
+    once.insert(hash);
+  }
+  std::vector<std::uint32_t> places;
+  if (again.empty()) return places;
+  BloomFilter twice(again.size());
+  for (const std::uint32_t hash : again) twice.insert(hash);
+  for (std::size_t i = 0; i < hashes.size(); ++i) {
+    if (twice.contains(hashes[i])) places.push_back(static_cast<std::uint32_t>(i));
+  }
+  return places;
 }
 
 bool is_triangle(const Reference& reference) {
   return reference.weight() == build::kTriangleWeight;
 }
 
-Corners corners_of(const Reference& reference, const Primitives& primitives) {
-  return primitives.visit(reference.id(), [](const auto& shape) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-      return corners_of(shape);
-    } else {
-      return Corners{};
-    }
-  });
-}
-
-/// By their boxes, a sample of them.
-bool are_many(const PageVector<Reference>& references) {
-  constexpr std::size_t most = 4096;
-  const std::size_t step = references.size() / most + 1;
-  std::vector<std::array<float, 6>> boxes;
-  for (std::size_t i = 0; i < references.size(); i += step) {
-    const build::Box& b = references[i].box;
-    if (is_triangle(references[i]))
-      boxes.push_back({b.lo[0], b.lo[1], b.lo[2], b.hi[0], b.hi[1], b.hi[2]});
-  }
-  std::ranges::sort(boxes);
-  // The halves of a rectangle have one box.
-  for (std::size_t i = 2; i < boxes.size(); ++i) {
-    if (boxes[i] == boxes[i - 2]) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
-Twins::Twins(PageVector<Reference>& references, const Primitives& primitives) {
-  if (!are_many(references)) return;
+Twins::Twins(build::References& from, const Primitives& primitives) {
+  PageVector<Reference>& references = from.bounded;
   struct Entry {
-    std::uint64_t hash;
+    std::uint32_t hash;
     PrimitiveId id;
     std::uint32_t place;
   };
   std::vector<Entry> entries;
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    if (!is_triangle(references[i])) continue;
-    entries.push_back({.hash = hash_of(corners_of(references[i], primitives)),
-                       .id = references[i].id(),
-                       .place = static_cast<std::uint32_t>(i)});
+  for (const std::uint32_t place : repeated(from.hashes)) {
+    if (is_triangle(references[place]))
+      entries.push_back({.hash = from.hashes[place], .id = references[place].id(), .place = place});
   }
   std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
     return std::tie(a.hash, a.id) < std::tie(b.hash, b.id);
   });
   std::vector<bool> is_twin(references.size());
   for (std::size_t i = 0; i < entries.size();) {
-    const Entry& least = entries[i];
-    const Corners corners = corners_of(references[least.place], primitives);
-    const std::size_t first = ids_.size();
     std::size_t end = i + 1;
-    for (; end < entries.size() && entries[end].hash == least.hash; ++end) {
-      if (corners_of(references[entries[end].place], primitives) != corners) continue;
-      ids_.push_back(entries[end].id);
-      is_twin[entries[end].place] = true;
+    while (end < entries.size() && entries[end].hash == entries[i].hash) ++end;
+    if (end - i > 1) {
+      const Corners corners = corners_of(entries[i].id, primitives);
+      const std::size_t first = ids_.size();
+      for (std::size_t k = i + 1; k < end; ++k) {
+        if (corners_of(entries[k].id, primitives) != corners) continue;
+        ids_.push_back(entries[k].id);
+        is_twin[entries[k].place] = true;
+      }
+      if (ids_.size() > first)
+        groups_.push_back({.least = entries[i].id, .first = first, .end = ids_.size()});
     }
-    if (ids_.size() > first) groups_[least.id] = {first, ids_.size()};
     i = end;
+  }
+  if (ids_.empty()) return;
+  std::ranges::sort(groups_, {}, &Group::least);
+  representatives_.resize(std::size_t{*std::ranges::max_element(ids_)} + 1);
+  std::iota(representatives_.begin(), representatives_.end(), PrimitiveId{0});
+  for (const Group& group : groups_) {
+    for (std::size_t i = group.first; i < group.end; ++i) representatives_[ids_[i]] = group.least;
   }
   std::size_t left = 0;
   for (std::size_t i = 0; i < references.size(); ++i) {
@@ -108,21 +128,11 @@ Twins::Twins(PageVector<Reference>& references, const Primitives& primitives) {
 
 std::optional<PrimitiveId> Twins::above(PrimitiveId id, PrimitiveId after) const {
   if (id > after) return id;
-  const auto group = groups_.find(id);
-  if (group == groups_.end()) return std::nullopt;
-  const auto begin = ids_.begin() + static_cast<std::ptrdiff_t>(group->second.first);
-  const auto end = ids_.begin() + static_cast<std::ptrdiff_t>(group->second.second);
-  const auto next = std::upper_bound(begin, end, after);
-  return next != end ? std::optional(*next) : std::nullopt;
-}
-
-bool Twins::stands_for(PrimitiveId id, PrimitiveId other) const {
-  if (id == other) return true;
-  const auto group = groups_.find(id);
-  if (group == groups_.end()) return false;
-  const auto begin = ids_.begin() + static_cast<std::ptrdiff_t>(group->second.first);
-  const auto end = ids_.begin() + static_cast<std::ptrdiff_t>(group->second.second);
-  return std::binary_search(begin, end, other);
+  const auto group = std::ranges::lower_bound(groups_, id, {}, &Group::least);
+  if (group == groups_.end() || group->least != id) return std::nullopt;
+  const auto twins = std::span(ids_).subspan(group->first, group->end - group->first);
+  const auto next = std::ranges::upper_bound(twins, after);
+  return next != twins.end() ? std::optional(*next) : std::nullopt;
 }
 
 }  // namespace microtrace

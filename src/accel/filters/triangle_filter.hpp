@@ -3,7 +3,9 @@
 
 #include <microtrace/shape.hpp>
 
+#include <algorithm>
 #include <array>
+#include <functional>
 
 #include <glm/geometric.hpp>
 
@@ -73,14 +75,37 @@ class TriangleFilter {
     Verdict crossing = plane_(d, range);
     if (crossing.certainty == Certainty::hit && !inside_positive && !inside_negative)
       crossing.certainty = Certainty::unsure;
+    if (crossing.certainty == Certainty::unsure && passes_by(d))
+      return {.certainty = Certainty::miss};
     return crossing;
   }
 
  private:
+  /// Whether d x A, d x B and d x C certainly lie on one side of an axis: seen along d the triangle
+  /// then does not hold the ray, even where it has no area or the ray runs in its plane.
+  [[nodiscard]] bool passes_by(const DVec3& d) const {
+    std::array<bool, 3> all_positive{true, true, true}, all_negative = all_positive;
+    for (const DVec3& corner : corners_) {
+      // A has one rounding, the product one; that of the difference does not change its sign.
+      const CrossProduct side(d, corner);
+      for (int i = 0; i < 3; ++i) {
+        const Approximate x{.value = side.value[i],
+                            .error = gamma(3) * side.permanent[i] + kUnderflow};
+        all_positive[static_cast<std::size_t>(i)] &= x.is_positive();
+        all_negative[static_cast<std::size_t>(i)] &= x.is_negative();
+      }
+    }
+    return std::ranges::any_of(all_positive, std::identity{}) ||
+           std::ranges::any_of(all_negative, std::identity{});
+  }
+
   TriangleFilter(const Triangle& triangle, const Vec3& o, const DVec3& a, const DVec3& b,
                  const DVec3& c)
-      : edges_{CrossProduct(b, c), CrossProduct(c, a), CrossProduct(a, b)}, plane_(triangle, o) {}
+      : corners_{a, b, c},
+        edges_{CrossProduct(b, c), CrossProduct(c, a), CrossProduct(a, b)},
+        plane_(triangle, o) {}
 
+  std::array<DVec3, 3> corners_;  // A, B, C
   std::array<CrossProduct, 3> edges_;
   TrianglePlaneFilter plane_;
 };

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -31,13 +32,29 @@ inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec
                    kUnderflow};
 }
 
+/// Whether all of the box p +- radius lies beside a triangle of which float64 can't tell that it
+/// has an area: some axis along which it is seen certainly left of one edge and right of another.
+inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& radius) {
+  for (int axis = 0; axis < 3; ++axis) {
+    bool any_positive = false, any_negative = false;
+    for (const auto& [a, b] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
+      const Approximate area = area_along(axis, a, b, p, radius);
+      any_positive |= area.is_positive();
+      any_negative |= area.is_negative();
+    }
+    if (any_positive && any_negative) return true;
+  }
+  return false;
+}
+
 /// Whether all of the box p +- radius lies beside the triangle, as seen along the axis nearest to
 /// its normal: so it is where triangles share a plane.
 inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3& p,
                       const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  if (!(size[axis] > 2 * gamma(5) * normal.permanent[axis] + kUnderflow)) return false;
+  if (!(size[axis] > 2 * gamma(5) * normal.permanent[axis] + kUnderflow))
+    return is_beside_segment(t, p, radius);
   const bool positive = normal.value[axis] > 0;
   const auto is_outside = [&](const Vec3& a, const Vec3& b) {
     const Approximate area = area_along(axis, a, b, p, radius);
