@@ -5,6 +5,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
+#include "exact/triangle_hit.hpp"
 #include "support/closed_bodies.hpp"
 #include "support/effort.hpp"
 
@@ -54,6 +55,8 @@ class World {
     }
     scene_.objects.push_back({.name = "", .shape = closed_body(random, kind, center_, size_)});
     triangles_ = static_cast<PrimitiveId>(mesh().triangles.size());
+    for (PrimitiveId id = 0; id < triangles_; ++id)
+      has_area_.push_back(exact::TrianglePlane(triangle_of(mesh(), id)).has_area());
     if (random.one_in(3)) add_others();
     // So many triangles are no leaf.
     if (random.one_in(3)) {
@@ -69,7 +72,6 @@ class World {
 
   [[nodiscard]] const Bvh& bvh() const { return *bvh_; }
   [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene_.objects[0].shape); }
-  [[nodiscard]] bool is_of_body(PrimitiveId id) const { return id < triangles_; }
   [[nodiscard]] float size() const { return size_; }
 
   /// Whether q is within the mesh.
@@ -152,10 +154,11 @@ class World {
     return bvh_->occluded({.o = q, .t_min = 0, .d = {0, 0, 1}, .t_max = 0});
   }
 
+  // Whether a ray crosses the mesh an odd number of times. Triangles without area have no sides.
   [[nodiscard]] bool is_odd(const Ray& ray) const {
     bool odd = false;
     for (auto hit = bvh_->intersect(ray); hit; hit = bvh_->next(ray, *hit))
-      odd ^= is_of_body(hit->id);
+      odd ^= hit->id < triangles_ && has_area_[hit->id];
     return odd;
   }
 
@@ -164,6 +167,7 @@ class World {
   Vec3 center_{0};
   float size_;
   PrimitiveId triangles_;
+  std::vector<bool> has_area_;  // of each triangle
   std::unique_ptr<const Bvh> bvh_;
 };
 

@@ -3,6 +3,7 @@
 
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
+#include "exact/triangle_hit.hpp"
 #include "support/adversarial_rays.hpp"
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
@@ -51,11 +52,6 @@ Scene touching_scene(Random& random) {
     }
   }
   return scene;
-}
-
-bool has_area(const Triangle& t) {
-  const Vector a = exact::vector(t.a);
-  return exact::nonzero_component(cross(exact::vector(t.b) - a, exact::vector(t.c) - a)) >= 0;
 }
 
 /// A rational point: `point` / `weight`, weight > 0.
@@ -114,7 +110,7 @@ void check_way(const Scene& scene, PrimitiveId own, const Ray& ray, const exact:
           for (PrimitiveId id = 0; id < scene.objects.size(); ++id) {
             const Shape& other = scene.objects[id].shape;
             if (const auto* triangle = std::get_if<Triangle>(&other)) {
-              if (!has_area(*triangle)) {
+              if (!exact::TrianglePlane(*triangle).has_area()) {
                 ++count.without_area;
                 continue;
               }
