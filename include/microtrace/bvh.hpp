@@ -65,7 +65,7 @@ class MICROTRACE_EXPORT Bvh {
   /// A ray that leaves a hit.
   struct Spawn {
     const Ray* ray;  ///< that hit
-    Hit hit;
+    Hit hit;         ///< one of its hits, as intersect and next give them
     Vec3 direction;  ///< of the new ray
   };
 

@@ -16,9 +16,11 @@
 #include <bit>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,6 +42,15 @@ bool same_bits(const std::optional<Vec3>& a, const std::optional<Vec3>& b) {
       return false;
   }
   return true;
+}
+
+bool is_closed(const Mesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> triangles_at;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (const auto& edge : {std::minmax(a, b), std::minmax(b, c), std::minmax(c, a)})
+      ++triangles_at[edge];
+  }
+  return std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
 /// One body, and what is in its way.
@@ -318,6 +329,7 @@ TEST_P(Escape, NoPathLeaves) {
   Count count;
   for (int world = 0; count.bounces < bounces; ++world) {
     const World body(random_, GetParam());
+    ASSERT_TRUE(is_closed(body.mesh()));
     begin(body);
     for (int i = 0; i < 20 && !paths_.empty(); ++i) bounce(body, count);
     ASSERT_EQ(leaks_, "") << "in body " << world;

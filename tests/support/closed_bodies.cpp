@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,6 +16,7 @@ namespace microtrace::adversarial {
 namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
+using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Three orthogonal directions, at times the axes.
 std::array<DVec3, 3> random_frame(Random& random) {
@@ -116,15 +117,20 @@ Mesh hull(std::vector<Vec3> points) {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+    // By their corners, with the direction in which one face runs along each. Where rounding has
+    // made faces that overlap, several may share an edge: an even number of them leaves none.
+    std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles, [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;
       for (std::size_t k = 0; k < 3; ++k) {
-        if (edges.erase({t[(k + 1) % 3], t[k]}) == 0) edges.insert({t[k], t[(k + 1) % 3]});
+        const Edge edge{t[k], t[(k + 1) % 3]};
+        const auto [place, is_new] = edges.try_emplace(std::minmax(edge.first, edge.second), edge);
+        if (!is_new) edges.erase(place);
       }
       return true;
     });
-    for (const auto& [a, b] : edges) mesh.triangles.push_back({a, b, i});
+    for (const auto& [corners, edge] : edges)
+      mesh.triangles.push_back({edge.first, edge.second, i});
   }
   return mesh;
 }
