@@ -91,7 +91,8 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Asks for each hit's origins into some directions one by one, together, and in another order.
+/// Asks for each hit's origins into some directions one by one, together, and in another order; of
+/// trees that are built in either way.
 std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& hits) {
   std::vector<Bvh::Spawn> spawns;
   for (const Known& known : hits) {
@@ -102,13 +103,13 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
   }
   const auto kernels = available_kernels();
   setenv("MICROTRACE_ISA", kernels[random.bits() % kernels.size()]->name, 1);
-  const Bvh bvh(scene);
+  const Bvh bvh(scene), other(scene, {.fast_build = true});
   unsetenv("MICROTRACE_ISA");
   Origins together(spawns.size());
   bvh.spawn_origins(spawns, together);
   std::size_t found = 0;
   for (std::size_t i = 0; i < spawns.size(); ++i) {
-    const auto alone = bvh.spawn_origin(*spawns[i].ray, spawns[i].hit, spawns[i].direction);
+    const auto alone = other.spawn_origin(*spawns[i].ray, spawns[i].hit, spawns[i].direction);
     EXPECT_TRUE(same(together[i], alone)) << i;
     found += alone ? 1 : 0;
     for (int k = 0; alone && k < 3; ++k)
@@ -191,6 +192,57 @@ TEST(SpawnBatch, Spheres) {
 }
 TEST(SpawnBatch, Quadrics) {
   check_all_kinds(84, {.share = 0.00003, .most = 4}, quadric_case);
+}
+
+/// Shapes of all kinds on a grid of any size, so that many touch.
+Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
+  Scene scene;
+  for (int i = random.one_in(2) ? random.between(2, 16) : random.between(17, 80); i > 0; --i) {
+    const Vec3 at = center + random.on_grid(3, spacing);
+    Vec3 normal = random.one_in(2) ? random.on_grid(1) : random.in_cube(1);
+    if (random.one_in(4)) normal = with_odd_coordinates(random, normal);
+    switch (random.between(0, 15)) {
+      case 0:
+        add(scene, Plane{.point = at, .normal = normal});
+        break;
+      case 1:
+      case 2:
+        add(scene, Disc{.center = at, .normal = normal, .radius = 2 * spacing});
+        break;
+      case 3:
+      case 4:
+        add(scene, Sphere{.center = at, .radius = spacing * float(random.between(1, 3))});
+        break;
+      default: {
+        const Vec3 b = at + random.on_grid(2, spacing), c = at + random.on_grid(2, spacing);
+        add(scene, Triangle{random.jitter(at, 1), b, random.one_in(4) ? random.jitter(c, 2) : c});
+      }
+    }
+  }
+  return scene;
+}
+
+// All hits of rays, the hidden ones too, many of them at corners, on edges and where shapes touch.
+TEST(SpawnBatch, TouchingShapes) {
+  Random random = traversal::announced_random(85);
+  std::size_t answers = 0;
+  const std::size_t scenes = traversal::ray_count(0.0002);
+  for (std::size_t round = 0; round < scenes && !HasFailure(); ++round) {
+    const float spacing = random.one_in(2) ? 1 : random.power_of_two(-60, 30);
+    const Vec3 center = random.one_in(2) ? Vec3(0) : random.in_cube(1e7F) * spacing;
+    const Scene scene = touching_shapes(random, spacing, center);
+    const Bvh bvh(scene);
+    std::vector<Known> hits;
+    for (int i = 0; i < 60; ++i) {
+      Ray ray{.o = center + random.on_grid(5, spacing), .d = random.on_grid(2)};
+      if (random.one_in(2)) ray.o = center + random.in_cube(5) * spacing;
+      if (random.one_in(2)) ray.d = with_odd_coordinates(random, random.in_cube(1));
+      for (auto hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit))
+        hits.push_back({.ray = ray, .id = hit->id});
+    }
+    answers += check(random, scene, hits);
+  }
+  EXPECT_GT(answers, 20 * scenes);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   if (verdict.certainty != Certainty::hit) return;
   ++count.hits;
   const CrossProduct normal(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
-  const PointOnRay point(ray, verdict);
+  const PointOnRay point(ray, {verdict.lo, verdict.hi});
   for (int k = 0; k < 3; ++k) {
     const exact::Root x =
         exact::rational(Dyadic(ray.o[k]) * exact_t->r + Dyadic(ray.d[k]) * exact_t->p, exact_t->r);

@@ -127,7 +127,7 @@ class ExactSurface {
 struct PointOnRay {
   DVec3 value, error;
 
-  PointOnRay(const Ray& ray, const Verdict& t) {
+  PointOnRay(const Ray& ray, const exact::Enclosure& t) {
     const DVec3 o(ray.o), d(ray.d), along = (t.lo + t.hi) / 2 * d;
     value = o + along;
     error = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(along)) +
@@ -205,7 +205,8 @@ class TriangleSurface {
           seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
       if (verdict.certainty == Certainty::miss) return std::nullopt;
       if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded_point({ray, verdict}, triangle_.a, normal_)) return p;
+        if (const auto p = rounded_point({ray, {verdict.lo, verdict.hi}}, triangle_.a, normal_))
+          return p;
       }
     }
     exact::TriangleHit hit(triangle_, ray);

@@ -38,7 +38,7 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
   if (!microtrace::is_filterable(s) || !is_filterable(ray)) return;
   const Verdict t = SphereFilter(s, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty != Certainty::hit) return;
-  const PointOnRay x(ray, t);
+  const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
   if (!p_) return;
   surface_ = Ball{.sphere = s,
@@ -75,7 +75,7 @@ void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
   const Verdict t = quotient_verdict(height, flat.normal.along(DVec3(ray.d)),
                                      {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty == Certainty::unsure) return;
-  p_ = rounded_point({ray, t}, flat.a, flat.normal);
+  p_ = rounded_point({ray, {t.lo, t.hi}}, flat.a, flat.normal);
   if (!p_) return;
   surface_ = flat;
   double largest = 0, error = 0;

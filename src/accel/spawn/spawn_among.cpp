@@ -27,14 +27,12 @@ class Neighbours {
   /// p is the hit's point, rounded.
   Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
              bool goes_back)
-      : primitives_(primitives), ray_(ray), id_(id), p_(p), witness_(goes_back ? -ray.d : ray.d) {
-    const exact::Enclosure t = KnownHit(primitives, ray, id, Twins()).bounds();
-    const double middle = (t.lo + t.hi) / 2;
-    const DVec3 o(ray.o), d(ray.d);
-    point_ = o + middle * d;
-    radius_ = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(middle * d)) +
-              DVec3(kUnderflow);
-  }
+      : primitives_(primitives),
+        ray_(ray),
+        id_(id),
+        p_(p),
+        witness_(goes_back ? -ray.d : ray.d),
+        point_(ray, KnownHit(primitives, ray, id, Twins()).bounds()) {}
 
   /// Takes primitive id into account if it has a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
@@ -121,7 +119,7 @@ class Neighbours {
   std::optional<int> side_of_witness(const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
       const TriangleSurface surface(shape);
-      if (const int sign = surface.certain_sign(point_, radius_); sign != 0) return sign;
+      if (const int sign = surface.certain_sign(point_.value, point_.error); sign != 0) return sign;
       if (!surface.has_area()) return std::nullopt;
       if (auto* hit = triangle_hit()) {
         const int side = hit->side(shape);
@@ -137,7 +135,7 @@ class Neighbours {
   const Ray& ray_;
   PrimitiveId id_;
   Vec3 p_, witness_;
-  DVec3 point_, radius_;                                    // around the exact point of the hit
+  PointOnRay point_;                                        // the exact point of the hit
   mutable std::optional<exact::TriangleHit> triangle_hit_;  // made on first need, as the next
   mutable std::optional<exact::Root> root_;
   std::vector<Side> sides_;
