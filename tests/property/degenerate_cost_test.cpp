@@ -181,7 +181,7 @@ TEST_P(DegenerateCost, OfSegmentsIsNone) {
   const Asked without = ask(scene_of(sphere), rays);
   Random random(33);
   for (const float length : {0.02F, 2.0F}) {
-    for (const std::size_t count : {1U, 17U, 1000U}) {
+    for (const std::size_t count : {1U, 17U, 4000U}) {
       Mesh segments, mixed = sphere;
       for (std::size_t i = 0; i < count; ++i) {
         const Vec3 p = random.on_grid(1024, 0x1p-10F), half = random.on_grid(1024, 0x1p-11F);
@@ -195,6 +195,7 @@ TEST_P(DegenerateCost, OfSegmentsIsNone) {
       const Asked among = ask(scene_of(mixed), rays);
       EXPECT_EQ(among.hits, without.hits);
       EXPECT_LE(exact(among.counts), exact(without.counts) + 4) << count;
+      EXPECT_LE(among.counts.searched_origins, without.counts.searched_origins + 4) << count;
     }
   }
 }

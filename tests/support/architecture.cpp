@@ -160,7 +160,8 @@ ArchitectureScene plates() {
     for (int k = 0; k < 6; ++k) {
       // Each stands beside the next; the steps of a stack lie on each other.
       const int x = 11 * i, z = 11 * k,
-                steps = 1 + static_cast<int>(random_bits(36 + 6 * i + k) % 3);
+                steps = 1 + static_cast<int>(
+                                random_bits(static_cast<std::uint64_t>(36 + 6 * i + k)) % 3);
       add_box_of_tenths(scene.mesh, {x, 0, z, x + 11, 2, z + 11});
       for (int step = 0; step < steps; ++step)
         add_holed_plate(scene.mesh, x + step, z + step, 3 - (step + 1) / 2, 2 + 3 * step,

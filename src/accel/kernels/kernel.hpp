@@ -166,9 +166,9 @@ struct Kernels {
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a tile that have a place.
   std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
-  /// Finds all triangles whose own boxes have a point in each query's box, some maybe twice, and
-  /// other primitives that may. Up to
-  /// kPlaceQueries at a time, whose ways to memory overlap.
+  /// Finds all primitives with a point in each query's box, some maybe twice, and others that may:
+  /// triangles whose own boxes have one, and what is in a leaf of others. Up to kPlaceQueries at a
+  /// time, whose ways to memory overlap.
   void (*touching)(const TreeView& tree, PlaceQuery* queries, int count);
   /// How many triangles' edges this thread has looked at by float64.
   std::uint64_t (*edge_tests)();

@@ -1,12 +1,16 @@
 #pragma once
 /// The triangles near a place.
 
+#include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/simd.hpp"
 
 namespace microtrace {
 namespace {
+
+/// A query that has found so many looks closer at others: see passing_triangles.
+constexpr int kFewPlaces = 8;
 
 /// The lanes in which [lo, hi] and the intervals of an axis have a number in common.
 template <int N>
@@ -44,6 +48,51 @@ inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box
   return lanes;
 }
 
+/// The box about its center; the reach is rounded up.
+struct CenteredBox {
+  float center[3], reach[3];
+
+  explicit CenteredBox(const PlaceQuery& box) {
+    for (int k = 0; k < 3; ++k) {
+      center[k] = 0.5F * box.lo[k] + 0.5F * box.hi[k];
+      reach[k] = greater(box.hi[k] - center[k], center[k] - box.lo[k]) * (1 + 0x1p-20F);
+    }
+  }
+};
+
+/// Triangles that certainly pass the box on one side, as long thin ones do that slant through it
+/// with their own boxes: some axis along which the box is seen left of one edge and right of
+/// another. With A and B from the center to an edge's ends and r the reach, the area A_i B_j - A_j
+/// B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box; each of its terms has
+/// three roundings; that of the difference does not change its sign.
+template <int N>
+inline Lanes passing_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
+  using F = Float<N>;
+  F corners[3][3];
+  const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
+  for (int corner = 0; corner < 3; ++corner) {
+    for (int axis = 0; axis < 3; ++axis)
+      corners[corner][axis] = load<N>(axes[axis] + 3 * kWidth * corner) - box.center[axis];
+  }
+  Lanes passing = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    Lanes any_positive = 0, any_negative = 0;
+    for (int corner = 0; corner < 3; ++corner) {
+      const F(&a)[3] = corners[corner];
+      const F(&b)[3] = corners[(corner + 1) % 3];
+      const F left = a[j] * b[k], right = a[k] * b[j], area = left - right;
+      const F error = (magnitude(left) + magnitude(right)) * (4 * kUnit) +
+                      (magnitude(a[k]) + magnitude(b[k])) * (box.reach[j] * (1 + 0x1p-20F)) +
+                      (magnitude(a[j]) + magnitude(b[j])) * (box.reach[k] * (1 + 0x1p-20F)) + kTiny;
+      any_positive |= less<N>(error, area);
+      any_negative |= less<N>(area, -error);
+    }
+    passing |= any_positive & any_negative;
+  }
+  return passing;
+}
+
 /// A query on its way through the tree.
 struct PlaceSearch {
   int size;
@@ -74,6 +123,12 @@ inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
       continue;
     }
     Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
+    // The few that most queries find are cheaper looked at later.
+    if (query.count >= kFewPlaces && lanes != 0) {
+      const CenteredBox box(query);
+      for (int k = 0; k < kWidth; k += N)
+        lanes &= ~(passing_triangles<N>(tree.blocks[i], k, box) << k);
+    }
     for (; lanes != 0 && !overflows; lanes &= lanes - 1)
       add(i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
   }

@@ -1,0 +1,120 @@
+// What kernels find near a place: all triangles with a point there, few others.
+
+#include "accel/build/tree.hpp"
+#include "accel/kernels/dispatch.hpp"
+#include "support/adversarial_rays.hpp"
+
+#include <optional>
+#include <set>
+#include <string>
+
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+using adversarial::Random;
+
+// The instruction set is the parameter.
+class Touching : public testing::TestWithParam<const Kernels*> {};
+
+INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(available_kernels()),
+                         [](const auto& isa) { return std::string(isa.param->name); });
+
+void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {a, b, c});
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+/// A mesh whose triangles are all in blocks.
+class Places {
+ public:
+  Places(const Mesh& mesh, const Kernels& kernels) : scene_{}, kernels_(kernels) {
+    scene_.objects.push_back({.name = "", .shape = mesh});
+    tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
+  }
+
+  /// Nothing where there are too many.
+  std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi) const {
+    PlaceQuery query{};
+    for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
+    kernels_.touching({.nodes = tree_.nodes.data(),
+                       .blocks = tree_.blocks.data(),
+                       .others = tree_.others.data(),
+                       .root = tree_.root},
+                      &query, 1);
+    if (query.count < 0) return std::nullopt;
+    std::set<PrimitiveId> found;
+    for (int i = 0; i < query.count; ++i)
+      found.insert(tree_.blocks[query.places[i] / kWidth].id[query.places[i] % kWidth]);
+    return found;
+  }
+
+ private:
+  Scene scene_;
+  const Kernels& kernels_;
+  Tree tree_;
+};
+
+// Edges exactly through a point whose distances from the corners round.
+TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
+  Random random(51);
+  for (int round = 0; round < 2000; ++round) {
+    const Vec3 d = random.on_grid(15);
+    if (d == Vec3(0)) continue;
+    const auto number = [&] { return static_cast<float>(random.between(0x40000, 0xFFFFF)); };
+    const Vec3 p = number() * random.power_of_two(-30, -3) * d;
+    Mesh mesh;
+    for (int i = 0; i < 24; ++i) {
+      const Vec3 a = number() * d, b = -number() * d, c = random.in_cube(0x1p20F);
+      if (i % 2 == 0)
+        add_triangle(mesh, a, b, c);
+      else
+        add_triangle(mesh, a, c, b);
+    }
+    const auto found = Places(mesh, *GetParam()).near(p, p);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->size(), mesh.triangles.size()) << round;
+  }
+}
+
+// Long segments and slivers, of which hundreds have the place in their own boxes.
+TEST_P(Touching, LeavesOutLongThinTrianglesThatPass) {
+  Random random(52);
+  int answered = 0, met = 0;
+  for (int round = 0; round < 20; ++round) {
+    Mesh mesh;
+    for (int i = 0; i < 400; ++i) {
+      const Vec3 a = random.on_grid(64), b = random.on_grid(64);
+      const Vec3 c = random.one_in(2) ? a : a + random.on_grid(1, 0x1p-8F);
+      add_triangle(mesh, a, b, c);
+    }
+    const Places places(mesh, *GetParam());
+    for (int i = 0; i < 50; ++i) {
+      const Triangle own = triangle_of(mesh, static_cast<std::size_t>(random.between(0, 399)));
+      const float reach = random.power_of_two(-10, -1);
+      const Vec3 p = own.a + (own.b - own.a) * (0.125F * static_cast<float>(random.between(0, 8))) +
+                     random.on_grid(2, 0.75F * reach);
+      const auto found = places.near(p - reach, p + reach);
+      if (!found) continue;
+      ++answered;
+      for (PrimitiveId id = 0; id < 400; ++id) {
+        const Triangle t = triangle_of(mesh, id);
+        for (int k = 0; k <= 8; ++k) {
+          const Vec3 q = t.a + (t.b - t.a) * (0.125F * static_cast<float>(k));
+          if (glm::any(glm::greaterThan(glm::abs(q - p), Vec3(reach)))) continue;
+          ++met;
+          ASSERT_TRUE(found->contains(id));
+        }
+      }
+    }
+  }
+  EXPECT_GT(answered, 900);
+  EXPECT_GT(met, 200);
+}
+
+}  // namespace
+}  // namespace microtrace
