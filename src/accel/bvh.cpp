@@ -1,3 +1,4 @@
+#include "accel/build/reference.hpp"
 #include "accel/build/tree.hpp"
 #include "accel/bundle.hpp"
 #include "accel/hit_rounding.hpp"
@@ -59,7 +60,10 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
   // So few are asked sooner than a tree is walked.
   constexpr PrimitiveId kFew = 16;
   if (primitives.count() <= kFew) {
-    primitives.for_each([&](PrimitiveId id, const auto&) { outside.push_back(id); });
+    build::References references = build::gather(primitives);
+    tree.twins = Twins(references, primitives);
+    outside = std::move(references.unbounded);
+    for (const build::Reference& reference : references.bounded) outside.push_back(reference.id());
     return;
   }
   // At the most, while it is made, with pieces of triangles that are split.

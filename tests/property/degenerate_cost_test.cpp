@@ -91,23 +91,43 @@ void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
+// Each with its corners in another order.
+Mesh copies_of(const Mesh& once, int count) {
+  Mesh copies = once;
+  for (int copy = 1; copy < count; ++copy) {
+    for (auto triangle : once.triangles) {
+      std::rotate(triangle.begin(), triangle.begin() + copy % 3, triangle.end());
+      if (copy % 2 == 0) std::swap(triangle[0], triangle[1]);
+      copies.triangles.push_back(triangle);
+    }
+  }
+  return copies;
+}
+
 TEST_P(DegenerateCost, OfCopiesIsThatOfOne) {
   const Mesh once = generated::displaced_sphere(5001);
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Asked alone = ask(scene_of(once), rays);
   ASSERT_GT(alone.hits, rays.size() / 4);
   for (const int count : {2, 3, 16}) {
-    Mesh copies = once;
-    for (int copy = 1; copy < count; ++copy) {
-      for (auto triangle : once.triangles) {
-        std::rotate(triangle.begin(), triangle.begin() + copy % 3, triangle.end());
-        if (copy % 2 == 0) std::swap(triangle[0], triangle[1]);
-        copies.triangles.push_back(triangle);
-      }
-    }
-    const Asked asked = ask(scene_of(copies), rays);
+    const Asked asked = ask(scene_of(copies_of(once, count)), rays);
     EXPECT_EQ(asked.hits, alone.hits);
     EXPECT_LE(asked.counts.filters, alone.counts.filters) << count;
+    EXPECT_LE(exact(asked.counts), exact(alone.counts)) << count;
+  }
+}
+
+// Too few triangles for a tree, then enough.
+TEST_P(DegenerateCost, OfCopiesOfAFewTrianglesIsThatOfOne) {
+  Mesh once;
+  add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
+  add_triangle(once, {-1, -0.8F, -0.1F}, {1, -1, 0.5F}, {-0.4F, 1, 0.7F});
+  const std::vector<Ray> rays = rays_in_cube(1.5F);
+  const Asked alone = ask(scene_of(once), rays);
+  ASSERT_GT(alone.hits, rays.size() / 8);
+  for (const int count : {2, 3, 8, 9}) {
+    const Asked asked = ask(scene_of(copies_of(once, count)), rays);
+    EXPECT_EQ(asked.hits, alone.hits);
     EXPECT_LE(exact(asked.counts), exact(alone.counts)) << count;
   }
 }
