@@ -258,6 +258,11 @@ TEST(Tree, HoldsCopiesOnce) {
   few.triangles.push_back({90000, 90001, 90002});
   few.triangles.push_back({90003, 90004, 90005});
   EXPECT_EQ(twins(few), 2U);
+
+  // Too large for blocks, beside spheres in one place.
+  const Triangle large{{0, 0x1p40F, 0}, {1, 0, 0}, {0, 0, 1}};
+  const Tree tree = check(scene_of({large, Sphere{}, Sphere{}, large}), Place::others);
+  EXPECT_EQ(tree.twins.ids(), std::vector<PrimitiveId>{3});
 }
 
 TEST(Tree, KeepsTrianglesWithoutAreaApart) {

@@ -74,8 +74,9 @@ std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
   return places;
 }
 
-bool is_triangle(const Reference& reference) {
-  return reference.weight() == build::kTriangleWeight;
+bool is_triangle(PrimitiveId id, const Primitives& primitives) {
+  return primitives.visit(
+      id, []<class AnyShape>(const AnyShape&) { return std::is_same_v<AnyShape, Triangle>; });
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ Twins::Twins(build::References& from, const Primitives& primitives) {
   };
   std::vector<Entry> entries;
   for (const std::uint32_t place : repeated(from.hashes)) {
-    if (is_triangle(references[place]))
+    if (is_triangle(references[place].id(), primitives))
       entries.push_back({.hash = from.hashes[place], .id = references[place].id(), .place = place});
   }
   std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
