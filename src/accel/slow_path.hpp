@@ -9,16 +9,17 @@
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 
-#include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace microtrace {
 
 /// The best of a ray before there is one; t_scale is the one of its kernel ray.
 [[nodiscard]] inline Best no_hit(const Ray& ray, double t_scale = 1) {
-  // All hits within the kernels' limits are below 2^60.
+  constexpr float kGreatest = std::numeric_limits<float>::max();
+  const double end = ray.t_max * t_scale;  // which is a float32 unless it is larger than they are
   const float t_max =
-      t_scale == 1 ? ray.t_max : static_cast<float>(std::min(ray.t_max * t_scale, 0x1p100));
+      end > kGreatest ? std::numeric_limits<float>::infinity() : static_cast<float>(end);
   return {.lo = t_max, .hi = t_max, .id = kNoPrimitive};
 }
 

@@ -148,6 +148,42 @@ TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
   }
 }
 
+// Kernels scale rays of long directions; what lies as far away as float32 goes is met all the same.
+TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
+  Random random = traversal::announced_random(29);
+  std::size_t hits = 0;
+  for (int round = 0; round < 60; ++round) {
+    const float size = random.power_of_two(30, 125);
+    Scene scene;
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 a = random.in_cube(size), b = random.in_cube(size), c = random.in_cube(size);
+      scene.objects.push_back({.name = "", .shape = Triangle{a, b, c}});
+    }
+    std::vector<Ray> rays;
+    for (int i = 0; i < 100; ++i) {
+      const float length = random.one_in(2) ? size : random.power_of_two(-126, 126);
+      rays.push_back({.o = random.one_in(4) ? random.in_cube(1) : random.in_cube(0x1p-140F),
+                      .t_min = 0,
+                      .d = random.in_cube(length)});
+      if (random.one_in(4)) rays.back().t_max = random.power_of_two(-120, 120);
+    }
+    const Primitives primitives(scene);
+    Answers expected;
+    for (const Ray& ray : rays) {
+      expected.push_back(by_definition(primitives, ray));
+      hits += expected.back() ? 1 : 0;
+    }
+    for (const Kernels* kernels : available_kernels()) {
+      SCOPED_TRACE(kernels->name);
+      setenv("MICROTRACE_ISA", kernels->name, 1);
+      check_calls(Bvh(scene), rays, expected);
+      unsetenv("MICROTRACE_ISA");
+      if (testing::Test::HasFatalFailure()) return;
+    }
+  }
+  EXPECT_GT(hits, 2000U);
+}
+
 // Rays that begin next to a triangle's corner and run along its plane, so that rounding may take
 // the far side of it for the near one: what they meet on the other side lies ahead all the same.
 TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
