@@ -7,8 +7,9 @@
 /// float32 data; every bound below counts roundings as Higham does (Accuracy and Stability of
 /// Numerical Algorithms, 2002, section 3.1): a sum of products in which each term sees at most k
 /// roundings errs by at most gamma_k = k U / (1 - k U) times the sum of the terms' magnitudes, its
-/// "permanent". The code uses k + 1 or more in place of k: that covers 1 - k U and the rounding of
-/// the permanent itself.
+/// "permanent". tests/property/bounds holds the counts to what some input needs.
+
+#include "accel/filters/roundings.hpp"
 
 #include <microtrace/math.hpp>
 
@@ -18,17 +19,13 @@
 
 namespace microtrace {
 
-/// Unit roundoff of float64.
-inline constexpr double kRoundoff = 0x1p-53;
-
 /// Coordinates within this keep every intermediate result far from overflow, and all that underflow
 /// can add to a form of degree six below kUnderflow: 2^-1075 times at most 2^(6 * 64), a few
 /// hundred times. Anything larger is left to exact arithmetic.
 inline constexpr float kLargestCoordinate = 0x1p64F;
-inline constexpr double kUnderflow = 0x1p-600;
 
-[[nodiscard]] constexpr double gamma(int roundings) {
-  return roundings * kRoundoff;
+[[nodiscard]] constexpr double gamma(double roundings) {
+  return roundings * kRounding;
 }
 
 enum class Certainty { miss, hit, unsure };
@@ -59,7 +56,7 @@ struct Approximate {
 [[nodiscard]] inline Approximate dot_product(const DVec3& x, const DVec3& y, int roundings) {
   const double a = x.x * y.x, b = x.y * y.y, c = x.z * y.z;
   return {.value = a + b + c,
-          .error = gamma(roundings + 1) * (std::abs(a) + std::abs(b) + std::abs(c)) + kUnderflow};
+          .error = gamma(roundings) * (std::abs(a) + std::abs(b) + std::abs(c)) + kUnderflow};
 }
 
 /// Whether filters may be asked about a number; not so for NaN.
@@ -71,8 +68,9 @@ struct Approximate {
 }
 
 /// Where numerator / denominator lies in the range. The quotient q of the rounded parts obeys
-/// |q - q*| <= (error_n + |q| error_d) / (|d| - error_d); the factors below cover the roundings of
-/// q and of the bound.
+/// |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound's own are eight, of the second
+/// order: 1 + gamma(8) would do for them. Any size above the error would do; four times that keeps
+/// lo and hi near each other.
 [[nodiscard]] inline Verdict quotient_verdict(const Approximate& numerator,
                                               const Approximate& denominator, const Range& range) {
   const double size = std::abs(denominator.value);
@@ -80,7 +78,7 @@ struct Approximate {
   const double t = numerator.value / denominator.value;
   const double error = (numerator.error + std::abs(t) * denominator.error) /
                            (size - denominator.error) * (1 + gamma(16)) +
-                       std::abs(t) * gamma(8) + kUnderflow;
+                       std::abs(t) * gamma(kQuotientRoundings) + kUnderflow;
   const double lo = t - error, hi = t + error;
   if (hi < range.t_min || lo > range.t_max) return {.certainty = Certainty::miss};
   const bool within = lo >= range.t_min && hi <= range.t_max;

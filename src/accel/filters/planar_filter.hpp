@@ -13,7 +13,8 @@ class PlaneFilter {
   PlaneFilter(const Plane& plane, const Vec3& o) : PlaneFilter(plane.point, plane.normal, o) {}
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    return quotient_verdict(height_, dot_product(normal_, d, 3), range);
+    // Two roundings would do, since products of two float32 are exact; four cost nothing.
+    return quotient_verdict(height_, dot_product(normal_, d, 4), range);
   }
 
  private:
@@ -34,18 +35,21 @@ class DiscFilter {
     if (crossing.certainty == Certainty::miss) return crossing;
     // A ray nearly within the plane: nothing is known of t, so nothing of the distance.
     if (!std::isfinite(crossing.lo)) return crossing;
+    // Half of the radius would do; twice that costs a few more rays next to the edge.
     const double t = (crossing.lo + crossing.hi) / 2, radius_of_t = crossing.hi - crossing.lo;
     double distance2 = 0, error = 0;
     for (int k = 0; k < 3; ++k) {
-      // q = (o - c) + t d: three roundings of its terms, and t's own distance from the exact
-      // parameter.
+      // q = (o - c) + t d: two roundings of the first term, three of the second, t's among them,
+      // and t's own distance from the exact parameter.
       const double q = from_center_[k] + t * d[k];
-      const double q_error = gamma(4) * (std::abs(from_center_[k]) + std::abs(t * d[k])) +
+      const double q_error = gamma(kRoundings) * (std::abs(from_center_[k]) + std::abs(t * d[k])) +
                              radius_of_t * std::abs(d[k]) + kUnderflow;
       distance2 += q * q;
       error += (2 * std::abs(q) + q_error) * q_error;
     }
-    error = error * (1 + gamma(8)) + gamma(6) * (distance2 + radius2_) + kUnderflow;
+    // The squares and their sum have three roundings. The roundings of q_error are of the second
+    // order and at most ten: 1 + gamma(10) would do.
+    error = error * (1 + gamma(20)) + gamma(kRoundings) * distance2 + kUnderflow;
     const double outside = distance2 - radius2_;
     if (outside > error) return {.certainty = Certainty::miss};
     if (!(outside < -error)) crossing.certainty = Certainty::unsure;
@@ -53,6 +57,8 @@ class DiscFilter {
   }
 
  private:
+  static constexpr int kRoundings = 3;
+
   PlaneFilter plane_;
   DVec3 from_center_;
   double radius2_;  // exact: a product of two float32

@@ -12,17 +12,18 @@ namespace microtrace {
 /// in range ends the search.
 [[nodiscard]] inline Verdict first_root_verdict(const Approximate& a, const Approximate& b,
                                                 const Approximate& s, const Range& range) {
-  const double error = b.error + s.error + gamma(2) * (std::abs(b.value) + s.value);
+  const double error = b.error + s.error + gamma(1) * (std::abs(b.value) + s.value);
   const Verdict near = quotient_verdict({.value = -b.value - s.value, .error = error}, a, range);
   if (near.certainty != Certainty::miss) return near;
   return quotient_verdict({.value = -b.value + s.value, .error = error}, a, range);
 }
 
 /// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x),
-/// for error <= x.
+/// for error <= x, of which callers ask for four times as much. Half of gamma(4) would do, since it
+/// is for two roundings of the second order.
 [[nodiscard]] inline Approximate square_root(const Approximate& x) {
   const double root = std::sqrt(x.value);
-  return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(4) * root};
+  return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(1) * root};
 }
 
 /// A sphere seen from o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 = 0, whose
@@ -33,24 +34,29 @@ class SphereFilter {
   SphereFilter(const Sphere& sphere, const Vec3& o)
       : m_(DVec3(o) - DVec3(sphere.center)), radius2_(double{sphere.radius} * sphere.radius) {
     const double m2 = glm::dot(m_, m_);
-    outside_ = {.value = m2 - radius2_, .error = gamma(8) * (m2 + radius2_) + kUnderflow};
+    // Only its sign counts: two roundings of m, one of the squares, two of their sum.
+    outside_ = {.value = m2 - radius2_, .error = gamma(5) * m2 + kUnderflow};
   }
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    // v = d x m: m's rounding, the product's, the difference's: |v - v*| <= gamma_3 p for the
-    // permanent p of a component, so |v^2 - v*^2| <= 2 gamma_3 |v| p + (gamma_3 p)^2.
+    // v = d x m: m's rounding, the product's and the difference's: |v - v*| <= u (2 p + |v|) for
+    // the permanent p of a component, so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p + |v|)^2.
+    // v^2 has three more of its own, d^2 r^2 three and the difference one: in all u (4 |v| p + 6
+    // v^2 + 4 d^2 r^2), and v^2 <= |v| p. The term of the second order counts where v vanishes but
+    // v* does not: there u^2 p^2 would do four times, as a hit is certain only above four errors.
     const DVec3 left(d.y * m_.z, d.z * m_.x, d.x * m_.y);
     const DVec3 right(d.z * m_.y, d.x * m_.z, d.y * m_.x);
     const DVec3 v = left - right, p = glm::abs(left) + glm::abs(right);
     const double v2 = glm::dot(v, v), d2 = glm::dot(d, d), rd2 = radius2_ * d2;
     const Approximate discriminant = {.value = rd2 - v2,
-                                      .error = gamma(7) * (glm::dot(glm::abs(v), p) + v2 + rd2) +
+                                      .error = gamma(5) * (glm::dot(glm::abs(v), p) + v2 + rd2) +
                                                gamma(4) * gamma(4) * glm::dot(p, p) + kUnderflow};
     if (discriminant.is_negative()) return {.certainty = Certainty::miss};
     const Approximate b = dot_product(d, m_, 4);
     if (b.is_positive() && outside_.is_positive()) return {.certainty = Certainty::miss};
     if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
-    return first_root_verdict({.value = d2, .error = gamma(4) * d2 + kUnderflow}, b,
+    // The squares are exact.
+    return first_root_verdict({.value = d2, .error = gamma(2) * d2 + kUnderflow}, b,
                               square_root(discriminant), range);
   }
 
@@ -76,10 +82,9 @@ class QuadricFilter {
     gradient_permanent_ =
         gradient(glm::abs(squares_), glm::abs(mixed_), glm::abs(linear), magnitude);
     const double terms = form(squares_, mixed_, o) + glm::dot(linear, o) + double{q.j};
-    // Products of two float32 are exact, of three have one rounding; up to eight sums follow.
     value_ = {.value = terms,
-              .error = gamma(14) * (form(glm::abs(squares_), glm::abs(mixed_), magnitude) +
-                                    glm::dot(glm::abs(linear), magnitude) + std::abs(q.j)) +
+              .error = gamma(kRoundings) * (form(glm::abs(squares_), glm::abs(mixed_), magnitude) +
+                                            glm::dot(glm::abs(linear), magnitude) + std::abs(q.j)) +
                        kUnderflow};
   }
 
@@ -87,17 +92,20 @@ class QuadricFilter {
     const DVec3 size = glm::abs(d);
     Approximate alpha = {
         .value = form(squares_, mixed_, d),
-        .error = gamma(9) * form(glm::abs(squares_), glm::abs(mixed_), size) + kUnderflow};
-    // beta is half the gradient's product: three sums in the gradient, one product, two sums.
-    Approximate beta = {.value = glm::dot(gradient_, d) / 2,
-                        .error = gamma(8) * glm::dot(gradient_permanent_, size) + kUnderflow};
+        .error = gamma(kRoundings) * form(glm::abs(squares_), glm::abs(mixed_), size) + kUnderflow};
+    // beta is half the gradient's product.
+    Approximate beta = {
+        .value = glm::dot(gradient_, d) / 2,
+        .error = gamma(kRoundings) * glm::dot(gradient_permanent_, size) / 2 + kUnderflow};
     const double b2 = beta.value * beta.value, ac = alpha.value * value_.value;
+    // The roundings of the products and of the difference are within those that beta and alpha have
+    // bounds for and have not. Those of the bound are of the second order: 1 + gamma(8) would do.
     const Approximate discriminant = {
         .value = b2 - ac,
         .error = ((2 * std::abs(beta.value) + beta.error) * beta.error +
                   std::abs(alpha.value) * value_.error + std::abs(value_.value) * alpha.error +
-                  alpha.error * value_.error + gamma(3) * (b2 + std::abs(ac))) *
-                     (1 + gamma(8)) +
+                  alpha.error * value_.error) *
+                     (1 + gamma(16)) +
                  kUnderflow};
     if (discriminant.is_negative()) return {.certainty = Certainty::miss};
     if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
@@ -109,6 +117,11 @@ class QuadricFilter {
   }
 
  private:
+  // Products of two float32 are exact, of three have one rounding. Five sums follow in the form of
+  // three, which make six for alpha; with two more sums eight for the value. beta has three sums in
+  // the gradient, one product and two sums: six.
+  static constexpr int kRoundings = 8;
+
   // a x^2 + b y^2 + c z^2 + d xy + e xz + f yz
   static double form(const DVec3& square, const DVec3& mix, const DVec3& p) {
     return square.x * p.x * p.x + square.y * p.y * p.y + square.z * p.z * p.z + mix.z * p.x * p.y +

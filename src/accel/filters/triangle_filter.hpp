@@ -29,7 +29,7 @@ struct CrossProduct {
   /// sum.
   [[nodiscard]] Approximate along(const DVec3& d) const {
     return {.value = glm::dot(d, value),
-            .error = gamma(8) * glm::dot(glm::abs(d), permanent) + kUnderflow};
+            .error = gamma(kSlopeRoundings) * glm::dot(glm::abs(d), permanent) + kUnderflow};
   }
 };
 
@@ -41,7 +41,8 @@ class TrianglePlaneFilter {
     const DVec3 from_a = DVec3(triangle.a) - DVec3(o);
     // A one rounding, n four of its own, the product one, the sum two.
     height_ = {.value = glm::dot(from_a, normal_.value),
-               .error = gamma(9) * glm::dot(glm::abs(from_a), normal_.permanent) + kUnderflow};
+               .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal_.permanent) +
+                        kUnderflow};
   }
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {

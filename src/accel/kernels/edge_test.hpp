@@ -41,7 +41,9 @@ inline double largest_magnitude(const double (&x)[3]) {
 inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
   const NearTriangle t(block, k, o);
   // Bounds by each component's own terms, of which a wall's has one: a ray that has left a floor at
-  // 0 begins 2^-149 above it. A term of the height sees 8 roundings, the bound itself the rest.
+  // 0 begins 2^-149 above it. A term of the height sees 8 roundings; the rest is of
+  // the second order.
+  constexpr double roundings = 8.01 * 0x1p-53;
   double height = 0, size = 0, height_sum = 0, size_sum = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
@@ -52,8 +54,8 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
     height_sum += sum * __builtin_fabs(t.a[i]);
     size_sum += sum * __builtin_fabs(double{d[i]});
   }
-  const double height_bound = height_sum * (12 * 0x1p-53) + 0x1p-600;
-  const double size_bound = size_sum * (12 * 0x1p-53) + 0x1p-600;
+  const double height_bound = height_sum * roundings + 0x1p-600;
+  const double size_bound = size_sum * roundings + 0x1p-600;
   return size > 0 ? size > size_bound && height < -height_bound
                   : size < -size_bound && height > height_bound;
 }
@@ -75,10 +77,9 @@ inline Within within_edges(const TriangleBlock& block, int k, const float* o, co
     v = -v;
     size = -size;
   }
-  // Two roundings more than block_test.hpp's forms cover those of the bound itself.
   const double largest1 = largest_magnitude(e1), largest2 = largest_magnitude(e2);
   const double bound = (sum_of_magnitudes(a) * greater(largest1, largest2) + largest1 * largest2) *
-                           (20 * 0x1p-53 * d_sum) +
+                           (15.01 * 0x1p-53 * d_sum) +
                        0x1p-600;
   const double within = lesser(lesser(u, v), size - (u + v));
   if (within > bound) return Within::yes;

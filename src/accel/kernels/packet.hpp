@@ -66,7 +66,9 @@ class PacketWalk {
   };
 
   // A box around all rays from o to o + t_max d. The computed end is off by at most u |t_max d| +
-  // u |o + t_max d|. Infinity times 0 is NaN and leaves a comparison's other side.
+  // u |o + t_max d|. Half of the margin would do: a plane that the exact end reaches is a float32,
+  // so the sum is rounded past it by no more than the product was, and the margin's own rounding
+  // doesn't take it back. Infinity times 0 is NaN and leaves a comparison's other side.
   void bound_segments() {
     const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
     for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,7 @@
 /// TrianglePlaneFilter's error bound (src/accel/filters/triangle_filter.hpp derives it), for
 /// several hits at once.
 
+#include "accel/filters/roundings.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
 
@@ -39,9 +40,9 @@ struct SeenPlane {
     n = {left_x - right_x, left_y - right_y, left_z - right_z};
     height = n.x * from.x + n.y * from.y + n.z * from.z;
     height_error =
-        9 * 0x1p-53 *
+        kHeightRoundings * kRounding *
             (sum.x * magnitude(from.x) + sum.y * magnitude(from.y) + sum.z * magnitude(from.z)) +
-        0x1p-600;
+        kUnderflow;
   }
 };
 
@@ -50,14 +51,14 @@ template <int N, class D>
 inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, const D& size_error,
                      float* t) {
   using V = Double<N>;
-  constexpr double unit = 0x1p-53;
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
-  // As quotient_verdict, with one division: t errs by three roundings more than the quotient, and
-  // where size is above four times its error, 1 / (size - error) is at most 4/3 / size.
+  // As quotient_verdict, with one division: t and its ends have three roundings more than the
+  // quotient, so half of the eight would do. Where size is above 64 times its error, 1 / (size -
+  // error) is at most 64/63 / size, and 32 times would do; less is not enough to round t by.
   const V inverse = 1.0 / size, middle = plane.height * inverse, distance = magnitude(middle);
-  V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.34 +
-            distance * (8 * unit) + 0x1p-600;
-  error = magnitude(size) > 4 * size_error ? error : V{} + __builtin_inf();
+  V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.04 +
+            distance * (8 * kRounding) + kUnderflow;
+  error = magnitude(size) > 64 * size_error ? error : V{} + __builtin_inf();
   float above[N];
   narrowed<N>(middle - error, t);
   narrowed<N>(middle + error, above);
@@ -75,10 +76,10 @@ inline Double3<Double<N>> widened(const float* const (&p)[3], int i) {
 
 template <int N>
 inline Double<N> size_error(const SeenPlane<Double<N>>& plane, const Double3<Double<N>>& d) {
-  return 8 * 0x1p-53 *
+  return kSlopeRoundings * kRounding *
              (plane.sum.x * magnitude(d.x) + plane.sum.y * magnitude(d.y) +
               plane.sum.z * magnitude(d.z)) +
-         0x1p-600;
+         kUnderflow;
 }
 
 template <int N>
@@ -128,7 +129,7 @@ class TileRounding {
                 {block.b_x[k], block.b_y[k], block.b_z[k]},
                 {block.c_x[k], block.c_y[k], block.c_z[k]}};
       const double sum = greater(greater(plane_.sum.x, plane_.sum.y), plane_.sum.z);
-      size_error_ = 8 * 0x1p-53 * (sum * double{tile_.d_sum}) + 0x1p-600;
+      size_error_ = kSlopeRoundings * kRounding * (sum * double{tile_.d_sum}) + kUnderflow;
     }
     return round_t<N>(plane_, d(i), size_error_, t_ + i);
   }

@@ -72,11 +72,12 @@ struct TileView {
     const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
     const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
     const F m = em1 * em2 * (1 + 0x1p-22F);
-    const F bound = (a_sum * greater(em1, em2) + m) * (18 * kUnit * tile.d_sum) + kTiny;
-    const F size_bound = m * (15 * kUnit * tile.d_sum) + kTiny;
+    const F bound = (a_sum * greater(em1, em2) + m) * (15.01F * kUnit * tile.d_sum) + kTiny;
+    const F size_bound = m * (15.01F * kUnit * tile.d_sum) + kTiny;
 
     const Range size = over(tile.beam, normal);
-    // The range has roundings of its own, as many as a ray's product.
+    // The range has as many roundings as a ray's product has: half of the bound would do, for the
+    // centre and the radius make no more than the largest |d|.
     const Lanes both = less_equal<N>(magnitude(size.middle) - size.radius, 2 * size_bound);
     normal = with_sign_of(normal, size.middle);
     p = with_sign_of(p, size.middle);
@@ -85,12 +86,13 @@ struct TileView {
     two_sided |= both << i;
 
     // A group is certainly outside an edge where u, v or size - u - v is negative for all its
-    // directions. The third form has three more roundings, of its three parts.
+    // directions. The third form has nine roundings, for which 18 units would do: 1.5 bounds are
+    // more.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for (int group = 0; group < kGroups; ++group) {
       const Beam& beam = tile.group_beam[group];
       const F within = lesser(lesser(greatest(beam, p), greatest(beam, q)), greatest(beam, r));
-      seen[group] |= (both | less_equal<N>(-2 * bound, within)) << i;
+      seen[group] |= (both | less_equal<N>(-3 * bound, within)) << i;
     }
 
     store(u, i, p);
@@ -99,7 +101,7 @@ struct TileView {
     microtrace::store<N>(height + i, h);
     microtrace::store<N>(error + i, bound);
     microtrace::store<N>(size_error + i, size_bound);
-    microtrace::store<N>(height_error + i, a_sum * m * (18 * kUnit) + kTiny);
+    microtrace::store<N>(height_error + i, a_sum * m * (17.01F * kUnit) + kTiny);
   }
 };
 

@@ -64,7 +64,8 @@ struct CenteredBox {
 /// with their own boxes: some axis along which the box is seen left of one edge and right of
 /// another. With A and B from the center to an edge's ends and r the reach, the area A_i B_j - A_j
 /// B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box; each of its terms has
-/// three roundings; that of the difference does not change its sign.
+/// three roundings; that of the difference does not change its sign. Half of these bounds would do,
+/// of the eight units as well as of what is beside the reach for roundings of the second order.
 template <int N>
 inline Lanes passing_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;
@@ -82,7 +83,7 @@ inline Lanes passing_triangles(const TriangleBlock& block, int i, const Centered
       const F(&a)[3] = corners[corner];
       const F(&b)[3] = corners[(corner + 1) % 3];
       const F left = a[j] * b[k], right = a[k] * b[j], area = left - right;
-      const F error = (magnitude(left) + magnitude(right)) * (4 * kUnit) +
+      const F error = (magnitude(left) + magnitude(right)) * (8 * kUnit) +
                       (magnitude(a[k]) + magnitude(b[k])) * (box.reach[j] * (1 + 0x1p-20F)) +
                       (magnitude(a[j]) + magnitude(b[j])) * (box.reach[k] * (1 + 0x1p-20F)) + kTiny;
       any_positive |= less<N>(error, area);

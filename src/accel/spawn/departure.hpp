@@ -116,10 +116,12 @@ class ExactSurface {
 [[nodiscard]] inline int certain_side(const Vec3& a, const CrossProduct& normal, const DVec3& x,
                                       const DVec3& radius) {
   const DVec3 from_a = x - DVec3(a);
-  // As in TrianglePlaneFilter.
-  const Approximate value{.value = glm::dot(from_a, normal.value),
-                          .error = gamma(9) * glm::dot(glm::abs(from_a), normal.permanent) +
-                                   2 * glm::dot(radius, normal.permanent) + kUnderflow};
+  // As in TrianglePlaneFilter. The normal and the product with the radius have eight roundings of
+  // the second order, where 1 + gamma(8) would do.
+  const Approximate value{
+      .value = glm::dot(from_a, normal.value),
+      .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal.permanent) +
+               (1 + gamma(16)) * glm::dot(radius, normal.permanent) + kUnderflow};
   return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
 }
 
@@ -130,6 +132,8 @@ struct PointOnRay {
   PointOnRay(const Ray& ray, const exact::Enclosure& t) {
     const DVec3 o(ray.o), d(ray.d), along = (t.lo + t.hi) / 2 * d;
     value = o + along;
+    // Half of that would do: the exact t is within (hi - lo) / 2 of the middle, and there are four
+    // roundings: of the middle, the product, the sum, and of the ends where the point is rounded.
     error = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(along)) +
             DVec3(kUnderflow);
   }
@@ -143,8 +147,10 @@ struct PointOnRay {
 /// is: floors at height 0 and walls off an axis by an ulp have coordinates next to 0, which only
 /// this tells. With P the permanent of n, |n| errs by gamma_4 P, and with e the error of p, s errs
 /// by sum |n_j| e_j + gamma_7 P_j (|r_j| + e_j): n's four roundings, one of r_j, one of the
-/// product, one of the sum. The quotient has |w| (gamma_4 P_k) / |n_k| more, and a rounding, the
-/// difference one of the result.
+/// product, one of the sum; an eighth is for the quotient's. That has |w| (gamma_4 P_k) / |n_k|
+/// more, the difference one rounding of the result, and the ends one where they are rounded. Bounds
+/// that half would do for: gamma(8) of w, gamma(4) of the result, gamma(16) of the second order,
+/// and gamma(6) in the size, since a small |n_k| errs by three roundings alone.
 [[nodiscard]] inline Approximate coordinate_in_plane(const Vec3& a, const CrossProduct& n,
                                                      const PointOnRay& p, int k) {
   const double size = std::abs(n.value[k]) - gamma(6) * n.permanent[k];
@@ -153,12 +159,13 @@ struct PointOnRay {
   for (const int j : {(k + 1) % 3, (k + 2) % 3}) {
     const double r = p.value[j] - a[j], e = p.error[j];
     s += n.value[j] * r;
-    s_error += std::abs(n.value[j]) * e + gamma(10) * n.permanent[j] * (std::abs(r) + e);
+    s_error +=
+        std::abs(n.value[j]) * e + gamma(kTermRoundings) * n.permanent[j] * (std::abs(r) + e);
   }
   const double w = s / n.value[k], value = a[k] - w;
   return {.value = value,
           .error = (s_error + gamma(8) * n.permanent[k] * std::abs(w)) / size * (1 + gamma(16)) +
-                   gamma(2) * std::abs(value) + kUnderflow};
+                   gamma(4) * std::abs(value) + kUnderflow};
 }
 
 /// The float32 to which every number of [lo, hi] rounds, if that is one.
@@ -223,7 +230,8 @@ class TriangleSurface {
       largest = std::max(largest, std::abs(normal_.value[k]) * spacing(p[k]));
       error += gamma(5) * normal_.permanent[k] * spacing(p[k]);
     }
-    // So far the choice of the axis and its sign are right, or as good.
+    // So far the choice of the axis and its sign are right, or as good; and so they would be at
+    // twice that error.
     return error <= 0x1p-9 * largest ? normal_.value : plane().normal();
   }
   // A ray that goes to a side doesn't come back from there.

@@ -25,11 +25,13 @@ inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const DVec3 edge = DVec3(b) - DVec3(a), from_a = p - DVec3(a);
   const double left = edge[i] * from_a[j], right = edge[j] * from_a[i];
-  // Each factor one rounding, the products one, the difference one.
-  return {.value = left - right,
-          .error = gamma(5) * (std::abs(left) + std::abs(right)) +
-                   2 * (radius[j] * std::abs(edge[i]) + radius[i] * std::abs(edge[j])) +
-                   kUnderflow};
+  // Each factor one rounding, the products one, the difference one; the change within the box four
+  // of the second order, where 1 + gamma(4) would do.
+  return {
+      .value = left - right,
+      .error = gamma(4) * (std::abs(left) + std::abs(right)) +
+               (1 + gamma(8)) * (radius[j] * std::abs(edge[i]) + radius[i] * std::abs(edge[j])) +
+               kUnderflow};
 }
 
 /// Whether all of the box p +- radius lies beside a triangle of which float64 can't tell that it
@@ -53,7 +55,8 @@ inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3
                       const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  if (!(size[axis] > 2 * gamma(5) * normal.permanent[axis] + kUnderflow))
+  // The normal has four roundings: half of that would do.
+  if (!(size[axis] > 2 * gamma(4) * normal.permanent[axis] + kUnderflow))
     return is_beside_segment(t, p, radius);
   const bool positive = normal.value[axis] > 0;
   const auto is_outside = [&](const Vec3& a, const Vec3& b) {
@@ -67,8 +70,10 @@ inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3
 inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, const DVec3& radius) {
   const DVec3 from_center = p - DVec3(center), size = glm::abs(from_center);
   const double square = glm::dot(from_center, from_center), r2 = double{r} * r;
+  // Two roundings of the vector, three of the squares, one of the difference; a seventh for those
+  // of the change within the box, which is at most radius . (2 |x - center| + radius).
   return {.value = square - r2,
-          .error = gamma(8) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
+          .error = gamma(7) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
 }
 
 /// A plane across an axis, as floors and walls have it.
@@ -129,16 +134,18 @@ inline bool passes(const Quadric& q, const DVec3& p, const DVec3& radius) {
            m.x * x.y * x.z;
   };
   const double value = form(squares, mixed, p) + glm::dot(linear, p) + double{q.j};
-  // With all terms positive the polynomial's growth bounds its change within the box; the products
-  // of float64 have three roundings, up to eight sums follow.
-  const DVec3 size = glm::abs(p), further = size + radius;
-  const auto greatest = [&](const DVec3& x) {
-    return form(glm::abs(squares), glm::abs(mixed), x) + glm::dot(glm::abs(linear), x);
-  };
-  const double here = greatest(size), there = greatest(further);
-  const double error =
-      (there - here) * (1 + gamma(8)) + gamma(32) * (there + std::abs(double{q.j})) + kUnderflow;
-  return std::abs(value) > error;
+  // With all terms positive the polynomial's growth bounds its change within the box. The value has
+  // one rounding of the products and eight of sums: five in the form, two in the product, one of
+  // both; that of the last is of the second order. Near zero the sum of some of the terms is at
+  // most half of the permanent, which makes four roundings at most; the fifth, and 1 + gamma(16),
+  // are for the second order and for a value as large as the growth.
+  const DVec3 size = glm::abs(p), a = glm::abs(squares), m = glm::abs(mixed), l = glm::abs(linear);
+  const DVec3 gradient(2 * a.x * size.x + m.z * size.y + m.y * size.z + l.x,
+                       2 * a.y * size.y + m.z * size.x + m.x * size.z + l.y,
+                       2 * a.z * size.z + m.y * size.x + m.x * size.y + l.z);
+  const double growth = glm::dot(gradient, radius) + form(a, m, radius);
+  const double permanent = form(a, m, size) + glm::dot(l, size) + std::abs(double{q.j});
+  return std::abs(value) > growth * (1 + gamma(16)) + gamma(5) * permanent + kUnderflow;
 }
 
 }  // namespace microtrace

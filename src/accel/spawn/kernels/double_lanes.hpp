@@ -2,14 +2,13 @@
 /// CrossProduct, Approximate and what they need, for N lanes: operation by operation as in
 /// src/accel/filters, since which axis an origin is moved along depends on every bit.
 
+#include "accel/filters/roundings.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
 #include "simd/vectors.hpp"
 
 namespace microtrace {
 namespace {
 
-constexpr double kRoundingUnit = 0x1p-53;
-constexpr double kAllUnderflow = 0x1p-600;
 constexpr float kGreatestCoordinate = 0x1p64F;  // kLargestCoordinate
 
 /// All bits of a lane set where something holds.
@@ -67,7 +66,7 @@ struct CrossProducts {
   };
   [[nodiscard]] Form along(const Doubles3<N>& x, int roundings) const {
     return {dot<N>(x, value),
-            roundings * kRoundingUnit * dot<N>(magnitudes<N>(x), permanent) + kAllUnderflow};
+            roundings * kRounding * dot<N>(magnitudes<N>(x), permanent) + kUnderflow};
   }
 };
 

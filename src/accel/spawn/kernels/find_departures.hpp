@@ -22,12 +22,13 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
   auto is_sure =
       filterable<N>(a) & filterable<N>(b) & filterable<N>(c) & filterable<N>(o) & filterable<N>(d);
   const auto normal = CrossProducts<N>::of(b - a, c - a);
-  const auto height = normal.along(a - o, 9), slope = normal.along(d, 8);
+  const auto height = normal.along(a - o, kHeightRoundings),
+             slope = normal.along(d, kSlopeRoundings);
   // quotient_verdict()
   const D size = magnitude(slope.value), t = height.value / slope.value;
-  const D t_error = (height.error + magnitude(t) * slope.error) / (size - slope.error) *
-                        (1 + 16 * kRoundingUnit) +
-                    magnitude(t) * (8 * kRoundingUnit) + kAllUnderflow;
+  const D t_error =
+      (height.error + magnitude(t) * slope.error) / (size - slope.error) * (1 + 16 * kRounding) +
+      magnitude(t) * (kQuotientRoundings * kRounding) + kUnderflow;
   const D lo = t - t_error, hi = t + t_error;
   is_sure &= (size > 4 * slope.error) & (lo >= widened<N>(lanes.t_min + i)) &
              (hi <= widened<N>(lanes.t_max + i));
@@ -38,11 +39,12 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
     const D along = middle * d.v[k];
     x.v[k] = o.v[k] + along;
     x_error.v[k] = (hi - lo) * magnitude(d.v[k]) +
-                   8 * kRoundingUnit * (magnitude(o.v[k]) + magnitude(along)) + kAllUnderflow;
+                   8 * kRounding * (magnitude(o.v[k]) + magnitude(along)) + kUnderflow;
     const D r = x.v[k] - a.v[k];
     term.v[k] = normal.value.v[k] * r;
-    term_error.v[k] = magnitude(normal.value.v[k]) * x_error.v[k] +
-                      10 * kRoundingUnit * normal.permanent.v[k] * (magnitude(r) + x_error.v[k]);
+    term_error.v[k] =
+        magnitude(normal.value.v[k]) * x_error.v[k] +
+        kTermRoundings * kRounding * normal.permanent.v[k] * (magnitude(r) + x_error.v[k]);
   }
   // rounded_point()
   D largest{}, error{}, axis{};
@@ -50,14 +52,13 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
   for (int k = 0; k < 3; ++k) {
     const int i1 = (k + 1) % 3, i2 = (k + 2) % 3;
     const D& permanent = normal.permanent.v[k];
-    const D n_size = magnitude(normal.value.v[k]) - 6 * kRoundingUnit * permanent;
+    const D n_size = magnitude(normal.value.v[k]) - 6 * kRounding * permanent;
     const D w = (term.v[i1] + term.v[i2]) / normal.value.v[k], in_plane = a.v[k] - w;
     const D w_error =
-        (term_error.v[i1] + term_error.v[i2] + 8 * kRoundingUnit * permanent * magnitude(w)) /
-        n_size * (1 + 16 * kRoundingUnit);
-    const D in_plane_error = n_size > 0
-                                 ? w_error + 2 * kRoundingUnit * magnitude(in_plane) + kAllUnderflow
-                                 : D{} + __builtin_inf();
+        (term_error.v[i1] + term_error.v[i2] + 8 * kRounding * permanent * magnitude(w)) / n_size *
+        (1 + 16 * kRounding);
+    const D in_plane_error = n_size > 0 ? w_error + 4 * kRounding * magnitude(in_plane) + kUnderflow
+                                        : D{} + __builtin_inf();
     // Where that says nothing it may be NaN, which leaves the other bound.
     const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
             above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
@@ -67,7 +68,7 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
     p.v[k] = least + D{};  // -0 made 0
     units.v[k] = spacings<N>(p.v[k]);
     const D gain = magnitude(normal.value.v[k]) * units.v[k];
-    error = error + 5 * kRoundingUnit * normal.permanent.v[k] * units.v[k];
+    error = error + 5 * kRounding * normal.permanent.v[k] * units.v[k];
     axis = gain > largest ? D{} + k : axis;
     largest = greater(gain, largest);
   }

@@ -23,7 +23,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
   const auto a = widened3<N>(lanes.a, i), direction = widened3<N>(lanes.direction, i);
   auto q = widened3<N>(lanes.p, i);
   const D axis = widened<N>(lanes.axis + i);
-  const auto slope = normal.along(direction, 8);
+  const auto slope = normal.along(direction, kSlopeRoundings);
   const Mask to_front = slope.value > slope.error, to_back = slope.value < -slope.error;
   const Mask up = (component<N>(normal.value, axis) > 0) == (to_front != 0);
   const auto up_floats = __builtin_convertvector(up, typename FloatVector<N>::bits_type);
@@ -33,7 +33,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
     // certain_side()
     const D value = dot<N>(from_a, normal.value);
     const D permanent = dot<N>(magnitudes<N>(from_a), normal.permanent);
-    const D error = 9 * kRoundingUnit * permanent + kAllUnderflow;
+    const D error = kHeightRoundings * kRounding * permanent + kUnderflow;
     const Mask in_front = value > error, behind = value < -error;
     const Mask is_there = (to_front & in_front) | (to_back & behind);
     is_sure |= open & is_there;
