@@ -195,7 +195,7 @@ const Primitives& Bvh::primitives() const {
 std::size_t Bvh::memory() const {
   const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
   return bytes(impl_->tree.nodes) + bytes(impl_->tree.blocks) + bytes(impl_->tree.others) +
-         bytes(impl_->outside);
+         bytes(impl_->outside) + impl_->tree.twins.memory();
 }
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {

@@ -136,4 +136,9 @@ std::optional<PrimitiveId> Twins::above(PrimitiveId id, PrimitiveId after) const
   return next != twins.end() ? std::optional(*next) : std::nullopt;
 }
 
+std::size_t Twins::memory() const {
+  const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
+  return bytes(ids_) + bytes(groups_) + bytes(representatives_);
+}
+
 }  // namespace microtrace

@@ -30,6 +30,7 @@ class Twins {
   }
 
   [[nodiscard]] bool empty() const { return ids_.empty(); }
+  [[nodiscard]] std::size_t memory() const;  ///< bytes
 
   /// Those that are not in the tree.
   [[nodiscard]] const std::vector<PrimitiveId>& ids() const { return ids_; }
