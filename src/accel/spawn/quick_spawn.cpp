@@ -41,6 +41,7 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
   const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
   if (!p_) return;
+  // One rounding of the difference: half of gamma(2) would do.
   surface_ = Ball{.sphere = s,
                   .from_center = x.value - DVec3(s.center),
                   .error = x.error + gamma(2) * glm::abs(x.value - DVec3(s.center))};
@@ -51,7 +52,7 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
     second = std::max(second, std::min(gain, largest));
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Else the choice of the axis is exact arithmetic's.
+  // Else the choice of the axis is exact arithmetic's. A gain has one rounding, far below 2^-31.
   if (!(largest > second * (1 + 0x1p-30)))
     p_.reset();
   else
@@ -68,7 +69,7 @@ void QuickSpawn::set_reach(int steps) {
 void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
-  // As in TrianglePlaneFilter.
+  // As in TrianglePlaneFilter. The normal is exact, so half of that would do.
   const Approximate height{
       .value = glm::dot(from_a, flat.normal.value),
       .error = gamma(9) * glm::dot(glm::abs(from_a), flat.normal.permanent) + kUnderflow};
@@ -84,7 +85,8 @@ void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
     error += gamma(5) * flat.normal.permanent[k] * unit;
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Else the choice of the axis is exact arithmetic's (TriangleSurface::gradient).
+  // Else the choice of the axis is exact arithmetic's (TriangleSurface::gradient, which says that
+  // half of gamma(5) would do).
   if (!(error <= 0x1p-9 * largest))
     p_.reset();
   else
@@ -123,6 +125,7 @@ std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) 
 
 std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) const {
   const DVec3 w(direction), size = glm::abs(w);
+  // The product and the sums have three roundings: half of gamma(6) would do.
   const Approximate slope{.value = glm::dot(ball.from_center, w),
                           .error = gamma(6) * glm::dot(glm::abs(ball.from_center), size) +
                                    glm::dot(ball.error, size) + kUnderflow};
