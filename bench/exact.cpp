@@ -1,5 +1,6 @@
 // One exact decision for each shape: what a ray pays where the filters are unsure.
 
+#include "exact/grid.hpp"
 #include "exact/intersect.hpp"
 
 #include <benchmark/benchmark.h>
@@ -8,11 +9,23 @@ namespace {
 
 using namespace microtrace;
 
+const Triangle kTriangle{{-1.1F, -0.9F, 0.1F}, {1.3F, -0.8F, 0.2F}, {0.1F, 2.3F, -0.3F}};
 const Ray kRay{.o = {0.3F, -0.2F, 5.1F}, .d = {-0.011F, 0.17F, -0.98F}};
 
 template <class S>
 void first_hit(benchmark::State& state, const S& shape) {
   for (auto _ : state) benchmark::DoNotOptimize(exact::first_hit(shape, kRay));
+}
+
+template <int Limbs>
+void grid_hit(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(exact::GridHit<Limbs>(kTriangle, kRay).found());
+}
+
+template <int Limbs>
+void grid_order(benchmark::State& state) {
+  const exact::GridHit<Limbs> hit(kTriangle, kRay);
+  for (auto _ : state) benchmark::DoNotOptimize(hit.order(kTriangle));
 }
 
 void order(benchmark::State& state) {
@@ -23,8 +36,11 @@ void order(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK_CAPTURE(first_hit, triangle,
-                  (Triangle{{-1.1F, -0.9F, 0.1F}, {1.3F, -0.8F, 0.2F}, {0.1F, 2.3F, -0.3F}}));
+BENCHMARK(grid_hit<2>);
+BENCHMARK(grid_hit<3>);
+BENCHMARK(grid_order<2>);
+BENCHMARK(grid_order<3>);
+BENCHMARK_CAPTURE(first_hit, triangle, kTriangle);
 BENCHMARK_CAPTURE(first_hit, sphere, (Sphere{{0.1F, 0.2F, 0.3F}, 2}));
 BENCHMARK_CAPTURE(first_hit, plane, (Plane{{0.1F, 0.2F, 0.3F}, {0.1F, 0.3F, 0.9F}}));
 BENCHMARK_CAPTURE(first_hit, disc, (Disc{{0.1F, 0.2F, 0.3F}, {0.1F, 0.3F, 0.9F}, 3}));

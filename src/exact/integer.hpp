@@ -22,10 +22,19 @@ class Integer {
 
   /// magnitude 2^shift with that sign, which must fit; shift >= 0.
   static Integer shifted(bool is_negative, std::uint64_t magnitude, int shift) {
-    Integer size;
-    size.limbs_[0] = magnitude;
-    size = size << shift;
-    return is_negative ? -size : size;
+    const std::uint64_t flipped = is_negative ? ~std::uint64_t{0} : 0;
+    Integer result;
+    Wide carry = is_negative ? 1 : 0;
+    for (int i = 0; i < Limbs; ++i) {
+      const int up = shift - 64 * i;
+      const std::uint64_t limb = up <= -64 || up >= 64 ? 0
+                                 : up >= 0             ? magnitude << up
+                                                       : magnitude >> -up;
+      carry += limb ^ flipped;
+      result.limbs_[static_cast<std::size_t>(i)] = static_cast<std::uint64_t>(carry);
+      carry >>= 64;
+    }
+    return result;
   }
 
   [[nodiscard]] bool is_negative() const { return limbs_[Limbs - 1] >> 63U != 0; }
