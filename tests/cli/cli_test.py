@@ -296,6 +296,11 @@ class CommandLine(ProgramTest):
             self.assertGreater(found[name]["rays"], 0)
             self.assertGreater(found[name]["s"], 0)
         self.assertGreater(kinds(textures)["beyond"], 0)  # what is cut out lets rays through
+        stages = json.loads(self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--integrator", "path", "-q",
+                                             "--stats=json").stderr)["stages"]
+        self.assertGreater(stages["filters"], 0)  # a ball alone has no tree
+        self.assertGreater(stages["origins"], 0)
+        self.assertIn(b"missing_origins", self.run_program(ball, "-o", "a.ppm", "--stats").stderr)
         short = rays(kinds(ball, "--max-depth", "1"))
         self.assertEqual((short["path"], short["shadow"]), (0, 0))
         text = self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--spp", "1", "--integrator", "path", "-q", "--stats").stderr
