@@ -2,8 +2,8 @@
 /// Exact answers about a ray's hits: by integers of fixed width where they hold all numbers, else
 /// by any width.
 
-#include "exact/ratio.hpp"
-#include "exact/root.hpp"
+#include "exact/numbers/ratio.hpp"
+#include "exact/numbers/root.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>

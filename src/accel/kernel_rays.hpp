@@ -2,7 +2,7 @@
 /// Rays in the form that kernels take.
 
 #include "accel/kernels/kernel.hpp"
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 
 #include <microtrace/ray.hpp>
 

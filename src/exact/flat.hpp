@@ -1,10 +1,10 @@
 #pragma once
 /// Formulas of triangles and their planes, for exact numbers of any kind.
 
-#include "exact/dyadic.hpp"
-#include "exact/integer.hpp"
-#include "exact/ratio.hpp"
-#include "exact/vector.hpp"
+#include "exact/numbers/dyadic.hpp"
+#include "exact/numbers/integer.hpp"
+#include "exact/numbers/ratio.hpp"
+#include "exact/numbers/vector.hpp"
 
 #include <optional>
 

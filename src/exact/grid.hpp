@@ -8,7 +8,7 @@
 /// wall at 0.
 
 #include "exact/flat.hpp"
-#include "exact/integer.hpp"
+#include "exact/numbers/integer.hpp"
 
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>

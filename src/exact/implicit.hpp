@@ -1,8 +1,8 @@
 #pragma once
 /// The function whose zeros are a surface, in exact arithmetic.
 
-#include "exact/root.hpp"
-#include "exact/vector.hpp"
+#include "exact/numbers/root.hpp"
+#include "exact/numbers/vector.hpp"
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>

@@ -2,7 +2,7 @@
 /// The first hit of a ray with a shape, decided by numbers of any width: slow, scalar, right. All
 /// speed comes from asking rarely; of triangles, triangle_hit.hpp answers nearly always without it.
 
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>

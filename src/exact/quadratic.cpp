@@ -1,7 +1,7 @@
 #include "exact/intersect.hpp"
+#include "exact/numbers/vector.hpp"
 #include "exact/questions.hpp"
 #include "exact/range.hpp"
-#include "exact/vector.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 /// Steps shared by the shapes: validity, the ray's closed interval, roots of a quadratic
 /// polynomial.
 
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 
 #include <microtrace/ray.hpp>
 

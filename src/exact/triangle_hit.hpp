@@ -3,7 +3,7 @@
 /// where they hold all numbers, else by Dyadic.
 
 #include "exact/grid.hpp"
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>

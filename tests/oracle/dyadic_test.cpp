@@ -1,6 +1,6 @@
 /// Dyadic and Root against CGAL's rationals and square-root extensions.
 
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 #include "oracle/real_roots.hpp"
 #include "oracle/rounding_check.hpp"
 #include "support/effort.hpp"

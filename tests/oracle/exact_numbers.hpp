@@ -1,7 +1,7 @@
 #pragma once
 /// The bridge from float32s and Dyadics to CGAL's number types. Included by the oracle alone.
 
-#include "exact/dyadic.hpp"
+#include "exact/numbers/dyadic.hpp"
 
 #include <microtrace/math.hpp>
 

@@ -3,7 +3,7 @@
 /// extensions. Apart from src/exact/ on purpose: polynomials come from values of the shape's
 /// equation, roots from CGAL::make_root_of_2.
 
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 #include "oracle/exact_numbers.hpp"
 
 #include <microtrace/ray.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// Whether enclose() and round_to_float() keep their promises about a number known to the oracle.
 
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 #include "oracle/exact_numbers.hpp"
 
 #include <bit>

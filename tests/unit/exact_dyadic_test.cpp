@@ -1,4 +1,4 @@
-#include "exact/dyadic.hpp"
+#include "exact/numbers/dyadic.hpp"
 #include "support/adversarial_rays.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-#include "exact/dyadic.hpp"
-#include "exact/integer.hpp"
+#include "exact/numbers/dyadic.hpp"
+#include "exact/numbers/integer.hpp"
 #include "support/adversarial_rays.hpp"
 
 #include <cmath>

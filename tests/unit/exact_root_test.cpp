@@ -1,4 +1,4 @@
-#include "exact/root.hpp"
+#include "exact/numbers/root.hpp"
 #include "support/adversarial_rays.hpp"
 
 #include <bit>

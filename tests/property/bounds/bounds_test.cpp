@@ -5,7 +5,7 @@
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/passing.hpp"
 #include "exact/intersect.hpp"
-#include "exact/vector.hpp"
+#include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
 
 #include <array>

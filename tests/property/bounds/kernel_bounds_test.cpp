@@ -7,7 +7,7 @@
 #include "accel/slow_path.hpp"
 #include "accel/tile_judge.hpp"
 #include "exact/intersect.hpp"
-#include "exact/vector.hpp"
+#include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
 
 #include <microtrace/primitives.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// Vectors of exact numbers, so that formulas read as they are written, whatever the numbers are.
 
-#include "exact/dyadic.hpp"
+#include "exact/numbers/dyadic.hpp"
 
 #include <microtrace/math.hpp>
 

@@ -3,7 +3,7 @@
 /// float is one, and sums, differences and products of them are again. Nothing rounds, nothing
 /// allocates.
 
-#include "exact/limbs.hpp"
+#include "exact/numbers/limbs.hpp"
 
 #include <array>
 #include <cstddef>

@@ -2,8 +2,8 @@
 /// The exact parameter of a hit: a root of a polynomial of degree at most two with dyadic
 /// coefficients.
 
-#include "exact/dyadic.hpp"
-#include "exact/ratio.hpp"
+#include "exact/numbers/dyadic.hpp"
+#include "exact/numbers/ratio.hpp"
 
 #include <compare>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Quotients of exact numbers that are never divided, and bounds and roundings of them.
 
-#include "exact/limbs.hpp"
+#include "exact/numbers/limbs.hpp"
 
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "exact/ratio.hpp"
+#include "exact/numbers/ratio.hpp"
 
 #include <limits>
 

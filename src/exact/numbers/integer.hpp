@@ -2,7 +2,7 @@
 /// Integers of fixed width, so that a question about coordinates on one grid is answered exactly
 /// without a loop over lengths: a product is as wide as its factors together, a sum as its terms.
 
-#include "exact/limbs.hpp"
+#include "exact/numbers/limbs.hpp"
 
 #include <array>
 #include <cstddef>
