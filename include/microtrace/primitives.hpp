@@ -6,6 +6,7 @@
 #include <microtrace/scene.hpp>
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -47,6 +48,16 @@ class MICROTRACE_EXPORT Primitives {
             return f(shape);
         },
         scene_->objects[k].shape);
+  }
+
+  /// The primitive's shape if it is a triangle, alone or one of a mesh.
+  [[nodiscard]] std::optional<Triangle> triangle(PrimitiveId id) const {
+    return visit(id, []<class AnyShape>(const AnyShape& shape) -> std::optional<Triangle> {
+      if constexpr (std::is_same_v<AnyShape, Triangle>)
+        return shape;
+      else
+        return std::nullopt;
+    });
   }
 
   /// f(id, shape) for every primitive in the order of their numbers.

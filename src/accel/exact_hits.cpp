@@ -6,19 +6,8 @@
 namespace microtrace {
 namespace {
 
-/// Nothing if it is of another shape.
-std::optional<Triangle> triangle(const Primitives& primitives, PrimitiveId id) {
-  return primitives.visit(id, [](const auto& shape) -> std::optional<Triangle> {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
-      return shape;
-    else
-      return std::nullopt;
-  });
-}
-
-/// Whether two triangles lie in one plane x_k = s that the ray crosses. Then it meets both at t =
-/// (s
-/// - o_k) / d_k, if it does: so it is with boxes that stand on floors or side by side.
+/// Whether two triangles lie in one plane x_k = s that the ray crosses, as those of boxes that
+/// stand on floors or side by side. If it meets both, then at one parameter, (s - o_k) / d_k.
 bool share_axis_plane(const Triangle& a, const Triangle& b, const Vec3& d) {
   for (int k = 0; k < 3; ++k) {
     const float s = a.a[k];
@@ -35,7 +24,7 @@ std::optional<exact::Root> ExactHits::root(PrimitiveId id) const {
 }
 
 std::optional<exact::Enclosure> ExactHits::bounds(PrimitiveId id) const {
-  if (const auto t = triangle(*primitives_, id)) {
+  if (const auto t = primitives_->triangle(id)) {
     exact::TriangleHit hit(*t, *ray_);
     return hit.exists() ? std::optional(hit.bounds()) : std::nullopt;
   }
@@ -44,14 +33,14 @@ std::optional<exact::Enclosure> ExactHits::bounds(PrimitiveId id) const {
 }
 
 std::strong_ordering ExactHits::order(PrimitiveId id, PrimitiveId other) const {
-  const auto a = triangle(*primitives_, id), b = triangle(*primitives_, other);
+  const auto a = primitives_->triangle(id), b = primitives_->triangle(other);
   if (!a || !b) return *root(id) <=> *root(other);
   if (share_axis_plane(*a, *b, ray_->d)) return std::strong_ordering::equal;
   return exact::TriangleHit(*a, *ray_).order(*b);
 }
 
 float ExactHits::t(PrimitiveId id) const {
-  if (const auto t = triangle(*primitives_, id)) return exact::TriangleHit(*t, *ray_).t();
+  if (const auto t = primitives_->triangle(id)) return exact::TriangleHit(*t, *ray_).t();
   return exact::round_to_float(*root(id));
 }
 

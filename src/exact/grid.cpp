@@ -12,17 +12,6 @@
 namespace microtrace::exact {
 namespace {
 
-/// |x| = mantissa 2^exponent.
-struct Parts {
-  std::uint32_t mantissa;
-  int exponent;
-};
-Parts parts(float x) {
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x), fraction = bits & 0x7fffffU;
-  const int biased = static_cast<int>(bits >> 23U & 255U);
-  return biased == 0 ? Parts{fraction, -149} : Parts{fraction | 1U << 23U, biased - 150};
-}
-
 constexpr int kMantissaBits = 24;
 
 /// Coordinates are below so large a power of two of units: see Integer.
@@ -86,7 +75,7 @@ Grid<Limbs>::Grid(std::initializer_list<Vec3> vectors, int spare) {
   for (const Vec3& v : vectors) {
     for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(v[k]));
   }
-  exponent_ = parts(largest).exponent + kMantissaBits + spare - kCoordinateBits<Limbs>;
+  exponent_ = decode(largest).exponent + kMantissaBits + spare - kCoordinateBits<Limbs>;
 }
 
 template <int Limbs>
@@ -94,7 +83,7 @@ auto Grid<Limbs>::operator()(const Vec3& v) const -> std::optional<GridVector> {
   std::array<Integer<Limbs>, 3> result;
   if (!is_finite(v)) return std::nullopt;
   for (int k = 0; k < 3; ++k) {
-    auto [mantissa, exponent] = parts(v[k]);
+    auto [negative, mantissa, exponent] = decode(v[k]);
     if (mantissa == 0) continue;
     int shift = exponent - exponent_;
     if (shift < 0) {
@@ -104,8 +93,7 @@ auto Grid<Limbs>::operator()(const Vec3& v) const -> std::optional<GridVector> {
       shift = 0;
     }
     if (shift > kCoordinateBits<Limbs> - kMantissaBits) return std::nullopt;
-    result[static_cast<std::size_t>(k)] =
-        Integer<Limbs>::shifted(std::signbit(v[k]), mantissa, shift);
+    result[static_cast<std::size_t>(k)] = Integer<Limbs>::shifted(negative, mantissa, shift);
   }
   return GridVector{result[0], result[1], result[2]};
 }

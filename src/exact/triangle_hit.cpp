@@ -10,9 +10,13 @@ const GridHit<3>& TriangleHit::wide() {
   return *wide_;
 }
 
-const Root& TriangleHit::root() {
+const std::optional<Root>& TriangleHit::dyadic() {
   if (!dyadic_) dyadic_ = first_hit(triangle_, *ray_);
-  return **dyadic_;
+  return *dyadic_;
+}
+
+const Root& TriangleHit::root() {
+  return *dyadic();
 }
 
 template <class Ask>
@@ -27,8 +31,7 @@ auto TriangleHit::on_grid(const Ask& ask) {
 bool TriangleHit::exists() {
   if (narrow_.found() != Found::unknown) return narrow_.found() == Found::hit;
   if (wide().found() != Found::unknown) return wide().found() == Found::hit;
-  if (!dyadic_) dyadic_ = first_hit(triangle_, *ray_);
-  return dyadic_->has_value();
+  return dyadic().has_value();
 }
 
 Enclosure TriangleHit::bounds() {
@@ -66,21 +69,25 @@ const GridPlane<3>& TrianglePlane::wide() {
   return *wide_;
 }
 
+template <class Ask>
+auto TrianglePlane::on_grid(const Ask& ask) {
+  const auto answer = ask(narrow_);
+  return answer ? answer : ask(wide());
+}
+
 int TrianglePlane::side(const Vec3& q) {
-  if (const auto side = narrow_.side(q)) return *side;
-  if (const auto side = wide().side(q)) return *side;
-  return Implicit(triangle_).value(vector(q)).sign();
+  const auto side = on_grid([&](const auto& plane) { return plane.side(q); });
+  return side ? *side : Implicit(triangle_).value(vector(q)).sign();
 }
 
 int TrianglePlane::slope(const Vec3& e) {
-  if (const auto slope = narrow_.slope(e)) return *slope;
-  if (const auto slope = wide().slope(e)) return *slope;
-  return dot(Implicit(triangle_).linear(), vector(e)).sign();
+  const auto slope = on_grid([&](const auto& plane) { return plane.slope(e); });
+  return slope ? *slope : dot(Implicit(triangle_).linear(), vector(e)).sign();
 }
 
 DVec3 TrianglePlane::normal() {
-  if (const auto normal = narrow_.normal()) return *normal;
-  if (const auto normal = wide().normal()) return *normal;
+  const auto normal = on_grid([](const auto& plane) { return plane.normal(); });
+  if (normal) return *normal;
   const Implicit f(triangle_);
   DVec3 n{0};
   for (int k = 0; k < 3; ++k) n[k] = to_double(f.linear()[k]);
@@ -88,9 +95,8 @@ DVec3 TrianglePlane::normal() {
 }
 
 bool TrianglePlane::has_area() {
-  if (const auto answer = narrow_.has_area()) return *answer;
-  if (const auto answer = wide().has_area()) return *answer;
-  return nonzero_component(Implicit(triangle_).linear()) >= 0;
+  const auto answer = on_grid([](const auto& plane) { return plane.has_area(); });
+  return answer ? *answer : nonzero_component(Implicit(triangle_).linear()) >= 0;
 }
 
 }  // namespace microtrace::exact

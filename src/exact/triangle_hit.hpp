@@ -43,6 +43,7 @@ class TriangleHit {
   /// What the first grid says that can, of a hit.
   template <class Ask>
   [[nodiscard]] auto on_grid(const Ask& ask);
+  [[nodiscard]] const std::optional<Root>& dyadic();
 
   Triangle triangle_;
   const Ray* ray_;
@@ -66,6 +67,9 @@ class TrianglePlane {
 
  private:
   [[nodiscard]] const GridPlane<3>& wide();
+  /// What the first grid says that can.
+  template <class Ask>
+  [[nodiscard]] auto on_grid(const Ask& ask);
 
   Triangle triangle_;
   GridPlane<2> narrow_;

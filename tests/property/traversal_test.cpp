@@ -107,10 +107,20 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
   }
 }
 
-class Traversal : public testing::TestWithParam<SceneKind> {
- protected:
-  void TearDown() override { unsetenv("MICROTRACE_ISA"); }
-};
+/// f with each of the machine's kernels, which trees made meanwhile take.
+template <class F>
+void with_each_kernel(const F& f) {
+  for (const Kernels* kernels : available_kernels()) {
+    SCOPED_TRACE(kernels->name);
+    setenv("MICROTRACE_ISA", kernels->name, 1);
+    EXPECT_EQ(&best_kernels(), kernels);
+    f();
+    unsetenv("MICROTRACE_ISA");
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+class Traversal : public testing::TestWithParam<SceneKind> {};
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Traversal, testing::ValuesIn(scene_kinds),
                          [](const auto& kind) { return std::string(name(kind.param)); });
@@ -133,13 +143,8 @@ TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
         ASSERT_TRUE(same(expected.back(), by_definition(primitives, ray)));
       }
     }
-    for (const Kernels* kernels : available_kernels()) {
-      SCOPED_TRACE(kernels->name);
-      setenv("MICROTRACE_ISA", kernels->name, 1);
-      ASSERT_EQ(&best_kernels(), kernels);
-      check_calls(Bvh(scene), rays, expected);
-      if (testing::Test::HasFatalFailure()) return;
-    }
+    with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
+    if (testing::Test::HasFatalFailure()) return;
     cast += rays.size();
   }
   EXPECT_GT(hits, count / 8);
@@ -173,13 +178,8 @@ TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
       expected.push_back(by_definition(primitives, ray));
       hits += expected.back() ? 1 : 0;
     }
-    for (const Kernels* kernels : available_kernels()) {
-      SCOPED_TRACE(kernels->name);
-      setenv("MICROTRACE_ISA", kernels->name, 1);
-      check_calls(Bvh(scene), rays, expected);
-      unsetenv("MICROTRACE_ISA");
-      if (testing::Test::HasFatalFailure()) return;
-    }
+    with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
+    if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GT(hits, 2000U);
 }
@@ -214,13 +214,8 @@ TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
       expected.push_back(by_definition(primitives, rays[i]));
       hits_of_own += expected.back() && expected.back()->id == owns[i] ? 1 : 0;
     }
-    for (const Kernels* kernels : available_kernels()) {
-      SCOPED_TRACE(kernels->name);
-      setenv("MICROTRACE_ISA", kernels->name, 1);
-      check_calls(Bvh(scene), rays, expected);
-      unsetenv("MICROTRACE_ISA");
-      if (testing::Test::HasFatalFailure()) return;
-    }
+    with_each_kernel([&] { check_calls(Bvh(scene), rays, expected); });
+    if (testing::Test::HasFatalFailure()) return;
   }
   EXPECT_GT(hits_of_own, 2000U);
 }
@@ -243,9 +238,7 @@ TEST(TraversalOfADeepTree, GivesStreamsTheAnswersOfSingleRays) {
   }
   Answers expected;
   std::size_t found = 0;
-  for (const Kernels* kernels : available_kernels()) {
-    SCOPED_TRACE(kernels->name);
-    setenv("MICROTRACE_ISA", kernels->name, 1);
+  with_each_kernel([&] {
     const Bvh bvh(scene);
     if (expected.empty()) {
       for (const Ray& ray : rays) {
@@ -254,8 +247,7 @@ TEST(TraversalOfADeepTree, GivesStreamsTheAnswersOfSingleRays) {
       }
     }
     check_calls(bvh, rays, expected);
-    unsetenv("MICROTRACE_ISA");
-  }
+  });
   EXPECT_GT(found, rays.size() / 8);
   EXPECT_LT(found, rays.size());
 }

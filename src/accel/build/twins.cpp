@@ -17,11 +17,7 @@ using Corner = std::array<std::uint32_t, 3>;
 /// The corners in ascending order; if only two differ, the lesser one twice.
 using Corners = std::array<Corner, 3>;
 
-Corners corners_of(PrimitiveId id, const Primitives& primitives) {
-  Triangle t;
-  primitives.visit(id, [&](const auto& shape) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) t = shape;
-  });
+Corners corners_of(const Triangle& t) {
   const auto bits = [](const Vec3& p) {
     const Vec3 q = p + 0.0F;  // -0 becomes 0
     return std::bit_cast<Corner>(q);
@@ -74,11 +70,6 @@ std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
   return places;
 }
 
-bool is_triangle(PrimitiveId id, const Primitives& primitives) {
-  return primitives.visit(
-      id, []<class AnyShape>(const AnyShape&) { return std::is_same_v<AnyShape, Triangle>; });
-}
-
 }  // namespace
 
 Twins::Twins(build::References& from, const Primitives& primitives) {
@@ -90,7 +81,7 @@ Twins::Twins(build::References& from, const Primitives& primitives) {
   };
   std::vector<Entry> entries;
   for (const std::uint32_t place : repeated(from.hashes)) {
-    if (is_triangle(references[place].id(), primitives))
+    if (primitives.triangle(references[place].id()))
       entries.push_back({.hash = from.hashes[place], .id = references[place].id(), .place = place});
   }
   std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
@@ -101,10 +92,10 @@ Twins::Twins(build::References& from, const Primitives& primitives) {
     std::size_t end = i + 1;
     while (end < entries.size() && entries[end].hash == entries[i].hash) ++end;
     if (end - i > 1) {
-      const Corners corners = corners_of(entries[i].id, primitives);
+      const Corners corners = corners_of(*primitives.triangle(entries[i].id));
       const std::size_t first = ids_.size();
       for (std::size_t k = i + 1; k < end; ++k) {
-        if (corners_of(entries[k].id, primitives) != corners) continue;
+        if (corners_of(*primitives.triangle(entries[k].id)) != corners) continue;
         ids_.push_back(entries[k].id);
         is_twin[entries[k].place] = true;
       }

@@ -102,10 +102,7 @@ class Neighbours {
   // Null if it is none that is hit.
   exact::TriangleHit* triangle_hit() const {
     if (!triangle_hit_ && !root_) {
-      primitives_.visit(id_, [&](const auto& shape) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
-          triangle_hit_.emplace(shape, ray_);
-      });
+      if (const auto t = primitives_.triangle(id_)) triangle_hit_.emplace(*t, ray_);
     }
     return triangle_hit_ ? &*triangle_hit_ : nullptr;
   }

@@ -1,8 +1,8 @@
 #include "exact/numbers/dyadic.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
+#include <cmath>
 
 namespace microtrace::exact {
 namespace {
@@ -16,36 +16,18 @@ std::uint64_t high(Wide x) {
   return static_cast<std::uint64_t>(x >> limb_bits);
 }
 
-/// The fields of an IEEE 754 binary number, read from its bits: its value is mantissa * 2^exponent.
-struct Decoded {
-  int sign;
-  std::uint64_t mantissa;
-  int exponent;
-};
-
-Decoded decode(std::uint64_t bits, int mantissa_bits, int exponent_bits) {
-  const std::uint64_t hidden = std::uint64_t{1} << mantissa_bits;
-  const std::uint64_t fraction = bits & (hidden - 1);
-  const int mask = (1 << exponent_bits) - 1;
-  const int biased = static_cast<int>(bits >> mantissa_bits) & mask;
-  assert(biased != mask && "an infinity or NaN has no exact value");
-  const int bias = mask / 2 + mantissa_bits;
-  const int sign = (bits >> (mantissa_bits + exponent_bits)) != 0 ? -1 : 1;
-  if (biased == 0) return {sign, fraction, 1 - bias};
-  return {sign, fraction | hidden, biased - bias};
-}
-
 }  // namespace
 
-Dyadic::Dyadic(float value) {
-  const Decoded d = decode(std::bit_cast<std::uint32_t>(value), 23, 8);
-  *this = Dyadic(d.sign, d.mantissa, d.exponent);
+Dyadic::Dyadic(float value) : Dyadic(decode(value)) {
+  assert(std::isfinite(value));
 }
 
-Dyadic::Dyadic(double value) {
-  const Decoded d = decode(std::bit_cast<std::uint64_t>(value), 52, 11);
-  *this = Dyadic(d.sign, d.mantissa, d.exponent);
+Dyadic::Dyadic(double value) : Dyadic(decode(value)) {
+  assert(std::isfinite(value));
 }
+
+Dyadic::Dyadic(const Decoded& value)
+    : Dyadic(value.negative ? -1 : 1, value.mantissa, value.exponent) {}
 
 Dyadic::Dyadic(int sign, std::uint64_t mantissa, int exponent) : sign_(sign) {
   const int shift = exponent & (limb_bits - 1);

@@ -53,6 +53,7 @@ class Dyadic {
   [[nodiscard]] Leading leading() const;
 
  private:
+  explicit Dyadic(const Decoded& value);
   Dyadic(int sign, std::uint64_t mantissa, int exponent);
   void copy(const Dyadic& other);
   void trim();

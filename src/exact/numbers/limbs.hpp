@@ -3,12 +3,35 @@
 /// bits of a magnitude, from which bounds in float64 are made.
 
 #include <bit>
+#include <concepts>
 #include <cstdint>
+#include <limits>
+#include <type_traits>
 
 namespace microtrace::exact {
 
 /// Two limbs.
 __extension__ using Wide = unsigned __int128;
+
+/// A finite float32 or float64: |x| = mantissa 2^exponent. Infinities and NaN are taken for numbers
+/// with the next exponent.
+struct Decoded {
+  bool negative;
+  std::uint64_t mantissa;
+  int exponent;
+};
+template <std::floating_point Float>
+[[nodiscard]] Decoded decode(Float x) {
+  using Bits = std::conditional_t<sizeof(Float) == 4, std::uint32_t, std::uint64_t>;
+  constexpr int fraction_bits = std::numeric_limits<Float>::digits - 1;
+  constexpr int least = std::numeric_limits<Float>::min_exponent - 1 - fraction_bits;
+  constexpr Bits hidden = Bits{1} << fraction_bits;
+  const Bits bits = std::bit_cast<Bits>(x), magnitude = bits & ~Bits{0} >> 1;
+  const Bits fraction = magnitude & (hidden - 1);
+  const int biased = static_cast<int>(magnitude >> fraction_bits);
+  if (biased == 0) return {bits != magnitude, fraction, least};
+  return {bits != magnitude, fraction | hidden, least - 1 + biased};
+}
 
 /// A magnitude's leading bits: |x| = (mantissa + delta) 2^exponent, 1/2 <= mantissa < 1 of 53 bits,
 /// and 0 <= delta < 2^-53.

@@ -240,17 +240,6 @@ TEST(KernelBounds, ParameterOfAHit) {
   }});
 }
 
-TEST(KernelBounds, ParameterOfAHitInATile) {
-  check<2>({{
-      {-0x1.003ffep+2F, -0x1.003fb4p+2F, -0x1.42f008p-16F, -0x1.3ffdd8p-20F, 0x1.3ffedap-20F,
-       -0x1.004394p+2F, 0x1.dc148p-5F, -0x1.c00704p-20F, 0x1.02e3fap+2F, 0x1.bffd7cp-20F,
-       -0x1.bffd74p-20F, 0x1.efc176p-16F, 0x1.02e41p+2F, 0x1.3ec554p-20F, -0x1.efc35ep-16F},
-      {0x1.609002p-12F, 0x1.fec5a4p-18F, -0x1.000304p+0F, -0x1.00e65p+0F, -0x1.004074p+0F,
-       0x1.7ffe02p-23F, -0x1.fffff8p-1F, 0x1.00406cp+0F, 0x1.fffffap-25F, -0x1.8013bp-22F,
-       -0x1.3ffbecp-22F, -0x1.000316p+0F, -0x1.044138p+0F, 0x1.40198cp-12F, 0x1.049ab8p+0F},
-  }});
-}
-
 TEST(KernelBounds, RoundedParameter) {
   // Plane and ray; for the last a tile's bound of the slope is no more than the ray's.
   constexpr std::array<Numbers, 3> cases = {{
