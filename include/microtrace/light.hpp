@@ -2,7 +2,7 @@
 /// Lights without extent, with the units of KHR_lights_punctual. They have no influence on flat
 /// pictures.
 ///
-/// To add one: a struct here and in `Light`, its reader in src/io/gltf/lights.cpp.
+/// To add one: a struct here and in `Light`, its reader in src/io/gltf/scene/lights.cpp.
 
 #include <microtrace/math.hpp>
 

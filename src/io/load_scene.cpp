@@ -1,7 +1,7 @@
 #include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "io/file.hpp"
-#include "io/gltf/scene.hpp"
+#include "io/gltf/scene/scene.hpp"
 #include "io/json/document.hpp"
 #include "io/load_clock.hpp"
 #include "io/scene_json/scene.hpp"

@@ -1,5 +1,6 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf/accessors.hpp"
+#include "io/gltf/bytes/accessors.hpp"
+#include "io/gltf/check/values/accessors.hpp"
 #include "io/json/document.hpp"
 
 #include <memory>

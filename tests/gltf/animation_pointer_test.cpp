@@ -1,5 +1,5 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf/scene.hpp"
+#include "io/gltf/scene/scene.hpp"
 #include "support/png_file.hpp"
 
 #include <algorithm>

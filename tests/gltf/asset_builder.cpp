@@ -1,6 +1,6 @@
 #include "gltf/asset_builder.hpp"
 
-#include "io/gltf/scene.hpp"
+#include "io/gltf/scene/scene.hpp"
 
 #include <algorithm>
 #include <cstring>

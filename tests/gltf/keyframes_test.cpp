@@ -1,4 +1,4 @@
-#include "io/gltf/keyframes.hpp"
+#include "io/gltf/animation/keyframes.hpp"
 
 #include <cmath>
 #include <numbers>

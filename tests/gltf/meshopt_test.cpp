@@ -1,5 +1,5 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf/meshopt_filters.hpp"
+#include "io/gltf/bytes/meshopt_filters.hpp"
 
 #include <cmath>
 #include <cstring>

@@ -1,5 +1,5 @@
 #include "gltf/asset_builder.hpp"
-#include "io/gltf/scene.hpp"
+#include "io/gltf/scene/scene.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "io/gltf/uri.hpp"
+#include "io/gltf/bytes/uri.hpp"
 
 #include "gltf/asset_builder.hpp"
 #include "image/folder.hpp"

@@ -1,4 +1,4 @@
-#include "io/gltf/uri.hpp"
+#include "io/gltf/bytes/uri.hpp"
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
 #include "support/png_file.hpp"

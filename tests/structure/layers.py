@@ -23,6 +23,9 @@ MAY_INCLUDE = {
     "cli": {"base", "scene"},
     "modules": {"io"},
 }
+# The folders of src/io/gltf; each may include itself and those before it.
+GLTF_FOLDERS = ["document", "bytes", "check", "material", "mesh", "animation", "pose", "scene"]
+MOST_FILES = 20  # in a folder of src/io/gltf
 # Public headers that a part must not see.
 HIDDEN = {
     "base": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
@@ -54,6 +57,24 @@ def includes(path):
             yield number, match[1]
 
 
+def gltf_complaints():
+    folder = ROOT / "src/io/gltf"
+    for path in sorted(p for p in folder.rglob("*") if p.suffix in (".hpp", ".cpp")):
+        place = path.relative_to(folder).parts
+        if len(place) < 2 or place[0] not in GLTF_FOLDERS:
+            yield f"src/io/gltf/{'/'.join(place)}: belongs in one of {', '.join(GLTF_FOLDERS)}"
+            continue
+        allowed = GLTF_FOLDERS[:GLTF_FOLDERS.index(place[0]) + 1]
+        for number, name in includes(path):
+            parts = name.split("/")
+            if parts[:2] == ["io", "gltf"] and parts[2] not in allowed:
+                yield f"src/io/gltf/{'/'.join(place)}:{number}: {place[0]} may not include {name}"
+    for sub in sorted(p for p in folder.rglob("*") if p.is_dir()):
+        files = sum(p.is_file() for p in sub.iterdir())
+        if files > MOST_FILES:
+            yield f"{sub.relative_to(ROOT)}: {files} files; split what is over {MOST_FILES}"
+
+
 def complaints():
     files = [p for folder in ("include", "src", "tests", "bench") for p in (ROOT / folder).rglob("*")
              if p.suffix in (".hpp", ".cpp")]
@@ -77,6 +98,6 @@ def complaints():
             yield f"{place}: {lines} lines; split what is over 300"
 
 
-found = list(complaints())
+found = [*complaints(), *gltf_complaints()]
 print("\n".join(found) or "every include is within its layer")
 sys.exit(1 if found else 0)

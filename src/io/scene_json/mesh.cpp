@@ -3,7 +3,7 @@
 #include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/file.hpp"
-#include "io/gltf/scene.hpp"
+#include "io/gltf/scene/scene.hpp"
 #include "io/scene_json/path.hpp"
 #include "scene/trigonometry.hpp"
 

@@ -1,7 +1,7 @@
-/// Decodes meshes by Draco behind the C interface of io/gltf/draco_abi.hpp. The library is asked
-/// for integers only, so that its bytes are the same on every machine.
+/// Decodes meshes by Draco behind the C interface of io/gltf/mesh/draco_abi.hpp. The library is
+/// asked for integers only, so that its bytes are the same on every machine.
 
-#include "io/gltf/draco_abi.hpp"
+#include "io/gltf/mesh/draco_abi.hpp"
 #include "modules/draco/header.hpp"
 #include "modules/draco/values.hpp"
 

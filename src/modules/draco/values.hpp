@@ -1,5 +1,5 @@
 #pragma once
-#include "io/gltf/draco_abi.hpp"
+#include "io/gltf/mesh/draco_abi.hpp"
 
 #include <draco/attributes/point_attribute.h>
 

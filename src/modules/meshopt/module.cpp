@@ -1,8 +1,8 @@
-/// The codecs of meshoptimizer behind the C interface of io/gltf/meshopt_abi.hpp. They work on
-/// integers alone, so its versions for different processors give the same bytes; its filters do
+/// The codecs of meshoptimizer behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They work
+/// on integers alone, so its versions for different processors give the same bytes; its filters do
 /// not, and are not used.
 
-#include "io/gltf/meshopt_abi.hpp"
+#include "io/gltf/bytes/meshopt_abi.hpp"
 
 #include <meshoptimizer.h>
 

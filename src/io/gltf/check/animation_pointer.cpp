@@ -1,6 +1,6 @@
 #include "io/gltf/check/animation_pointer.hpp"
 
-#include "io/gltf/index_text.hpp"
+#include "io/gltf/document/index_text.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 /// Pointers of KHR_animation_pointer.
 
-#include "io/gltf/asset.hpp"
+#include "io/gltf/document/asset.hpp"
 
 #include <string>
 #include <string_view>

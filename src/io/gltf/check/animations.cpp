@@ -1,7 +1,7 @@
 #include "io/gltf/check/animation_pointer.hpp"
-#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/extension.hpp"
+#include "io/gltf/document/component_types.hpp"
+#include "io/gltf/document/extension.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 #pragma once
 /// Who is whose parent among an asset's nodes.
 
-#include "io/gltf/asset.hpp"
+#include "io/gltf/document/asset.hpp"
 
 #include <cstddef>
 #include <optional>

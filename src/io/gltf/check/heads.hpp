@@ -1,7 +1,7 @@
 #pragma once
 /// What accessors say of themselves, and what they are used for.
 
-#include "io/gltf/asset.hpp"
+#include "io/gltf/document/asset.hpp"
 
 #include <cstddef>
 #include <initializer_list>

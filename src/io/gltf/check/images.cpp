@@ -1,5 +1,5 @@
+#include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/uri.hpp"
 
 #include <array>
 #include <string>

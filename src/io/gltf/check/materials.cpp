@@ -1,6 +1,6 @@
-#include "io/gltf/check/rule_text.hpp"
+#include "io/gltf/check/schema/rule_text.hpp"
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/extension.hpp"
+#include "io/gltf/document/extension.hpp"
 
 #include <cmath>
 #include <numbers>

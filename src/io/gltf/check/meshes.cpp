@@ -1,6 +1,6 @@
-#include "io/gltf/check/component_types.hpp"
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/check/texture_infos.hpp"
+#include "io/gltf/document/component_types.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 /// be survived, and warn of the others, taking what is wrong out of the asset's JSON where its
 /// readers could stumble over it.
 
-#include "io/gltf/asset.hpp"
 #include "io/gltf/check/forest.hpp"
 #include "io/gltf/check/heads.hpp"
+#include "io/gltf/document/asset.hpp"
 
 #include <cstddef>
 

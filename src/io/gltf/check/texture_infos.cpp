@@ -1,6 +1,6 @@
 #include "io/gltf/check/texture_infos.hpp"
 
-#include "io/gltf/extension.hpp"
+#include "io/gltf/document/extension.hpp"
 
 namespace microtrace::io::gltf {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// What the textures of materials ask of vertices.
 
-#include "io/gltf/asset.hpp"
+#include "io/gltf/document/asset.hpp"
 
 #include <string>
 #include <utility>

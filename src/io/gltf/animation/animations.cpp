@@ -1,0 +1,300 @@
+#include "io/gltf/animation/animations.hpp"
+
+#include "base/printable.hpp"
+#include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/index_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+using Numbers = std::shared_ptr<const std::vector<float>>;
+
+template <typename Vector>
+std::vector<float> flattened(const std::vector<Vector>& vectors) {
+  std::vector<float> result;
+  result.reserve(vectors.size() * static_cast<std::size_t>(Vector::length()));
+  for (const Vector& v : vectors) {
+    for (glm::length_t i = 0; i < Vector::length(); ++i) result.push_back(v[i]);
+  }
+  return result;
+}
+
+std::size_t components(int type) {
+  switch (type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return 1;
+    case TINYGLTF_TYPE_VEC2:
+      return 2;
+    case TINYGLTF_TYPE_VEC3:
+      return 3;
+    case TINYGLTF_TYPE_VEC4:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+/// The targets of each primitive of a mesh are as many as those of its first.
+std::size_t target_count(const tinygltf::Model& model, int mesh) {
+  if (mesh < 0) return 0;
+  const auto& primitives = model.meshes[static_cast<std::size_t>(mesh)].primitives;
+  return primitives.empty() ? 0 : primitives[0].targets.size();
+}
+
+}  // namespace
+
+/// Reads channels, and each accessor once.
+class AnimationPlayer::Reader {
+ public:
+  Reader(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
+      : asset_(asset), model_(model), reader_(reader) {}
+
+  std::optional<Channel> read(const Element& animation, const Element& channel) {
+    const std::optional<Target> target = target_of(channel.member("target"));
+    if (!target) return std::nullopt;
+    const std::optional<std::size_t> width = width_of(*target);
+    if (!width) return std::nullopt;
+    const Element number = channel.member("sampler");
+    const Element sampler =
+        animation.member("samplers").item(static_cast<std::size_t>(number.value->number));
+    if (!has_data(sampler)) {
+      asset_.warn(channel, "needs a buffer without data; it is ignored");
+      return std::nullopt;
+    }
+    if (is_pointed_at(target->path) && !fits(sampler, *target)) {
+      asset_.warn(
+          sampler.member("output"),
+          "has not the type or the number of elements of what a pointer animates by it; the "
+          "channel is ignored");
+      return std::nullopt;
+    }
+    Keyframes keys = keyframes(sampler, target->path, *width);
+    if (keys.times->empty()) return std::nullopt;
+    return Channel{.node = target->node,
+                   .path = target->path,
+                   .property = target->property,
+                   .keys = std::move(keys)};
+  }
+
+ private:
+  struct Target {
+    Element at;
+    std::size_t node;
+    Path path;
+    AnimatedProperty property{};
+  };
+
+  /// A node and its property; or a pointer to it, /nodes/0/rotation, by KHR_animation_pointer,
+  /// which may lead to other properties too.
+  std::optional<Target> target_of(const Element& at) {
+    const Element name = at.member("path");
+    if (name.value->string == "pointer") {
+      const std::optional<Element> pointer = extension(at, "KHR_animation_pointer");
+      return pointer ? pointed_at(pointer->member("pointer")) : std::nullopt;
+    }
+    const JsonValue* node = at.value->find("node");
+    if (node == nullptr) return std::nullopt;
+    const std::optional<Path> path = path_of(name.value->string);
+    if (!path) warn_of(name);
+    if (!path) return std::nullopt;
+    return Target{at.member("node"), static_cast<std::size_t>(node->number), *path};
+  }
+
+  std::optional<Target> pointed_at(const Element& pointer) {
+    constexpr std::string_view nodes = "/nodes/";
+    const std::string_view text = pointer.value->string;
+    const std::size_t slash = text.rfind('/');
+    if (text.starts_with(nodes) && slash >= nodes.size()) {
+      const auto node = index_in(text.substr(nodes.size(), slash - nodes.size()));
+      const std::optional<Path> path = path_of(text.substr(slash + 1));
+      if (node && *node < model_.nodes.size() && path) return Target{pointer, *node, *path};
+    }
+    const std::optional<AnimatedProperty> property = find_property(asset_, text);
+    if (!property) {
+      warn_of(pointer);
+      return std::nullopt;
+    }
+    if (!property->is_boolean) return Target{pointer, 0, Path::property, *property};
+    return Target{pointer, index_in(property->path[1]).value(), Path::visibility, *property};
+  }
+
+  void warn_of(const Element& at) {
+    asset_.warn(at,
+                "animation of " + in_quotes(at.value->string) + " is not supported; it is ignored");
+  }
+
+  static std::optional<Path> path_of(std::string_view text) {
+    constexpr std::array<std::pair<std::string_view, Path>, 4> paths = {
+        {{"translation", Path::translation},
+         {"rotation", Path::rotation},
+         {"scale", Path::scale},
+         {"weights", Path::weights}}};
+    for (const auto& [name, path] : paths) {
+      if (text == name) return path;
+    }
+    return std::nullopt;
+  }
+
+  /// The numbers in one value; nothing where there is nothing to animate.
+  std::optional<std::size_t> width_of(const Target& target) {
+    const auto& [at, node, path, property] = target;
+    if (is_pointed_at(path)) return property.width;
+    const tinygltf::Node& animated = model_.nodes[node];
+    if (path == Path::weights) {
+      const std::size_t targets = target_count(model_, animated.mesh);
+      if (targets != 0) return targets;
+      asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
+      return std::nullopt;
+    }
+    if (!animated.matrix.empty()) {  // check_animations has told, but of pointers
+      asset_.tolerate(at, "animates a node that has a matrix; it is ignored");
+      return std::nullopt;
+    }
+    return path == Path::rotation ? 4 : 3;
+  }
+
+  /// By KHR_animation_pointer alone.
+  static bool is_pointed_at(Path path) {
+    return path == Path::property || path == Path::visibility;
+  }
+
+  /// Integers may stand for numbers as they are, and must for true and false, in steps.
+  bool fits(const Element& sampler, const Target& target) const {
+    const tinygltf::Accessor& in = accessor(sampler.member("input"));
+    const tinygltf::Accessor& out = accessor(sampler.member("output"));
+    const JsonValue* kind = sampler.value->find("interpolation");
+    const bool is_step = kind != nullptr && kind->string == "STEP";
+    const std::size_t values = kind != nullptr && kind->string == "CUBICSPLINE" ? 3 : 1;
+    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+        components(out.type) != target.property.width || out.count != in.count * values) {
+      return false;
+    }
+    const bool is_float = out.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    return target.path == Path::property || (!is_float && is_step);
+  }
+
+  bool has_data(const Element& sampler) const {
+    return reader_.has_data(accessor_of(sampler.member("input"))) &&
+           reader_.has_data(accessor_of(sampler.member("output")));
+  }
+
+  static int accessor_of(const Element& at) { return static_cast<int>(at.value->number); }
+
+  const tinygltf::Accessor& accessor(const Element& at) const {
+    return model_.accessors[static_cast<std::size_t>(accessor_of(at))];
+  }
+
+  Keyframes keyframes(const Element& sampler, Path path, std::size_t width) {
+    const Element input = sampler.member("input"), output = sampler.member("output");
+    if (!is_pointed_at(path)) check_types(input, output, path);
+    Keyframes keys{.are_rotations = path == Path::rotation,
+                   .width = width,
+                   .times = numbers(input),
+                   .values = numbers(output)};
+    std::size_t values_of_key = 1;
+    if (const JsonValue* kind = sampler.value->find("interpolation")) {
+      if (kind->string == "STEP") keys.interpolation = Interpolation::step;
+      if (kind->string == "CUBICSPLINE") {
+        keys.interpolation = Interpolation::cubic_spline;
+        values_of_key = 3;
+      }
+    }
+    const std::size_t wanted = keys.times->size() * values_of_key * width;
+    if (keys.values->size() != wanted) {
+      const std::size_t size = components(accessor(output).type);
+      asset_.fail(output, "has " + std::to_string(keys.values->size() / size) + " elements; " +
+                              std::to_string(keys.times->size()) + " keys need " +
+                              std::to_string(wanted / size));
+    }
+    repair(input, output, keys);
+    return keys;
+  }
+
+  /// Leaves out keys that make no sense. Each accessor is looked at once, however many share it.
+  void repair(const Element& input, const Element& output, Keyframes& keys) {
+    const auto [ascends, new_times] = ascends_.try_emplace(accessor_of(input));
+    if (new_times) ascends->second = is_ascending(*keys.times);
+    const auto [is_finite, new_values] = finite_.try_emplace(accessor_of(output));
+    if (new_values) is_finite->second = are_finite(*keys.values);
+    if (ascends->second && is_finite->second) return;
+    const std::size_t count = keys.times->size();
+    charge(output, count + keys.values->size());
+    keep_ascending(keys);
+    asset_.tolerate(input, "has " + std::to_string(count - keys.times->size()) +
+                               " times that do not come after the one before them, or with "
+                               "values that are not finite; these keys are left out");
+  }
+
+  void charge(const Element& at, std::size_t count) {
+    count_ += count;
+    if (count_ > max_elements) {
+      asset_.fail(at, "brings the animations to more than 2^27 numbers, the most that is read",
+                  ErrorKind::limit);
+    }
+  }
+
+  void check_types(const Element& input, const Element& output, Path path) const {
+    const tinygltf::Accessor& in = accessor(input);
+    const tinygltf::Accessor& out = accessor(output);
+    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      asset_.fail(input, "refers to an accessor that is not of type SCALAR and of floats");
+    }
+    const int type = path == Path::weights    ? TINYGLTF_TYPE_SCALAR
+                     : path == Path::rotation ? TINYGLTF_TYPE_VEC4
+                                              : TINYGLTF_TYPE_VEC3;
+    const bool may_be_integer = path == Path::rotation || path == Path::weights;
+    const bool is_integer = out.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_narrow = component_size(out.componentType) < 4;
+    if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
+      asset_.fail(output, "refers to an accessor of a type that is not for its path");
+    }
+  }
+
+  Numbers numbers(const Element& at) {
+    const int index = accessor_of(at);
+    Numbers& result = numbers_[index];
+    if (result) return result;
+    const tinygltf::Accessor& source = accessor(at);
+    charge(at, source.count * components(source.type));
+    result = std::make_shared<const std::vector<float>>(
+        source.type == TINYGLTF_TYPE_SCALAR ? reader_.read<float>(index)
+        : source.type == TINYGLTF_TYPE_VEC2 ? flattened(reader_.read<glm::vec2>(index))
+        : source.type == TINYGLTF_TYPE_VEC3 ? flattened(reader_.read<Vec3>(index))
+                                            : flattened(reader_.read<glm::vec4>(index)));
+    return result;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  std::unordered_map<int, Numbers> numbers_;        // by accessor
+  std::unordered_map<int, bool> ascends_, finite_;  // by accessor, as far as looked at
+  std::size_t count_ = 0;                           // of them all
+};
+
+AnimationPlayer::AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+                                 const std::vector<std::size_t>& animations) {
+  Reader channel_reader(asset, model, reader);
+  for (const std::size_t index : animations) {
+    const Element animation = asset.element("animations", index);
+    const Element channels = animation.member("channels");
+    for (std::size_t i = 0; i < channels.value->items.size(); ++i) {
+      std::optional<Channel> channel = channel_reader.read(animation, channels.item(i));
+      if (!channel) continue;
+      if (channel->path == Path::property && !properties_) {
+        properties_ = animated_part(*asset.root().value);
+      }
+      channels_.push_back(std::move(*channel));
+    }
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,204 @@
+#include "io/gltf/animation/property.hpp"
+
+#include "io/gltf/check/schema/schema.hpp"
+#include "io/gltf/document/index_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr std::array<std::string_view, 3> animated_members = {"materials", "cameras", "extensions"};
+
+std::vector<std::string> tokens_of(std::string_view pointer) {
+  std::vector<std::string> tokens;
+  while (pointer.starts_with('/')) {
+    pointer.remove_prefix(1);
+    tokens.emplace_back(pointer.substr(0, pointer.find('/')));
+    pointer.remove_prefix(tokens.back().size());
+  }
+  return tokens;
+}
+
+const JsonValue* item_of(const JsonValue& array, std::string_view token) {
+  const std::optional<std::size_t> index = index_in(token);
+  return index && *index < array.items.size() ? &array.items[*index] : nullptr;
+}
+
+/// Follows a pointer through the asset and through the schema's rules side by side.
+class Walk {
+ public:
+  explicit Walk(const Asset& asset) : object_(asset.root().value) {}
+
+  /// The rule of the property that the tokens lead to, or null.
+  const Rule* follow(std::span<const std::string> tokens) {
+    while (!tokens.empty()) {
+      if (tokens[0] == "extensions") {
+        if (tokens.size() < 3 || !enter_extension(tokens[1])) return nullptr;
+        tokens = tokens.subspan(2);
+        continue;
+      }
+      const auto rule = std::ranges::find(rules_, std::string_view(tokens[0]), &Rule::key);
+      if (rule == rules_.end()) return nullptr;
+      if (tokens.size() == 1) return &*rule;
+      object_ = object_->find(tokens[0]);
+      if (object_ == nullptr) return nullptr;
+      tokens = tokens.subspan(1);
+      if (rule->form == Form::objects) {
+        object_ = item_of(*object_, tokens[0]);
+        if (object_ == nullptr) return nullptr;
+        tokens = tokens.subspan(1);
+      } else if (rule->form != Form::object) {
+        return nullptr;
+      }
+      rules_ = rule->members;
+      place_ = rule->place;
+    }
+    return nullptr;
+  }
+
+ private:
+  bool enter_extension(std::string_view name) {
+    const JsonValue* extensions = object_->find("extensions");
+    object_ = extensions != nullptr ? extensions->find(name) : nullptr;
+    if (object_ == nullptr) return false;
+    for (const ExtensionRule& rule : extension_rules()) {
+      if (rule.name != name || rule.place != place_) continue;
+      rules_ = rule.members;
+      place_ = Place::other;
+      return true;
+    }
+    return false;
+  }
+
+  const JsonValue* object_;
+  std::span<const Rule> rules_ = gltf_rules();
+  Place place_ = Place::root;
+};
+
+JsonValue* find(JsonValue& object, std::string_view key) {
+  const auto member = std::ranges::find(object.members, key, &JsonMember::key);
+  return member != object.members.end() ? &member->value : nullptr;
+}
+
+JsonValue& make_member(JsonValue& object, const std::string& key) {
+  if (JsonValue* value = find(object, key)) return *value;
+  object.members.emplace_back(JsonMember{.key = key, .value = {}});
+  object.index_members();
+  return object.members.back().value;
+}
+
+/// The items of an array in an object that may be absent.
+std::span<JsonValue> items(JsonValue* object, std::string_view key) {
+  JsonValue* array = object != nullptr ? find(*object, key) : nullptr;
+  return array != nullptr ? std::span(array->items) : std::span<JsonValue>();
+}
+
+JsonValue* extension_of(JsonValue& object, std::string_view name) {
+  JsonValue* extensions = find(object, "extensions");
+  return extensions != nullptr ? find(*extensions, name) : nullptr;
+}
+
+void repair_perspective(JsonValue& camera) {
+  JsonValue* yfov = find(camera, "yfov");
+  yfov->number = std::clamp<double>(yfov->number, std::numeric_limits<float>::min(),
+                                    std::nextafter(std::numbers::pi, 0));
+  const JsonValue* far = find(camera, "zfar");
+  if (far == nullptr || far->number > find(camera, "znear")->number) return;
+  std::erase_if(camera.members, [](const JsonMember& member) { return member.key == "zfar"; });
+}
+
+void repair_orthographic(JsonValue& camera) {
+  constexpr double least = 1e-6;
+  for (const char* key : {"xmag", "ymag"}) {
+    double& magnitude = find(camera, key)->number;
+    if (std::abs(magnitude) < least) magnitude = least;
+  }
+  const double near = find(camera, "znear")->number;
+  double& far = find(camera, "zfar")->number;
+  if (far <= near) far = near + std::max(least, least * near);
+}
+
+void repair_cone(JsonValue& light) {
+  JsonValue* spot = find(light, "spot");
+  JsonValue* inner = spot != nullptr ? find(*spot, "innerConeAngle") : nullptr;
+  if (inner == nullptr) return;
+  const JsonValue* outer = find(*spot, "outerConeAngle");
+  const double angle = outer != nullptr ? outer->number : std::numbers::pi / 4;
+  inner->number = std::min(inner->number, std::nextafter(angle, 0));
+}
+
+}  // namespace
+
+std::optional<AnimatedProperty> find_property(const Asset& asset, std::string_view pointer) {
+  AnimatedProperty property{.path = tokens_of(pointer)};
+  const Rule* rule = Walk(asset).follow(property.path);
+  if (rule == nullptr) return std::nullopt;
+  const std::string& first = property.path[0];
+  if (first == "nodes" && rule->form == Form::boolean) {
+    property.is_boolean = true;
+    return property;
+  }
+  if (std::ranges::find(animated_members, first) == animated_members.end()) return std::nullopt;
+  if (rule->form == Form::numbers && rule->fewest == rule->most) {
+    property.is_array = true;
+    property.width = rule->most;
+  } else if (rule->form != Form::number) {
+    return std::nullopt;
+  }
+  property.min = rule->above_min ? std::numeric_limits<float>::min() : rule->min;
+  property.max = rule->max;
+  return property;
+}
+
+JsonValue animated_part(const JsonValue& root) {
+  JsonValue part;
+  part.kind = JsonValue::Kind::object;
+  for (const JsonMember& member : root.members) {
+    if (std::ranges::find(animated_members, member.key) != animated_members.end()) {
+      part.members.push_back(member);
+    }
+  }
+  return part;
+}
+
+void set_property(JsonValue& part, const AnimatedProperty& property,
+                  const std::vector<double>& value) {
+  JsonValue* at = &part;
+  for (const std::string& token : std::span(property.path).first(property.path.size() - 1)) {
+    at =
+        at->kind == JsonValue::Kind::array ? &at->items[index_in(token).value()] : find(*at, token);
+  }
+  const auto write = [&property](JsonValue& target, double x) {
+    target.kind = JsonValue::Kind::number;
+    target.number = std::clamp(x, property.min, property.max);
+  };
+  JsonValue& target = make_member(*at, property.path.back());
+  if (!property.is_array) return write(target, value[0]);
+  target.kind = JsonValue::Kind::array;
+  target.items.resize(value.size());
+  for (std::size_t i = 0; i < value.size(); ++i) write(target.items[i], value[i]);
+}
+
+void repair_properties(JsonValue& part) {
+  for (JsonValue& camera : items(&part, "cameras")) {
+    if (JsonValue* perspective = find(camera, "perspective")) repair_perspective(*perspective);
+    if (JsonValue* orthographic = find(camera, "orthographic")) repair_orthographic(*orthographic);
+  }
+  for (JsonValue& light : items(extension_of(part, "KHR_lights_punctual"), "lights")) {
+    repair_cone(light);
+  }
+  for (JsonValue& material : items(&part, "materials")) {
+    JsonValue* refraction = extension_of(material, "KHR_materials_ior");
+    JsonValue* ior = refraction != nullptr ? find(*refraction, "ior") : nullptr;
+    // 0 stands for an infinite one.
+    if (ior != nullptr && ior->number > 0 && ior->number < 1) ior->number = 1;
+  }
+}
+
+}  // namespace microtrace::io::gltf

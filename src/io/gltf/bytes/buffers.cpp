@@ -1,0 +1,91 @@
+#include "io/gltf/bytes/buffers.hpp"
+
+#include "io/gltf/bytes/resource.hpp"
+#include "io/gltf/bytes/uri.hpp"
+#include "io/gltf/document/extension.hpp"
+
+namespace microtrace::io::gltf {
+namespace {
+
+std::string decode(Asset& asset, const Element& uri) {
+  const std::optional<DataUri> data = split_data_uri(uri.value->string);
+  if (data && data->media_type != "application/octet-stream" &&
+      data->media_type != "application/gltf-buffer") {
+    asset.tolerate(uri, "has a media type that is not for buffers; application/octet-stream is");
+  }
+  return decode_data_uri(asset, uri);
+}
+
+/// Whether buffer 0 is the BIN chunk: a GLB file's first buffer without a URI.
+bool is_bin(std::size_t index, const JsonValue& buffer) {
+  return index == 0 && buffer.find("uri") == nullptr;
+}
+
+/// Whether the buffer's views have compressed bytes too, which are read instead.
+bool is_fallback(const Element& buffer) {
+  const auto compression = extension(buffer, "EXT_meshopt_compression");
+  if (!compression) return false;
+  const JsonValue* fallback = compression->value->find("fallback");
+  return fallback != nullptr && fallback->boolean;
+}
+
+/// A buffer may be without data where an extension gives what is missing.
+void missing(Asset& asset, const Element& buffer, bool is_bin) {
+  if (is_bin) {
+    asset.tolerate(buffer, "has no uri, but the file has no BIN chunk that it could be");
+  } else {
+    asset.warn(buffer, "has no uri, and so no data");
+  }
+}
+
+void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
+  double total = 0;
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    total += buffers[i].find("byteLength")->number;
+    if (total > static_cast<double>(max_buffer_bytes)) {
+      asset.fail(asset.element("buffers", i).member("byteLength"),
+                 "brings the buffers to more than 4 GiB, the most that is read", ErrorKind::limit);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin, bool is_glb,
+                                 const ResourceFolders& folders) {
+  const std::vector<JsonValue>& buffers = asset.array("buffers");
+  check_total(asset, buffers);
+  if (bin && (buffers.empty() || !is_bin(0, buffers[0]))) {
+    asset.warn(asset.root(), "the file's BIN chunk is no buffer's; it is ignored");
+  }
+  std::vector<Buffer> result(buffers.size());
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    Buffer& buffer = result[i];
+    const Element at = asset.element("buffers", i);
+    const Element uri = at.member("uri");
+    if (bin && is_bin(i, buffers[i])) {
+      buffer.bytes = *bin;
+    } else if (is_fallback(at)) {
+      if (buffers[i].find("uri") != nullptr) note_unread_resource(uri, folders);
+      continue;
+    } else if (buffers[i].find("uri") != nullptr) {
+      buffer.storage = is_data_uri(uri.value->string)
+                           ? decode(asset, uri)
+                           : read_resource(asset, uri, folders, "buffer", max_buffer_bytes);
+      buffer.bytes = buffer.storage;
+    } else {
+      missing(asset, at, i == 0 && is_glb);
+      continue;
+    }
+    const auto length = static_cast<std::size_t>(at.member("byteLength").value->number);
+    if (buffer.bytes->size() < length) {
+      asset.fail(at.member("byteLength"), "claims " + std::to_string(length) +
+                                              " bytes, but the buffer's data has only " +
+                                              std::to_string(buffer.bytes->size()));
+    }
+    buffer.bytes = buffer.bytes->substr(0, length);
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

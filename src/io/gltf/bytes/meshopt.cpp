@@ -1,0 +1,125 @@
+#include "io/gltf/bytes/meshopt.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/gltf/bytes/meshopt_abi.hpp"
+#include "io/gltf/bytes/meshopt_filters.hpp"
+#include "io/gltf/document/extension.hpp"
+#include "io/module_function.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// No data of this format is packed more densely: 2 bits stand for the 16 zero bytes of a group.
+constexpr std::size_t greatest_ratio = 64;
+
+struct Description {
+  MicrotraceMeshoptMode mode = microtrace_meshopt_attributes;
+  std::string filter = "NONE";
+  std::size_t count = 0, stride = 0;
+};
+
+void require(const Asset& asset, const Element& at, bool holds, const char* message) {
+  if (!holds) asset.fail(at, message);
+}
+
+/// What the extension says; it asks for all that is checked here.
+Description describe(const Asset& asset, const Element& at, const tinygltf::BufferView& view) {
+  Description result;
+  result.count = whole_number(asset, at, "count");
+  result.stride = whole_number(asset, at, "byteStride", 256);
+  const std::string& mode = string(asset, at, "mode");
+  if (at.value->find("filter") != nullptr) result.filter = string(asset, at, "filter");
+  require(asset, at, mode == "ATTRIBUTES" || mode == "TRIANGLES" || mode == "INDICES",
+          "has a mode that is none of ATTRIBUTES, TRIANGLES, INDICES");
+  require(asset, at, view.byteStride == 0 || view.byteStride == result.stride,
+          "has another byteStride than the view");
+  require(asset, at,
+          result.stride > 0 && view.byteLength % result.stride == 0 &&
+              view.byteLength / result.stride == result.count,
+          "must have as many elements of byteStride bytes as fill the view's byteLength");
+  if (mode == "ATTRIBUTES") {
+    require(asset, at, result.stride % 4 == 0,
+            "must have a byteStride that is a multiple of 4 for mode ATTRIBUTES");
+    const bool fits =
+        result.filter == "NONE" || result.filter == "EXPONENTIAL" ||
+        (result.filter == "OCTAHEDRAL" && (result.stride == 4 || result.stride == 8)) ||
+        (result.filter == "QUATERNION" && result.stride == 8);
+    require(asset, at, fits, "has a filter that is unknown or not for elements of this byteStride");
+    return result;
+  }
+  result.mode = mode == "TRIANGLES" ? microtrace_meshopt_triangles : microtrace_meshopt_indices;
+  require(asset, at, result.stride == 2 || result.stride == 4,
+          "must have byteStride 2 or 4 for modes TRIANGLES and INDICES");
+  require(asset, at, mode == "INDICES" || result.count % 3 == 0,
+          "must have a count that is a multiple of 3 for mode TRIANGLES");
+  require(asset, at, result.filter == "NONE", "has a filter, which only mode ATTRIBUTES has");
+  return result;
+}
+
+/// The part of a buffer that the extension names.
+std::optional<std::string_view> compressed(const Asset& asset, const Element& at,
+                                           const std::vector<Buffer>& buffers) {
+  const auto& bytes = buffers[index(asset, at, "buffer", buffers.size())].bytes;
+  const bool has_offset = at.value->find("byteOffset") != nullptr;
+  const std::size_t offset = has_offset ? whole_number(asset, at, "byteOffset") : 0;
+  const std::size_t length = whole_number(asset, at, "byteLength");
+  if (!bytes) return std::nullopt;
+  if (offset > bytes->size() || length > bytes->size() - offset) {
+    asset.fail(at, "ends beyond its buffer of " + std::to_string(bytes->size()) + " bytes");
+  }
+  return bytes->substr(offset, length);
+}
+
+}  // namespace
+
+std::optional<std::string> decode_meshopt(Asset& asset, const tinygltf::Model& model,
+                                          std::size_t view, const std::vector<Buffer>& buffers,
+                                          std::size_t& left) {
+  const auto at = extension(asset.element("bufferViews", view), meshopt_extension);
+  if (!at) return std::nullopt;
+  const Description description = describe(asset, *at, model.bufferViews[view]);
+  const std::optional<std::string_view> bytes = compressed(asset, *at, buffers);
+  if (!bytes) return std::nullopt;
+
+  static const ModuleFunction function =
+      find_module_function(meshopt_module_file_name, decode_meshopt_name);
+  if (function.address == nullptr) {
+    const std::string message =
+        "EXT_meshopt_compression can't be decoded: " + function.complaint +
+        "; install libmeshoptimizer-dev and build the target microtrace_meshopt";
+    if (asset.requires_extension(meshopt_extension)) {
+      asset.fail(*at, message, ErrorKind::unsupported);
+    }
+    asset.warn(*at, message);
+    return std::nullopt;
+  }
+
+  const std::size_t size = description.count * description.stride;
+  if (size / greatest_ratio > bytes->size()) {
+    asset.fail(*at, "claims more elements than its bytes can hold");
+  }
+  if (size > left) {
+    asset.fail(*at, "brings the decompressed views to more than 4 GiB, the most that is read",
+               ErrorKind::limit);
+  }
+  left -= size;
+  take_memory(size, "decompressed views");
+  std::string result(size, '\0');
+  const MicrotraceMeshopt job{.bytes = reinterpret_cast<const unsigned char*>(bytes->data()),
+                              .size = bytes->size(),
+                              .count = description.count,
+                              .stride = description.stride,
+                              .mode = description.mode};
+  if (reinterpret_cast<MicrotraceDecodeMeshopt>(function.address)(&job, result.data()) == 0) {
+    asset.fail(*at, "holds bytes that are not what its mode, count and byteStride say");
+  }
+  if (description.filter == "OCTAHEDRAL") decode_octahedral(result, description.stride);
+  if (description.filter == "QUATERNION") decode_quaternions(result);
+  if (description.filter == "EXPONENTIAL") decode_exponential(result);
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

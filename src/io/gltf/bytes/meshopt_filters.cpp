@@ -1,0 +1,84 @@
+#include "io/gltf/bytes/meshopt_filters.hpp"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// x in [-1, 1] as a normalized integer, rounded half away from zero; 0 for what is no number.
+template <typename Integer>
+Integer normalized(float x) {
+  constexpr auto greatest = static_cast<float>(std::numeric_limits<Integer>::max());
+  if (!(x >= -1)) return static_cast<Integer>(x < -1 ? -greatest : 0);
+  if (x > 1) x = 1;
+  return static_cast<Integer>(x * greatest + (x < 0 ? -0.5F : 0.5F));
+}
+
+template <typename Integer>
+void decode_octahedral(std::string& bytes) {
+  std::array<Integer, 4> v;
+  for (std::size_t i = 0; i + sizeof v <= bytes.size(); i += sizeof v) {
+    std::memcpy(v.data(), &bytes[i], sizeof v);
+    const auto one = static_cast<float>(v[2]);
+    float x = static_cast<float>(v[0]) / one, y = static_cast<float>(v[1]) / one;
+    const float z = 1 - std::abs(x) - std::abs(y);
+    const float t = z < 0 ? z : 0;  // the lower half is folded outward
+    x -= std::copysign(t, x);
+    y -= std::copysign(t, y);
+    const float length = std::sqrt(x * x + y * y + z * z);
+    v[0] = normalized<Integer>(x / length);
+    v[1] = normalized<Integer>(y / length);
+    v[2] = normalized<Integer>(z / length);
+    std::memcpy(&bytes[i], v.data(), sizeof v);
+  }
+}
+
+/// 2^e, e in [-128, 127].
+double power_of_two(int e) {
+  return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52U);
+}
+
+}  // namespace
+
+void decode_octahedral(std::string& bytes, std::size_t stride) {
+  return stride == 4 ? decode_octahedral<std::int8_t>(bytes)
+                     : decode_octahedral<std::int16_t>(bytes);
+}
+
+void decode_quaternions(std::string& bytes) {
+  constexpr float range = 0.70710678118654752F;  // no lesser component is greater
+  std::array<std::int16_t, 4> v;
+  for (std::size_t i = 0; i + sizeof v <= bytes.size(); i += sizeof v) {
+    std::memcpy(v.data(), &bytes[i], sizeof v);
+    const auto one = static_cast<float>(v[3] | 3);
+    const auto greatest = static_cast<std::size_t>(v[3] & 3);
+    const float x = static_cast<float>(v[0]) / one * range;
+    const float y = static_cast<float>(v[1]) / one * range;
+    const float z = static_cast<float>(v[2]) / one * range;
+    const float square = 1 - x * x - y * y - z * z;
+    v[(greatest + 1) % 4] = normalized<std::int16_t>(x);
+    v[(greatest + 2) % 4] = normalized<std::int16_t>(y);
+    v[(greatest + 3) % 4] = normalized<std::int16_t>(z);
+    v[greatest] = normalized<std::int16_t>(std::sqrt(square > 0 ? square : 0));
+    std::memcpy(&bytes[i], v.data(), sizeof v);
+  }
+}
+
+void decode_exponential(std::string& bytes) {
+  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, &bytes[i], 4);
+    const int exponent = static_cast<std::int8_t>(word >> 24U);
+    const int mantissa = static_cast<std::int32_t>(word << 8U) >> 8U;
+    const auto value = static_cast<float>(mantissa * power_of_two(exponent));
+    std::memcpy(&bytes[i], &value, 4);
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,58 @@
+#include "io/gltf/bytes/resource.hpp"
+
+#include "base/memory_account.hpp"
+#include "base/printable.hpp"
+#include "io/confined_reads.hpp"
+#include "io/file.hpp"
+#include "io/gltf/bytes/uri.hpp"
+
+#include <system_error>
+#include <utility>
+
+namespace microtrace::io::gltf {
+std::string decode_data_uri(const Asset& asset, const Element& uri) {
+  const std::optional<DataUri> data = split_data_uri(uri.value->string);
+  if (!data) asset.fail(uri, "is no data URI of the form data:TYPE;base64,DATA");
+  take_memory(data->data.size() / 4 * 3, "the data of data URIs");
+  std::optional<std::string> bytes =
+      data->is_base64 ? decode_base64(data->data) : decode_percent(data->data);
+  if (!bytes && data->is_base64) {
+    asset.fail(uri, "is not base64: groups of four of A-Z a-z 0-9 + /, padded with =");
+  }
+  if (!bytes) asset.fail(uri, "has a % without two hexadecimal digits; write %25 for %");
+  return std::move(*bytes);
+}
+
+std::string read_resource(const Asset& asset, const Element& uri, const ResourceFolders& folders,
+                          const char* what, std::size_t max_bytes) {
+  const RelativePath relative = relative_path(uri.value->string);
+  const std::filesystem::path path = folders.own / relative.path;
+  const bool is_allowed =
+      relative.refusal.empty() || (relative.leads_out && lies_within(folders.allowed, path));
+  if (!is_allowed) {
+    asset.fail(uri, in_quotes(uri.value->string) + " " + relative.refusal +
+                        (relative.leads_out ? ", or allow its folder (--allow-path)" : ""));
+  }
+  const std::string file = std::string(what) + " file " + in_quotes(path.string());
+  std::error_code code;
+  // A pipe or a device could keep its reader waiting for ever.
+  if (!std::filesystem::is_regular_file(path, code)) {
+    const bool missing = !std::filesystem::exists(path, code);
+    // An asset that is not whole, rather than a machine that fails.
+    const ErrorKind kind = missing ? ErrorKind::invalid_scene : ErrorKind::io;
+    asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
+  }
+  try {
+    const ConfinedReads confined(folders.own, folders.allowed);
+    return read_regular_file(path, max_bytes);
+  } catch (const Error& error) {
+    asset.fail(uri, file + " " + error.diagnostic().message, error.kind());
+  }
+}
+
+void note_unread_resource(const Element& uri, const ResourceFolders& folders) {
+  const RelativePath relative = relative_path(uri.value->string);
+  if (relative.refusal.empty()) note_unread_file(folders.own / relative.path);
+}
+
+}  // namespace microtrace::io::gltf

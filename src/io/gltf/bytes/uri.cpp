@@ -1,0 +1,114 @@
+#include "io/gltf/bytes/uri.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+namespace microtrace::io::gltf {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool starts_with_ignoring_case(std::string_view text, std::string_view start) {
+  return text.size() >= start.size() && std::equal(start.begin(), start.end(), text.begin(),
+                                                   [](char a, char b) { return a == lower(b); });
+}
+
+int base64_digit(char c) {
+  if (c >= 'A' && c <= 'Z') return c - 'A';
+  if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+  if (c >= '0' && c <= '9') return c - '0' + 52;
+  if (c == '+') return 62;
+  return c == '/' ? 63 : -1;
+}
+
+int hex_digit(char c) {
+  if (c >= '0' && c <= '9') return c - '0';
+  const char l = lower(c);
+  return l >= 'a' && l <= 'f' ? l - 'a' + 10 : -1;
+}
+
+/// scheme = ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":"
+bool has_scheme(std::string_view uri) {
+  const std::size_t colon = uri.find(':');
+  return colon != std::string_view::npos && colon < uri.find('/');
+}
+
+}  // namespace
+
+bool is_data_uri(std::string_view uri) {
+  return starts_with_ignoring_case(uri, "data:");
+}
+
+std::optional<DataUri> split_data_uri(std::string_view uri) {
+  constexpr std::string_view scheme = "data:", marker = ";base64";
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string_view::npos) return std::nullopt;
+  std::string_view type = uri.substr(scheme.size(), comma - scheme.size());
+  const bool is_base64 =
+      type.size() >= marker.size() &&
+      starts_with_ignoring_case(type.substr(type.size() - marker.size()), marker);
+  if (is_base64) type.remove_suffix(marker.size());
+  if (type.ends_with(';') || type.find(";;") != std::string_view::npos) return std::nullopt;
+  return DataUri{.media_type = type.substr(0, type.find(';')),
+                 .is_base64 = is_base64,
+                 .data = uri.substr(comma + 1)};
+}
+
+std::optional<std::string> decode_percent(std::string_view text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '%') {
+      result += text[i];
+      continue;
+    }
+    if (i + 2 >= text.size()) return std::nullopt;
+    const int high = hex_digit(text[i + 1]), low = hex_digit(text[i + 2]);
+    if (high < 0 || low < 0) return std::nullopt;
+    result += static_cast<char>(high * 16 + low);
+    i += 2;
+  }
+  return result;
+}
+
+std::optional<std::string> decode_base64(std::string_view text) {
+  if (text.size() % 4 != 0) return std::nullopt;
+  const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
+  const std::size_t digits = text.size() - padding;
+  std::string bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < digits; ++i) {
+    const int digit = base64_digit(text[i]);
+    if (digit < 0) return std::nullopt;
+    bits = bits << 6U | static_cast<std::uint32_t>(digit);
+    // The digits of a group of four complete a byte each, but for the first.
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xFFU);
+  }
+  return bytes;
+}
+
+RelativePath relative_path(std::string_view uri) {
+  const std::optional<std::string> path = decode_percent(uri);
+  if (!path) return {.refusal = "has a % without two hexadecimal digits; write %25 for %"};
+  if (path->empty()) return {.refusal = "is empty"};
+  if (has_scheme(uri)) return {.refusal = "has a scheme; only data: and relative paths are read"};
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  if (std::ranges::any_of(*path, is_control)) return {.refusal = "has a control character"};
+  if (path->find('\\') != std::string::npos) return {.refusal = "has a backslash; separate by /"};
+  if (path->starts_with('/')) {
+    return {*path, "is absolute; use a path relative to the asset", true};
+  }
+  // Without "." and "..", so that the path that is opened is the one that is looked at here.
+  const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
+  if (*plain.begin() == "..") {
+    return {*path, "leads out of the asset's folder by \"..\"", true};
+  }
+  return {.path = plain.string()};
+}
+
+}  // namespace microtrace::io::gltf

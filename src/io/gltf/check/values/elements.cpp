@@ -1,0 +1,118 @@
+#include "io/gltf/check/values/elements.hpp"
+
+#include <cstdint>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// Bytes of a sparse accessor that are put together at most.
+constexpr std::size_t max_sparse_bytes = std::size_t{1} << 26;
+
+std::uint32_t unsigned_at(std::string_view bytes, std::size_t number, std::size_t size) {
+  std::uint32_t result = 0;  // little-endian, as glTF's numbers are
+  std::memcpy(&result, &bytes[number * size], size);
+  return result;
+}
+
+class SparseParts {
+ public:
+  SparseParts(const tinygltf::Accessor& accessor, const BufferViews& views) : accessor_(accessor) {
+    const auto& [count, is_sparse, indices, values] = accessor.sparse;
+    const auto part = [&](int view, int offset) {
+      return views.bytes(view)
+          .value_or(std::string_view())
+          .substr(static_cast<std::size_t>(offset));
+    };
+    if (!views.bytes(indices.bufferView) || !views.bytes(values.bufferView)) return;
+    indices_ = part(indices.bufferView, indices.byteOffset);
+    values_ = part(values.bufferView, values.byteOffset);
+    count_ = static_cast<std::size_t>(count);
+    index_size_ = component_size(indices.componentType);
+  }
+
+  [[nodiscard]] bool has_data() const { return count_ > 0; }
+
+  void check(const Asset& asset, std::size_t accessor) const {
+    std::uint64_t least = 0;  // of what the next index may be
+    for (std::size_t i = 0; i < count_; ++i) {
+      const std::uint32_t target = unsigned_at(indices_, i, index_size_);
+      if (target < least || target >= accessor_.count) {
+        asset.fail(asset.element("accessors", accessor).member("sparse").member("indices"),
+                   "number " + std::to_string(i) + " is " + std::to_string(target) +
+                       "; they must ascend and stay below the accessor's count, " +
+                       std::to_string(accessor_.count));
+      }
+      least = std::uint64_t{target} + 1;
+    }
+  }
+
+  void put_into(std::string& elements, std::size_t size) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::memcpy(&elements[unsigned_at(indices_, i, index_size_) * size], &values_[i * size],
+                  size);
+    }
+  }
+
+ private:
+  const tinygltf::Accessor& accessor_;
+  std::string_view indices_, values_;
+  std::size_t count_ = 0, index_size_ = 1;
+};
+
+}  // namespace
+
+std::optional<Elements> Elements::of(const Asset& asset, const tinygltf::Model& model,
+                                     const BufferViews& views, std::size_t index) {
+  const tinygltf::Accessor& accessor = model.accessors[index];
+  const std::size_t size = element_size(accessor.type, accessor.componentType);
+  Elements result;
+  result.count_ = accessor.count;
+  result.component_type_ = accessor.componentType;
+  result.components_ = static_cast<std::size_t>(
+      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+  result.stride_ = size;
+  if (size != result.components_ * component_size(accessor.componentType)) {
+    return std::nullopt;  // padded columns of small integers, which no rule looks into
+  }
+  if (accessor.bufferView >= 0) {
+    const std::optional<std::string_view> bytes = views.bytes(accessor.bufferView);
+    if (!bytes) return std::nullopt;
+    result.bytes_ = bytes->substr(accessor.byteOffset);
+    const std::size_t stride =
+        model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    if (stride != 0) result.stride_ = stride;
+  }
+  if (!accessor.sparse.isSparse) {
+    return accessor.bufferView >= 0 ? std::optional(std::move(result)) : std::nullopt;
+  }
+  const SparseParts sparse(accessor, views);
+  if (!sparse.has_data()) return std::nullopt;
+  sparse.check(asset, index);
+  if (accessor.count > max_sparse_bytes / size) return std::nullopt;
+  result.storage_.resize(accessor.count * size);
+  for (std::size_t i = 0; i < accessor.count && accessor.bufferView >= 0; ++i) {
+    std::memcpy(&result.storage_[i * size], &result.bytes_[i * result.stride_], size);
+  }
+  sparse.put_into(result.storage_, size);
+  result.stride_ = size;
+  return result;
+}
+
+double Elements::number(std::size_t element, std::size_t component) const {
+  switch (component_type_) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return at<std::int8_t>(element, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return at<std::uint8_t>(element, component);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return at<std::int16_t>(element, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return at<std::uint16_t>(element, component);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return at<std::uint32_t>(element, component);
+    default:
+      return static_cast<double>(at<float>(element, component));
+  }
+}
+
+}  // namespace microtrace::io::gltf

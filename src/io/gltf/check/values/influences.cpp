@@ -1,0 +1,138 @@
+#include "io/gltf/check/values/influences.hpp"
+
+#include "io/gltf/check/values/elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+/// By mesh: the joints of the smallest skin that moves it; `none` where none does.
+std::vector<std::size_t> joint_counts(const Asset& asset) {
+  std::vector<std::size_t> result(asset.array("meshes").size(), none);
+  for (const JsonValue& node : asset.array("nodes")) {
+    const JsonValue *mesh = node.find("mesh"), *skin = node.find("skin");
+    if (mesh == nullptr || skin == nullptr) continue;
+    const JsonValue& json = asset.array("skins")[static_cast<std::size_t>(skin->number)];
+    std::size_t& least = result[static_cast<std::size_t>(mesh->number)];
+    least = std::min(least, json.find("joints")->items.size());
+  }
+  return result;
+}
+
+class InfluenceCheck {
+ public:
+  InfluenceCheck(Asset& asset, const tinygltf::Model& model, const BufferViews& views)
+      : asset_(asset), model_(model), views_(views) {}
+
+  void primitive(const Element& attributes, std::size_t joint_count) {
+    sets_.clear();
+    for (std::size_t set = 0;; ++set) {
+      const std::string number = std::to_string(set);
+      const JsonValue* joints = attributes.value->find("JOINTS_" + number);
+      const JsonValue* weights = attributes.value->find("WEIGHTS_" + number);
+      if (joints == nullptr || weights == nullptr) break;
+      const auto index = static_cast<std::size_t>(joints->number);
+      vertices_ += model_.accessors[index].count;
+      if (vertices_ > max_elements) {
+        asset_.fail(attributes, "brings the asset to more than 2^27 vertices that joints move",
+                    ErrorKind::limit);
+      }
+      auto joint_elements = elements(*joints), weight_elements = elements(*weights);
+      if (!joint_elements || !weight_elements) return;
+      check_joints(attributes.member("JOINTS_" + number), *joint_elements, joint_count);
+      sets_.emplace_back(std::move(*joint_elements), std::move(*weight_elements));
+    }
+    if (!sets_.empty()) check_weights(attributes.member("WEIGHTS_0"));
+  }
+
+ private:
+  [[nodiscard]] std::optional<Elements> elements(const JsonValue& index) const {
+    return Elements::of(asset_, model_, views_, static_cast<std::size_t>(index.number));
+  }
+
+  static std::size_t joint(const Elements& joints, std::size_t vertex, std::size_t k) {
+    return joints.component_type() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+               ? std::size_t{joints.at<std::uint8_t>(vertex, k)}
+               : std::size_t{joints.at<std::uint16_t>(vertex, k)};
+  }
+
+  static double weight(const Elements& weights, std::size_t vertex, std::size_t k) {
+    switch (weights.component_type()) {
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return weights.number(vertex, k) / 255;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return weights.number(vertex, k) / 65535;
+      default:
+        return weights.number(vertex, k);
+    }
+  }
+
+  void check_joints(const Element& at, const Elements& joints, std::size_t joint_count) const {
+    for (std::size_t i = 0; i < joints.count(); ++i) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (joint(joints, i, k) < joint_count) continue;
+        asset_.fail(at, "vertex " + std::to_string(i) + " is moved by joint " +
+                            std::to_string(joint(joints, i, k)) + " of a skin of only " +
+                            std::to_string(joint_count));
+      }
+    }
+  }
+
+  void check_weights(const Element& at) const {
+    // glTF 2.0, section 3.7.3.3, says for each weight that is not 0 how far their sum may be from
+    // 1; integers that are off by one are farther.
+    constexpr double tolerance = 2e-7;
+    bool negative = false, twice = false;
+    std::size_t unequal = 0;
+    for (std::size_t i = 0; i < sets_[0].first.count(); ++i) {
+      double sum = 0, terms = 0;
+      for (const auto& [joints, weights] : sets_) {
+        for (std::size_t k = 0; k < 4; ++k) {
+          const double w = weight(weights, i, k);
+          sum += w;
+          terms += w != 0 ? 1 : 0;
+          negative = negative || w < 0;
+          for (std::size_t other = 0; other < k && w != 0; ++other) {
+            twice = twice || (joint(joints, i, other) == joint(joints, i, k) &&
+                              weight(weights, i, other) != 0);
+          }
+        }
+      }
+      unequal += std::abs(sum - 1) <= tolerance * terms ? 0 : 1;
+    }
+    if (unequal != 0) {
+      asset_.tolerate(at, "has " + std::to_string(unequal) +
+                              " vertices whose weights do not add up to 1; they are scaled to");
+    }
+    if (negative) asset_.tolerate(at, "has negative weights");
+    if (twice) asset_.tolerate(at, "has vertices that one joint moves twice");
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  const BufferViews& views_;
+  std::vector<std::pair<Elements, Elements>> sets_;  // joints and weights
+  std::size_t vertices_ = 0;                         // counted against max_elements
+};
+
+}  // namespace
+
+void check_influences(Asset& asset, const tinygltf::Model& model, const BufferViews& views) {
+  InfluenceCheck check(asset, model, views);
+  const std::vector<std::size_t> counts = joint_counts(asset);
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == none) continue;
+    const Element primitives = asset.element("meshes", i).member("primitives");
+    for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
+      check.primitive(primitives.item(k).member("attributes"), counts[i]);
+    }
+  }
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,127 @@
+#include "io/gltf/document/asset.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+namespace microtrace::io::gltf {
+
+Element Element::member(std::string_view key) const {
+  const JsonValue* found = value->find(key);
+  return {found != nullptr ? found : value, child(pointer, key)};
+}
+
+Element Element::item(std::size_t index) const {
+  return {index < value->items.size() ? &value->items[index] : value, child(pointer, index)};
+}
+
+Asset::Asset(JsonDocument& json) : json_(json) {
+  if (const OutdoneKeys& outdone = json.outdone_keys(); outdone.count > 0) {
+    JsonValue key;
+    key.offset = outdone.offset;
+    note({&key, outdone.pointer}, "stands twice in its object; the last one counts",
+         Severity::error, outdone.count);
+  }
+  for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string);
+  for (const JsonValue& item : array("extensionsRequired")) required_.insert(item.string);
+}
+
+const std::vector<JsonValue>& Asset::array(std::string_view name) const {
+  static const std::vector<JsonValue> none;
+  const JsonValue* found = json_.root().find(name);
+  return found != nullptr ? found->items : none;
+}
+
+Element Asset::element(std::string_view name, std::size_t index) const {
+  return root().member(name).item(index);
+}
+
+const JsonValue* Asset::find(std::string_view pointer) const {
+  const JsonValue* value = &json_.root();
+  while (value != nullptr && !pointer.empty()) {
+    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
+    const std::string_view token = pointer.substr(1, end - 1);
+    std::size_t index = 0;
+    if (value->kind == JsonValue::Kind::array) {
+      const auto read = std::from_chars(token.data(), token.data() + token.size(), index);
+      const bool is_there = read.ec == std::errc{} && index < value->items.size();
+      value = is_there ? &value->items[index] : nullptr;
+    } else {
+      value = value->find(token);
+    }
+    pointer.remove_prefix(end);
+  }
+  return value;
+}
+
+bool Asset::uses(std::string_view extension) const {
+  return used_.contains(extension);
+}
+
+bool Asset::requires_extension(std::string_view extension) const {
+  return required_.contains(extension);
+}
+
+void Asset::drop(const Element& object, const std::unordered_set<std::string_view>& keys) {
+  // Elements let their holders read; the document itself is the asset's to change.
+  auto& value = const_cast<JsonValue&>(*object.value);
+  std::vector<JsonMember> left;
+  for (JsonMember& member : value.members) {
+    if (!keys.contains(member.key)) left.push_back(std::move(member));
+  }
+  value.members = std::move(left);
+  value.index_members();
+}
+
+void Asset::set(const Element& at, double number) {
+  const_cast<JsonValue*>(at.value)->number = number;
+}
+
+void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {
+  throw Error(kind, json_.at(at.value->offset, at.pointer, std::move(message)));
+}
+
+void Asset::warn(const Element& at, const std::string& message) {
+  note(at, message, Severity::warning, 1);
+}
+
+void Asset::tolerate(const Element& at, const std::string& message) {
+  note(at, message, Severity::error, 1);
+}
+
+void Asset::note(const Element& at, const std::string& message, Severity severity,
+                 std::size_t places) {
+  Warning& warning = warnings_[message];
+  warning.severity = std::max(warning.severity, severity);
+  if (warning.count == 0 || at.value->offset < warning.offset) {
+    warning.offset = at.value->offset;
+    warning.pointer = at.pointer;
+  }
+  warning.count += places;
+}
+
+std::vector<Diagnostic> Asset::warnings() const {
+  constexpr std::size_t shown = 100;  // each costs a search for its line
+  std::vector<std::pair<std::string, Warning>> sorted(warnings_.begin(), warnings_.end());
+  std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second.offset, a.first) < std::pair(b.second.offset, b.first);
+  });
+  std::vector<Diagnostic> result;
+  for (std::size_t i = 0; i < std::min(sorted.size(), shown); ++i) {
+    auto& [message, warning] = sorted[i];
+    if (warning.count > 1) message += " (" + std::to_string(warning.count) + " places)";
+    result.push_back(json_.at(warning.offset, warning.pointer, message));
+    result.back().severity = warning.severity;
+  }
+  if (sorted.size() > shown) {
+    Diagnostic& last = result.emplace_back();
+    last.file = json_.file();
+    last.message = std::to_string(sorted.size() - shown) + " more warnings are left out";
+    for (std::size_t i = shown; i < sorted.size(); ++i) {
+      last.severity = std::max(last.severity, sorted[i].second.severity);
+    }
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

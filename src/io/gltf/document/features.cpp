@@ -1,0 +1,173 @@
+#include "io/gltf/document/features.hpp"
+
+#include "base/printable.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// Light has no influence on flat pictures; what it needs is read all the same.
+constexpr std::array<std::string_view, 24> honoured = {
+    "KHR_animation_pointer",  // pointers that lead nowhere are warned of where they are played
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
+    "KHR_texture_transform",
+};
+
+/// Without these the picture is the same, so that an asset that requires one is drawn, with the
+/// warning that the extension is ignored.
+constexpr std::array<std::string_view, 2> without_harm = {"KHR_xmp", "KHR_xmp_json_ld"};
+
+using Version = std::pair<unsigned, unsigned>;
+
+/// major.minor, in decimal digits.
+std::optional<Version> parse_version(std::string_view text) {
+  Version version;
+  const char* end = text.data() + text.size();
+  const auto major = std::from_chars(text.data(), end, version.first);
+  if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
+  const auto minor = std::from_chars(major.ptr + 1, end, version.second);
+  if (minor.ec != std::errc{} || minor.ptr != end) return std::nullopt;
+  return version;
+}
+
+std::optional<Version> version(const Asset& asset, const Element& info, const char* key) {
+  const JsonValue* value = info.value->find(key);
+  if (value == nullptr) return std::nullopt;
+  const std::optional<Version> parsed = parse_version(value->string);
+  if (!parsed) asset.fail(info.member(key), "must be a string like \"2.0\"");
+  return parsed;
+}
+
+void check_version(Asset& asset) {
+  const Element info = asset.root().member("asset");
+  if (asset.root().value->find("asset") == nullptr) {
+    asset.fail(asset.root(), "lacks the required property \"asset\": this is not glTF 2.0");
+  }
+  const std::optional<Version> written = version(asset, info, "version");
+  const std::optional<Version> least = version(asset, info, "minVersion");
+  if (!written) asset.fail(info, "lacks the required property \"version\"");
+  if (written->first != 2) {
+    asset.fail(info.member("version"), "only glTF 2 is read; export the asset as glTF 2.0",
+               ErrorKind::unsupported);
+  }
+  if (*written > Version{2, 0}) {
+    asset.warn(info.member("version"), "is beyond glTF 2.0; the asset is read as glTF 2.0");
+  }
+  if (!least) return;
+  const Element at = info.member("minVersion");
+  if (least->first != 2) {
+    asset.fail(at, "asks for another glTF than 2, which is what is read", ErrorKind::unsupported);
+  }
+  if (*least > *written) {
+    asset.tolerate(at, "is greater than version");
+  } else if (*least > Version{2, 0}) {
+    asset.warn(at, "asks for more than glTF 2.0; what it adds is not drawn");
+  }
+}
+
+/// An extension that is required but not used changes nothing (glTF 2.0, section 3.12, forbids it).
+void check_extension(Asset& asset, const Element& at) {
+  if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
+  const std::string& name = at.value->string;
+  const bool known = std::ranges::find(honoured, name) != honoured.end() ||
+                     std::ranges::find(without_harm, name) != without_harm.end();
+  if (!asset.uses(name)) {
+    asset.tolerate(at, "is missing in extensionsUsed; the requirement is ignored");
+  } else if (!known) {
+    asset.fail(at,
+               "the asset requires extension " + in_quotes(name) +
+                   ", which is not supported; export it without",
+               ErrorKind::unsupported);
+  }
+}
+
+/// Readers that do not know this one can't read the asset, so that it must be required.
+void check_quantization(Asset& asset) {
+  constexpr std::string_view name = "KHR_mesh_quantization";
+  if (asset.requires_extension(name)) return;
+  const std::vector<JsonValue>& used = asset.array("extensionsUsed");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i].string != name) continue;
+    asset.tolerate(asset.element("extensionsUsed", i), "must stand in extensionsRequired too");
+  }
+}
+
+class FeatureSearch {
+ public:
+  explicit FeatureSearch(Asset& asset) : asset_(asset) {}
+
+  void material(const Element& at) {
+    present(at, "emissiveTexture", emission);
+    if (const JsonValue* factor = at.value->find("emissiveFactor")) {
+      const auto shines = [](const JsonValue& item) { return item.number != 0; };
+      if (std::ranges::any_of(factor->items, shines)) {
+        asset_.warn(at.member("emissiveFactor"), emission);
+      }
+    }
+  }
+
+  void present(const Element& at, const char* key, const std::string& message) {
+    if (at.value->find(key) != nullptr) asset_.warn(at.member(key), message);
+  }
+
+ private:
+  inline static const std::string emission =
+      "emission is not drawn in flat pictures; the base colour is";
+
+  Asset& asset_;
+};
+
+}  // namespace
+
+void check_requirements(Asset& asset) {
+  if (asset.root().value->kind != JsonValue::Kind::object) {
+    asset.fail(asset.root(), "must be an object: this is not glTF 2.0");
+  }
+  check_version(asset);
+  check_quantization(asset);
+  for (std::size_t i = 0; i < asset.array("extensionsRequired").size(); ++i) {
+    check_extension(asset, asset.element("extensionsRequired", i));
+  }
+}
+
+void warn_of_ignored_features(Asset& asset, SurfaceDetail detail) {
+  const std::vector<JsonValue>& used = asset.array("extensionsUsed");
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (std::ranges::find(honoured, used[i].string) != honoured.end()) continue;
+    asset.warn(asset.element("extensionsUsed", i),
+               "extension " + in_quotes(used[i].string) + " is not supported; it is ignored");
+  }
+  if (detail != SurfaceDetail::color) return;
+  FeatureSearch search(asset);
+  for (std::size_t i = 0; i < asset.array("materials").size(); ++i) {
+    search.material(asset.element("materials", i));
+  }
+}
+
+}  // namespace microtrace::io::gltf

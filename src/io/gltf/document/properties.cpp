@@ -1,0 +1,30 @@
+#include "io/gltf/document/properties.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace microtrace::io::gltf {
+
+float finite_float(double x) {
+  constexpr double greatest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -greatest, greatest));
+}
+
+float number(const JsonValue& object, std::string_view key, float standard) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr ? finite_float(value->number) : standard;
+}
+
+std::uint32_t index(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  constexpr std::uint32_t greatest = std::numeric_limits<std::uint32_t>::max();
+  if (value == nullptr) return 0;
+  return static_cast<std::uint32_t>(std::min<double>(value->number, greatest));
+}
+
+std::string name_of(const JsonValue& object) {
+  const JsonValue* name = object.find("name");
+  return name != nullptr ? name->string : std::string();
+}
+
+}  // namespace microtrace::io::gltf

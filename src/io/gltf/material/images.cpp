@@ -1,0 +1,222 @@
+#include "io/gltf/material/images.hpp"
+
+#include "base/memory_account.hpp"
+#include "base/printable.hpp"
+#include "io/gltf/bytes/resource.hpp"
+#include "io/gltf/bytes/uri.hpp"
+#include "io/image/decode_image.hpp"
+#include "io/image/image_header.hpp"
+#include "io/image/ktx2_colors.hpp"
+#include "scene/material_textures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// No image file holds more bytes.
+constexpr std::size_t max_image_bytes = std::size_t{1} << 30U;
+/// Of all images together, each time that one is read: images may share a file or a buffer view.
+constexpr std::uint64_t max_bytes_of_images = std::uint64_t{1} << 32U;
+
+std::string_view media_type(ImageFormat format) {
+  constexpr std::array<std::string_view, 5> types = {"", "image/png", "image/jpeg", "image/webp",
+                                                     "image/ktx2"};
+  return types[static_cast<std::size_t>(format)];
+}
+
+/// What the asset says that the image is; empty where it says nothing.
+std::string_view declared_type(const Element& at) {
+  if (const JsonValue* type = at.value->find("mimeType")) return type->string;
+  const JsonValue* uri = at.value->find("uri");
+  if (uri == nullptr) return {};
+  const std::optional<DataUri> data = split_data_uri(uri->string);
+  return data ? data->media_type : std::string_view();
+}
+
+std::string small_letters(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return result;
+}
+
+/// A data URI must say what it holds (glTF 2.0, section 2.8; so the Khronos validator has it too).
+/// image/jpg, which is no media type, is widespread. Whether it is right.
+bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
+  constexpr std::array<std::string_view, 2> not_decoded = {"image/avif", "image/vnd-ms.dds"};
+  const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
+  const bool is_right =
+      format == ImageFormat::unknown
+          ? std::ranges::find(not_decoded, type) != not_decoded.end()
+          : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
+  if (is_right) return true;
+  asset.tolerate(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
+                          (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
+                                                          : std::string(media_type(format))));
+  return false;
+}
+
+class ImageLoader {
+ public:
+  ImageLoader(Asset& asset, const BufferViews& views, const ResourceFolders& folders)
+      : asset_(asset), views_(views), folders_(folders) {}
+
+  std::shared_ptr<const Image> load(const Element& at, ImageUse use) {
+    std::string storage;
+    MemoryAccount file(memory_account().budget());
+    const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
+    if (!bytes) {
+      asset_.warn(at, "lies in a buffer without data; textures of it are white");
+      return nullptr;
+    }
+    bytes_ += bytes->size();
+    if (bytes_ > max_bytes_of_images) {
+      asset_.fail(at, "brings the files of images to more than 4 GiB, the most that is read",
+                  ErrorKind::limit);
+    }
+    const ImageHeader header = read_image_header(*bytes);
+    const JsonValue* uri = at.value->find("uri");
+    const bool is_right = uri == nullptr || !is_data_uri(uri->string) ||
+                          check_media_type(asset_, at.member("uri"), header.format);
+    if (header.format == ImageFormat::unknown) {
+      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; textures of it are white");
+      return nullptr;
+    }
+    if (header.state == ImageHeader::State::damaged) {
+      asset_.fail(at, "holds a damaged image: its header says no size");
+    }
+    if (header.state == ImageHeader::State::cut_off) {
+      asset_.tolerate(at, "holds an image that ends before its size; textures of it are white");
+      return nullptr;
+    }
+    const std::string_view type = declared_type(at);
+    if (is_right && !type.empty() && type != media_type(header.format)) {
+      asset_.tolerate(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
+                              std::string(media_type(header.format)));
+    }
+    if (type != media_type(header.format)) check_extension(at, header.format);
+    if (header.format == ImageFormat::ktx2) check_ktx2(at, header, *bytes, use);
+    return use.is_wanted() ? decode(at, header, *bytes) : nullptr;
+  }
+
+ private:
+  std::optional<std::string_view> bytes_of(const Element& at, std::string& storage,
+                                           MemoryAccount& memory) const {
+    const MemoryScope scope(memory);
+    if (const JsonValue* view = at.value->find("bufferView")) {
+      return views_.bytes(static_cast<int>(view->number));
+    }
+    const Element uri = at.member("uri");
+    storage = is_data_uri(uri.value->string)
+                  ? decode_data_uri(asset_, uri)
+                  : read_resource(asset_, uri, folders_, "image", max_image_bytes);
+    return storage;
+  }
+
+  /// Kinds of images that extensions add; check_images has looked at what images say of themselves.
+  void check_extension(const Element& at, ImageFormat format) {
+    const char* name = format == ImageFormat::webp   ? "EXT_texture_webp"
+                       : format == ImageFormat::ktx2 ? "KHR_texture_basisu"
+                                                     : nullptr;
+    if (name == nullptr || asset_.uses(name)) return;
+    asset_.tolerate(at,
+                    "is " + std::string(media_type(format)) + ", which asks for extension " + name);
+  }
+
+  /// What KHR_texture_basisu demands of files that can be decoded nevertheless. The decoder refuses
+  /// others.
+  void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
+                  ImageUse use) {
+    if (header.width % 4 != 0 || header.height % 4 != 0) {
+      asset_.tolerate(at, "has sides that are no multiples of 4, as KHR_texture_basisu demands");
+    }
+    const std::optional<Ktx2Colors> colors = read_ktx2_colors(bytes);
+    if (!colors) return;
+    if (colors->is_premultiplied) {
+      asset_.tolerate(at,
+                      "says that alpha is multiplied into its colors; they are taken as they are");
+    }
+    // An image may hold colors and a number in its alpha, which is linear in either encoding.
+    const bool is_srgb = colors->encoding == ColorEncoding::srgb;
+    if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;
+    asset_.tolerate(at, std::string("says that its numbers are ") +
+                            (!colors->encoding ? "neither sRGB nor linear"
+                             : is_srgb         ? "sRGB"
+                                               : "linear") +
+                            ", but materials take them for " + (use.srgb ? "sRGB" : "linear") +
+                            ", which decides");
+  }
+
+  std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
+                                      std::string_view bytes) {
+    pixels_ += std::uint64_t{header.width} * header.height;
+    if (pixels_ > max_texture_pixels) {
+      asset_.fail(at, "brings the images to more than 2^28 pixels, the most that is read",
+                  ErrorKind::limit);
+    }
+    DecodedImage decoded = decode_image(bytes);
+    if (decoded.no_module) {
+      asset_.warn(at, "can't be decoded, textures of it are white: " + decoded.complaint);
+      return nullptr;
+    }
+    if (decoded.too_large) {
+      asset_.fail(at, "has more pixels than its header says, or than there is memory for",
+                  ErrorKind::limit);
+    }
+    if (!decoded.image)
+      asset_.fail(at, "holds an image that can't be decoded: " + decoded.complaint);
+    if (!decoded.complaint.empty()) {
+      asset_.tolerate(at, "holds an image that is not whole: " + decoded.complaint);
+    }
+    if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string;
+    return std::make_shared<const Image>(std::move(*decoded.image));
+  }
+
+  Asset& asset_;
+  const BufferViews& views_;
+  const ResourceFolders& folders_;
+  std::uint64_t bytes_ = 0, pixels_ = 0;
+};
+
+}  // namespace
+
+std::vector<ImageUse> image_uses(std::span<const Material> materials,
+                                 const std::vector<bool>& drawn, std::span<const Texture> textures,
+                                 std::size_t images, SurfaceDetail detail) {
+  std::vector<ImageUse> uses(images);
+  const auto note = [&](const TextureUse& use, ColorEncoding encoding) {
+    const auto& image = textures[use.texture].image;
+    if (!image) return;
+    (encoding == ColorEncoding::srgb ? uses[*image].srgb : uses[*image].linear) = true;
+  };
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    if (!drawn[i]) continue;
+    if (detail == SurfaceDetail::all) {
+      for_each_texture(materials[i], note);
+    } else if (const auto& use = materials[i].base_color_texture;
+               use &&
+               (detail == SurfaceDetail::color || materials[i].alpha_mode != AlphaMode::opaque)) {
+      note(*use, ColorEncoding::srgb);
+    }
+  }
+  return uses;
+}
+
+std::vector<std::shared_ptr<const Image>> load_images(Asset& asset, const BufferViews& views,
+                                                      const ResourceFolders& folders,
+                                                      const std::vector<ImageUse>& uses) {
+  ImageLoader loader(asset, views, folders);
+  std::vector<std::shared_ptr<const Image>> images;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    images.push_back(loader.load(asset.element("images", i), uses[i]));
+  }
+  return images;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,87 @@
+#include "io/gltf/material/textures.hpp"
+
+#include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
+#include "scene/trigonometry.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// KHR_texture_transform: scaled, turned anticlockwise as seen with v going down, moved.
+Mat3x2 texture_transform(const JsonValue& json) {
+  const Vec2 offset = vector(json, "offset", Vec2(0)), scale = vector(json, "scale", Vec2(1));
+  const JsonValue* rotation = json.find("rotation");
+  // The trigonometry ends at 2^20; that so large an angle turns by is anyone's guess.
+  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
+  const double sine = sin_radians(angle), cosine = cos_radians(angle);
+  return {Vec2(cosine * scale.x, -sine * scale.x), Vec2(sine * scale.y, cosine * scale.y), offset};
+}
+
+Wrap wrap(const JsonValue& sampler, std::string_view key) {
+  const JsonValue* mode = sampler.find(key);
+  if (mode == nullptr || mode->number == 10497) return Wrap::repeat;
+  return mode->number == 33071 ? Wrap::clamp_to_edge : Wrap::mirrored_repeat;
+}
+
+/// OpenGL's numbers: odd ones filter the image linearly; from 9984 on with mip maps, and from 9986
+/// on linearly between these.
+Sampler make_sampler(const JsonValue& json) {
+  Sampler sampler{.wrap_s = wrap(json, "wrapS"), .wrap_t = wrap(json, "wrapT")};
+  const auto filter = [](int name) { return name % 2 == 0 ? Filter::nearest : Filter::linear; };
+  sampler.magnification = filter(static_cast<int>(number(json, "magFilter", 9729)));
+  const int minification = static_cast<int>(number(json, "minFilter", 9987));
+  sampler.minification = filter(minification);
+  if (minification < 9986) {
+    sampler.mip = minification < 9984 ? MipFilter::none : MipFilter::nearest;
+  }
+  return sampler;
+}
+
+std::optional<std::uint32_t> image_of(const JsonValue& texture) {
+  const std::array<const JsonValue*, 3> sources = {
+      extension(texture, "EXT_texture_webp"), extension(texture, "KHR_texture_basisu"), &texture};
+  for (const JsonValue* source : sources) {
+    if (source != nullptr && source->find("source") != nullptr) return index(*source, "source");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key) {
+  const JsonValue* info = object.find(key);
+  if (info == nullptr) return std::nullopt;
+  TextureUse use{.texture = index(*info, "index"), .uv_set = index(*info, "texCoord")};
+  if (const JsonValue* transform = extension(*info, "KHR_texture_transform")) {
+    use.texture_from_uv = texture_transform(*transform);
+    if (transform->find("texCoord") != nullptr) use.uv_set = index(*transform, "texCoord");
+  }
+  return use;
+}
+
+std::vector<Texture> make_textures(Asset& asset) {
+  std::vector<Texture> textures;
+  for (const JsonValue& json : asset.array("textures")) {
+    Texture texture{.name = name_of(json)};
+    texture.image = image_of(json);
+    if (!texture.image) {
+      asset.warn(asset.element("textures", textures.size()),
+                 "has no image in PNG, JPEG, WebP or KTX2; it is white");
+    }
+    if (const JsonValue* sampler = json.find("sampler")) {
+      texture.sampler =
+          make_sampler(asset.array("samplers")[static_cast<std::size_t>(sampler->number)]);
+    }
+    textures.push_back(std::move(texture));
+  }
+  return textures;
+}
+
+}  // namespace microtrace::io::gltf

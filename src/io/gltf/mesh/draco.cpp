@@ -1,0 +1,221 @@
+#include "io/gltf/mesh/draco.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/gltf/document/extension.hpp"
+#include "io/gltf/mesh/draco_abi.hpp"
+#include "io/module_function.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr const char* name_of_extension = "KHR_draco_mesh_compression";
+/// No mesh is packed more densely: regular grids take a hundredth of a bit for a triangle.
+constexpr std::size_t most_triangles_per_byte = 1024;
+constexpr std::size_t id_of_indices = ~std::size_t{0};
+
+std::size_t components(int type) {
+  return static_cast<std::size_t>(
+      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+}
+
+/// Indices as elements of an accessor.
+std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size) {
+  std::string result(indices.size() * size, '\0');
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    std::memcpy(&result[i * size], &indices[i], size);  // little-endian: the low bytes come first
+  }
+  return result;
+}
+
+const ModuleFunction& draco_function() {
+  static const ModuleFunction function =
+      find_module_function(draco_module_file_name, decode_draco_name);
+  return function;
+}
+
+}  // namespace
+
+/// What is to be decoded into which accessors, and what came of it.
+struct DracoDecoder::Job {
+  Element at;
+  std::size_t view = 0;
+  int indices = 0;                   // the accessor
+  std::vector<int> accessors{};      // of the attributes
+  std::vector<std::size_t> sizes{};  // bytes of their elements
+  std::vector<MicrotraceDracoAttribute> attributes{};
+  std::map<int, Source> sources{};
+  MicrotraceDraco mesh{};
+  std::size_t left = 0;  // bytes that may be taken
+  std::vector<std::uint32_t> corners{};
+  std::vector<std::string> values{};
+  std::optional<MemoryAccount> work{};
+  std::string complaint{};
+  bool is_too_large = false;
+
+  /// Room for Draco's own work.
+  bool reserve(std::size_t triangles) {
+    work.emplace(temporary_memory(triangles * 200, "decompressing meshes"));
+    return true;
+  }
+
+  /// The room for the mesh; false where it would take too much.
+  bool prepare(std::size_t triangles, std::size_t points) {
+    std::size_t bytes = triangles * bytes_of_triangle;
+    for (const std::size_t size : sizes) bytes += points * size;
+    is_too_large = bytes > left;
+    if (is_too_large) return false;
+    left -= bytes;
+    take_memory(bytes, "decompressed meshes");
+    corners.resize(3 * triangles);
+    mesh.indices = corners.data();
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      attributes[i].values = values.emplace_back(points * sizes[i], '\0').data();
+    }
+    return true;
+  }
+
+  /// Of three indices, as they are decoded and as an accessor takes them.
+  static constexpr std::size_t bytes_of_triangle = 3 * 2 * sizeof(std::uint32_t);
+};
+
+namespace {
+
+/// No exception may pass through the module.
+template <typename Job>
+int prepare_job(void* job, std::size_t triangles, std::size_t points) {
+  try {
+    return static_cast<Job*>(job)->prepare(triangles, points) ? 1 : 0;
+  } catch (const std::exception&) {
+    static_cast<Job*>(job)->is_too_large = true;
+    return 0;
+  }
+}
+
+template <typename Job>
+int reserve_for_job(void* job, std::size_t triangles) {
+  try {
+    return static_cast<Job*>(job)->reserve(triangles) ? 1 : 0;
+  } catch (const std::exception&) {
+    static_cast<Job*>(job)->is_too_large = true;
+    return 0;
+  }
+}
+
+/// Keeps a copy: the text may be an exception's own.
+template <typename Job>
+void keep_complaint(void* job, const char* text) {
+  try {
+    static_cast<Job*>(job)->complaint = text;
+  } catch (const std::bad_alloc&) {
+    // Without a reason it is an error too.
+  }
+}
+
+}  // namespace
+
+bool DracoDecoder::decode(const Element& primitive_at, const tinygltf::Primitive& primitive) {
+  const auto at = extension(primitive_at, name_of_extension);
+  if (!at) return false;
+  const std::size_t view = index(asset_, *at, "bufferView", model_.bufferViews.size());
+  const auto bytes = views_.bytes(static_cast<int>(view));
+  if (!bytes || !has_module(*at)) return false;
+  if (primitive.indices < 0) asset_.fail(primitive_at, "lacks the indices that Draco fills");
+
+  Job job{.at = *at, .view = view, .indices = primitive.indices, .left = left_};
+  job.mesh.bytes = bytes->data();
+  job.mesh.size = bytes->size();
+  plan(primitive, job);
+  const bool is_done = std::ranges::all_of(job.sources, [this](const auto& source) {
+    const auto before = sources_.find(source.first);
+    return before != sources_.end() && before->second == source.second;
+  });
+  if (!is_done) run(job);
+  return true;
+}
+
+bool DracoDecoder::has_module(const Element& at) {
+  if (draco_function().address != nullptr) return true;
+  const std::string message =
+      "KHR_draco_mesh_compression can't be decoded: " + draco_function().complaint +
+      "; install libdraco-dev and build the target microtrace_draco";
+  if (asset_.requires_extension(name_of_extension)) {
+    asset_.fail(at, message, ErrorKind::unsupported);
+  }
+  asset_.warn(at, message);
+  return false;
+}
+
+void DracoDecoder::plan(const tinygltf::Primitive& primitive, Job& job) const {
+  job.sources.emplace(job.indices, Source(job.view, id_of_indices));
+  const Element names = job.at.member("attributes");
+  for (const JsonMember& member : names.value->members) {
+    const auto attribute = primitive.attributes.find(member.key);
+    if (attribute == primitive.attributes.end()) continue;
+    const std::size_t id = whole_number(asset_, names, member.key, 0xFFFFFFFF);
+    const tinygltf::Accessor& target = accessor(attribute->second);
+    if (components(target.type) > 4) asset_.fail(names.member(member.key), "is of matrices");
+    if (!job.sources.emplace(attribute->second, Source(job.view, id)).second) continue;
+    job.accessors.push_back(attribute->second);
+    job.sizes.push_back(element_size(target.type, target.componentType));
+    job.attributes.push_back({.id = static_cast<std::uint32_t>(id),
+                              .components = static_cast<std::uint32_t>(components(target.type)),
+                              .type = static_cast<std::uint32_t>(target.componentType),
+                              .values = nullptr});
+  }
+}
+
+void DracoDecoder::run(Job& job) {
+  job.mesh.most_triangles =
+      std::min(job.mesh.size * most_triangles_per_byte, job.left / Job::bytes_of_triangle);
+  job.mesh.attributes = job.attributes.data();
+  job.mesh.attribute_count = job.attributes.size();
+  const auto decode_draco = reinterpret_cast<MicrotraceDecodeDraco>(draco_function().address);
+  if (decode_draco(&job.mesh, reserve_for_job<Job>, prepare_job<Job>, keep_complaint<Job>, &job) ==
+      0) {
+    if (!job.is_too_large) asset_.fail(job.at, "can't be decoded: " + job.complaint);
+    asset_.fail(job.at,
+                "brings the decompressed meshes to more than 4 GiB, the most that is read, or to "
+                "more than there is memory for",
+                ErrorKind::limit);
+  }
+  left_ = job.left;
+  const std::size_t points = job.values.empty() ? 0 : job.values[0].size() / job.sizes[0];
+  check_counts(job, points);
+  for (std::size_t i = 0; i < job.values.size(); ++i) {
+    reader_.replace(job.accessors[i], std::move(job.values[i]));
+  }
+  reader_.replace(job.indices,
+                  narrowed(job.corners, component_size(accessor(job.indices).componentType)));
+  for (const auto& [replaced, source] : job.sources) sources_[replaced] = source;
+}
+
+void DracoDecoder::check_counts(const Job& job, std::size_t points) const {
+  const tinygltf::Accessor& indices = accessor(job.indices);
+  const std::uint64_t numbers = std::uint64_t{1} << 8 * component_size(indices.componentType);
+  if (points >= numbers) {
+    asset_.fail(job.at,
+                "has " + std::to_string(points) +
+                    " vertices, more than indices of the accessor's componentType can name");
+  }
+  const auto differs = [&](int index) { return accessor(index).count != points; };
+  if (indices.count == job.corners.size() && std::ranges::none_of(job.accessors, differs)) return;
+  asset_.tolerate(job.at, "holds " + std::to_string(job.corners.size()) + " indices and " +
+                              std::to_string(points) +
+                              " vertices, not as many as the accessors say; all of it is drawn");
+}
+
+const tinygltf::Accessor& DracoDecoder::accessor(int index) const {
+  return model_.accessors[static_cast<std::size_t>(index)];
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,223 @@
+#include "io/gltf/mesh/surfaces.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/gltf/mesh/draco.hpp"
+#include "io/gltf/mesh/topology.hpp"
+#include "io/gltf/mesh/vertex_attributes.hpp"
+#include "scene/support.hpp"
+#include "scene/tangents.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// The texture coordinates along which the material's tangents lie, if it needs any.
+std::optional<std::uint32_t> tangent_set(const Material& material) {
+  if (material.normal_texture) return material.normal_texture->uv_set;
+  if (material.clearcoat && material.clearcoat->normal_texture) {
+    return material.clearcoat->normal_texture->uv_set;
+  }
+  if (!material.anisotropy) return std::nullopt;
+  return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
+}
+
+std::size_t bytes_of_topology(int mode, std::size_t vertices) {
+  const bool one_for_each = mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_LINE;
+  return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
+}
+
+/// Whether there are triangles and segments with vertices that are not finite; they are taken out,
+/// and these vertices with them.
+bool leave_out_infinite(Surface& surface) {
+  Mesh& mesh = surface.mesh;
+  const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };
+  const auto has_bad = [&](const auto& corners) { return std::ranges::any_of(corners, is_bad); };
+  const std::size_t bad =
+      std::erase_if(mesh.triangles, has_bad) + std::erase_if(mesh.segments, has_bad);
+  if (bad == 0) return false;
+  std::vector<std::uint32_t> vertices;
+  std::vector<Vec3> positions;
+  for (const std::uint32_t i : number_vertices(mesh, mesh.positions.size())) {
+    vertices.push_back(surface.vertices[i]);
+    positions.push_back(mesh.positions[i]);
+  }
+  surface.vertices = std::move(vertices);
+  mesh.positions = std::move(positions);
+  return true;
+}
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+               std::span<const Material> materials, SurfaceDetail detail,
+               std::vector<std::uint32_t>& unlit)
+      : asset_(asset),
+        model_(model),
+        reader_(reader),
+        draco_(asset, model, reader.views(), reader),
+        materials_(materials),
+        unlit_(unlit),
+        detail_(detail) {}
+
+  std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
+    const auto position = primitive.attributes.find("POSITION");
+    if (position == primitive.attributes.end()) {
+      asset_.warn(at, "has no POSITION attribute; nothing is drawn for it");
+      return std::nullopt;
+    }
+    const bool is_draco = draco_.decode(at, primitive);
+    if (!reader_.has_data(position->second) ||
+        (primitive.indices >= 0 && !reader_.has_data(primitive.indices))) {
+      asset_.warn(at,
+                  "needs a buffer without data: one that has no uri and is not the BIN chunk; "
+                  "nothing is drawn for it");
+      return std::nullopt;
+    }
+    MemoryAccount indices(memory_account().budget());
+    const std::vector<std::uint32_t> vertices =
+        vertices_of(at, primitive, position->second, indices);
+    take_memory(bytes_of_topology(primitive.mode, vertices.size()), "the triangles of meshes");
+    Surface result{.material = material_of(primitive)};
+    const int mode = is_draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (add_primitives(mode, vertices, result.mesh)) {
+      asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
+    }
+    if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
+    const std::size_t uses = 3 * result.mesh.triangles.size() + 2 * result.mesh.segments.size();
+    take_memory(std::min(uses, reader_.count(position->second)) * sizeof(std::uint32_t),
+                "the vertices of meshes");
+    result.vertices = number_vertices(result.mesh, reader_.count(position->second));
+    result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
+    if (leave_out_infinite(result)) {
+      asset_.tolerate(at, "has vertices that are not finite; what they are part of is not drawn");
+      if (result.vertices.empty()) return std::nullopt;
+    }
+    read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
+                    {.material = materials_[result.material], .detail = detail_}, result.mesh);
+    if (detail_ == SurfaceDetail::all) add_tangents(result);
+    // glTF 2.0, Point and Line Materials: those without normals are drawn without light.
+    const bool has_normals = primitive.attributes.contains("NORMAL");
+    if (!result.mesh.segments.empty() && !has_normals) result.material = unlit(result.material);
+    return result;
+  }
+
+ private:
+  const tinygltf::Accessor& accessor(int index) const {
+    return model_.accessors[static_cast<std::size_t>(index)];
+  }
+
+  /// make_materials puts the one of primitives without material last.
+  std::uint32_t material_of(const tinygltf::Primitive& primitive) const {
+    if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
+    return static_cast<std::uint32_t>(materials_.size() - 1);
+  }
+
+  /// The number of the copy of a material that add_unlit_copies makes.
+  std::uint32_t unlit(std::uint32_t material) {
+    auto found = std::ranges::find(unlit_, material);
+    if (found == unlit_.end()) found = unlit_.insert(found, material);
+    return static_cast<std::uint32_t>(materials_.size()) +
+           static_cast<std::uint32_t>(found - unlit_.begin());
+  }
+
+  /// Where the material asks for some (glTF 2.0, section 3.7.2.1) and the mesh has none.
+  void add_tangents(Surface& surface) const {
+    Mesh& mesh = surface.mesh;
+    const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
+    if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
+    if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
+    // What making them takes, and what is left: up to three vertices of its own for each triangle.
+    constexpr std::size_t bytes_of_work = 300, bytes_of_tangents = sizeof(Vec4) / 2;
+    const MemoryAccount work =
+        temporary_memory(mesh.triangles.size() * bytes_of_work, "making tangents");
+    take_memory(mesh.triangles.size() * bytes_of_tangents, "the tangents of meshes");
+    std::vector<std::uint32_t> vertices;
+    for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
+    surface.vertices = std::move(vertices);
+  }
+
+  void check_count(const Element& at, std::size_t count) {
+    if (count > max_elements - elements_) {
+      asset_.fail(at, "brings the asset to more than 2^27 elements, the most that is read",
+                  ErrorKind::limit);
+    }
+    elements_ += count;
+  }
+
+  std::vector<std::uint32_t> vertices_of(const Element& at, const tinygltf::Primitive& primitive,
+                                         int position, MemoryAccount& memory) {
+    const MemoryScope scope(memory);
+    const std::size_t vertex_count = reader_.count(position);
+    if (primitive.indices < 0) {
+      check_count(at, vertex_count);
+      take_memory(vertex_count * sizeof(std::uint32_t), "the vertices of meshes");
+      std::vector<std::uint32_t> result(vertex_count);
+      std::iota(result.begin(), result.end(), 0U);
+      return result;
+    }
+    const tinygltf::Accessor& indices = accessor(primitive.indices);
+    check_count(at.member("indices"), reader_.count(primitive.indices));
+    std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(primitive.indices);
+    const Element source = asset_.element("accessors", static_cast<std::size_t>(primitive.indices));
+    const std::uint64_t greatest =
+        (std::uint64_t{1} << 8 * component_size(indices.componentType)) - 1;
+    bool restarts = false;
+    for (std::uint32_t& vertex : result) {
+      if (vertex < vertex_count && vertex != greatest) continue;
+      if (vertex != greatest) {
+        asset_.fail(source, "element " + std::to_string(&vertex - result.data()) + " is vertex " +
+                                std::to_string(vertex) + " of only " +
+                                std::to_string(vertex_count));
+      }
+      vertex = restart;
+      restarts = true;
+    }
+    if (restarts) {
+      asset_.tolerate(source,
+                      "has the value that means primitive restart, which glTF 2.0 forbids; a new "
+                      "primitive starts there");
+    }
+    return result;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  DracoDecoder draco_;
+  std::span<const Material> materials_;
+  std::vector<std::uint32_t>& unlit_;
+  SurfaceDetail detail_;
+  std::size_t elements_ = 0;  // counted against max_elements
+};
+
+}  // namespace
+
+std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
+                                                AccessorReader& reader,
+                                                std::span<const Material> materials,
+                                                SurfaceDetail detail,
+                                                std::vector<std::uint32_t>& unlit) {
+  SurfaceMaker maker(asset, model, reader, materials, detail, unlit);
+  std::vector<std::vector<Surface>> result(model.meshes.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Element primitives = asset.element("meshes", i).member("primitives");
+    for (std::size_t k = 0; k < model.meshes[i].primitives.size(); ++k) {
+      std::optional<Surface> surface =
+          maker.make(primitives.item(k), model.meshes[i].primitives[k]);
+      if (!surface) continue;
+      surface->number = k;
+      result[i].push_back(std::move(*surface));
+    }
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,107 @@
+#include "io/gltf/mesh/topology.hpp"
+
+#include "io/gltf/document/model.hpp"
+
+#include <algorithm>
+
+namespace microtrace::io::gltf {
+namespace {
+
+/// What one run of vertices makes, without restarts.
+bool add_run(int mode, std::span<const std::uint32_t> v, Mesh& mesh) {
+  const std::size_t n = v.size();
+  switch (mode) {
+    case TINYGLTF_MODE_POINTS:
+      for (const std::uint32_t vertex : v) mesh.segments.push_back({vertex, vertex});
+      return false;
+    case TINYGLTF_MODE_LINE:
+      for (std::size_t i = 0; i + 1 < n; i += 2) mesh.segments.push_back({v[i], v[i + 1]});
+      return n % 2 != 0;
+    case TINYGLTF_MODE_LINE_LOOP:
+    case TINYGLTF_MODE_LINE_STRIP:
+      for (std::size_t i = 0; i + 1 < n; ++i) mesh.segments.push_back({v[i], v[i + 1]});
+      if (mode == TINYGLTF_MODE_LINE_LOOP && n > 1) mesh.segments.push_back({v[n - 1], v[0]});
+      return n == 1;
+    case TINYGLTF_MODE_TRIANGLES:
+      mesh.triangles.reserve(mesh.triangles.size() + n / 3);
+      for (std::size_t i = 0; i + 2 < n; i += 3) {
+        mesh.triangles.push_back({v[i], v[i + 1], v[i + 2]});
+      }
+      return n % 3 != 0;
+    case TINYGLTF_MODE_TRIANGLE_STRIP:
+      for (std::size_t i = 0; i + 2 < n; ++i) {
+        mesh.triangles.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
+      }
+      return n < 3;
+    default:
+      for (std::size_t i = 0; i + 2 < n; ++i) mesh.triangles.push_back({v[i + 1], v[i + 2], v[0]});
+      return n < 3;
+  }
+}
+
+template <typename Visit>
+void for_each_index(Mesh& mesh, Visit&& visit) {
+  for (auto& corners : mesh.triangles) {
+    for (std::uint32_t& index : corners) visit(index);
+  }
+  for (auto& ends : mesh.segments) {
+    for (std::uint32_t& index : ends) visit(index);
+  }
+}
+
+/// By marking them.
+std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std::size_t uses) {
+  std::vector<bool> used(vertex_count);
+  for_each_index(mesh, [&](std::uint32_t index) { used[index] = true; });
+  std::vector<std::uint32_t> result;
+  result.reserve(std::min(vertex_count, uses));
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    if (used[i]) result.push_back(static_cast<std::uint32_t>(i));
+  }
+  return result;
+}
+
+/// By sorting them: where primitives share one long accessor, its length must not count.
+std::vector<std::uint32_t> used_of_many(Mesh& mesh, std::size_t uses) {
+  std::vector<std::uint32_t> result;
+  result.reserve(uses);
+  for_each_index(mesh, [&](std::uint32_t index) { result.push_back(index); });
+  std::ranges::sort(result);
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace
+
+bool add_primitives(int mode, std::span<const std::uint32_t> vertices, Mesh& mesh) {
+  bool left_over = vertices.empty();
+  while (!vertices.empty()) {
+    const auto end = std::ranges::find(vertices, restart);
+    const auto size = static_cast<std::size_t>(end - vertices.begin());
+    left_over = add_run(mode, vertices.first(size), mesh) || left_over;
+    vertices = vertices.subspan(std::min(size + 1, vertices.size()));
+  }
+  return left_over;
+}
+
+std::vector<std::uint32_t> number_vertices(Mesh& mesh, std::size_t vertex_count) {
+  const std::size_t uses = mesh.triangles.size() * 3 + mesh.segments.size() * 2;
+  std::vector<std::uint32_t> used =
+      vertex_count / 8 <= uses ? used_of_few(mesh, vertex_count, uses) : used_of_many(mesh, uses);
+  const std::size_t end = used.empty() ? 0 : std::size_t{used.back()} + 1;
+  if (end == used.size()) return used;  // each keeps its number
+  if (end / 8 <= uses) {
+    std::vector<std::uint32_t> number_of(end);
+    for (std::size_t i = 0; i < used.size(); ++i) {
+      number_of[used[i]] = static_cast<std::uint32_t>(i);
+    }
+    for_each_index(mesh, [&](std::uint32_t& index) { index = number_of[index]; });
+  } else {
+    for_each_index(mesh, [&](std::uint32_t& index) {
+      index = static_cast<std::uint32_t>(std::ranges::lower_bound(used, index) - used.begin());
+    });
+  }
+  return used;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,112 @@
+#include "io/gltf/mesh/vertex_attributes.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace microtrace::io::gltf {
+namespace {
+
+class AttributeReader {
+ public:
+  AttributeReader(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+                  const Element& attributes, const tinygltf::Primitive& primitive,
+                  std::span<const std::uint32_t> vertices)
+      : asset_(asset),
+        model_(model),
+        reader_(reader),
+        attributes_(attributes),
+        primitive_(primitive),
+        vertices_(vertices) {}
+
+  [[nodiscard]] std::vector<Vec3> normals() {
+    const std::optional<int> accessor = find("NORMAL", {TINYGLTF_TYPE_VEC3});
+    return accessor ? reader_.read_finite<Vec3>(*accessor, vertices_) : std::vector<Vec3>();
+  }
+
+  [[nodiscard]] std::vector<Vec4> tangents() {
+    const std::optional<int> accessor = find("TANGENT", {TINYGLTF_TYPE_VEC4});
+    return accessor ? reader_.read_finite<Vec4>(*accessor, vertices_) : std::vector<Vec4>();
+  }
+
+  [[nodiscard]] std::vector<Vec2> uv_set(std::uint32_t set) {
+    const std::optional<int> accessor =
+        find("TEXCOORD_" + std::to_string(set), {TINYGLTF_TYPE_VEC2});
+    return accessor ? reader_.read_finite<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
+  }
+
+  /// Those without alpha are opaque.
+  [[nodiscard]] std::vector<Vec4> colors() {
+    const std::optional<int> accessor = find("COLOR_0", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4});
+    if (!accessor) return {};
+    std::vector<Vec4> result;
+    if (type(*accessor) == TINYGLTF_TYPE_VEC4) {
+      result = reader_.read_finite<Vec4>(*accessor, vertices_);
+    } else {
+      result.reserve(vertices_.size());
+      for (const Vec3& rgb : reader_.read_finite<Vec3>(*accessor, vertices_))
+        result.emplace_back(rgb, 1);
+    }
+    return result;
+  }
+
+ private:
+  [[nodiscard]] int type(int accessor) const {
+    return model_.accessors[static_cast<std::size_t>(accessor)].type;
+  }
+
+  /// The accessor of that attribute, where the primitive has it and its data is there.
+  std::optional<int> find(const std::string& name, std::initializer_list<int> types) {
+    const auto attribute = primitive_.attributes.find(name);
+    if (attribute == primitive_.attributes.end()) return std::nullopt;
+    const int accessor = attribute->second;
+    if (std::ranges::find(types, type(accessor)) == types.end()) {
+      asset_.fail(attributes_.member(name),
+                  "refers to an accessor that is not of type VEC" + std::to_string(*types.begin()) +
+                      (types.size() > 1 ? " or VEC" + std::to_string(*(types.end() - 1)) : ""));
+    }
+    if (reader_.has_data(accessor)) return accessor;
+    asset_.warn(attributes_.member(name), "has no data; the attribute is left out");
+    return std::nullopt;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  const Element& attributes_;
+  const tinygltf::Primitive& primitive_;
+  std::span<const std::uint32_t> vertices_;
+};
+
+static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC4 == 4,
+              "types are named by their number");
+
+/// Whether a set of texture coordinates is wanted.
+bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
+  if (wish.detail != SurfaceDetail::color) return true;
+  const auto& use = wish.material.base_color_texture;
+  return use && use->uv_set == set;
+}
+
+}  // namespace
+
+void read_attributes(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+                     const Element& attributes, const tinygltf::Primitive& primitive,
+                     std::span<const std::uint32_t> vertices, const AttributeWish& wish,
+                     Mesh& mesh) {
+  AttributeReader attribute(asset, model, reader, attributes, primitive, vertices);
+  mesh.colors = attribute.colors();
+  for (std::uint32_t set = 0; set < max_uv_sets; ++set) {
+    if (!is_wanted(set, wish)) continue;
+    std::vector<Vec2> uv = attribute.uv_set(set);
+    if (uv.empty()) continue;
+    mesh.uv_sets.resize(set + 1);
+    mesh.uv_sets[set] = std::move(uv);
+  }
+  if (wish.detail == SurfaceDetail::color) return;
+  mesh.normals = attribute.normals();
+  // Without normals, tangents mean nothing (glTF 2.0, section 3.7.2.1).
+  if (!mesh.normals.empty()) mesh.tangents = attribute.tangents();
+}
+
+}  // namespace microtrace::io::gltf

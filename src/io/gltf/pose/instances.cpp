@@ -1,0 +1,118 @@
+#include "io/gltf/pose/instances.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/gltf/document/extension.hpp"
+#include "io/gltf/pose/nodes.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr glm::dvec4 no_turn(0, 0, 0, 1);
+
+class Maker {
+ public:
+  Maker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader, const Element& at)
+      : asset_(asset), model_(model), reader_(reader), attributes_(at.member("attributes")) {}
+
+  /// Nothing, with a warning, where an attribute's buffer has no data.
+  std::optional<std::vector<DMat4>> make(std::size_t most) {
+    std::optional<std::size_t> count;
+    for (const JsonMember& member : attributes_.value->members) {
+      const std::size_t accessor = index(asset_, attributes_, member.key, model_.accessors.size());
+      const std::size_t size = model_.accessors[accessor].count;
+      if (count && *count != size) {
+        asset_.fail(attributes_.member(member.key), "has " + std::to_string(size) +
+                                                        " elements, but an attribute before it " +
+                                                        std::to_string(*count));
+      }
+      count = size;
+    }
+    if (!count) asset_.fail(attributes_, "must have at least one attribute");
+    if (*count > most) {
+      asset_.fail(attributes_,
+                  "brings the asset to more than 2^22 instances, the most that is read",
+                  ErrorKind::limit);
+    }
+    const auto translations = read<Vec3>("TRANSLATION", TINYGLTF_TYPE_VEC3, false);
+    const auto rotations = read<glm::vec4>("ROTATION", TINYGLTF_TYPE_VEC4, true);
+    const auto scales = read<Vec3>("SCALE", TINYGLTF_TYPE_VEC3, false);
+    if (lacks_data_) return std::nullopt;
+    take_memory(*count * sizeof(DMat4), "the transforms of instances");
+    std::vector<DMat4> result(*count, DMat4(1));
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i] = composed(translations.empty() ? DVec3(0) : DVec3(translations[i]),
+                           rotations.empty() ? no_turn : rotation(glm::dvec4(rotations[i])),
+                           scales.empty() ? DVec3(1) : DVec3(scales[i]));
+    }
+    return result;
+  }
+
+ private:
+  template <typename Vector>
+  std::vector<Vector> read(const char* name, int type, bool may_be_normalized) {
+    if (attributes_.value->find(name) == nullptr) return {};
+    const auto accessor =
+        static_cast<int>(index(asset_, attributes_, name, model_.accessors.size()));
+    const tinygltf::Accessor& source = model_.accessors[static_cast<std::size_t>(accessor)];
+    const bool is_float = source.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_normalized = may_be_normalized && source.normalized &&
+                               (source.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
+                                source.componentType == TINYGLTF_COMPONENT_TYPE_SHORT);
+    if (source.type != type || !(is_float || is_normalized)) {
+      asset_.fail(attributes_.member(name),
+                  may_be_normalized ? "refers to an accessor that is not of type VEC4 and float or "
+                                      "normalized byte or short"
+                                    : "refers to an accessor that is not of type VEC3 and float");
+    }
+    if (reader_.has_data(accessor)) return reader_.read<Vector>(accessor);
+    asset_.warn(attributes_.member(name), "needs a buffer without data; there are no instances");
+    lacks_data_ = true;
+    return {};
+  }
+
+  /// Of unit length.
+  glm::dvec4 rotation(const glm::dvec4& quaternion) {
+    const double length = std::sqrt(glm::dot(quaternion, quaternion));
+    if (length > 0) return quaternion / length;
+    asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions; they turn nothing");
+    return no_turn;
+  }
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  Element attributes_;
+  bool lacks_data_ = false;
+};
+
+}  // namespace
+
+Instances::Instances(Asset& asset, const tinygltf::Model& model, AccessorReader& reader) {
+  std::size_t left = max_instances;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const auto at = extension(asset.element("nodes", i), "EXT_mesh_gpu_instancing");
+    if (!at || model.nodes[i].mesh < 0) continue;
+    if (at->value->find("attributes") == nullptr) {
+      asset.fail(*at, "lacks the required property \"attributes\"");
+    }
+    auto transforms = Maker(asset, model, reader, *at).make(left);
+    if (!transforms) transforms.emplace();
+    left -= transforms->size();
+    node_from_instance_.emplace(i, *std::move(transforms));
+  }
+}
+
+const std::vector<DMat4>* Instances::of(std::size_t node) const {
+  const auto found = node_from_instance_.find(node);
+  return found != node_from_instance_.end() ? &found->second : nullptr;
+}
+
+}  // namespace microtrace::io::gltf

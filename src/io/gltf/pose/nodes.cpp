@@ -1,0 +1,198 @@
+#include "io/gltf/pose/nodes.hpp"
+
+#include "io/gltf/document/extension.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr std::size_t longest_name = 64, longest_path = 256;
+
+bool starts_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
+}
+
+DVec3 vector_of(const std::vector<double>& v, const DVec3& otherwise) {
+  return v.empty() ? otherwise : DVec3(v[0], v[1], v[2]);
+}
+
+Quaternion quaternion_of(const std::vector<double>& q) {
+  return q.empty() ? Quaternion(0, 0, 0, 1) : Quaternion(q[0], q[1], q[2], q[3]);
+}
+
+/// What the node says of itself, or its animation.
+bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
+  const auto posed = pose.empty() ? pose.end() : pose.find(node);
+  if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
+  const auto visibility = extension(asset.element("nodes", node), "KHR_node_visibility");
+  if (!visibility) return true;
+  const JsonValue* visible = visibility->value->find("visible");
+  return visible == nullptr || visible->kind != JsonValue::Kind::boolean || visible->boolean;
+}
+
+}  // namespace
+
+std::optional<DVec3> normalized(const DVec3& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return std::nullopt;
+  return glm::normalize(v / largest);
+}
+
+NodeTree::NodeTree(const tinygltf::Model& model) : model_(model), parents_(model.nodes.size(), -1) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    for (const int child : model.nodes[i].children) {
+      parents_[static_cast<std::size_t>(child)] = static_cast<int>(i);
+    }
+    parent_from_node_.push_back(local(i));
+  }
+}
+
+std::vector<std::size_t> NodeTree::roots() const {
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < parents_.size(); ++i) {
+    if (parents_[i] < 0) result.push_back(i);
+  }
+  return result;
+}
+
+DMat4 NodeTree::local(std::size_t index) const {
+  const tinygltf::Node& node = model_.nodes[index];
+  if (node.matrix.empty()) {
+    return composed(vector_of(node.translation, DVec3(0)), normalised(quaternion_of(node.rotation)),
+                    vector_of(node.scale, DVec3(1)));
+  }
+  DMat4 result;
+  for (std::size_t i = 0; i < 16; ++i) {
+    result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+  }
+  for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of another row
+  return result;
+}
+
+DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) const {
+  const auto posed = pose.empty() ? pose.end() : pose.find(index);
+  if (posed == pose.end()) return parent_from_node_[index];
+  const auto& [translation, scale, rotation, weights, visible] = posed->second;
+  if (!translation && !scale && !rotation) return parent_from_node_[index];
+  const tinygltf::Node& node = model_.nodes[index];
+  return composed(translation.value_or(vector_of(node.translation, DVec3(0))),
+                  rotation.value_or(normalised(quaternion_of(node.rotation))),
+                  scale.value_or(vector_of(node.scale, DVec3(1))));
+}
+
+std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset,
+                                        const PosedNodes& pose) const {
+  std::vector<std::size_t> first;
+  if (model_.scenes.empty()) {
+    if (!model_.nodes.empty()) {
+      asset.warn(asset.root(), "the asset has no scene; all its nodes are drawn");
+    }
+    first = roots();
+  } else {
+    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+    for (const int node : model_.scenes[scene].nodes)
+      first.push_back(static_cast<std::size_t>(node));
+  }
+  // A child that the scene names beside its ancestor, which it must not, has its place there.
+  std::stable_partition(first.begin(), first.end(),
+                        [this](std::size_t node) { return parents_[node] < 0; });
+  std::vector<bool> placed(parents_.size());
+  std::vector<PlacedNode> result;
+  std::vector<PlacedNode> open;
+  for (std::size_t i = first.size(); i-- > 0;) {
+    open.push_back({first[i], world_from_asset * parent_from_node(first[i], pose),
+                    is_shown(asset, first[i], pose)});
+  }
+  while (!open.empty()) {
+    const PlacedNode next = open.back();
+    open.pop_back();
+    if (placed[next.node]) continue;
+    placed[next.node] = true;
+    result.push_back(next);
+    const std::vector<int>& children = model_.nodes[next.node].children;
+    for (std::size_t i = children.size(); i-- > 0;) {
+      const auto child = static_cast<std::size_t>(children[i]);
+      open.push_back({child, next.world_from_node * parent_from_node(child, pose),
+                      next.visible && is_shown(asset, child, pose)});
+    }
+  }
+  return result;
+}
+
+std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset,
+                                        const PosedNodes& pose) const {
+  std::vector<DMat4> result(parents_.size());
+  std::vector<std::size_t> open = roots();
+  for (const std::size_t root : open) {
+    result[root] = world_from_asset * parent_from_node(root, pose);
+  }
+  while (!open.empty()) {
+    const std::size_t next = open.back();
+    open.pop_back();
+    for (const int index : model_.nodes[next].children) {
+      const auto child = static_cast<std::size_t>(index);
+      result[child] = result[next] * parent_from_node(child, pose);
+      open.push_back(child);
+    }
+  }
+  return result;
+}
+
+std::string NodeTree::name(std::size_t node) const {
+  const std::string& given = model_.nodes[node].name;
+  return given.empty() ? "node" + std::to_string(node) : head(given, longest_name);
+}
+
+std::string NodeTree::path(std::size_t node) const {
+  std::vector<std::string> names = {name(node)};
+  std::size_t size = names[0].size();
+  bool is_whole = true;
+  for (int parent = parents_[node]; parent >= 0 && is_whole;
+       parent = parents_[static_cast<std::size_t>(parent)]) {
+    std::string above = name(static_cast<std::size_t>(parent));
+    size += above.size() + 1;
+    is_whole = size <= longest_path;
+    if (is_whole) names.push_back(std::move(above));
+  }
+  std::string result = is_whole ? names.back() : ".../" + names.back();
+  for (std::size_t i = names.size() - 1; i-- > 0;) result.append("/").append(names[i]);
+  return result;
+}
+
+DMat4 composed(const DVec3& translation, const glm::dvec4& rotation, const DVec3& scale) {
+  const auto [x, y, z, w] = std::array{rotation.x, rotation.y, rotation.z, rotation.w};
+  DMat4 result(1);
+  result[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
+  result[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
+  result[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
+  for (int i = 0; i < 3; ++i) result[i] *= scale[i];
+  result[3] = glm::dvec4(translation, 1);
+  return result;
+}
+
+std::string UniqueNames::make(const std::string& name) {
+  const auto first = uses_.find(std::string_view(name));
+  if (first == uses_.end()) {
+    uses_.emplace(name, 1);
+    return name;
+  }
+  std::size_t& use = first->second;  // stays where it is when names are added
+  std::string result;
+  do {
+    result = name + " (" + std::to_string(++use) + ")";
+  } while (!uses_.emplace(result, 1).second);
+  return result;
+}
+
+std::string head(std::string_view text, std::size_t size) {
+  if (text.size() <= size) return std::string(text);
+  while (size > 0 && !starts_character(text[size])) --size;
+  return std::string(text.substr(0, size));
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,44 @@
+#pragma once
+/// Surfaces as one pose of the asset has them.
+
+#include "io/gltf/animation/posed_nodes.hpp"
+#include "io/gltf/bytes/accessors.hpp"
+#include "io/gltf/document/asset.hpp"
+#include "io/gltf/document/model.hpp"
+#include "io/gltf/mesh/surfaces.hpp"
+#include "io/gltf/pose/morphing.hpp"
+#include "io/gltf/pose/nodes.hpp"
+#include "io/gltf/pose/skins.hpp"
+
+#include <microtrace/math.hpp>
+#include <microtrace/shape.hpp>
+
+#include <cstddef>
+#include <vector>
+
+namespace microtrace::io::gltf {
+
+class Poser {
+ public:
+  /// All must outlive the poser.
+  Poser(Asset& asset, const tinygltf::Model& model, AccessorReader& reader, const NodeTree& tree,
+        const PosedNodes& pose, const DMat4& world_from_asset);
+
+  /// Whether joints and not the node say where the surface of its mesh stands.
+  [[nodiscard]] bool has_skin(std::size_t node) const { return model_.nodes[node].skin >= 0; }
+
+  /// A surface of the node's mesh in the world: morphed, then moved by the skin's joints or,
+  /// without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
+  [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
+
+ private:
+  [[nodiscard]] const std::vector<double>& weights(std::size_t node) const;
+
+  const tinygltf::Model& model_;
+  const PosedNodes& pose_;
+  std::vector<DMat4> world_from_node_;  // of all nodes, where there are skins
+  Morpher morpher_;
+  Skins skins_;
+};
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,61 @@
+#pragma once
+/// Skins: vertices moved by joints (glTF 2.0, section 3.7.3).
+
+#include "io/gltf/bytes/accessors.hpp"
+#include "io/gltf/document/asset.hpp"
+#include "io/gltf/document/model.hpp"
+#include "io/gltf/mesh/surfaces.hpp"
+
+#include <microtrace/math.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace microtrace::io::gltf {
+
+/// What moves each vertex of a surface.
+class JointBlend {
+ public:
+  /// The mean of its joints' matrices by the weights, in float64.
+  [[nodiscard]] DMat4 world_from_mesh(std::size_t vertex) const;
+
+ private:
+  friend class Skins;
+  struct Influences {
+    std::vector<glm::uvec4> joints;  // by vertex; below the number of matrices
+    std::vector<glm::vec4> weights;
+  };
+  const std::vector<DMat4>* world_from_mesh_ = nullptr;  // by joint
+  std::vector<Influences> sets_;
+};
+
+/// The skins of an asset in one pose.
+class Skins {
+ public:
+  /// By node: where all nodes are, those of the scene and others. All must outlive the skins.
+  Skins(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+        const std::vector<DMat4>& world_from_node)
+      : asset_(asset), model_(model), reader_(reader), world_from_node_(world_from_node) {}
+
+  /// Nothing where the skin has no joints or the primitive no JOINTS_0: it stands in its node's
+  /// place. Weights that do not add up to 1 are scaled, and warned of; vertices without any follow
+  /// their first joint. Throws Error (invalid_scene) for a joint that the skin does not have.
+  [[nodiscard]] std::optional<JointBlend> blend(std::size_t skin, std::size_t mesh,
+                                                const Surface& surface);
+
+ private:
+  const std::vector<DMat4>& matrices(std::size_t skin);
+  void check_weights(const Element& attributes, JointBlend& blend);
+
+  Asset& asset_;
+  const tinygltf::Model& model_;
+  AccessorReader& reader_;
+  const std::vector<DMat4>& world_from_node_;
+  std::unordered_map<std::size_t, std::vector<DMat4>> matrices_;  // by skin
+};
+
+}  // namespace microtrace::io::gltf

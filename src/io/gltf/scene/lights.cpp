@@ -1,0 +1,100 @@
+#include "io/gltf/scene/lights.hpp"
+
+#include "io/gltf/document/extension.hpp"
+#include "io/gltf/document/properties.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+namespace microtrace::io::gltf {
+namespace {
+
+constexpr const char* name_of_extension = "KHR_lights_punctual";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What all kinds of light have.
+struct Common {
+  Vec3 color{1};
+  float intensity = 1;
+  double range = infinity;
+};
+
+struct Cone {
+  double inner = 0, outer = std::numbers::pi / 4;
+};
+
+Common common_of(const JsonValue& light) {
+  Common result{.color = vector(light, "color", Vec3(1)),
+                .intensity = number(light, "intensity", 1)};
+  if (const JsonValue* range = light.find("range")) result.range = range->number;
+  return result;
+}
+
+Cone cone_of(const JsonValue& light) {
+  Cone result;
+  const JsonValue* spot = light.find("spot");
+  if (spot == nullptr) return result;
+  if (const JsonValue* inner = spot->find("innerConeAngle")) result.inner = inner->number;
+  if (const JsonValue* outer = spot->find("outerConeAngle")) result.outer = outer->number;
+  return result;
+}
+
+/// Nothing if the light has no place in the world.
+std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node) {
+  const std::string& type = light.find("type")->string;
+  const auto [color, intensity, range] = common_of(light);
+  const DVec3 position(world_from_node[3]);
+  const std::optional<DVec3> direction = normalized(-DVec3(world_from_node[2]));
+  const bool is_somewhere = std::isfinite(position.x + position.y + position.z);
+  if (type == "directional") {
+    if (!direction) return std::nullopt;
+    return DirectionalLight{.direction = *direction, .color = color, .intensity = intensity};
+  }
+  if (type == "point") {
+    if (!is_somewhere) return std::nullopt;
+    return PointLight{.position = position, .color = color, .intensity = intensity, .range = range};
+  }
+  if (type != "spot") return std::nullopt;  // check_schema has warned
+  const Cone cone = cone_of(light);
+  if (!is_somewhere || !direction) return std::nullopt;
+  return SpotLight{.position = position,
+                   .direction = *direction,
+                   .color = color,
+                   .intensity = intensity,
+                   .range = range,
+                   .inner_angle = cone.inner,
+                   .outer_angle = cone.outer};
+}
+
+}  // namespace
+
+std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const tinygltf::Model& model,
+                                    const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
+  std::vector<NamedLight> result;
+  const std::optional<Element> all = extension(root, name_of_extension);
+  if (!all) return result;
+  const Element lights = all->member("lights");
+  UniqueNames names;
+  for (const PlacedNode& node : nodes) {
+    const auto reference = extension(asset.element("nodes", node.node), name_of_extension);
+    if (!reference || !node.visible) continue;
+    const Element light =
+        lights.item(index(asset, *reference, "light", lights.value->items.size()));
+    std::optional<Light> in_world = placed(*light.value, node.world_from_node);
+    if (!in_world) {
+      asset.warn(
+          reference->member("light"),
+          "has no known type, or no position and direction in the world; the light is left out");
+      continue;
+    }
+    const JsonValue* own = light.value->find("name");
+    const bool named = !model.nodes[node.node].name.empty() || own == nullptr;
+    result.push_back({.name = names.make(named ? tree.name(node.node) : head(own->string, 64)),
+                      .light = *std::move(in_world)});
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

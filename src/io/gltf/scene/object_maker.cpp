@@ -1,0 +1,98 @@
+#include "io/gltf/scene/object_maker.hpp"
+
+#include "base/memory_account.hpp"
+#include "scene/mesh_memory.hpp"
+#include "scene/support.hpp"
+
+#include <algorithm>
+
+namespace microtrace::io::gltf {
+namespace {
+
+bool is_finite(const Mesh& mesh) {
+  return std::ranges::all_of(mesh.positions,
+                             [](const Vec3& p) { return microtrace::is_finite(p); });
+}
+
+/// An object with its name, which is in the set of names too.
+constexpr std::size_t bytes_of_object = sizeof(Object) + 512;
+
+}  // namespace
+
+void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
+  std::size_t objects = 0, triangles = 0, vertices = 0;
+  std::uint64_t bytes = 0;
+  for (const PlacedNode& placed : nodes) {
+    const int mesh = model_.nodes[placed.node].mesh;
+    if (mesh < 0 || !placed.visible) continue;
+    const std::vector<DMat4>* instances = instances_.of(placed.node);
+    const std::size_t times = instances != nullptr ? instances->size() : 1;
+    objects += times * surfaces_[static_cast<std::size_t>(mesh)].size();
+    for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
+      const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
+      triangles += times * (surface.mesh.triangles.size() + 2 * segments);
+      vertices += times * (surface.mesh.positions.size() + 4 * segments);
+      bytes += times * (bytes_of_object + memory_of(surface.mesh));
+    }
+    if (std::max(triangles, vertices) <= max_elements) continue;
+    asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
+                "brings the scene to more than 2^27 triangles or vertices, the most that is read",
+                ErrorKind::limit);
+  }
+  take_memory(bytes, "the meshes of the scene, instances counted");
+  objects_.reserve(objects);
+  names_.reserve(objects);
+}
+
+void ObjectMaker::add_mesh(const PlacedNode& placed) {
+  if (model_.nodes[placed.node].mesh < 0 || !placed.visible) return;
+  const std::string path = tree_.path(placed.node);
+  const std::vector<DMat4>* instances = instances_.of(placed.node);
+  if (instances != nullptr && poser_.has_skin(placed.node)) {
+    asset_.warn(asset_.element("nodes", placed.node),
+                "has instances of a skinned mesh, all in the place of its joints; one is drawn");
+    instances = nullptr;
+  }
+  if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
+  for (std::size_t i = 0; i < instances->size(); ++i) {
+    add_mesh(placed.node, placed.world_from_node * (*instances)[i],
+             path + "[" + std::to_string(i) + "]");
+  }
+}
+
+void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
+                           const std::string& path) {
+  const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
+  for (const Surface& surface : surfaces_[index]) {
+    Mesh world = posed(node, surface, world_from_mesh);
+    if (!is_finite(world)) {
+      asset_.warn(primitive(index, surface),
+                  "has vertices that are not finite in the world; triangles with them are not "
+                  "drawn");
+    }
+    objects_.push_back({.name = names_.make(name(path, index, surface)),
+                        .shape = std::move(world),
+                        .material = surface.material});
+  }
+}
+
+Mesh ObjectMaker::posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh) {
+  MemoryAccount work(memory_account().budget());  // the mesh itself is counted already
+  const MemoryScope scope(work);
+  return poser_.posed(node, surface, world_from_mesh);
+}
+
+Element ObjectMaker::primitive(std::size_t mesh, const Surface& surface) const {
+  return asset_.element("meshes", mesh).member("primitives").item(surface.number);
+}
+
+std::string ObjectMaker::name(const std::string& path, std::size_t mesh,
+                              const Surface& surface) const {
+  const tinygltf::Mesh& source = model_.meshes[mesh];
+  std::string result = path + "/";
+  result += source.name.empty() ? "mesh" + std::to_string(mesh) : head(source.name, 64);
+  if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,44 @@
+#include "io/gltf/scene/placed_bounds.hpp"
+
+namespace microtrace::io::gltf {
+namespace {
+
+void add_corners(const PointBounds& box, const DMat4& world_from_box, PointBounds& to) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    DVec3 p = box.low;
+    for (int k = 0; k < 3; ++k) {
+      if ((corner >> unsigned(k) & 1U) != 0) p[k] = box.high[k];
+    }
+    to.add(DVec3(world_from_box * DVec4(p, 1)));
+  }
+}
+
+}  // namespace
+
+PointBounds bounds_of(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
+                      const std::vector<std::vector<Surface>>& surfaces,
+                      const Instances& instances) {
+  std::vector<PointBounds> boxes(surfaces.size());  // of meshes
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (const Surface& surface : surfaces[i]) {
+      for (const Vec3& p : surface.mesh.positions) boxes[i].add(DVec3(p));
+    }
+  }
+  PointBounds result;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Node& node = model.nodes[placed.node];
+    if (node.camera >= 0 || node.skin >= 0) result.add(DVec3(placed.world_from_node[3]));
+    if (node.mesh < 0 || !placed.visible) continue;
+    const PointBounds& box = boxes[static_cast<std::size_t>(node.mesh)];
+    if (!(box.low.x <= box.high.x)) continue;
+    if (const std::vector<DMat4>* each = instances.of(placed.node)) {
+      for (const DMat4& instance : *each)
+        add_corners(box, placed.world_from_node * instance, result);
+    } else {
+      add_corners(box, placed.world_from_node, result);
+    }
+  }
+  return result;
+}
+
+}  // namespace microtrace::io::gltf

@@ -1,0 +1,236 @@
+#include "io/gltf/scene/scene.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/gltf/animation/animations.hpp"
+#include "io/gltf/bytes/accessors.hpp"
+#include "io/gltf/bytes/buffers.hpp"
+#include "io/gltf/bytes/container.hpp"
+#include "io/gltf/check/schema/schema.hpp"
+#include "io/gltf/check/semantics.hpp"
+#include "io/gltf/check/values/accessors.hpp"
+#include "io/gltf/check/values/data.hpp"
+#include "io/gltf/document/asset.hpp"
+#include "io/gltf/document/features.hpp"
+#include "io/gltf/document/model.hpp"
+#include "io/gltf/document/variants.hpp"
+#include "io/gltf/material/images.hpp"
+#include "io/gltf/material/materials.hpp"
+#include "io/gltf/material/textures.hpp"
+#include "io/gltf/mesh/surfaces.hpp"
+#include "io/gltf/pose/instances.hpp"
+#include "io/gltf/pose/nodes.hpp"
+#include "io/gltf/pose/posing.hpp"
+#include "io/gltf/scene/cameras.hpp"
+#include "io/gltf/scene/lights.hpp"
+#include "io/gltf/scene/object_maker.hpp"
+#include "io/gltf/scene/placed_bounds.hpp"
+#include "io/load_clock.hpp"
+#include "scene/way_to_origin.hpp"
+
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace microtrace::io {
+namespace {
+
+using gltf::Asset, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
+
+/// Runs a part of the reading; whatever it throws becomes an Error.
+template <typename Part>
+auto guarded(const std::string& name, Part&& part) {
+  try {
+    return part();
+  } catch (const Error& error) {
+    // Those of the memory budget don't know the file.
+    if (!error.diagnostic().file.empty()) throw;
+    throw Error(error.kind(), name, error.diagnostic().message);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::limit, name, "the asset needs more memory than there is");
+  } catch (const std::exception& error) {
+    throw Error(ErrorKind::internal, name, std::string("reading glTF failed: ") + error.what());
+  }
+}
+
+}  // namespace
+
+/// Everything but poses, in the order in which it is read and checked.
+struct GltfFile::Content {
+  Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
+          const LoadOptions& options)
+      : detail(options.detail == SurfaceDetail::usual ? SurfaceDetail::all : options.detail),
+        times(options.times),
+        clock(times),
+        name(file_name),
+        container(gltf::open_container(bytes, name)),
+        json(container.json, container.is_glb ? name + " (JSON chunk)" : name, max_json_values,
+             RepeatedKeys::last_counts),
+        asset(json),
+        model(checked_model(options.variant)),
+        tree(model),
+        folders{.own = folder, .allowed = options.allowed_folders},
+        buffers(loaded_buffers()),
+        views(asset, model, buffers),
+        reader(asset, model, checked_views()),
+        animations(gltf::choose_animations(asset, options.animation)),
+        materials(needed_materials()),
+        textures(gltf::make_textures(asset)),
+        surfaces(made_surfaces()),
+        images(gltf::load_images(asset, views, folders, image_uses())),
+        instances(asset, model, reader) {
+    gltf::warn_of_ignored_features(asset, detail);
+    if (!container.is_aligned) {
+      asset.tolerate(asset.root(),
+                     "chunks of the GLB file have lengths that are no multiples of 4");
+    }
+    if (container.extra_bytes != 0) {
+      asset.warn(asset.root(), std::to_string(container.extra_bytes) +
+                                   " bytes after the end of the GLB file are ignored");
+    }
+    clock.lap(&LoadTimes::bake);
+  }
+
+  std::vector<gltf::Buffer> loaded_buffers() {
+    clock.lap(&LoadTimes::validate);
+    std::vector<gltf::Buffer> result =
+        gltf::load_buffers(asset, container.bin, container.is_glb, folders);
+    clock.lap(&LoadTimes::read);
+    return result;
+  }
+
+  tinygltf::Model checked_model(const std::string& variant) {
+    gltf::check_requirements(asset);
+    gltf::check_schema(asset);
+    gltf::check_semantics(asset);
+    tinygltf::Model result = gltf::parse_model(asset);
+    gltf::check_accessors(asset, result);
+    gltf::choose_variant(asset, variant, result);
+    return result;
+  }
+
+  gltf::PosedAsset pose_at(double time) {
+    if (!player) {
+      if (animations.empty()) {
+        asset.warn(asset.root(), "the asset has no animation; the time makes no difference");
+      }
+      const MemoryScope scope(memory);  // it stays with the file
+      player.emplace(asset, model, reader, animations);
+    }
+    return player->at(time);
+  }
+
+  gltf::PosedAsset pose(std::optional<double> time) {
+    return time ? pose_at(*time) : gltf::PosedAsset{};
+  }
+
+  LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset) {
+    LoadClock lap(times);
+    Asset own = asset;  // each pose adds warnings of its own
+    const gltf::Element root{pose.properties ? &*pose.properties : own.root().value, {}};
+    const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
+    gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
+    gltf::ObjectMaker maker(own, model, tree, surfaces, instances, poser);
+    maker.make_room(nodes);
+    for (const PlacedNode& placed : nodes) maker.add_mesh(placed);
+    LoadedScene result;
+    result.scene.objects = maker.take();
+    result.scene.materials = gltf::make_materials(*root.value);
+    gltf::add_unlit_copies(result.scene.materials, unlit);
+    result.scene.textures = textures;
+    result.scene.images = images;
+    result.scene.cameras = gltf::make_cameras(own, *root.value, model, tree, nodes);
+    result.scene.lights = gltf::make_lights(own, root, model, tree, nodes);
+    if (result.scene.objects.empty())
+      own.warn(own.root(), "nothing to draw: no triangles, lines or points");
+    result.warnings = own.warnings();
+    lap.lap(&LoadTimes::bake);
+    return result;
+  }
+
+  /// A layer that is invisible now may appear.
+  std::vector<std::vector<Surface>> made_surfaces() {
+    auto result = gltf::make_surfaces(asset, model, reader, materials, detail, unlit);
+    gltf::add_unlit_copies(materials, unlit);
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Material> needed_materials() const {
+    const bool may_change = gltf::animate_materials(asset, animations);
+    return gltf::make_materials(
+        *asset.root().value, may_change ? gltf::UnusedLayers::kept : gltf::UnusedLayers::left_out);
+  }
+
+  const gltf::BufferViews& checked_views() {
+    clock.lap(&LoadTimes::bake);
+    gltf::check_data(asset, model, views);
+    clock.lap(&LoadTimes::validate);
+    return views;
+  }
+
+  [[nodiscard]] std::vector<gltf::ImageUse> image_uses() const {
+    std::vector<bool> drawn(materials.size());
+    for (const auto& mesh : surfaces) {
+      for (const Surface& surface : mesh) drawn[surface.material] = true;
+    }
+    return gltf::image_uses(materials, drawn, textures, asset.array("images").size(), detail);
+  }
+
+  MemoryAccount& memory = memory_account();  // of the file, not of one pose
+  SurfaceDetail detail;
+  LoadTimes* times;
+  LoadClock clock;
+  std::string name;
+  gltf::Container container;
+  JsonDocument json;
+  Asset asset;
+  tinygltf::Model model;
+  NodeTree tree;
+  gltf::ResourceFolders folders;
+  std::vector<gltf::Buffer> buffers;
+  gltf::BufferViews views;
+  gltf::AccessorReader reader;
+  std::vector<std::size_t> animations;  // chosen
+  std::vector<Material> materials;      // with what any pose needs of them
+  std::vector<std::uint32_t> unlit;     // those of which there are unlit copies
+  std::vector<Texture> textures;
+  std::vector<std::vector<Surface>> surfaces;
+  std::vector<std::shared_ptr<const Image>> images;
+  gltf::Instances instances;
+  std::optional<gltf::AnimationPlayer> player;  // of them, once a time was asked for
+};
+
+GltfFile::GltfFile(std::string_view bytes, const std::string& name,
+                   const std::filesystem::path& folder, const LoadOptions& options)
+    : content_(
+          guarded(name, [&] { return std::make_unique<Content>(bytes, name, folder, options); })) {}
+GltfFile::~GltfFile() = default;
+GltfFile::GltfFile(GltfFile&& other) noexcept = default;
+GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
+
+LoadedScene GltfFile::at(std::optional<double> time) {
+  return guarded(content_->name, [&] {
+    const gltf::PosedAsset pose = content_->pose(time);
+    Asset unheard = content_->asset;
+    const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
+    const DVec3 way = way_to_origin(
+        gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
+    LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way));
+    result.scene.origin = -way;
+    return result;
+  });
+}
+
+LoadedScene GltfFile::placed(std::optional<double> time, const DMat4& world_from_asset) {
+  return guarded(content_->name,
+                 [&] { return content_->scene(content_->pose(time), world_from_asset); });
+}
+
+LoadedScene load_gltf(std::string_view bytes, const std::string& name,
+                      const std::filesystem::path& folder, const DMat4& world_from_asset,
+                      const LoadOptions& options) {
+  return GltfFile(bytes, name, folder, options).placed(options.time, world_from_asset);
+}
+
+}  // namespace microtrace::io
