@@ -1,7 +1,7 @@
 #pragma once
-/// The floating-point rules behind exactness and equal bits: round to nearest, keep subnormal
-/// numbers, raise no signals. A host program may have set other rules for its threads: flushing to
-/// zero is common in audio and graphics, and GCC sets it at start-up for any program linked with
+/// The floating-point settings that exactness and equal bits need: round to nearest, keep subnormal
+/// numbers, raise no signals. A host program may have changed them for its threads. Flushing to
+/// zero is common in audio and graphics, and GCC enables it at startup in programs linked with
 /// -ffast-math.
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace microtrace {
 
 #if defined(__x86_64__)
 
-/// The control words of the processor.
+/// The floating-point control registers of the processor.
 class FloatControl {
  public:
   static FloatControl get() {
@@ -20,7 +20,7 @@ class FloatControl {
     return now;
   }
   void set() const {
-    // An exception flagged under the rules before must not be raised under these.
+    // A pending exception that the previous settings masked must not be raised by the new ones.
     if ((x87_ & kX87Masks) != kX87Masks) __asm__ volatile("fnclex");
     __asm__ volatile("fldcw %0" : : "m"(x87_));
     __builtin_ia32_ldmxcsr(mxcsr_);
@@ -37,12 +37,12 @@ class FloatControl {
   }
 
  private:
-  // Flags of exceptions (bits 0 to 5), denormals are zeros (6), masks of exceptions (7 to 12),
+  // MXCSR: exception flags (bits 0 to 5), denormals are zeros (6), exception masks (7 to 12),
   // rounding control (13 and 14), flush to zero (15).
   static constexpr std::uint32_t kFlags = 0x3F, kMasks = 0x3F << 7U,
                                  kOther = (1U << 6U) | (3U << 13U) | (1U << 15U);
-  // Masks of exceptions (bits 0 to 5), precision control (8 and 9: all 64 bits of a long double),
-  // rounding control (10 and 11).
+  // x87 control word: exception masks (bits 0 to 5), precision control (8 and 9: all 64 bits of a
+  // long double), rounding control (10 and 11).
   static constexpr std::uint16_t kX87Masks = 0x3F, kX87Rules = 0xF00, kX87Right = 0x33F;
 
   std::uint32_t mxcsr_ = 0;
@@ -51,7 +51,7 @@ class FloatControl {
 
 #elif defined(__aarch64__)
 
-/// The control word of the processor.
+/// The floating-point control register of the processor.
 class FloatControl {
  public:
   static FloatControl get() {
@@ -69,8 +69,8 @@ class FloatControl {
   }
 
  private:
-  // Flushing of inputs to zero (bit 0), traps of exceptions (8 to 12 and 15), flushing of halves
-  // (19), rounding mode (22 and 23), flushing to zero (24).
+  // FPCR: flush inputs to zero (bit 0), exception traps (8 to 12 and 15), flush half precision
+  // (19), rounding mode (22 and 23), flush to zero (24).
   static constexpr std::uint64_t kOther =
       1U | (0x1FU << 8U) | (1U << 15U) | (1U << 19U) | (7U << 22U);
 
@@ -81,9 +81,9 @@ class FloatControl {
 #error "Write here how this processor's rounding mode and flushing of subnormals are read and set."
 #endif
 
-/// Sets these rules for the calling thread, and the former ones again at its end. Costs a few
-/// cycles where they are set already. Every public function that computes has one; threads that the
-/// library starts too.
+/// Applies these settings to the calling thread, and restores the previous ones when destroyed.
+/// Takes a few cycles if they already apply. Every public function that computes creates one, and
+/// so does every thread of the library.
 class FloatEnvironment {
  public:
   FloatEnvironment() : former_(FloatControl::get()) {

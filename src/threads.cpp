@@ -7,7 +7,7 @@
 namespace microtrace {
 
 unsigned default_threads() {
-  // hardware_concurrency() would count processors that a container or taskset keeps from us.
+  // hardware_concurrency() also counts processors that a container or taskset excludes.
   cpu_set_t allowed;
   if (sched_getaffinity(0, sizeof allowed, &allowed) == 0)
     return static_cast<unsigned>(std::max(1, CPU_COUNT(&allowed)));

@@ -1,5 +1,5 @@
 #pragma once
-/// Rays with one origin, traced together.
+/// Rays with a common origin, traced together.
 
 #include "accel/closest_hit.hpp"
 #include "accel/filters/shape_filter.hpp"
@@ -18,8 +18,8 @@ class Bundle {
  public:
   static constexpr std::size_t kCapacity = kTileRays;
 
-  /// rays: 1 to kCapacity valid rays with equal origins; they and the primitives must outlive the
-  /// bundle.
+  /// rays: 1 to kCapacity valid rays with the same origin. They and the primitives must outlive
+  /// this object.
   Bundle(const Primitives& primitives, std::span<const Ray> rays)
       : primitives_(&primitives), rays_(rays) {
     filterable_ = is_filterable(rays[0].o);
@@ -30,7 +30,7 @@ class Bundle {
     }
   }
 
-  /// All rays against one primitive. Every primitive must be met once, in any order.
+  /// Tests one primitive against all rays. Every primitive must be tested once, in any order.
   template <class AnyShape>
   void meet(PrimitiveId id, const AnyShape& shape) {
     for_each_verdict(shape, [&](std::size_t i, const Verdict& verdict) {
@@ -38,7 +38,7 @@ class Bundle {
     });
   }
 
-  /// f(i, verdict) for every ray.
+  /// Calls f(i, verdict) for every ray.
   template <class AnyShape, class F>
   void for_each_verdict(const AnyShape& shape, const F& f) const {
     if (filterable_ && is_filterable(shape)) {
@@ -49,7 +49,7 @@ class Bundle {
     }
   }
 
-  /// The nearest hit so far in the kernels' form.
+  /// The nearest hit so far of ray i, in the form that kernels use.
   [[nodiscard]] Best best(std::size_t i) const { return best_of(closest_[i], rays_[i]); }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t i) const {

@@ -42,13 +42,13 @@ struct Bvh::Impl {
   [[nodiscard]] bool occluded(const Ray& ray) const;
   [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
 
-  /// Up to kTileRays rays with one origin. False, and nothing done, if one of them doesn't suit
-  /// kernels.
+  /// Traces up to kTileRays rays with a common origin. Returns false, without effect, if one of the
+  /// rays exceeds the kernels' limits.
   [[nodiscard]] bool intersect_tile(std::span<const Ray> rays,
                                     std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;
-  std::vector<PrimitiveId> outside;  // of the tree: asked one by one
+  std::vector<PrimitiveId> outside;  // not in the tree; tested one by one
   Tree tree;
   bool has_tree = false;
   const Kernels* kernels = &best_kernels();
@@ -57,7 +57,7 @@ struct Bvh::Impl {
 
 Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scene) {
   const FloatEnvironment environment;
-  // So few are asked sooner than a tree is walked.
+  // Testing up to this many primitives directly is faster than traversing a tree.
   constexpr PrimitiveId kFew = 16;
   if (primitives.count() <= kFew) {
     build::References references = build::gather(primitives);
@@ -66,7 +66,7 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
     for (const build::Reference& reference : references.bounded) outside.push_back(reference.id());
     return;
   }
-  // At the most, while it is made, with pieces of triangles that are split.
+  // Upper bound during the build, including pieces of split triangles.
   constexpr std::uint64_t bytes_of_primitive = 120;
   take_memory(primitives.count() * bytes_of_primitive, "the tree of primitives");
   tree = build_tree(primitives, {.fast = options.fast_build, .threads = options.threads});
@@ -76,7 +76,7 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
 
 namespace {
 
-// Asks every primitive: for rays that can't be brought within the kernels' error bounds.
+// Tests every primitive: for rays beyond the kernels' limits.
 std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   Bundle bundle(primitives, std::span(&ray, 1));
@@ -84,7 +84,7 @@ std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
   return bundle.hit(0);
 }
 
-// How many rays from the front have one origin, up to a tile's number.
+// The number of leading rays with a common origin, at most a packet.
 std::size_t common_origin_length(std::span<const Ray> rays) {
   const Vec3 o = rays[0].o;
   const std::size_t limit = std::min<std::size_t>(rays.size(), kTileRays);
@@ -93,11 +93,11 @@ std::size_t common_origin_length(std::span<const Ray> rays) {
   return length;
 }
 
-// So few rays are sooner asked one by one than as a tile or as a stream.
+// Fewer rays are traced faster one by one than as a packet or a stream.
 constexpr std::size_t kLeastTile = 8, kLeastStream = 8;
 
-// How many rays from the front, at least one, until kLeastTile with one origin follow, up to a
-// stream's number.
+// The number of leading rays, at least one, before kLeastTile rays with a common origin; at most a
+// stream.
 std::size_t unrelated_length(std::span<const Ray> rays) {
   const std::size_t limit = std::min<std::size_t>(rays.size(), kStreamRays);
   for (std::size_t i = 1; i + kLeastTile <= limit; ++i) {
@@ -222,7 +222,8 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
   slow_stages.origins += spawns.size();
   std::vector<Spawn> represented;
   if (const Twins& twins = impl_->tree.twins; !twins.empty()) {
-    // A triangle of the tree in the place of the surface would be a wall to pass.
+    // The tree has only one of several duplicates. If the surface is another one, its
+    // representative would count as a separate wall.
     represented.assign(spawns.begin(), spawns.end());
     for (Spawn& spawn : represented) spawn.hit.id = twins.representative(spawn.hit.id);
     spawns = represented;
@@ -251,7 +252,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
   while (!rays.empty()) {
     const auto whole = rays.first(std::min<std::size_t>(rays.size(), kTileRays));
     std::size_t done = whole.size();
-    // A few rays don't repay what a tile costs.
+    // For a few rays the fixed cost of a packet is too high.
     bool is_tile = done >= kLeastTile && whole.front().o == whole.back().o &&
                    impl_->intersect_tile(whole, hits);
     if (!is_tile) {

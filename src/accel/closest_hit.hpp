@@ -1,6 +1,6 @@
 #pragma once
-/// The nearest hit so far of one ray, kept exact: doubles around its t decide as long as they can,
-/// exact arithmetic where two hits are too close to tell apart.
+/// The nearest hit so far of one ray. Bounds of t in float64 decide if possible; exact arithmetic
+/// decides between two hits whose bounds overlap.
 
 #include "accel/exact_hits.hpp"
 #include "accel/filters/filter.hpp"
@@ -14,7 +14,7 @@ namespace microtrace {
 
 class ClosestHit {
  public:
-  /// Takes the verdict of a filter on primitive `id` into account.
+  /// Considers the filter result for primitive `id`.
   void consider(PrimitiveId id, const Verdict& verdict, const ExactHits& exactly) {
     if (verdict.certainty == Certainty::miss || verdict.lo > hi_) return;
     const std::optional<exact::Enclosure> bounds =
@@ -26,7 +26,7 @@ class ClosestHit {
 
   struct Candidate {
     PrimitiveId id;
-    double lo, hi;  ///< around the exact t
+    double lo, hi;  ///< bounds of the exact t
   };
   [[nodiscard]] std::optional<Candidate> candidate() const {
     if (!found_) return std::nullopt;
@@ -41,7 +41,7 @@ class ClosestHit {
   }
 
  private:
-  // Of equal t the lower number.
+  // Ties go to the lower id.
   [[nodiscard]] bool precedes(PrimitiveId id, const ExactHits& exactly) const {
     const auto order = exactly.order(id, id_);
     return order < 0 || (order == 0 && id < id_);
@@ -54,7 +54,7 @@ class ClosestHit {
     found_ = true;
   }
 
-  // No hit yet counts as one at infinity.
+  // "No hit yet" is a hit at infinity.
   double lo_ = std::numeric_limits<double>::infinity();
   double hi_ = std::numeric_limits<double>::infinity();
   PrimitiveId id_ = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Exact answers about a ray's hits: by integers of fixed width where they hold all numbers, else
-/// by any width.
+/// Exact answers about a ray's hits: from fixed-width integers if these can represent all numbers,
+/// else from arbitrary-width numbers.
 
 #include "exact/numbers/ratio.hpp"
 #include "exact/numbers/root.hpp"
@@ -15,10 +15,10 @@ namespace microtrace {
 
 class ExactHits {
  public:
-  /// Both must outlive it.
+  /// Both must outlive this object.
   ExactHits(const Primitives& primitives, const Ray& ray) : primitives_(&primitives), ray_(&ray) {}
 
-  /// Around the t at which the ray hits a primitive, if it does.
+  /// Bounds of the t at which the ray hits a primitive; nothing if it misses.
   [[nodiscard]] std::optional<exact::Enclosure> bounds(PrimitiveId id) const;
 
   /// The order of two hits.
@@ -27,7 +27,7 @@ class ExactHits {
   /// A hit's t, rounded to the nearest float32.
   [[nodiscard]] float t(PrimitiveId id) const;
 
-  /// A hit's t itself, by Dyadic.
+  /// The exact t of a hit, computed with Dyadic.
   [[nodiscard]] std::optional<exact::Root> root(PrimitiveId id) const;
 
  private:

@@ -7,12 +7,13 @@
 namespace microtrace {
 namespace {
 
-// Corners by number. Neighbouring hits are mostly of one mesh, which is looked up once.
+// Triangle vertices by primitive id. Consecutive hits are mostly on the same mesh, which is looked
+// up once.
 class Corners {
  public:
   explicit Corners(const Primitives& primitives) : primitives_(&primitives) {}
 
-  /// False if the primitive is not of a mesh.
+  /// Returns false if the primitive is not a mesh triangle.
   bool put(PrimitiveId id, HitBatch& batch, std::size_t i) {
     if (id < first_ || id >= last_) look_up(id);
     if (mesh_ == nullptr) return false;
@@ -39,15 +40,15 @@ class Corners {
 
   const Primitives* primitives_;
   const Mesh* mesh_ = nullptr;
-  PrimitiveId first_ = 0, last_ = 0;  // of the object that mesh_ is
+  PrimitiveId first_ = 0, last_ = 0;  // id range of the object that mesh_ points to
 };
 
 struct RoundedT {
-  std::uint64_t certain;  // a bit for each ray whose t is
+  std::uint64_t certain;  // one bit per ray: its t is certainly the rounded exact value
   const float* t;
 };
 
-// What is not certain is decided here.
+// Computes the uncertain values of t exactly.
 void write_hits(const Primitives& primitives, std::span<const Ray> rays, const std::uint32_t* ids,
                 const RoundedT& rounded, std::span<std::optional<Hit>> hits) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -70,7 +71,7 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
   std::copy_n(found.o, 3, batch.o);
   std::copy_n(found.d, 3, batch.d);
   Corners corners(primitives);
-  std::uint64_t triangles = 0;  // a bit for each ray that hits one of a mesh
+  std::uint64_t triangles = 0;  // one bit per ray that hits a mesh triangle
   for (std::size_t i = 0; i < count; ++i) {
     if (found.ids[i] != kNoPrimitive && corners.put(found.ids[i], batch, i))
       triangles |= std::uint64_t{1} << i;

@@ -1,5 +1,5 @@
 #pragma once
-/// From what kernels found to hits.
+/// Converts the kernels' results to hits.
 
 #include "accel/kernels/kernel.hpp"
 
@@ -11,18 +11,19 @@
 
 namespace microtrace {
 
-/// Up to kHitBatch rays and the primitives that they hit first, kNoPrimitive for none.
+/// Up to kHitBatch rays and the primitives that they hit first; kNoPrimitive for a miss.
 struct FoundHits {
   std::span<const Ray> rays;
   const std::uint32_t* ids;
-  const float *o[3], *d[3];  ///< the rays' parts again, kHitBatch of each
+  const float *o[3], *d[3];  ///< components of the rays, arrays of kHitBatch elements
 };
 
-/// hits[i] is ids[i] on rays[i] with t rounded once. The rays suit kernels.
+/// hits[i] is the hit of rays[i] with primitive ids[i], t rounded once. The rays are within the
+/// kernels' limits.
 void round_hits(const Primitives& primitives, const Kernels& kernels, const FoundHits& found,
                 std::span<std::optional<Hit>> hits);
 
-/// The same for the best hits of a tile of these rays.
+/// The same for the nearest hits of a packet of these rays.
 void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
                 std::span<const Ray> rays, const KernelTile& tile,
                 std::span<std::optional<Hit>> hits);

@@ -1,5 +1,5 @@
 #pragma once
-/// Rays in the form that kernels take.
+/// Conversion of rays to the form that kernels use.
 
 #include "accel/kernels/kernel.hpp"
 #include "exact/numbers/root.hpp"
@@ -10,22 +10,22 @@
 
 namespace microtrace {
 
-/// The power of two 2^k for which o + t d, written as o + (2^k t) (d / 2^k), keeps KernelRay's
-/// limits: 1 for a ray that suits kernels. 0 if there is none, or if a component of d / 2^k would
-/// be rounded, or if the ray is not valid.
+/// The power of two 2^k for which the ray, written as o + (2^k t) (d / 2^k), is within KernelRay's
+/// limits: 1 for a ray already within the limits. Returns 0 if there is none, if a component of d /
+/// 2^k would be rounded, or if the ray is invalid.
 [[nodiscard]] double kernel_t_scale(const Ray& ray);
 
-/// The caller's part of a KernelRay; t_scale is kernel_t_scale(ray), not 0, and multiplies all its
-/// t.
+/// Fills the caller's part of a KernelRay. t_scale is kernel_t_scale(ray), not 0; all values of t
+/// are multiplied by it.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray, double t_scale);
 
-/// The same for a ray that looks for hits after a number of which only an enclosure is known: what
-/// could be on either side of it goes to the slow path.
+/// The same for a ray that looks for hits after a number with known bounds. Hits that may be on
+/// either side of the number go to the fallback.
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
 
-/// A tile without hits of 1 to kTileRays rays. False if they have several origins or not all of
-/// them suit kernels.
+/// Fills a packet of 1 to kTileRays rays, without hits. Returns false if the rays have different
+/// origins or exceed the kernels' limits.
 [[nodiscard]] bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile);
 
 }  // namespace microtrace

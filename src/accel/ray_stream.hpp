@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays of unrelated rays, asked of the stream kernels.
+/// Traces arrays of incoherent rays with the stream kernels.
 
 #include "accel/kernels/kernel.hpp"
 
@@ -12,20 +12,20 @@
 
 namespace microtrace {
 
-/// Traces up to kStreamRays rays at a time. Answers to rays that don't suit kernels are left to the
-/// caller.
+/// Traces up to kStreamRays rays at a time. Rays beyond the kernels' limits are left to the caller.
 class RayStream {
  public:
-  /// What stands for the scene; all of it must outlive the stream.
+  /// The scene; all members must outlive the stream.
   struct Target {
     const Primitives& primitives;
-    std::span<const PrimitiveId> outside;  ///< of the tree: asked one by one
+    std::span<const PrimitiveId> outside;  ///< not in the tree; tested one by one
     const Kernels& kernels;
     TreeView tree;
   };
   explicit RayStream(const Target& target) : target_(target) {}
 
-  /// hits[i] and results[i] answer rays[i], if it suits kernels; otherwise other(i) is called.
+  /// hits[i] and results[i] answer rays[i] if it is within the kernels' limits; otherwise other(i)
+  /// is called.
   void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits, const auto& other) {
     find_closest(rays, hits);
     for_each_unsuited(other);

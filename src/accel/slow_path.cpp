@@ -40,7 +40,7 @@ Judge::Judge(const Primitives& primitives, const Ray& ray, double t_scale, const
 
 void Judge::consider(std::uint32_t id, Best& best) const {
   ++slow_stages.filters;
-  if (id == best.id) return;  // a triangle that was split among leaves comes more than once
+  if (id == best.id) return;  // a triangle that was split among leaves is tested more than once
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);
@@ -48,7 +48,7 @@ void Judge::consider(std::uint32_t id, Best& best) const {
 }
 
 Hit Judge::hit(std::uint32_t id) const {
-  // For a triangle that is known to be hit, its plane tells t.
+  // For a triangle that is certainly hit, its plane gives t.
   const auto verdict_on = [this](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
       return TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
@@ -81,7 +81,7 @@ Verdict Judge::verdict(PrimitiveId id) const {
   return primitives_->visit(id, [&](const auto& shape) {
     if (!filterable_ || !is_filterable(shape)) return Verdict{.certainty = Certainty::unsure};
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-      // Most that come here are those that rays have just left; for them the plane will do.
+      // Usually the triangle that the ray has just left; the cheaper plane test rejects it.
       const Verdict plane = TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
       if (plane.certainty == Certainty::miss) return plane;
     }

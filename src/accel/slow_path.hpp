@@ -1,5 +1,5 @@
 #pragma once
-/// The stages behind the float32 kernels: float64 filters, then exact arithmetic.
+/// The stages after the float32 kernels: float64 filters, then exact arithmetic.
 
 #include "accel/build/twins.hpp"
 #include "accel/closest_hit.hpp"
@@ -14,42 +14,42 @@
 
 namespace microtrace {
 
-/// The best of a ray before there is one; t_scale is the one of its kernel ray.
+/// The initial value of a ray's nearest hit; t_scale is that of its kernel ray.
 [[nodiscard]] inline Best no_hit(const Ray& ray, double t_scale = 1) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
-  const double end = ray.t_max * t_scale;  // which is a float32 unless it is larger than they are
+  const double end = ray.t_max * t_scale;  // a float32 unless it overflows
   const float t_max =
       end > kGreatest ? std::numeric_limits<float>::infinity() : static_cast<float>(end);
   return {.lo = t_max, .hi = t_max, .id = kNoPrimitive};
 }
 
-/// A hit with t in [lo, hi] in the kernels' form: the interval rounded outwards.
+/// A hit with t in [lo, hi] in the kernels' form: the interval is rounded outwards.
 [[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
 [[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale = 1);
 
 class KnownHit;
 
-/// One ray's questions to primitives, by number.
+/// Decides hits of one ray with primitives.
 class Judge {
  public:
-  /// All must outlive the judge. What kernels call t is t_scale times the ray's. With `after` only
-  /// hits that follow that one are let through.
+  /// All arguments must outlive this object. Values of t in kernels are t_scale times the ray's.
+  /// With `after`, only hits that follow it are considered.
   Judge(const Primitives& primitives, const Ray& ray, double t_scale = 1,
         const KnownHit* after = nullptr);
 
-  /// The best before there is one.
+  /// The initial value of the nearest hit.
   [[nodiscard]] Best no_hit() const { return microtrace::no_hit(*ray_, t_scale_); }
 
-  /// Takes primitive id into account; best may come from a kernel.
+  /// Updates best if primitive id is hit before it. best may come from a kernel.
   void consider(std::uint32_t id, Best& best) const;
 
-  /// What a filter says about primitive id; unsure where none may be asked.
+  /// The filter's result for primitive id; unsure if the filters' limits are exceeded.
   [[nodiscard]] Verdict verdict(PrimitiveId id) const;
 
-  /// The hit of a primitive that the ray is known to hit, t rounded once.
+  /// The hit with a primitive that the ray is known to hit, t rounded once.
   [[nodiscard]] Hit hit(std::uint32_t id) const;
 
-  /// For kernels; the judge must outlive it.
+  /// For kernels; this object must outlive the result.
   [[nodiscard]] SlowPath slow_path();
 
  private:
@@ -66,14 +66,15 @@ class Judge {
 /// The hit of a valid ray with a primitive, if there is one.
 class KnownHit {
  public:
-  /// All must outlive it. id is a primitive's; the twins are those of primitives that are asked.
+  /// All arguments must outlive this object. `id` is the primitive's; `twins` are the duplicates of
+  /// the primitives that will be queried.
   KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Twins& twins);
 
   [[nodiscard]] bool exists() const { return exists_; }
-  /// Around its exact t.
+  /// Bounds of its exact t.
   [[nodiscard]] const exact::Enclosure& bounds() const { return bounds_; }
-  /// Of primitive id and its twins the one whose hit, if they have one, is the next: id itself
-  /// where it is at a larger t, at the same one the least larger number. The verdict is a filter's.
+  /// The next hit among primitive id and its duplicates, given a filter's result for them: id
+  /// itself if it is at a larger t; at the same t, the least id above this hit's.
   [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const Verdict& verdict) const;
 
  private:

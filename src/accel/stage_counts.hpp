@@ -1,11 +1,11 @@
 #pragma once
-/// Where the stages behind float32 count how often this thread asked them.
+/// Per-thread counters of queries to the stages after float32.
 
 #include <microtrace/stage_counts.hpp>
 
 namespace microtrace {
 
-/// But for what kernels and exact arithmetic count themselves.
+/// Excludes the counters that kernels and exact arithmetic keep themselves.
 inline thread_local StageCounts slow_stages;
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// The stages behind the float32 tile kernel: Judge for many rays with one origin.
+/// The stages after the float32 packet kernel: Judge for many rays with a common origin.
 
 #include "accel/bundle.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -12,14 +12,14 @@ namespace microtrace {
 
 class TileJudge {
  public:
-  /// For rays that make a bundle. Both must outlive the judge.
+  /// The rays must have a common origin. Both arguments must outlive this object.
   TileJudge(const Primitives& primitives, std::span<const Ray> rays)
       : primitives_(&primitives), rays_(rays) {}
 
-  /// Starts the tile with the hits of these primitives.
+  /// Initializes the packet with the hits of these primitives.
   void begin(KernelTile& tile, std::span<const PrimitiveId> ids);
 
-  /// For kernels; the judge must outlive it.
+  /// For kernels; this object must outlive the result.
   [[nodiscard]] TileSlowPath slow_path();
 
  private:
@@ -28,7 +28,7 @@ class TileJudge {
 
   const Primitives* primitives_;
   std::span<const Ray> rays_;
-  std::optional<Bundle> bundle_;  // made on first need: most tiles meet triangles only
+  std::optional<Bundle> bundle_;  // created when first needed: most packets only need triangles
 };
 
 }  // namespace microtrace

@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The first word of a file, if it is a number; cgroups write "max" for no limit.
+/// The first word of a file if it is a number; cgroups write "max" for no limit.
 std::optional<std::uint64_t> number_in(const fs::path& file) {
   std::uint64_t number = 0;
   if (!(std::ifstream(file) >> number)) return std::nullopt;
   return number;
 }
 
-/// The number behind a name in a file of lines of names and numbers.
+/// The number after `name` in a file whose lines are pairs of a name and a number.
 std::optional<std::uint64_t> number_of(const std::string& name, const fs::path& file) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -36,10 +36,10 @@ std::optional<std::uint64_t> number_of(const std::string& name, const fs::path& 
   return std::nullopt;
 }
 
-/// Names that the two versions of cgroups have for the same.
+/// File names of the same quantities in cgroups version 1 and 2.
 struct GroupFiles {
   const char *limit, *usage;
-  const char* cache;  ///< in memory.stat: of files, to be had back at any time
+  const char* cache;  ///< in memory.stat: page cache, which can be reclaimed at any time
 };
 
 std::uint64_t left_in_group(const fs::path& group, const GroupFiles& names) {
@@ -51,7 +51,8 @@ std::uint64_t left_in_group(const fs::path& group, const GroupFiles& names) {
   return *limit - std::min(*limit, in_use);
 }
 
-/// The group and all around it; in a container these may stand at the root.
+/// The least memory left in the group and its ancestors. In a container they may be at the root of
+/// the mount.
 std::uint64_t left_in_groups(const fs::path& mount, const fs::path& path, const GroupFiles& names) {
   std::uint64_t least = left_in_group(mount, names);
   fs::path group = mount;

@@ -4,8 +4,8 @@
 
 namespace microtrace {
 
-/// Bytes that this process may still take before the system or one of its control groups (cgroups
-/// of version 1 or 2) runs short. `root` is where /proc and /sys lie.
+/// Bytes that this process can still allocate before the system or one of its control groups
+/// (cgroups version 1 or 2) runs out of memory. `root` is the folder that contains /proc and /sys.
 [[nodiscard]] std::uint64_t free_memory(const std::filesystem::path& root = "/");
 
 }  // namespace microtrace

@@ -12,7 +12,7 @@ namespace {
 
 thread_local MemoryAccount* current = nullptr;
 
-/// "1.5 GiB"
+/// For example "1.5 GiB".
 std::string readable(std::uint64_t bytes) {
   constexpr std::array<const char*, 4> units = {"KiB", "MiB", "GiB", "TiB"};
   double number = static_cast<double>(bytes) / 1024;

@@ -1,5 +1,5 @@
 #pragma once
-/// Who has taken how much of a MemoryBudget.
+/// Accounting of a MemoryBudget by owner.
 
 #include <microtrace/memory.hpp>
 
@@ -9,10 +9,10 @@
 
 namespace microtrace {
 
-/// What belongs to one owner, given back with it.
+/// The memory of one owner, released with it.
 class MemoryAccount {
  public:
-  /// The budget must outlive the account; null: nothing is counted.
+  /// The budget must outlive the account. With null nothing is counted.
   explicit MemoryAccount(MemoryBudget* budget) : budget_(budget) {}
   ~MemoryAccount() { clear(); }
   MemoryAccount(const MemoryAccount&) = delete;
@@ -23,7 +23,7 @@ class MemoryAccount {
 
   /// As MemoryBudget::take.
   void take(std::uint64_t bytes, std::string_view what);
-  /// Gives all back.
+  /// Releases all memory.
   void clear();
 
   [[nodiscard]] MemoryBudget* budget() const { return budget_; }
@@ -33,7 +33,7 @@ class MemoryAccount {
   std::uint64_t taken_ = 0;
 };
 
-/// While it lives, what this thread takes is the account's.
+/// During its lifetime, memory taken by this thread is charged to the account.
 class MemoryScope {
  public:
   explicit MemoryScope(MemoryAccount& account);
@@ -45,15 +45,15 @@ class MemoryScope {
   MemoryAccount* former_;
 };
 
-/// That of the thread's innermost scope, or one that counts nothing.
+/// The account of the thread's innermost scope, or an account that counts nothing.
 [[nodiscard]] MemoryAccount& memory_account();
 
-/// To be said before memory is taken that may be large.
+/// Must be called before a potentially large allocation.
 inline void take_memory(std::uint64_t bytes, std::string_view what) {
   memory_account().take(bytes, what);
 }
 
-/// The same for memory that is given back sooner than the account: with the result.
+/// Charges memory that is released earlier than the account: with the returned object.
 [[nodiscard]] inline MemoryAccount temporary_memory(std::uint64_t bytes, std::string_view what) {
   MemoryAccount account(memory_account().budget());
   account.take(bytes, what);

@@ -1,5 +1,5 @@
 #pragma once
-/// Help for a name that is not known.
+/// Suggestions for unknown names.
 
 #include <span>
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace microtrace {
 
-/// The known name that is nearest by edit distance, if it differs by two letters or less or by a
-/// third of a long name; else an empty one.
+/// The known name with the least edit distance, if this is at most 2 or a third of the length of
+/// `name`; else an empty string.
 [[nodiscard]] std::string_view nearest_name(std::string_view name,
                                             std::span<const std::string_view> known);
 
-/// What to add to a message about `name`: `; did you mean "radius"?` if a known name is near by
-/// edit distance, else `; known are "a", "b"`, or nothing where none is known.
+/// Text to append to a message about `name`: `; did you mean "radius"?` if a known name is similar,
+/// else `; known are "a", "b"`, or nothing if no names are known.
 [[nodiscard]] std::string suggestion(std::string_view name,
                                      std::span<const std::string_view> known);
 

@@ -7,10 +7,10 @@ namespace {
 
 struct CodePoint {
   char32_t value = 0;
-  std::size_t length = 0;  ///< in bytes, 0 if the bytes are not UTF-8
+  std::size_t length = 0;  ///< in bytes; 0 if the bytes are not UTF-8
 };
 
-/// The code point that `text`, not empty, starts with.
+/// The first code point of `text`, which must not be empty.
 CodePoint decode(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return {lead, 1};
@@ -27,7 +27,7 @@ CodePoint decode(std::string_view text) {
   return {value, length};
 }
 
-/// Control characters, and those without width or that turn the reading order.
+/// Control characters, zero-width characters and bidirectional formatting characters.
 bool is_dangerous(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200B && c <= 0x200F) ||
          (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF;
@@ -70,7 +70,7 @@ PrintableText make_printable(std::string_view text) {
 std::string_view whole_characters(std::string_view text) {
   std::size_t end = text.size();
   while (end > 0 && text.size() - end < 3 && continues_character(text[end - 1])) --end;
-  // An unfinished last character starts at end - 1.
+  // An incomplete last character starts at end - 1.
   if (end > 0 && decode(text.substr(end - 1)).length == 0) return text.substr(0, end - 1);
   return text;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Untrusted text made safe to show on a terminal: nothing in it moves the cursor or changes the
-/// reading order.
+/// Makes untrusted text safe to print on a terminal: it can't move the cursor or change the reading
+/// order.
 
 #include <cstddef>
 #include <string>
@@ -10,20 +10,20 @@ namespace microtrace {
 
 struct PrintableText {
   std::string text;
-  std::size_t columns = 0;  ///< on a terminal where each character takes one
+  std::size_t columns = 0;  ///< on a terminal, with one column per character
 };
 
-/// Tabs become spaces; control characters, invisible and bidirectional formatting characters, and
-/// bytes that are not UTF-8 are written as \x1b.
+/// Replaces tabs by spaces, and escapes control characters, invisible and bidirectional formatting
+/// characters, and bytes that are not UTF-8 as \x1b.
 [[nodiscard]] PrintableText make_printable(std::string_view text);
 
-/// The text of make_printable.
+/// The text of make_printable().
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// `name` in double quotes, printable and cut to 60 bytes.
+/// `name` in double quotes, printable and truncated to 60 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view name);
 
-/// Is this a second or later byte of a UTF-8 character?
+/// Whether this is a continuation byte of a UTF-8 character.
 [[nodiscard]] bool continues_character(char c);
 
 /// `text` without an incomplete UTF-8 character at its end.

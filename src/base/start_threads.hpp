@@ -1,5 +1,5 @@
 #pragma once
-/// The one place where threads are started.
+/// The only place that starts threads.
 
 #include <functional>
 #include <thread>
@@ -7,13 +7,13 @@
 
 namespace microtrace {
 
-/// Starts up to `count` threads that run `work`, which must not throw. Fewer where the system
-/// refuses more (limits on processes or memory): callers finish shared work with the threads there
-/// are.
+/// Starts up to `count` threads that run `work`, which must not throw. Starts fewer if the system
+/// refuses more (limits on processes or memory); callers must be able to finish the shared work
+/// with any number of threads.
 [[nodiscard]] std::vector<std::jthread> start_threads(unsigned count,
                                                       const std::function<void()>& work);
 
-/// Whether the system would start so many threads now.
+/// Whether the system can start this many threads now.
 [[nodiscard]] bool can_start_threads(unsigned count);
 
 }  // namespace microtrace

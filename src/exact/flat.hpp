@@ -1,5 +1,5 @@
 #pragma once
-/// Formulas of triangles and their planes, for exact numbers of any kind.
+/// Formulas for triangles and their planes, generic over the exact number type.
 
 #include "exact/numbers/dyadic.hpp"
 #include "exact/numbers/integer.hpp"
@@ -15,17 +15,17 @@ struct CornersOf {
   VectorOf<Number> a, b, c;
 };
 
-/// What a form of degree three in such numbers is made of.
+/// The type of a form of degree three in numbers of this type.
 template <class Number>
 using Volume = decltype(Number() * Number() * Number());
 
-/// Where a line o + t d is in a triangle: for t in [lo, hi].
+/// The interval [lo, hi] of t for which a line o + t d is in a triangle.
 template <class Number>
 struct StretchOf {
   Ratio<Volume<Number>> lo, hi;
   bool is_point;  ///< lo = hi
 
-  /// Takes one more t in.
+  /// Extends the interval to contain t.
   void add(const Ratio<Volume<Number>>& t) {
     if (compare(t, lo) < 0) lo = t;
     if (compare(t, hi) > 0) hi = t;
@@ -33,7 +33,7 @@ struct StretchOf {
   }
 };
 
-/// x as wide as another number.
+/// x widened to the width of another number.
 [[nodiscard]] inline const Dyadic& as_wide_as(const Dyadic&, const Dyadic& x) {
   return x;
 }
@@ -42,18 +42,18 @@ template <int More, int Limbs>
   return x.template widened<More>();
 }
 
-/// The t for which t d lies on the segment from p to q, given that det(d, p, q) = 0.
+/// The t for which t d lies on the segment from p to q, given det(d, p, q) = 0.
 template <class Number, class Add>
 void for_each_end(const VectorOf<Number>& d, const VectorOf<Number>& p, const VectorOf<Number>& q,
                   const Add& add) {
-  // Offsets of p and q from the line, turned by 90 degrees: multiples of one vector, as d, p and q
-  // lie in a plane.
+  // Offsets of p and q from the line, rotated by 90 degrees. They are parallel because d, p and q
+  // are coplanar.
   const auto offset_p = cross(d, p);
   const auto offset_q = cross(d, q);
   const auto along = offset_q - offset_p;  // d x (q - p)
   const int k = nonzero_component(along);
   if (k < 0) {
-    if (nonzero_component(offset_p) >= 0) return;  // parallel, beside the line
+    if (nonzero_component(offset_p) >= 0) return;  // parallel to the line, not on it
     const int i = nonzero_component(d);
     add(p[i], d[i]);
     add(q[i], d[i]);
@@ -64,14 +64,15 @@ void for_each_end(const VectorOf<Number>& d, const VectorOf<Number>& p, const Ve
   add(cross(p, q)[k], along[k]);
 }
 
-/// Where the line t d meets a triangle, for corners seen from its origin; nothing if it doesn't.
+/// The interval in which the line t d meets a triangle whose vertices are relative to the line's
+/// origin; nothing if it misses.
 template <class Number>
 [[nodiscard]] std::optional<StretchOf<Number>> meet(const VectorOf<Number>& d,
                                                     const CornersOf<Number>& corners) {
   using Form = Volume<Number>;
   const auto& [a, b, c] = corners;
-  // The line's signed volumes with the edges: its point in the plane has barycentric coordinates u
-  // : v : w.
+  // The line's signed volumes with the edges: the intersection with the plane has barycentric
+  // coordinates u : v : w.
   const auto b_cross_c = cross(b, c);
   const Form u = dot(d, b_cross_c);
   const Form v = dot(d, cross(c, a));
@@ -84,7 +85,7 @@ template <class Number>
     return StretchOf<Number>{.lo = t, .hi = t, .is_point = true};
   }
   // The line lies in the triangle's plane, or the triangle is degenerate. The line then enters and
-  // leaves the convex hull of the corners on its edges.
+  // leaves the convex hull of the vertices on its edges.
   std::optional<StretchOf<Number>> stretch;
   const auto add = [&](const auto& p, const auto& r) {
     const auto t = ratio<Form>(as_wide_as(u, p), as_wide_as(u, r));
@@ -112,8 +113,8 @@ template <class Number>
 }
 
 /// Whether a triangle with an area has a point on the segment from the origin to o + t d, all in
-/// one plane. If not, the line of an edge or of the segment has them on strictly different sides.
-/// side_at(x, y) is the sign of x + t y.
+/// one plane. If not, the line of an edge or of the segment separates them strictly. side_at(x, y)
+/// is the sign of x + t y.
 template <class Number>
 [[nodiscard]] bool meets_segment_of_plane(const CornersOf<Number>& triangle,
                                           const VectorOf<Number>& o, const VectorOf<Number>& d,
@@ -134,9 +135,9 @@ template <class Number>
   return first == 0 || side(b) != first || side(c) != first;
 }
 
-/// Whether a triangle with an area has a point on the segment from the origin to o + t d, of whose
-/// ends not both are strictly on one side of its plane: by the sides on which the segment's line
-/// passes the edges.
+/// Whether a triangle with an area has a point on the segment from the origin to o + t d, given
+/// that the segment's ends are not both strictly on one side of its plane. Decided by the sides on
+/// which the segment's line passes the edges.
 template <class Number>
 [[nodiscard]] bool meets_segment_to(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
                                     const VectorOf<Number>& d, const auto& side_at) {

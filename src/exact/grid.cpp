@@ -14,14 +14,15 @@ namespace {
 
 constexpr int kMantissaBits = 24;
 
-/// Coordinates are below so large a power of two of units: see Integer.
+/// Coordinates are below 2^kCoordinateBits units: see Integer.
 template <int Limbs>
 constexpr int kCoordinateBits = 64 * Limbs - 8;
 
-/// Room for neighbours that are larger than the triangle that a ray hits.
+/// Binary digits of room for neighboring triangles that are larger than the triangle that a ray
+/// hits.
 constexpr int kSpare = 16;
 
-/// p / r 2^exponent.
+/// The number p / r 2^exponent.
 template <int Limbs>
 struct ScaledRatio {
   Ratio<Integer<Limbs>> value;
@@ -29,19 +30,19 @@ struct ScaledRatio {
 
   [[nodiscard]] Enclosure bounds() const {
     if (value.p.sign() == 0) return {0, 0};
-    // Two truncations of 2 u and a rounding.
+    // Two truncations with an error of 2 u each, and one rounding.
     const Leading p = value.p.leading(), r = value.r.leading();
     return exact::bounds(value.p.sign(),
                          {p.mantissa / r.mantissa, p.exponent - r.exponent + exponent});
   }
 
-  /// Against a number, not zero; nothing if they are too far from each other's scale.
+  /// The order against a nonzero number; nothing if their scales differ too much.
   [[nodiscard]] std::optional<std::strong_ordering> compare(double x) const {
     int x_exponent = 0;
     const double mantissa = std::frexp(x, &x_exponent) * 0x1p53;  // an integer
     x_exponent -= 53;
     const auto m = Integer<2>::shifted(x < 0, static_cast<std::uint64_t>(std::abs(mantissa)), 0);
-    // p 2^shift against m r. A factor of 2^53 and one of 2^255 need five limbs.
+    // Compares p 2^shift with m r. The factors 2^53 and 2^255 need five more limbs.
     const int shift = exponent - x_exponent;
     if (std::abs(shift) > 255) return std::nullopt;
     auto left = value.p.template widened<Limbs + 5>();
@@ -60,7 +61,7 @@ struct ScaledRatio {
   }
 };
 
-/// Whether t is within the ray's interval; nothing if that takes more than bounds.
+/// Whether t is within the ray's interval; nothing if the bounds can't decide it.
 std::optional<bool> is_in_range(const Enclosure& t, const Ray& ray) {
   if (t.hi < ray.t_min || t.lo > ray.t_max) return false;
   if (t.lo >= ray.t_min && t.hi <= ray.t_max) return true;
@@ -87,7 +88,7 @@ auto Grid<Limbs>::operator()(const Vec3& v) const -> std::optional<GridVector> {
     if (mantissa == 0) continue;
     int shift = exponent - exponent_;
     if (shift < 0) {
-      // Zeros at the end don't count.
+      // Trailing zero bits need no room.
       if (std::countr_zero(mantissa) < -shift) return std::nullopt;
       mantissa >>= static_cast<unsigned>(-shift);
       shift = 0;
@@ -174,7 +175,7 @@ void GridHit<Limbs>::find(const Triangle& triangle, const Ray& ray) {
   if (is_hit.value_or(false))
     found_ = Found::hit;
   else if (!is_hit || !stretch->is_point)
-    found_ = Found::unknown;  // it may begin before the interval and reach into it
+    found_ = Found::unknown;  // the stretch may begin before the interval and reach into it
 }
 
 template <int Limbs>
@@ -201,7 +202,7 @@ std::optional<std::strong_ordering> GridHit<Limbs>::order(const Triangle& other)
   const auto corners = points_(other, o_);
   if (!corners) return std::nullopt;
   const auto stretch = meet(d_, *corners);
-  // Else it may begin where the ray's interval does.
+  // Otherwise the hit may be at the start of the ray's interval.
   if (!stretch || !stretch->is_point) return std::nullopt;
   return compare(t_, stretch->lo);
 }

@@ -1,11 +1,11 @@
 #pragma once
-/// Questions about triangles in integers of fixed width, for coordinates that lie on one grid: they
-/// nearly always do, and the answers are exact.
+/// Exact queries about triangles in fixed-width integers, for coordinates on a common grid. Nearly
+/// all scenes fit.
 ///
-/// A float32 is an integer of 24 bits times a power of two. With two limbs, coordinates of a scene
-/// may differ by a factor of 2^80: 500 and 1e-17, what is left of a zero after a rotation, fit.
-/// With three they may by 2^144: 1e-45, the least number, and 10^8. So they do where a ray leaves a
-/// wall at 0.
+/// A float32 is a 24-bit integer times a power of two. With two limbs, the coordinates of a query
+/// may differ by a factor of 2^80: for example 500 and 1e-17, the remainder of a zero after a
+/// rotation. With three limbs they may differ by 2^144: 1e-45, the least float32, and 10^8, which
+/// occur for rays that leave a wall at coordinate 0.
 
 #include "exact/flat.hpp"
 #include "exact/numbers/integer.hpp"
@@ -26,15 +26,17 @@ class Grid {
   using GridVector = VectorOf<Integer<Limbs>>;
   using GridCorners = CornersOf<Integer<Limbs>>;
 
-  /// As fine as may be for vectors whose components are below 2^spare times the largest of these.
+  /// The finest grid for vectors whose components are below 2^spare times the largest component of
+  /// these.
   Grid(std::initializer_list<Vec3> vectors, int spare);
 
   /// The unit is 2^exponent.
   [[nodiscard]] int exponent() const { return exponent_; }
 
-  /// In units; nothing if a component is no multiple of it, is too large or not finite.
+  /// In units of the grid; nothing if a component is not a multiple of the unit, is too large or
+  /// not finite.
   [[nodiscard]] std::optional<GridVector> operator()(const Vec3& v) const;
-  /// Seen from a vector on the grid.
+  /// The vertices relative to a vector on the grid.
   [[nodiscard]] std::optional<GridCorners> operator()(const Triangle& t,
                                                       const GridVector& from) const;
 
@@ -48,9 +50,9 @@ class GridPlane {
  public:
   explicit GridPlane(const Triangle& triangle);
 
-  // Nothing where the grid holds not all that it takes.
+  // All functions return nothing if the grid can't represent the numbers they need.
 
-  /// On which side of the plane q is: the sign of (b - a) x (c - a) . (q - a).
+  /// The side of the plane on which q is: the sign of (b - a) x (c - a) . (q - a).
   [[nodiscard]] std::optional<int> side(const Vec3& q) const;
   /// The sign of (b - a) x (c - a) . e.
   [[nodiscard]] std::optional<int> slope(const Vec3& e) const;
@@ -74,17 +76,17 @@ class GridHit {
 
   [[nodiscard]] Found found() const { return found_; }
 
-  // Of a hit. Nothing where the grid holds not all that it takes.
+  // Queries about a hit. They return nothing if the grid can't represent the numbers they need.
 
-  /// Around its t.
+  /// Bounds of its t.
   [[nodiscard]] const Enclosure& bounds() const { return bounds_; }
-  /// Rounded to the nearest float32.
+  /// t rounded to the nearest float32.
   [[nodiscard]] std::optional<float> t() const;
-  /// o + t d with each coordinate rounded to the nearest.
+  /// o + t d with each coordinate rounded to nearest.
   [[nodiscard]] std::optional<Vec3> point() const;
-  /// t against that of the ray's hit with another triangle, one that it does hit.
+  /// The order of t and the t of the ray's hit with another triangle, which must exist.
   [[nodiscard]] std::optional<std::strong_ordering> order(const Triangle& other) const;
-  /// On which side of another triangle's plane the point o + t d is.
+  /// The side of another triangle's plane on which the point o + t d is.
   [[nodiscard]] std::optional<int> side(const Triangle& other) const;
   /// meets_segment() with another triangle.
   [[nodiscard]] std::optional<bool> meets_segment(const Triangle& other, const Vec3& q) const;
@@ -95,7 +97,7 @@ class GridHit {
   Grid<Limbs> points_, directions_;
   VectorOf<Integer<Limbs>> o_{}, d_{};
   Found found_ = Found::unknown;
-  Ratio<Integer<3 * Limbs>> t_{};  // in units of the points by those of directions
+  Ratio<Integer<3 * Limbs>> t_{};  // in units of points per unit of directions
   Enclosure bounds_{};
 };
 

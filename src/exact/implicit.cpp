@@ -66,7 +66,7 @@ Dyadic Implicit::bilinear(const Vector& p, const Vector& e) const {
 int Implicit::sign_at(const Ray& ray, const Root& t) const {
   const Vector o = vector(ray.o), d = vector(ray.d);
   const Dyadic alpha = quadratic(d), beta = slope(o, d), gamma = value(o);
-  // alpha t^2 + beta t + gamma times r^2, with t = (p + s sqrt(q)) / r.
+  // alpha t^2 + beta t + gamma multiplied by r^2, with t = (p + s sqrt(q)) / r.
   const Dyadic rational_part = alpha * (square(t.p) + (t.sign == 0 ? Dyadic() : t.q)) +
                                beta * t.p * t.r + gamma * square(t.r);
   if (t.sign == 0) return rational_part.sign();
@@ -76,7 +76,7 @@ int Implicit::sign_at(const Ray& ray, const Root& t) const {
 
 int Implicit::sign_behind(const Ray& ray, const Root& t, const Vec3& e) const {
   const Vector direction = vector(e);
-  // The slope at o + t d is linear in t; where it vanishes, F grows like s^2 Q(e).
+  // The slope at o + t d is linear in t. If it vanishes, F grows like s^2 Q(e).
   const int first =
       sign(linear_in(t, slope(vector(ray.o), direction), bilinear(vector(ray.d), direction)));
   return first != 0 ? first : quadratic(direction).sign();

@@ -1,5 +1,5 @@
 #pragma once
-/// The function whose zeros are a surface, in exact arithmetic.
+/// The implicit function of a surface, in exact arithmetic.
 
 #include "exact/numbers/root.hpp"
 #include "exact/numbers/vector.hpp"
@@ -9,9 +9,9 @@
 
 namespace microtrace::exact {
 
-/// F(x) = Q(x) + linear . x + constant with a quadratic form Q: a quadric's polynomial as it
-/// stands, |x - center|^2 - radius^2, or normal . (x - point) with a triangle's normal (b - a) x (c
-/// - a). All numbers of the shape must be finite.
+/// F(x) = Q(x) + linear . x + constant with a quadratic form Q. For a quadric F is its polynomial,
+/// for a sphere |x - center|^2 - radius^2, for flat shapes normal . (x - point), where a triangle
+/// has the normal (b - a) x (c - a). All numbers of the shape must be finite.
 class Implicit {
  public:
   explicit Implicit(const Triangle& triangle);
@@ -20,7 +20,7 @@ class Implicit {
   explicit Implicit(const Sphere& sphere);
   explicit Implicit(const Quadric& quadric);
 
-  /// The part of F of degree one: of a flat surface, its normal.
+  /// The coefficients of degree one; for a flat surface its normal.
   [[nodiscard]] const Vector& linear() const { return linear_; }
   /// F(p).
   [[nodiscard]] Dyadic value(const Vector& p) const;
@@ -32,10 +32,12 @@ class Implicit {
   /// The sign of F(o + t d).
   [[nodiscard]] int sign_at(const Ray& ray, const Root& t) const;
 
-  /// The sign of F(o + t d + s e) for all small s > 0, where F(o + t d) = 0; 0 if it stays zero.
+  /// The sign of F(o + t d + s e) for all small s > 0, where F(o + t d) = 0. Returns 0 if it stays
+  /// zero.
   [[nodiscard]] int sign_behind(const Ray& ray, const Root& t, const Vec3& e) const;
 
-  /// How often F(p + s e) is zero for s >= 0, where F(p) is not: 0 to 2, a double zero being one.
+  /// The number of zeros of F(p + s e) for s >= 0, given F(p) != 0: 0 to 2, a double zero counts
+  /// once.
   [[nodiscard]] int zeros_ahead(const Vec3& p, const Vec3& e) const;
 
  private:
@@ -43,14 +45,14 @@ class Implicit {
   /// The symmetric bilinear form with bilinear(e, e) = 2 Q(e).
   [[nodiscard]] Dyadic bilinear(const Vector& p, const Vector& e) const;
 
-  Vector squares_;  // of x^2, y^2, z^2
-  Vector mixed_;    // of yz, xz, xy
+  Vector squares_;  // coefficients of x^2, y^2, z^2
+  Vector mixed_;    // coefficients of yz, xz, xy
   Vector linear_;
   Dyadic constant_;
 };
 
-/// Whether a triangle with an area has a point on the segment from q to o + t d, of whose ends not
-/// both are strictly on one side of its plane.
+/// Whether a triangle with an area has a point on the segment from q to o + t d, given that the
+/// segment's ends are not both strictly on one side of its plane.
 [[nodiscard]] bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray,
                                  const Root& t);
 

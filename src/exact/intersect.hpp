@@ -1,6 +1,7 @@
 #pragma once
-/// The first hit of a ray with a shape, decided by numbers of any width: slow, scalar, right. All
-/// speed comes from asking rarely; of triangles, triangle_hit.hpp answers nearly always without it.
+/// The first hit of a ray with a shape, decided by arbitrary-width numbers: slow, scalar, and
+/// always right. Filters decide nearly all hits; for triangles, triangle_hit.hpp answers nearly
+/// always without it.
 
 #include "exact/numbers/root.hpp"
 
@@ -11,12 +12,12 @@
 
 namespace microtrace::exact {
 
-/// Whether the ray's query is one that can hit (see Ray).
+/// Whether the ray is valid (see Ray); invalid rays hit nothing.
 [[nodiscard]] bool is_valid(const Ray& ray);
 
 /// The least t in the closed [t_min, t_max] for which o + t d lies in the shape's closed point set;
-/// nothing if there is none, or if the ray or the shape is not valid. A ray within a plane, a flat
-/// shape or a quadric hits where it enters.
+/// nothing if there is none, or if the ray or the shape is invalid. A ray within a plane, a flat
+/// shape or a quadric hits where it enters the shape.
 [[nodiscard]] std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Plane& plane, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Disc& disc, const Ray& ray);

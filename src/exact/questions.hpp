@@ -1,14 +1,14 @@
 #pragma once
-/// How often exact arithmetic was asked by this thread: counted where its answers begin, so that
-/// none is left out.
+/// Counts this thread's queries to exact arithmetic, at the functions that answer them, so that
+/// none is missed.
 
 #include <cstdint>
 
 namespace microtrace::exact {
 
 struct Questions {
-  std::uint64_t grid = 0;    ///< Grid: integers of fixed width
-  std::uint64_t dyadic = 0;  ///< Dyadic: of any width
+  std::uint64_t grid = 0;    ///< queries answered by Grid: fixed-width integers
+  std::uint64_t dyadic = 0;  ///< queries answered by Dyadic: arbitrary width
 };
 
 inline thread_local Questions questions;

@@ -34,7 +34,7 @@ std::optional<RootPair> quadratic_roots(const Dyadic& a, const Dyadic& b, const 
   const Dyadic discriminant = square(b) - a * c;
   if (discriminant.sign() < 0) return std::nullopt;
   const int sign = discriminant.sign();
-  // (-b +- sqrt(discriminant)) / a, with the denominator made positive.
+  // (-b +- sqrt(discriminant)) / a, with a positive denominator.
   if (a.sign() < 0) return RootPair{{b, discriminant, -a, -sign}, {b, discriminant, -a, sign}};
   return RootPair{{-b, discriminant, a, -sign}, {-b, discriminant, a, sign}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Steps shared by the shapes: validity, the ray's closed interval, roots of a quadratic
+/// Steps shared by all shapes: validity, the ray's closed interval, roots of a quadratic
 /// polynomial.
 
 #include "exact/numbers/root.hpp"
@@ -18,7 +18,7 @@ namespace microtrace::exact {
 /// t itself if it is in range.
 [[nodiscard]] std::optional<Root> first_in_range(const Root& t, const Ray& ray);
 
-/// The least number that [lo, hi] and [t_min, t_max] share.
+/// The least number in both [lo, hi] and [t_min, t_max].
 [[nodiscard]] std::optional<Root> first_in_range(const Root& lo, const Root& hi, const Ray& ray);
 
 struct RootPair {

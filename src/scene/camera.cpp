@@ -25,8 +25,8 @@ double aspect(ImageSize size) {
   return double{1} * size.width / size.height;
 }
 
-// Half the picture's height where a window of half height `half` and the given aspect is to be seen
-// whole.
+// Half the picture's height that shows a whole window of half height `half` and the given aspect
+// ratio.
 double fitted(double half, const std::optional<double>& window_aspect, ImageSize size) {
   return window_aspect ? half * std::max(1.0, *window_aspect / aspect(size)) : half;
 }
@@ -44,8 +44,8 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
   position_ = pose.position;
   forward_ = frame.forward;
 
-  // The picture's plane: `half` up and down from its middle, in units of the focus (perspective) or
-  // of the world.
+  // Sets the image plane: `half` is half its height, in units of the focus (perspective) or of the
+  // world.
   const auto set_plane = [&](Kind kind, double half, const DVec3& middle) {
     kind_ = kind;
     right_ = frame.right * (2 * half * aspect(size) / size.width);
@@ -72,7 +72,7 @@ Ray RayGenerator::operator()(double x, double y) const {
   Ray ray;
   switch (kind_) {
     case Kind::perspective: {
-      const DVec3 toward = corner_ + right_ * x + down_ * y;  // reaches depth 1
+      const DVec3 toward = corner_ + right_ * x + down_ * y;  // direction scaled to depth 1
       const double length = std::sqrt(glm::dot(toward, toward));
       ray.o = Vec3(position_);
       ray.d = Vec3(toward * (1 / length));
@@ -108,7 +108,7 @@ double RayGenerator::depth(const DVec3& point) const {
 CameraModel RayGenerator::model() const {
   const FloatEnvironment environment;
   const DVec3 right = glm::normalize(right_), up = -glm::normalize(down_);
-  const double step = kind_ == Kind::environment ? 0 : glm::length(right_);  // from pixel to pixel
+  const double step = kind_ == Kind::environment ? 0 : glm::length(right_);  // between pixels
   return {.world_from_camera =
               DMat4(DVec4(right, 0), DVec4(up, 0), DVec4(-forward_, 0), DVec4(position_, 1)),
           .center = DVec2(size_.width, size_.height) * 0.5,
@@ -121,7 +121,7 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
   const DVec3 d(ray.d);
   switch (kind_) {
     case Kind::perspective: {
-      // d = toward / |toward|, and toward reaches depth 1.
+      // d = toward / |toward|, and the end of toward has depth 1.
       const double depth = glm::dot(forward_, d);
       return {.d_dx = depth * (right_ - d * glm::dot(d, right_)),
               .d_dy = depth * (down_ - d * glm::dot(d, down_))};
@@ -129,7 +129,7 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
     case Kind::orthographic:
       return {.o_dx = right_, .o_dy = down_};
     case Kind::environment: {
-      const DVec3 east = glm::cross(down_, d);  // as long as the circle of latitude is wide
+      const DVec3 east = glm::cross(down_, d);  // proportional to the circle of latitude
       const double width = std::sqrt(glm::dot(east, east));
       const DVec3 south = width > 0 ? glm::cross(d, east) / width : right_;
       return {.d_dx = east * (2 * std::numbers::pi / size_.width),

@@ -6,7 +6,7 @@
 namespace microtrace {
 namespace {
 
-/// An edge of a triangle, known at its lesser vertex.
+/// An edge of a triangle, stored at its lesser vertex.
 struct Edge {
   std::uint32_t greater;  ///< vertex
   std::uint32_t corner;   ///< 3 * triangle + edge
@@ -20,7 +20,7 @@ std::vector<std::array<std::uint32_t, 3>> edge_neighbors(
   const auto end_of = [&](std::uint32_t corner) { return triangles[corner / 3][(corner + 1) % 3]; };
   const auto corner_count = static_cast<std::uint32_t>(3 * triangles.size());
 
-  // By lesser vertex: a counting sort.
+  // Counting sort by lesser vertex.
   std::vector<std::uint32_t> first(vertex_count + 1);
   for (std::uint32_t corner = 0; corner < corner_count; ++corner) {
     ++first[std::min(begin_of(corner), end_of(corner)) + 1];
@@ -35,7 +35,7 @@ std::vector<std::array<std::uint32_t, 3>> edge_neighbors(
 
   std::vector<std::array<std::uint32_t, 3>> result(triangles.size(),
                                                    {kNoNeighbor, kNoNeighbor, kNoNeighbor});
-  std::vector<std::uint32_t> waiting;  // of one pair of vertices, all in one order of them
+  std::vector<std::uint32_t> waiting;  // unpaired edges of two vertices, all in one direction
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const std::span<Edge> here(edges.data() + first[v], edges.data() + first[v + 1]);
     std::ranges::sort(here, [](const Edge& a, const Edge& b) {

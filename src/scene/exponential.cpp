@@ -10,7 +10,7 @@ namespace microtrace {
 double power_of_two(double x) {
   const double whole = std::floor(x + 0.5);
   const double y = (x - whole) * std::numbers::ln2;  // in [-0.347, 0.347]
-  // Taylor's polynomial of e^y: the first term left out is below 2^-57.
+  // Taylor polynomial of e^y: the first omitted term is below 2^-57.
   double sum = 1;
   for (int k = 13; k > 0; --k) sum = 1 + y * sum / k;
   const auto exponent = static_cast<std::int64_t>(whole) + 1023;
@@ -26,7 +26,7 @@ double binary_logarithm(double x) {
     m /= 2;
     ++exponent;
   }
-  // ln m = 2 artanh s with |s| <= 0.1716; the first term left out is below 2^-60.
+  // ln m = 2 artanh s with |s| <= 0.1716; the first omitted term is below 2^-60.
   const double s = (m - 1) / (m + 1), z = s * s;
   double sum = 0;
   for (int k = 21; k > 0; k -= 2) sum = 1.0 / k + z * sum;

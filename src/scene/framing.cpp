@@ -66,9 +66,9 @@ void Framing::add(const Scene& scene) {
   }
 }
 
-// A camera at x right + y up + z back sees a point p within the slope s of the right side if
-// (right + s back) . p <= x + s z, and within that of the left side if (s back - right) . p <=
-// s z - x. Both hold for all points with the least z where both are equalities.
+// A camera at x right + y up + z back has a point p within the slope s of the right side if (right
+// + s back) . p <= x + s z, and of the left side if (s back - right) . p <= s z - x. Both hold for
+// all points with the least z for which both are equalities.
 PerspectiveCamera Framing::camera() const {
   const FloatEnvironment environment;
   const bool point = is_empty() || low_ == high_;

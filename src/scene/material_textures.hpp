@@ -6,8 +6,8 @@
 
 namespace microtrace {
 
-/// Calls visit(TextureUse&, ColorEncoding) for each texture that the material has, const where the
-/// material is.
+/// Calls visit(TextureUse&, ColorEncoding) for each texture of the material. The reference is const
+/// if the material is.
 template <typename AnyMaterial, typename Visit>
 void for_each_texture(AnyMaterial& material, const Visit& visit) {
   const auto srgb = [&](auto& use) {

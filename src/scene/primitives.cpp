@@ -17,7 +17,7 @@ Primitives::Primitives(const Scene& scene) : scene_(&scene) {
 }
 
 std::size_t Primitives::object_index(PrimitiveId id) const {
-  // Empty meshes share their number with the object after them: the last of those that begin at or
+  // An empty mesh has the same first id as the next object: takes the last object that starts at or
   // before id.
   const auto after = std::upper_bound(first_ids_.begin(), first_ids_.end(), id);
   return static_cast<std::size_t>(after - first_ids_.begin()) - 1;

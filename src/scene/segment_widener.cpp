@@ -12,20 +12,20 @@
 namespace microtrace {
 namespace {
 
-/// Half the width of a line and half the side of a point, in pixels. More than 1/2, so that
-/// rounding opens no gap; and moved by the bias right and down, so that of two rows of pixels at
-/// the same distance from a line only one is taken.
+/// Half the width of a line and half the side of a point, in pixels. The width is slightly more
+/// than 1, so that rounding leaves no gap. The bias moves lines right and down, so that of two rows
+/// of pixels at the same distance only one is covered.
 constexpr double kHalfWidth = 0.5 + 1.0 / 64;
 constexpr double kBias = 1.0 / 32;
-/// Lines are cut so many pixels outside the picture.
+/// Lines are clipped this many pixels outside the picture.
 constexpr double kMargin = 2;
 
-/// The part [start, end] of a segment, cut by half spaces (Liang and Barsky 1984).
+/// The part [start, end] of a segment, clipped by half-spaces (Liang and Barsky 1984).
 struct Part {
   double start = 0, end = 1;
 
-  /// Keeps what lies where a linear function that is f at the segment's start and g at its end is
-  /// not negative. False if nothing is left.
+  /// Keeps the part where a linear function, which is f at the segment's start and g at its end, is
+  /// nonnegative. Returns false if nothing is left.
   bool keep(double f, double g) {
     if (f < 0 && g < 0) return false;
     if (f < 0) start = std::max(start, f / (f - g));
@@ -87,10 +87,10 @@ std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b
     part.start = part.end = (part.start + part.end) / 2;
     start = end = at(part.start);
   }
-  if (!(start.w > 0 && end.w > 0)) return std::nullopt;  // in the camera's own place
+  if (!(start.w > 0 && end.w > 0)) return std::nullopt;  // at the camera's position
 
   const glm::dvec2 cap = along * kHalfWidth;
-  const glm::dvec2 side(cap.y, -cap.x);  // to the left of the way
+  const glm::dvec2 side(cap.y, -cap.x);  // to the left of the segment
   const auto corner = [&](const End& from, const glm::dvec2& pixels) {
     return Vec3(from.p +
                 (rays_.right_ * (pixels.x + kBias) + rays_.down_ * (pixels.y + kBias)) * from.w);
@@ -102,7 +102,7 @@ std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b
 }
 
 std::optional<WideSegment> SegmentWidener::spherical(const DVec3& a, const DVec3& b) const {
-  // The angle of a pixel at the equator; nearer to the poles it spans more pixels across.
+  // The angle of a pixel at the equator; nearer to the poles it spans more pixels horizontally.
   const double pixel =
       std::max(std::numbers::pi / rays_.size_.height, 2 * std::numbers::pi / rays_.size_.width);
   DVec3 v = a - rays_.position_, w = b - rays_.position_;

@@ -1,5 +1,5 @@
 #pragma once
-/// How wide a line must be to cover a pixel.
+/// Computes the world-space width of lines that are one pixel wide.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
@@ -9,21 +9,21 @@
 
 namespace microtrace {
 
-/// A segment as a flat quadrilateral that faces the camera.
+/// A segment as a flat quadrilateral facing the camera.
 struct WideSegment {
-  std::array<Vec3, 4> corners;  ///< anticlockwise as the camera sees them; two at each end
-  double start, end;            ///< where its ends lie on the segment, in [0, 1]
+  std::array<Vec3, 4> corners;  ///< counterclockwise as seen from the camera; two at each end
+  double start, end;            ///< positions of its ends on the segment, in [0, 1]
 };
 
 class SegmentWidener {
  public:
   SegmentWidener(const Camera& camera, ImageSize size);
 
-  /// Nothing if the camera sees none of the segment from a to b.
+  /// Nothing if the camera sees no part of the segment from a to b.
   [[nodiscard]] std::optional<WideSegment> operator()(const Vec3& a, const Vec3& b) const;
 
  private:
-  /// Pixel coordinates are (x, y) / w; depth is along the viewing direction.
+  /// Pixel coordinates are (x, y) / w; depth is measured along the viewing direction.
   struct Projected {
     double x, y, w, depth;
   };

@@ -10,13 +10,13 @@
 namespace microtrace {
 namespace {
 
-/// The corners that all take what one vertex of the old mesh carries, or a mixture of two.
+/// The origin of a new vertex's attributes: one vertex of the old mesh, or a mixture of two.
 struct Source {
   std::uint32_t from, to;
-  double t;  // the share of `to`
+  double t;  // weight of `to`
 };
 
-/// Four values for each wide segment, after those of the vertices there are.
+/// Appends four values for each wide segment to the values of the existing vertices.
 template <typename Value, typename Mix>
 void extend(std::vector<Value>& values, const std::vector<Source>& sources, Mix&& mix) {
   if (values.empty()) return;
@@ -27,13 +27,13 @@ void extend(std::vector<Value>& values, const std::vector<Source>& sources, Mix&
   }
 }
 
-/// Colours and coordinates go from one end to the other.
+/// Interpolates colors and texture coordinates along the segment.
 template <typename Value>
 Value between(const Value& a, const Value& b, double t) {
   return a + (b - a) * static_cast<float>(t);
 }
 
-/// Directions are the nearer end's, so that their length stays 1.
+/// Directions are taken from the nearer end, so that their length stays 1.
 template <typename Value>
 Value nearer(const Value& a, const Value& b, double t) {
   return t < 0.5 ? a : b;
@@ -41,7 +41,7 @@ Value nearer(const Value& a, const Value& b, double t) {
 
 void widen(Mesh& mesh, const SegmentWidener& widened) {
   const Vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
-  std::vector<Source> sources;  // one for each two corners
+  std::vector<Source> sources;  // one for each two new vertices
   sources.reserve(2 * mesh.segments.size());
   mesh.positions.reserve(mesh.positions.size() + 4 * mesh.segments.size());
   mesh.triangles.reserve(mesh.triangles.size() + 2 * mesh.segments.size());

@@ -1,7 +1,7 @@
 #pragma once
 /// The sRGB encoding of linear light in 8 bits (IEC 61966-2-1), exact: the code of v is the integer
-/// nearest to 255 times the transfer function of v. Only + - * / at compile time, so no C library
-/// can change a picture.
+/// nearest to 255 times the transfer function of v. Uses only + - * / at compile time, so the C
+/// library has no influence.
 
 #include <array>
 #include <bit>
@@ -10,8 +10,7 @@
 
 namespace microtrace {
 
-/// x^(1/5) for x in (0, 1], by Newton's method from above, where it descends until rounding ends
-/// it.
+/// x^(1/5) for x in (0, 1], by Newton's method from above, until rounding stops the descent.
 constexpr double fifth_root(double x) {
   double r = 1;
   for (;;) {
@@ -29,7 +28,7 @@ constexpr double linear_from_srgb(double encoded) {
   return x * x * fifth_root(x * x);
 }
 
-/// Entry k is the least float32 whose code is above k.
+/// Entry k is the least float32 with a code above k.
 constexpr std::array<float, 255> make_srgb_thresholds() {
   std::array<float, 255> thresholds{};
   for (std::size_t k = 0; k < thresholds.size(); ++k) {
@@ -43,7 +42,7 @@ constexpr std::array<float, 255> make_srgb_thresholds() {
 
 inline constexpr std::array<float, 255> srgb_thresholds = make_srgb_thresholds();
 
-/// Bins of 128 to the octave from 2^-13 to 1: narrow enough to hold one threshold at most.
+/// Bins, 128 per octave from 2^-13 to 1, each of which contains at most one threshold.
 inline constexpr std::uint32_t srgb_first_bin = std::bit_cast<std::uint32_t>(0x1p-13F) >> 16;
 inline constexpr std::size_t srgb_bin_count =
     (std::bit_cast<std::uint32_t>(1.0F) >> 16) - srgb_first_bin;
@@ -62,7 +61,7 @@ constexpr std::array<std::uint8_t, srgb_bin_count> make_srgb_bins() {
 
 inline constexpr std::array<std::uint8_t, srgb_bin_count> srgb_bins = make_srgb_bins();
 
-/// The 8-bit sRGB code of linear light; values outside [0, 1] are clamped, NaN gives 0.
+/// The 8-bit sRGB code of linear light; values are clamped to [0, 1], NaN gives 0.
 constexpr std::uint8_t encode_srgb(float v) {
   if (!(v >= srgb_thresholds[0])) return 0;
   if (v >= srgb_thresholds[254]) return 255;

@@ -1,5 +1,5 @@
 #pragma once
-/// How far shapes reach in a direction.
+/// Support functions and bounds of shapes.
 
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
@@ -17,7 +17,7 @@ namespace microtrace {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Each is a support function: the greatest u . p of a shape's points p, for u of any length.
+/// Support functions: the maximum of u . p over a shape's points p, for u of any length.
 struct SphereSupport {
   DVec3 center;
   double radius;
@@ -33,7 +33,7 @@ struct DiscSupport {
   double radius;
 
   double operator()(const DVec3& u) const {
-    const DVec3 in_plane = glm::cross(normal, u);  // as long as u's part in the plane
+    const DVec3 in_plane = glm::cross(normal, u);  // as long as u's projection on the plane
     return glm::dot(u, center) + radius * std::sqrt(glm::dot(in_plane, in_plane));
   }
 };
@@ -48,11 +48,12 @@ struct EllipsoidSupport {
   }
 };
 
-/// Nothing if the quadric is no ellipsoid, or an empty one.
+/// Nothing if the quadric is not an ellipsoid, or is empty.
 [[nodiscard]] std::optional<EllipsoidSupport> ellipsoid(const Quadric& quadric);
 
-/// Calls point(DVec3) for points whose convex hull is the shape's, or support(f) with its support
-/// function; neither where it is empty or has no bounds. Vertices that are not finite do not count.
+/// Calls point(DVec3) for points whose convex hull equals the shape's, or support(f) with its
+/// support function. Calls neither if the shape is empty or unbounded. Vertices that are not finite
+/// are ignored.
 template <class Point, class Support>
 void visit_extent(const Shape& shape, Point&& point, Support&& support) {
   const auto visit = [&](const auto& s) {
@@ -83,7 +84,7 @@ void visit_extent(const Shape& shape, Point&& point, Support&& support) {
   std::visit(visit, shape);
 }
 
-/// The axis-aligned box of a shape; nothing where it is empty or has no bounds.
+/// The axis-aligned bounding box of a shape; nothing if it is empty or unbounded.
 struct Extent {
   DVec3 low, high;
 };

@@ -9,25 +9,26 @@
 namespace microtrace {
 namespace {
 
-/// Of unit length; `otherwise` where v has no direction. No float32 makes these squares overflow.
+/// The unit vector of v, or `otherwise` if v is zero. These squares can't overflow for float32
+/// input.
 DVec3 direction_of(const DVec3& v, const DVec3& otherwise) {
   const double square = glm::dot(v, v);
   return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
 }
 
-/// The weights of the point of the segment a b that is nearest to p.
+/// Barycentric weights of the point of the segment a b that is nearest to p.
 DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
   const double square = glm::dot(b - a, b - a);
   const double s = square > 0 ? std::clamp(glm::dot(p - a, b - a) / square, 0.0, 1.0) : 0;
   return {1 - s, s};
 }
 
-/// Along the front's normal.
+/// Normal of the front side, with twice the area as length.
 DVec3 area_vector(const Triangle& s) {
   return glm::cross(DVec3(s.b) - DVec3(s.a), DVec3(s.c) - DVec3(s.a));
 }
 
-/// For triangles without area, and those seen exactly edge on: on the longest edge.
+/// For triangles without area or seen exactly edge-on: the nearest point on the longest edge.
 DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) {
   std::size_t longest = 0;
   double greatest = -1;
@@ -44,22 +45,22 @@ DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) 
   return result;
 }
 
-/// A corner's weight is the volume that the ray spans with the edge across from it.
+/// A vertex's weight is the volume spanned by the ray and the opposite edge.
 DVec3 barycentrics_of(const std::array<DVec3, 3>& corners, const Ray& ray, const Hit& hit) {
   const DVec3 o(ray.o), d(ray.d);
   const DVec3 a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
   const DVec3 volumes(glm::dot(d, glm::cross(c, b)), glm::dot(d, glm::cross(a, c)),
                       glm::dot(d, glm::cross(b, a)));
   const double sum = volumes.x + volumes.y + volumes.z;
-  // The hit lies within; rounding may say otherwise by a little.
+  // The hit is inside the triangle, but rounding can give slightly negative weights.
   const DVec3 weights = glm::max(volumes / sum, DVec3(0));
   const double total = weights.x + weights.y + weights.z;
   if (total > 0 && std::isfinite(total)) return weights / total;
   return barycentrics_on_edge(corners, o + static_cast<double>(hit.t) * d);
 }
 
-/// a t^2 + 2 b t + c near its root t, which is known to float32 only: by Newton's method, as long
-/// as it stays near.
+/// The root of a t^2 + 2 b t + c near t, which is its float32 value: Newton's method, while it
+/// stays near.
 double polished_root(double a, double b, double c, float t) {
   double x = t;
   for (int i = 0; i < 3; ++i) {
@@ -118,7 +119,7 @@ class Interaction {
     return result;
   }
 
-  SurfaceInteraction operator()(const Mesh&) const { return {}; }  // primitives are its triangles
+  SurfaceInteraction operator()(const Mesh&) const { return {}; }  // never called
 
  private:
   [[nodiscard]] DVec3 facing() const { return direction_of(-d_, DVec3(0, 0, 1)); }
@@ -134,7 +135,8 @@ class Interaction {
     return at(o_ + (sure ? t : t_hit) * d_, direction_of(normal, facing()));
   }
 
-  /// Half the gradient at v, its linear part times `weight`: 2 makes v . this the value but for j.
+  /// Half the gradient at v, with the linear part multiplied by `weight`. With weight 2, its
+  /// product with v is the polynomial's value without j.
   static DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
     const double d = q.d, e = q.e, f = q.f;
     return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,
@@ -148,7 +150,7 @@ class Interaction {
   DVec3 o_, d_;
 };
 
-/// The vertices' values weighed, if the mesh has them.
+/// The interpolated vertex attribute, if the mesh has it.
 template <typename Result, typename Value>
 std::optional<Result> interpolate(const TrianglePoint& at, const std::vector<Value>& values) {
   if (values.empty()) return std::nullopt;

@@ -12,17 +12,17 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-// After the thesis' chapter 2. and the rules of its implementation, mikktspace.c: vertices are one
-// where all their numbers are; triangles around a vertex share its tangent as long as one can go
-// from each to the next across an edge and all turn the same way in texture space; each weighs by
-// its angle there. Triangles without texture area join any group, and add nothing to it.
+// Follows chapter 2 of the thesis and the rules of its implementation, mikktspace.c: vertices with
+// equal attributes are one vertex. Triangles around a vertex share its tangent if they are
+// connected by edges and have the same winding in texture space; each is weighted by its angle at
+// the vertex. Triangles without texture area join any group and add nothing to its tangent.
 
 namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Groups of more corners are not searched for opposite directions, which takes the square of that.
+/// Larger groups are not searched for opposite directions, which takes quadratic time.
 constexpr std::size_t kMostCompared = 256;
 
 bool is_zero(float x) {
@@ -37,16 +37,16 @@ Vec3 unit_or_zero(const Vec3& v) {
   return is_zero(v) ? v : v / std::sqrt(glm::dot(v, v));
 }
 
-/// The part of v across the unit normal n, of unit length.
+/// The unit vector of the projection of v on the plane perpendicular to the unit normal n.
 Vec3 across(const Vec3& v, const Vec3& n) {
   return unit_or_zero(v - n * glm::dot(n, v));
 }
 
-/// Derivatives of a triangle's position by its texture coordinates, of unit length.
+/// Unit derivatives of a triangle's position by its texture coordinates.
 struct Frame {
   Vec3 s{0}, t{0};
-  bool preserves = false;  ///< the triangle's winding in texture space
-  bool joins_any = true;   ///< has no direction of its own
+  bool preserves = false;  ///< whether texture space preserves the triangle's winding
+  bool joins_any = true;   ///< whether it has no direction of its own and joins any group
 };
 
 class Grouping {
@@ -82,7 +82,7 @@ class Grouping {
       std::uint32_t& first = first_corner[vertex(corner)];
       if (first == kNone) first = static_cast<std::uint32_t>(place);
     }
-    // A triangle with equal corners takes what others have there.
+    // A triangle with equal vertices takes the tangents of other triangles there.
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       for (std::size_t k = 0; k < 3 && !is_set[i]; ++k) {
         const std::uint32_t v = vertex_of_[mesh_.triangles[i][k]];
@@ -104,7 +104,7 @@ class Grouping {
     const auto& [a, b, c] = corners;
     const Vec2 t21 = mesh_.uv[b] - mesh_.uv[a], t31 = mesh_.uv[c] - mesh_.uv[a];
     const Vec3 d1 = position(b) - position(a), d2 = position(c) - position(a);
-    const float area = t21.x * t31.y - t21.y * t31.x;  // twice, signed
+    const float area = t21.x * t31.y - t21.y * t31.x;  // twice the signed area
     Frame result{.preserves = area > 0};
     if (is_zero(area)) return result;
     const Vec3 s = t31.y * d1 - t21.y * d2, t = t21.x * d2 - t31.x * d1;
@@ -123,7 +123,7 @@ class Grouping {
     }
   }
 
-  /// From a corner across the edges at its vertex, first onwards, then back.
+  /// Extends a group from a corner across the edges at its vertex, first forward, then backward.
   void grow(std::uint32_t seed, std::uint32_t group) {
     const std::uint32_t center = vertex(seed);
     const bool preserves = frames_[seed / 3].preserves;
@@ -149,7 +149,7 @@ class Grouping {
     }
   }
 
-  /// Of each group's corners, whose numbers ascend.
+  /// Computes each group's tangent from its corners, in ascending order.
   void evaluate() {
     std::vector<std::uint32_t> first(group_count_ + 1);
     for (const std::uint32_t group : group_of_) {
@@ -167,9 +167,9 @@ class Grouping {
     }
   }
 
-  /// What a member of a group adds to its tangent.
+  /// The contribution of a group's member to its tangent.
   struct Share {
-    Vec3 s, t;  ///< across the normal
+    Vec3 s, t;  ///< perpendicular to the normal
     double angle;
     bool joins_any;
   };
@@ -196,7 +196,7 @@ class Grouping {
     const Vec4 common = tangent([](std::size_t) { return true; });
     for (const std::uint32_t corner : corners) tangents_[corner] = common;
     if (corners.size() > kMostCompared) return;
-    // Directions that are opposite cancel each other; each does without the other.
+    // Opposite directions cancel, so each corner ignores the corners opposite to it.
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto agrees = [&](std::size_t k) {
         const Share &a = shares_[i], &b = shares_[k];
@@ -211,7 +211,7 @@ class Grouping {
     }
   }
 
-  /// Of the triangle at the corner as seen along the normal, radians.
+  /// The triangle's angle at the corner, projected along the normal, in radians.
   [[nodiscard]] double angle_at(std::uint32_t corner, const Vec3& n) const {
     const auto& corners = triangles_[corner / 3];
     const Vec3& here = position(vertex(corner));
@@ -224,13 +224,13 @@ class Grouping {
 
   const TangentSource& mesh_;
   std::vector<std::uint32_t> vertex_of_;  // welded
-  // Triangles with three different corners: their numbers in the mesh, welded vertices, and so on.
+  // Triangles with three different vertices: their indices in the mesh, welded vertices, and so on.
   std::vector<std::uint32_t> numbers_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Frame> frames_;
   std::vector<std::array<std::uint32_t, 3>> neighbors_;
-  std::vector<std::uint32_t> group_of_;  // by corner of those
-  std::vector<Vec4> tangents_;           // likewise, where there is a group
+  std::vector<std::uint32_t> group_of_;  // by corner of these triangles
+  std::vector<Vec4> tangents_;           // likewise, for corners in a group
   std::uint32_t group_count_ = 0;
   std::vector<std::uint32_t> open_;
   std::vector<Share> shares_;

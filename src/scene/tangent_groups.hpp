@@ -1,5 +1,5 @@
 #pragma once
-/// Which corners of triangles share a tangent, and what that is.
+/// Groups the corners of triangles that share a tangent, and computes the tangents.
 
 #include <microtrace/math.hpp>
 
@@ -10,18 +10,18 @@
 
 namespace microtrace {
 
-/// A mesh with smooth normals, of as many positions, normals and texture coordinates.
+/// A mesh with smooth normals; positions, normals and texture coordinates have the same size.
 struct TangentSource {
   std::span<const Vec3> positions, normals;
   std::span<const Vec2> uv;
   std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The tangents of all triangles' corners, three by three, as make_tangents says. Equal ones of a
-/// vertex have equal bits.
+/// The tangents of all corners, three per triangle, as defined by make_tangents. Equal tangents of
+/// a vertex have equal bits.
 [[nodiscard]] std::vector<Vec4> corner_tangents(const TangentSource& mesh);
 
-/// Any direction across the normal, of unit length, with w = 1.
+/// An arbitrary unit direction perpendicular to the normal, with w = 1.
 [[nodiscard]] Vec4 tangent_across(const Vec3& normal);
 
 }  // namespace microtrace

@@ -13,7 +13,7 @@
 namespace microtrace {
 namespace {
 
-/// Values of those numbers, if there are any.
+/// The values with these indices, if there are any values.
 template <typename Value>
 std::vector<Value> picked(const std::vector<Value>& values,
                           std::span<const std::uint32_t> numbers) {
@@ -32,13 +32,14 @@ Vec3 flat_normal(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle)
   return square > 0 ? Vec3(cross / std::sqrt(square)) : Vec3(0);
 }
 
-/// Splits vertices at whose corners of triangles, of which i of all has tangent i, these differ.
+/// Splits vertices whose corners have different tangents; tangents[i] is that of corner i of all
+/// triangles.
 std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   const std::size_t vertex_count = mesh.positions.size();
   const auto vertex_at = [&](std::size_t corner) -> std::uint32_t& {
     return mesh.triangles[corner / 3][corner % 3];
   };
-  // Corners by vertex: a counting sort.
+  // Counting sort of corners by vertex.
   std::vector<std::uint32_t> first(vertex_count + 1);
   for (std::size_t i = 0; i < tangents.size(); ++i) ++first[vertex_at(i) + 1];
   for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];
@@ -65,7 +66,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
       }
       vertex_at(here[i]) = static_cast<std::uint32_t>(origin.size() - 1);
     }
-    if (!here.empty()) continue;  // else one of lines alone
+    if (!here.empty()) continue;  // else a vertex of lines only
     origin.push_back(v);
     mesh.tangents.push_back(tangent_across(mesh.normals.empty() ? Vec3(0) : mesh.normals[v]));
   }
@@ -79,7 +80,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   return origin;
 }
 
-/// As if each triangle had vertices of its own, with its own normal.
+/// As if each triangle had its own vertices with its geometric normal.
 std::vector<Vec4> flat_tangents(const Mesh& mesh, std::size_t uv_set) {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uv;

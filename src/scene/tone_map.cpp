@@ -11,7 +11,7 @@
 namespace microtrace {
 namespace {
 
-/// From rows, as tables print matrices.
+/// Matrix from rows, the order in which publications print them.
 constexpr glm::dmat3 matrix(const DVec3& a, const DVec3& b, const DVec3& c) {
   return {a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z};
 }
@@ -21,9 +21,9 @@ DVec3 each(const DVec3& v, F&& f) {
   return {f(v.x), f(v.y), f(v.z)};
 }
 
-/// Khronos PBR Neutral Tone Mapper, specification of 2024. The lower part takes away what a surface
-/// of reflectance 0.04 adds, the upper one compresses the greatest channel from 0.76 up towards 1
-/// and lets what is far above lose its colour.
+/// Khronos PBR Neutral Tone Mapper, specification of 2024. The lower part subtracts the reflection
+/// of a surface of reflectance 0.04; the upper part compresses the largest channel from 0.76 toward
+/// 1 and desaturates much brighter colors.
 DVec3 khronos_pbr_neutral(const DVec3& light) {
   constexpr double start = 0.8 - 0.04, desaturation = 0.15;
   const double least = std::min({light.x, light.y, light.z});
@@ -38,7 +38,7 @@ DVec3 khronos_pbr_neutral(const DVec3& light) {
 }
 
 /// S. Hill's fit of the reference rendering and output transforms (BakingLab, 2016), with the
-/// brightness 1 / 0.6 that three.js gives it.
+/// exposure of 1 / 0.6 that three.js uses.
 DVec3 aces(const DVec3& light) {
   static const glm::dmat3 aces_from_rec709 =
       matrix({0.59719, 0.35458, 0.04823}, {0.07600, 0.90834, 0.01566}, {0.02840, 0.13383, 0.83777});
@@ -58,8 +58,8 @@ double agx_contrast(double x) {
          0.00232;
 }
 
-/// T. Sobotka's AgX in Rec. 2020 primaries, as Blender and Filament have it; 16.5 stops about
-/// middle grey, the display's power function 2.2 undone.
+/// T. Sobotka's AgX in Rec. 2020 primaries, as in Blender and Filament: 16.5 stops around middle
+/// gray, without the display's power function 2.2.
 DVec3 agx(const DVec3& light) {
   static const glm::dmat3 rec2020_from_rec709 =
       matrix({0.6274, 0.3293, 0.0433}, {0.0691, 0.9195, 0.0113}, {0.0164, 0.0880, 0.8956});

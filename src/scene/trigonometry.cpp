@@ -6,7 +6,7 @@
 namespace microtrace {
 namespace {
 
-// Taylor polynomials on [-pi/4, pi/4]: the first term left out is below 2^-63 there.
+// Taylor polynomials on [-pi/4, pi/4]: the first omitted term is below 2^-63.
 double sin_kernel(double x) {
   const double z = x * x;
   double s = 1.0 / 355687428096000.0;  // 17!
@@ -33,8 +33,7 @@ double cos_kernel(double x) {
   return 1.0 - (0.5 * z - z * z * c);
 }
 
-// The Taylor polynomial on [0, tan(pi/16)]: the first term left out is below 2^-55 of the sum
-// there.
+// Taylor polynomial on [0, tan(pi/16)]: the first omitted term is below 2^-55 of the sum.
 double atan_kernel(double x) {
   const double z = x * x;
   double s = 0;
@@ -51,7 +50,8 @@ int quadrant_of(double quarter_turns) {
   return static_cast<int>(static_cast<long long>(quarter_turns) & 3);
 }
 
-// Cody and Waite: pi/2 in three parts of 33 bits, so that the first two products with n are exact.
+// Cody and Waite's reduction: pi/2 in three parts of 33 bits, so that the first two products with n
+// are exact.
 Reduced reduce_radians(double x) {
   constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
   const double n = std::floor(x * (2 / std::numbers::pi) + 0.5);

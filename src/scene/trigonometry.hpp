@@ -1,7 +1,7 @@
 #pragma once
-/// Trigonometric functions whose bits depend on IEEE 754 alone: the C library's differ between
-/// versions and machines, and would move pixels. Errors of sine and cosine stay below two units in
-/// the last place, of the others below four.
+/// Trigonometric functions whose bits depend only on IEEE 754. The C library's results differ
+/// between versions and machines, and would change pixels. Errors of sine and cosine are below two
+/// units in the last place, of the others below four.
 
 namespace microtrace {
 
@@ -13,7 +13,7 @@ namespace microtrace {
 /// The angle in [-pi/2, pi/2] whose tangent is x, any number or infinity.
 [[nodiscard]] double atan_radians(double x);
 
-/// Any finite angle; multiples of 90 degrees give exactly 0 and +-1.
+/// Accepts any finite angle; multiples of 90 degrees give exactly 0 and +-1.
 [[nodiscard]] double sin_degrees(double x);
 [[nodiscard]] double cos_degrees(double x);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Fast trigonometry for directions in float32, in turns of 2 pi. Only + - * / at one rounding
-/// each, so the bits are the same everywhere. Polynomials are Chebyshev's interpolants.
+/// Fast float32 trigonometry for directions, with angles in revolutions. Uses only + - * /, each
+/// rounded once, so the bits are the same everywhere. The polynomials are Chebyshev interpolants.
 
 #include <algorithm>
 #include <bit>
@@ -10,21 +10,21 @@
 
 namespace microtrace {
 
-/// condition ? a : b without a branch, for conditions that no processor can foretell.
+/// condition ? a : b without a branch, for unpredictable conditions.
 [[nodiscard]] inline float chosen(bool condition, float a, float b) {
   const std::uint32_t mask = 0U - std::uint32_t{condition};
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
                               (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
 
-/// The angle of the point (x, y) from the x axis in [-1/2, 1/2], to 1e-7 turns; 0 for (0, 0).
-/// Inputs are finite.
+/// The angle of the point (x, y) from the x axis, in [-1/2, 1/2] revolutions, with an error of
+/// 1e-7; 0 for (0, 0). Inputs must be finite.
 [[nodiscard]] inline float atan2_turns(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
-  // Below the least normal number the angle is lost; it stands for 0 too.
+  // Below the least normal number the angle is lost; the minimum also avoids a division by 0.
   const float t = std::min(ax, ay) / std::max({ax, ay, std::numeric_limits<float>::min()});
   const float z = t * t, z2 = z * z, z4 = z2 * z2;
-  // atan(t) / (2 pi t) for z = t^2 in [0, 1], to 3e-9, by Estrin's scheme.
+  // atan(t) / (2 pi t) for z = t^2 in [0, 1], with an error of 3e-9, by Estrin's scheme.
   const float low = (0.15915494F - 0.053051222F * z) + (0.031819027F - 0.022604093F * z) * z2;
   const float high = (0.01692892F - 0.011929372F * z) + (0.006778028F - 0.0025472797F * z) * z2;
   const float eighth = t * (low + (high + 0.00045105536F * z4) * z4);
@@ -36,7 +36,7 @@ struct SineCosine {
   float sine, cosine;
 };
 
-/// Of an angle in [0, 1] turns, to 2^-23.
+/// Sine and cosine of an angle in [0, 1] revolutions, with an error of 2^-23.
 [[nodiscard]] inline SineCosine sin_cos_turns(float turns) {
   const float quarters = 4 * turns;
   // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)

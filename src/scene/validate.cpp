@@ -20,7 +20,7 @@ std::string shortest(Number x) {
   return {digits.data(), result.ptr};
 }
 
-/// The first of the rules that is broken.
+/// The first broken rule.
 template <typename... Rules>
 Rule first(Rules&&... rules) {
   Rule result;
@@ -92,7 +92,7 @@ Rule check(const Quadric& q) {
   return broken("coefficients", "at least one of a to i must not be zero");
 }
 
-/// What vertices carry beside their positions.
+/// Checks vertex attributes other than positions.
 Rule check_attributes(const Mesh& mesh) {
   const auto fits = [&](const auto& values) {
     return values.empty() || values.size() == mesh.positions.size();
@@ -134,7 +134,7 @@ Rule check(const Pose& pose) {
   Rule rule = first(finite("position", pose.position), not_zero("direction", pose.direction),
                     not_zero("up", pose.up));
   if (rule) return rule;
-  // Nearer to parallel than this, rounding would turn the picture about the direction.
+  // Closer to parallel, rounding would rotate the picture about the direction.
   constexpr double least_sine = 1e-9;
   const double sine =
       glm::length(glm::cross(glm::normalize(pose.direction), glm::normalize(pose.up)));

@@ -6,7 +6,7 @@
 namespace microtrace {
 
 DVec3 way_to_origin(const PointBounds& bounds) {
-  // So many times its size away float32 has 20 bits and more for it anyway.
+  // At smaller ratios of distance and size float32 has 20 bits or more for the scene anyway.
   constexpr double kFar = 16;
   const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;
   const double size = std::max({half.x, half.y, half.z});

@@ -1,5 +1,5 @@
 #pragma once
-/// How far scenes are from the origin, where float32 has most points.
+/// Translation of distant scenes to the origin, where float32 is most precise.
 
 #include <microtrace/math.hpp>
 
@@ -9,7 +9,7 @@
 
 namespace microtrace {
 
-/// A box around points.
+/// A bounding box of points.
 struct PointBounds {
   DVec3 low{std::numeric_limits<double>::infinity()};
   DVec3 high{-std::numeric_limits<double>::infinity()};
@@ -20,9 +20,9 @@ struct PointBounds {
   }
 };
 
-/// The way next to the origin for what lies within the bounds, if it is small beside its distance;
-/// else zero. Along each axis it is a multiple of a power of two above the size, so that float32
-/// which are as fine as their distance allows stay exact.
+/// The translation to the origin for a scene within the bounds, if its distance is large compared
+/// with its size; else zero. On each axis it is a multiple of a power of two above the size, so
+/// that float32 coordinates no finer than their distance allows stay exact.
 [[nodiscard]] DVec3 way_to_origin(const PointBounds& bounds);
 
 }  // namespace microtrace

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
-/// Mixes a number into a hash; -0 as +0, which it equals.
+/// Mixes a number into a hash; -0 counts as +0.
 void mix(std::uint64_t& hash, float x) {
   hash = (hash ^ std::bit_cast<std::uint32_t>(x + 0.0F)) * 0x9E3779B97F4A7C15ULL;
   hash ^= hash >> 32U;
@@ -27,8 +27,8 @@ std::vector<std::uint32_t> welded(std::span<const Vec3> positions, std::span<con
   const auto same = [&](std::size_t i, std::size_t k) {
     return positions[i] == positions[k] && normals[i] == normals[k] && uv[i] == uv[k];
   };
-  // A table of at most half its size in use, with linear probing. The first vertex of a value holds
-  // its place, wherever that is.
+  // A hash table with linear probing that is at most half full. Its entries are the first vertices
+  // with each value.
   std::vector<std::uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kFree);
   const std::size_t mask = table.size() - 1;
   std::vector<std::uint32_t> result(positions.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// Vertices that are one.
+/// Merges equal vertices.
 
 #include <microtrace/math.hpp>
 
@@ -9,8 +9,8 @@
 
 namespace microtrace {
 
-/// For each vertex the first one with the same position, normal and texture coordinates, number for
-/// number. All finite, and as many of each. In linear time.
+/// For each vertex the first one with an equal position, normal and texture coordinates. All
+/// numbers must be finite, and the spans have the same size. Takes linear time.
 [[nodiscard]] std::vector<std::uint32_t> welded(std::span<const Vec3> positions,
                                                 std::span<const Vec3> normals,
                                                 std::span<const Vec2> uv);

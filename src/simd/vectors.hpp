@@ -1,12 +1,12 @@
 #pragma once
-/// Vectors of float32 and float64 for every part that has kernels. `Float<N>` is the vector
-/// extension of GCC and Clang: N lanes, with + - * / and ?: lane by lane. N is 4, 8 or 16: the
-/// widest register of the instruction set that the including file is compiled for, or less. All
-/// give the same bits, since every operation is IEEE 754's. A set of lanes is a number with a bit
-/// for each.
+/// SIMD vectors of float32 and float64 for all kernels. `Float<N>` is the vector extension of GCC
+/// and Clang: N lanes, with + - * / and ?: per lane. N is 4, 8 or 16: at most the register width of
+/// the instruction set for which the including file is compiled. All widths give the same bits,
+/// because every operation is defined by IEEE 754. A set of lanes is an integer with one bit per
+/// lane.
 ///
-/// Everything has internal linkage: the linker must never take code of one instruction set for
-/// another's.
+/// Everything has internal linkage, so that the linker can't merge code of different instruction
+/// sets.
 
 #include <cstdint>
 
@@ -61,10 +61,10 @@ inline void store(float* p, const Float<N>& v) {
 
 template <int N>
 inline Float<N> all(float x) {
-  return x - Float<N>{};  // x - 0 is x, -0 and NaN included
+  return x - Float<N>{};  // x - 0 is x, including -0 and NaN
 }
 
-/// a where a < b, else b: b where one of them is NaN, as x86's instruction does.
+/// a where a < b, else b. If one of them is NaN the result is b, like x86's min instruction.
 template <class V>
 inline V lesser(const V& a, const V& b) {
   return a < b ? a : b;
@@ -73,7 +73,7 @@ template <class V>
 inline V greater(const V& a, const V& b) {
   return a > b ? a : b;
 }
-/// |a|, 0 for -0: the same bits under another type, but for the sign.
+/// |a|, and 0 for -0: clears the sign bit.
 template <class V>
 inline V magnitude(const V& a) {
   if constexpr (sizeof(a[0]) == 4)
@@ -82,14 +82,14 @@ inline V magnitude(const V& a) {
     return (V)((typename DoubleVector<sizeof(V) / 8>::bits_type) a & 0x7fffffffffffffff);
 }
 
-/// Lanes of a, times -1 where b is negative or -0.
+/// Lanes of a, negated where b is negative or -0.
 template <int N>
 inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
   using Bits = typename FloatVector<N>::bits_type;
   return (Float<N>)((Bits)a ^ ((Bits)b & INT32_MIN));
 }
 
-/// N float32 from memory as float64.
+/// Loads N float32 as float64.
 template <int N>
 inline Double<N> widened(const float* p) {
   Float<N> v;
@@ -97,14 +97,14 @@ inline Double<N> widened(const float* p) {
   return __builtin_convertvector(v, Double<N>);
 }
 
-/// Rounded to float32, into memory.
+/// Rounds to float32 and stores.
 template <int N>
 inline void narrowed(const Double<N>& v, float* p) {
   const Float<N> rounded = __builtin_convertvector(v, Float<N>);
   __builtin_memcpy(p, &rounded, sizeof rounded);
 }
 
-/// Positive finite lanes moved by n units in the last place.
+/// Moves positive finite lanes by n units in the last place.
 template <int N>
 inline Float<N> moved_by_ulps(const Float<N>& a, int n) {
   using Bits = typename FloatVector<N>::bits_type;
@@ -147,7 +147,7 @@ inline Lanes less(const Float<N>& a, const Float<N>& b) {
   return lanes;
 }
 
-/// Integer lanes: all bits set in the given ones.
+/// Integer lanes with all bits set in the given lanes, zero in the others.
 template <int N>
 inline auto mask_of(Lanes lanes) {
   using Bits = typename FloatVector<N>::bits_type;
@@ -166,7 +166,7 @@ inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
   return mask_of<N>(lanes) ? a : b;
 }
 
-/// Square roots, rounded as IEEE 754 has it.
+/// Square roots, correctly rounded by IEEE 754.
 template <int N>
 inline Float<N> square_root(const Float<N>& a) {
 #if defined(__AVX512F__)

@@ -11,9 +11,8 @@
 
 namespace microtrace::build {
 
-/// Surface areas relative to a box that holds all the others. Lengths are scaled by a power of two
-/// to be at most 4, so that areas neither overflow nor, for any ratio of sizes below 2^60,
-/// underflow.
+/// Surface areas relative to a box that contains all others. Lengths are scaled by a power of two
+/// to at most 4, so that areas neither overflow nor, for ratios of sizes below 2^60, underflow.
 class AreaMeasure {
  public:
   explicit AreaMeasure(const Box& whole) {
@@ -23,14 +22,14 @@ class AreaMeasure {
     if (largest > 0) scale_ = std::bit_cast<float>(std::clamp(253 - exponent, 1, 253) << 23);
   }
 
-  /// Of a box that is not empty: a quarter of the half surface, and a little of the perimeter:
-  /// boxes on one line have no area, but are better cut short all the same.
+  /// A quarter of half the surface area of a nonempty box, plus a small multiple of the perimeter:
+  /// collinear boxes have no area, but short ones are still preferable.
   [[nodiscard]] float operator()(const Box& b) const {
     const Float4 e = half_extent(b) * splat(scale_);
     return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
   }
 
-  /// Of a triangle, as if by boxes that fit it ever more closely.
+  /// The area for a triangle in the limit of ever smaller boxes around its pieces.
   [[nodiscard]] float of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const float half = 0.5F * scale_;  // as in half_extent
     const Vec3 n = glm::abs(glm::cross((b - a) * half, (c - a) * half));

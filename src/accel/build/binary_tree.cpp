@@ -7,18 +7,19 @@
 namespace microtrace::build {
 namespace {
 
-// References that a thread handles at a time where all work on one set, and sets small enough for
-// one thread. Both fixed, so that the tree does not depend on the number of threads.
+// The number of references per task while all threads work on one set, and the size of sets that
+// one thread builds alone. Both are constants, so that the tree does not depend on the number of
+// threads.
 constexpr std::size_t kChunkSize = std::size_t{1} << 13U;
 constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 
-// Beyond this depth sets are halved without a look: log2(size) more levels end it.
+// Beyond this depth sets are halved without evaluating costs, so at most log2(size) levels follow.
 constexpr unsigned kDepthLimit = 58;
 
 constexpr std::uint32_t kMaxLeafWeight = 8;
 
-// References of a node yet to be split. They lie in one of two arrays at the places that they will
-// take in the end; splitting moves them to the other.
+// References of a node that is not yet split. They are stored in one of two arrays, at their final
+// positions; splitting moves them to the other array.
 struct Set {
   BinaryNode* node;
   unsigned depth, array;
@@ -34,7 +35,8 @@ struct CentroidBoxes {
   }
 };
 
-// Moves references to one of two places without a branch: which one is beyond prediction.
+// Moves references to one of two positions without a branch, because the branch would be
+// unpredictable.
 CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mapping,
                         const Split& split, Reference* left, Reference* right) {
   const float infinity = std::numeric_limits<float>::infinity();
@@ -93,7 +95,7 @@ class Builder {
     return {arrays_[set.array].data() + set.node->begin, set.node->count};
   }
 
-  // Sums up a set's boxes and weight anew.
+  // Recomputes a set's boxes and weight.
   static void summarize(std::span<const Reference> references, Set& set) {
     set.node->box = set.centroids = {};
     set.node->weight = 0;
@@ -111,7 +113,7 @@ class Builder {
     return set;
   }
 
-  // The halves of a set, as nodes, of which only the split's own data are filled in.
+  // Creates the nodes of the two halves, with only the data of the split filled in.
   static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
     BinaryNode* pair = set.node->children = arena.allocate_pair();
     pair[0].box = split.left;
@@ -128,7 +130,7 @@ class Builder {
     return {half, other};
   }
 
-  // Where no plane separates centroids, or the depth is near its limit: halves by count alone.
+  // Splits by count alone: if no plane separates centroids, or near the depth limit.
   Halves halve(const Set& set, NodeArena& arena) {
     Split split;
     split.left_load.count = set.node->count / 2;
@@ -197,7 +199,7 @@ class Builder {
     return sets;
   }
 
-  // The recursion ends within kDepthLimit and a few levels.
+  // The recursion is at most a few levels deeper than kDepthLimit.
   void build_alone(const Set& set, NodeArena& arena, Bins& bins) {
     const BinaryNode& node = *set.node;
     const bool of_one_kind = node.weight == node.count || node.count <= 1;

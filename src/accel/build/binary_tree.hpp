@@ -1,5 +1,5 @@
 #pragma once
-/// The tree before its nodes become wide.
+/// The binary tree, before it is collapsed to wide nodes.
 
 #include "accel/build/reference.hpp"
 #include "accel/build/worker_pool.hpp"
@@ -9,28 +9,28 @@
 
 namespace microtrace::build {
 
-/// What is best for a node and all below it; see collapse.hpp.
+/// The optimal collapse of a node and its subtree; see collapse.hpp.
 struct CollapsePlan {
-  std::array<float, 8> cost{};            ///< [i - 1]: as at most i subtrees
-  std::array<std::uint8_t, 9> to_left{};  ///< [i]: how many of the i go left; 0: as for i - 1
+  std::array<float, 8> cost{};            ///< [i - 1]: cost as at most i subtrees
+  std::array<std::uint8_t, 9> to_left{};  ///< [i]: left ones of i subtrees; 0: as for i - 1
   bool is_leaf = true;
 };
 
-/// `count` references from `begin` on, in the order of BinaryTree::ids.
+/// `count` references starting at `begin`, in the order of BinaryTree::ids.
 struct BinaryNode {
   Box box;
   std::uint32_t begin = 0, count = 0, weight = 0;
-  BinaryNode* children = nullptr;  ///< two, one after the other; none: a leaf
+  BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
   CollapsePlan plan;
 };
 
-/// Hands out nodes that stay where they are.
+/// Allocates nodes with stable addresses.
 class NodeArena {
  public:
-  /// Two nodes side by side.
+  /// Two consecutive nodes.
   [[nodiscard]] BinaryNode* allocate_pair();
 
-  /// f(node) for each, the youngest first: children before their parents.
+  /// Calls f(node) for each node, newest first: children before their parents.
   template <class F>
   void for_each_backwards(F&& f) {
     for (std::size_t i = chunks_.size(); i-- > 0;) {
@@ -46,13 +46,13 @@ class NodeArena {
 
 struct BinaryTree {
   BinaryNode root;
-  NodeArena top;                    ///< where all threads worked together
-  std::vector<NodeArena> subtrees;  ///< where each worked alone
+  NodeArena top;                    ///< nodes built by all threads together
+  std::vector<NodeArena> subtrees;  ///< nodes built by one thread each
   PageVector<PrimitiveId> ids;
 };
 
-/// Splits down to leaves of one kind of primitive and at most eight of them. Takes the references'
-/// memory. The result depends on nothing but their order. `bins` is at most kMaxBins.
+/// Splits down to leaves with one kind of primitive and at most eight primitives. Consumes the
+/// references. The result depends only on their order. `bins` is at most kMaxBins.
 [[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references, int bins,
                                            WorkerPool& pool);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The choice of a plane between two halves of a set by the surface area heuristic, its candidates
-/// those between equal bins of the centroids: I. Wald, On fast construction of SAH-based bounding
+/// Chooses the plane that splits a set by the surface area heuristic. The candidates are the
+/// boundaries of equal bins of the centroids: I. Wald, On fast construction of SAH-based bounding
 /// volume hierarchies, 2007.
 
 #include "accel/build/area.hpp"
@@ -12,12 +12,12 @@ namespace microtrace::build {
 
 inline constexpr int kMaxBins = 32;
 
-/// A quarter of the sum of a box's corners: stays finite, and orders boxes as their centroids do.
+/// A quarter of the sum of a box's corners: stays finite, and orders boxes like their centroids.
 [[nodiscard]] inline Float4 centroid(const Box& b) {
   return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
 }
 
-/// Which bin a reference falls into, along each axis.
+/// The bin of a reference along each axis.
 class BinMapping {
  public:
   BinMapping(const Box& centroids, int bins);
@@ -27,7 +27,7 @@ class BinMapping {
     const Float4 place = min((centroid(r.box) - origin_) * scale_, splat(last_));
     return __builtin_convertvector(place, Int4);
   }
-  /// Whether all references fall into one bin along every axis.
+  /// Whether all references are in one bin along every axis.
   [[nodiscard]] bool is_degenerate() const {
     return scale_[0] == 0 && scale_[1] == 0 && scale_[2] == 0;
   }
@@ -38,7 +38,7 @@ class BinMapping {
   int bins_;
 };
 
-/// How many references, and their weight.
+/// Number of references, and their weight.
 struct Load {
   std::uint32_t count = 0, weight = 0;
 
@@ -49,22 +49,22 @@ struct Load {
   }
 };
 
-/// Blocks needed for a weight.
+/// The number of blocks for a weight.
 [[nodiscard]] inline std::uint32_t blocks(std::uint32_t weight) {
   return weight / 8 + (weight % 8 != 0 ? 1 : 0);
 }
 
-/// Left is what falls into bins up to `last_bin` along `axis`.
+/// References in bins up to `last_bin` along `axis` go left.
 struct Split {
   int axis = -1, last_bin = 0;
-  float cost = std::numeric_limits<float>::infinity();  ///< area times blocks, of both halves
+  float cost = std::numeric_limits<float>::infinity();  ///< sum of area times blocks
   Box left, right;
   Load left_load, right_load;
 
   [[nodiscard]] bool exists() const { return axis >= 0; }
 };
 
-/// What has fallen into the bins.
+/// Boxes and loads of the bins.
 class Bins {
  public:
   void clear(int bins);

@@ -1,6 +1,6 @@
 #pragma once
-/// Four floats that move together, in the compilers' own portable vectors: the builder handles
-/// boxes as two of them. The fourth lane carries other data and is never looked at as a number.
+/// Four floats in the compilers' portable vector extension; the builder stores a box as two of
+/// them. The fourth lane carries other data and is never used as a number.
 
 #include <bit>
 #include <cstdint>
@@ -21,7 +21,7 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return Float4{x, x, x, x};
 }
 
-/// With 0 for the fourth lane: other data in it, taken for a number, may be subnormal and slow.
+/// Sets the fourth lane to 0: other data, interpreted as a number, could be subnormal and slow.
 [[nodiscard]] inline Float4 xyz(Float4 v) {
   return std::bit_cast<Float4>(std::bit_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }
@@ -41,7 +41,7 @@ struct Box {
   }
 };
 
-/// Half of each extent. Halves, because an extent itself may exceed the largest float.
+/// Half of each extent; the full extent could exceed the largest float.
 [[nodiscard]] inline Float4 half_extent(const Box& b) {
   return xyz(b.hi) * splat(0.5F) - xyz(b.lo) * splat(0.5F);
 }

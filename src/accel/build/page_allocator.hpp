@@ -1,5 +1,5 @@
 #pragma once
-/// Memory for arrays that are large and read at random.
+/// Memory for large, randomly accessed arrays.
 
 #include <cstddef>
 #include <memory>
@@ -13,9 +13,9 @@
 
 namespace microtrace {
 
-/// Aligns to cache lines; large arrays to huge pages, which it asks the system for: a walk through
-/// a big tree otherwise misses the translation cache at every step. Elements are
-/// default-initialised: resize() leaves plain data as it is.
+/// Aligns to cache lines, and requests huge pages for large arrays, because traversal of a large
+/// tree would otherwise miss the TLB at every step. Elements are default-initialized: resize()
+/// leaves plain data uninitialized.
 template <class T>
 struct PageAllocator {
   using value_type = T;

@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kMostExtra = 0.3;
 
-// All found by trying; they decide costs, never results.
+// Constants found by experiment; they affect costs, never results.
 //
-// A triangle is cut if what is useless of its box is more than so many times the whole box's area
-// divided by the number of primitives. One at that limit is cut (rounded down) 1.5 times, others in
-// proportion to the fourth root. The paper has the cube root; this one is a little better and
-// depends on no C library.
+// A triangle is split if the useless area of its box is more than this many times the whole box's
+// area divided by the number of primitives. A triangle at this limit is split (rounded down) 1.5
+// times, others in proportion to the fourth root of the ratio. The paper uses the cube root; the
+// fourth root is slightly better and doesn't depend on the C library.
 constexpr float kManyShares = 8;
 constexpr float kCutsAtLeast = 1.5F;
 
-// Useless is what exceeds 2.5 times the triangle's three projections. However finely a triangle is
-// cut, its pieces' boxes add up to about twice its projections where it slants in all directions,
-// and a wall along the axes has just that already.
+// The useless area is the area above 2.5 times the triangle's three projections. However finely an
+// oblique triangle is split, the areas of its pieces' boxes sum to about twice its projections, and
+// an axis-aligned triangle has that area without splits.
 constexpr float kUseful = 2.5F;
 
 float fourth_root(float x) {
@@ -38,7 +38,7 @@ int longest_axis(const Box& b) {
 }
 
 // Planes that halve the scene's box, its halves, and so on. The upper levels of the tree will split
-// near them, so a triangle is best cut there.
+// near these planes, so triangles are best split there.
 class Grid {
  public:
   explicit Grid(const Box& whole) : origin_(whole.lo) {
@@ -49,7 +49,7 @@ class Grid {
     }
   }
 
-  // How many halvings of the scene along the axis lie above the first whose plane crosses the box.
+  // The number of halvings along the axis before the first plane that intersects the box.
   [[nodiscard]] int level(const Box& b, int axis) const {
     return std::countl_zero(cell(b.lo, axis) ^ cell(b.hi, axis)) - (32 - kLevels);
   }
@@ -57,7 +57,7 @@ class Grid {
     return std::min({level(b, 0), level(b, 1), level(b, 2)});
   }
 
-  // That plane, or the box's own middle if it would cut off too little.
+  // This plane, or the middle of the box if the plane would cut off too little.
   [[nodiscard]] float plane(const Box& b, int axis) const {
     const float middle = b.lo[axis] * 0.5F + b.hi[axis] * 0.5F;
     const int at = level(b, axis);
@@ -131,7 +131,7 @@ class Splitter {
     return sum;
   }
 
-  // The largest scale up to `most` for which the pieces are within the budget.
+  // The largest scale up to `most` for which the number of pieces is within the budget.
   float within_budget(float most) const {
     const auto budget =
         static_cast<std::size_t>(kMostExtra * static_cast<double>(references_.size()));
@@ -144,7 +144,7 @@ class Splitter {
     return low;
   }
 
-  // Cuts `times` times; the larger part gets the larger share of the cuts left.
+  // Splits `times` times; the larger part gets more of the remaining splits.
   void split(const Triangle& t, std::size_t place, std::size_t times) {
     if (times == 0) return;
     const Reference whole = references_[place];

@@ -9,7 +9,8 @@
 namespace microtrace::build {
 namespace {
 
-// That many eighths of a block have a place in a leaf's reference, with room for split triangles.
+// The maximum weight, in eighths of a block, that leaf references can address, including room for
+// split triangles.
 constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
 
 bool fits_blocks(const Box& b) {
@@ -17,7 +18,7 @@ bool fits_blocks(const Box& b) {
   return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
 }
 
-// Of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
+// Hash of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
 // splittable pseudorandom number generators, 2014).
 std::uint64_t hash_of(const Vec3& p) {
   const auto [x, y, z] = std::bit_cast<std::array<std::uint32_t, 3>>(p + 0.0F);  // -0 becomes 0
@@ -26,7 +27,7 @@ std::uint64_t hash_of(const Vec3& p) {
   return hash ^ hash >> 31U;
 }
 
-// Of the set of corners, in whatever order.
+// Hash of the set of vertices, independent of their order.
 std::uint32_t hash_of(const Triangle& t) {
   std::uint64_t sum = hash_of(t.a);
   if (t.b != t.a) sum += hash_of(t.b);

@@ -8,15 +8,15 @@
 
 namespace microtrace::build {
 
-/// Work is counted in eighths of a block of triangles: one for a triangle; all eight for any other
-/// primitive, which is tested alone.
+/// Weights are counted in eighths of a block: one for a triangle, eight for any other primitive,
+/// which is tested alone.
 inline constexpr std::uint32_t kTriangleWeight = 1;
 inline constexpr std::uint32_t kOtherWeight = 8;
 
-/// Triangles with a larger coordinate do not go into blocks.
+/// Triangles with a larger coordinate are not stored in blocks.
 inline constexpr float kLargestInBlocks = 0x1p38F;
 
-/// A primitive on its way into a leaf: its box, with the number and the weight in the fourth lanes.
+/// A reference to a primitive during the build: its box, with id and weight in the fourth lanes.
 struct Reference {
   Box box;
 
@@ -32,17 +32,17 @@ static_assert(sizeof(Reference) == 32);
 
 struct References {
   PageVector<Reference> bounded;
-  /// A number for each of these, the same for triangles with the same corners.
+  /// A hash for each bounded reference, equal for triangles with the same vertices.
   PageVector<std::uint32_t> hashes;
   std::vector<PrimitiveId> unbounded;
 };
 
-/// Sorts a scene's primitives into those with a finite box, those without, and those without a
-/// point, which are left out. Throws Error (limit) if there are more than one tree can hold.
+/// Sorts a scene's primitives into bounded and unbounded ones, and drops those without points.
+/// Throws Error (limit) if there are more than a tree can address.
 [[nodiscard]] References gather(const Primitives& primitives);
 
-/// Gives triangles whose corners are one point the weight of other primitives: float32 can't tell
-/// that a ray misses them, so they need boxes of their own.
+/// Gives triangles whose vertices are equal the weight of other primitives: in float32 a ray never
+/// certainly misses them, so they need boxes of their own.
 void set_points_apart(PageVector<Reference>& references);
 
 }  // namespace microtrace::build

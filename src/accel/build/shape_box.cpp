@@ -25,7 +25,7 @@ float rounded_down(double x) {
   return double{f} < x ? f : std::nextafter(f, -kInfinity);
 }
 
-// center +- reach, where reach errs by a few units of roundoff.
+// center +- reach, where the error of reach is a few units of roundoff.
 Box extended(const Vec3& center, const DVec3& reach) {
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -37,7 +37,7 @@ Box extended(const Vec3& center, const DVec3& reach) {
 }
 
 Float4 lanes(const Vec3& v) {
-  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0: the sign must not depend on order
+  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, independent of vertex order
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ Box box_of(const Sphere& s) {
   return extended(s.center, DVec3(s.radius));
 }
 
-// Along axis k a disc reaches r sqrt(1 - n_k^2 / n.n).
+// Along axis k a disc extends r sqrt(1 - n_k^2 / n.n) from its center.
 Box box_of(const Disc& d) {
   const DVec3 n2 = DVec3(d.normal) * DVec3(d.normal);
   const double sum = n2.x + n2.y + n2.z;

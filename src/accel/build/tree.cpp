@@ -13,7 +13,7 @@ using namespace build;
 
 constexpr int kBinsForPreview = 8;
 
-// Below this many references, starting threads costs more than they save.
+// For fewer references, starting threads takes longer than it saves.
 constexpr std::size_t kWorthThreads = 20000;
 
 void plan(BinaryTree& binary, WorkerPool& pool) {

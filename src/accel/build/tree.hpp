@@ -1,6 +1,6 @@
 #pragma once
-/// The bounding volume hierarchy over a scene's primitives: eight-wide, built by the surface area
-/// heuristic.
+/// The bounding volume hierarchy over a scene's primitives: eight children per node, built by the
+/// surface area heuristic.
 
 #include "accel/build/page_allocator.hpp"
 #include "accel/build/twins.hpp"
@@ -14,7 +14,7 @@
 namespace microtrace {
 
 struct BuildOptions {
-  bool fast = false;     ///< a quick build for previews: fewer candidates are looked at
+  bool fast = false;     ///< a quick build for previews, with fewer candidates for splits
   unsigned threads = 0;  ///< 0: default_threads(). The tree is the same for any number.
 };
 
@@ -24,23 +24,22 @@ struct Bounds {
   Vec3 hi{-std::numeric_limits<float>::infinity()};
 };
 
-/// No path from the root visits more nodes than this.
+/// Maximum number of nodes on a path from the root.
 inline constexpr int kMaxDepth = 64;
 
-/// Every primitive that a ray can hit is in a leaf, in `unbounded` or among the twins of one in a
-/// leaf. Those that are empty by definition are nowhere.
+/// Every nonempty primitive is in a leaf, in `unbounded`, or a duplicate of a primitive in a leaf.
 struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
   std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
   std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and what leaves the float32 range
-  Twins twins;                         ///< those that others stand for
-  ChildRef root = 0;                   ///< a node without children if there is no leaf
-  Bounds bounds;                       ///< of all leaves
+  Twins twins;        ///< primitives represented by another one with the same points
+  ChildRef root = 0;  ///< a node without children if there are no leaves
+  Bounds bounds;      ///< bounds of all leaves
 };
 
-/// The scene behind the primitives must outlive the call only. Throws Error (limit) if the tree
-/// would not fit its 32-bit references.
+/// The scene of the primitives must outlive only this call. Throws Error (limit) if the tree would
+/// exceed its 32-bit references.
 [[nodiscard]] Tree build_tree(const Primitives& primitives, const BuildOptions& options);
 
 }  // namespace microtrace

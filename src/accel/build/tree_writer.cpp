@@ -12,10 +12,10 @@
 namespace microtrace::build {
 namespace {
 
-// Subtrees up to this many references are written by one thread.
+// One thread writes subtrees with up to this many references.
 constexpr std::uint32_t kJobSize = 1U << 13U;
 
-// Places in the three arrays of a tree.
+// Positions in the three arrays of a tree.
 struct Places {
   std::size_t nodes = 0, blocks = 0, others = 0;
 
@@ -40,7 +40,7 @@ Places size_as_child(const BinaryNode& node) {
   return node.plan.is_leaf ? leaf_size(node) : Places{.nodes = 1};
 }
 
-// What is below an inner node.
+// The size of an inner node's subtree.
 Places size_below(const BinaryNode& node) {
   Places size;
   for (const BinaryNode* child : WideChildren(node)) {
@@ -77,7 +77,7 @@ float squared_length(const Vec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-// The same triangle, beginning opposite its longest edge.
+// The same triangle, starting opposite its longest edge.
 Triangle turned(const Triangle& t) {
   const float ab = squared_length(t.b - t.a), bc = squared_length(t.c - t.b),
               ca = squared_length(t.a - t.c);
@@ -133,7 +133,7 @@ class Writer {
   }
 
  private:
-  // All below a small inner node whose parent is large.
+  // The subtree of a small inner node whose parent is large.
   struct Job {
     const BinaryNode* node;
     Places size, begin;
@@ -144,7 +144,7 @@ class Writer {
     return parent.count > kJobSize && child.count <= kJobSize;
   }
 
-  // In the order in which write_node meets them. Returns what is outside all jobs.
+  // In the order in which write_node visits them. Returns the size of all nodes outside jobs.
   Places collect_jobs(const BinaryNode& node) {
     if (node.count <= kJobSize) return size_below(node);
     Places size;
@@ -168,7 +168,7 @@ class Writer {
     tree_.others.resize(size.others);
   }
 
-  // `next`: the places not yet taken.
+  // `next`: the first unused positions.
   void write_node(const BinaryNode& node, std::size_t place, Places& next) {
     const WideChildren children(node);
     std::array<std::size_t, kWidth> places{};
@@ -233,7 +233,7 @@ class Writer {
   Tree& tree_;
   const PrimitiveId* ids_ = nullptr;
   std::vector<Job> jobs_;
-  std::size_t job_ = 0;  // next for write_node to meet
+  std::size_t job_ = 0;  // the next job that write_node will visit
 };
 
 }  // namespace

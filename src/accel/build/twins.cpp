@@ -14,7 +14,7 @@ using build::Reference;
 
 using Corner = std::array<std::uint32_t, 3>;
 
-/// The corners in ascending order; if only two differ, the lesser one twice.
+/// The vertices in ascending order; if only two differ, the lesser one twice.
 using Corners = std::array<Corner, 3>;
 
 Corners corners_of(const Triangle& t) {
@@ -28,11 +28,11 @@ Corners corners_of(const Triangle& t) {
   return corners;
 }
 
-/// A set of hashes that may seem to have one that it has not: B. Bloom, Space/time trade-offs in
-/// hash coding with allowable errors, 1970, with one bit for each.
+/// A set of hashes that may report a hash that it does not contain: B. Bloom, Space/time trade-offs
+/// in hash coding with allowable errors, 1970, with one bit per hash.
 class BloomFilter {
  public:
-  /// With so many hashes in it, it is wrong about one of sixteen others at most.
+  /// With this many hashes, at most one of sixteen other hashes is reported wrongly.
   explicit BloomFilter(std::size_t hashes)
       : shift_(std::max(0, std::countl_zero(16 * hashes | 64) - 32)),
         words_((~std::uint32_t{0} >> shift_) / 64 + 1, 0) {}
@@ -51,8 +51,8 @@ class BloomFilter {
   PageVector<std::uint64_t> words_;
 };
 
-/// The places of hashes that are there more than once, ascending, and a few others. Nearly all are
-/// there once: sorting them would take much longer.
+/// The indices of hashes that occur more than once, ascending, and a few others. Nearly all hashes
+/// are unique, so sorting all of them would take much longer.
 std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
   BloomFilter once(hashes.size());
   std::vector<std::uint32_t> again;

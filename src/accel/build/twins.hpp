@@ -1,7 +1,7 @@
 #pragma once
-/// Triangles that are the same set of points. One of them stands for all in the tree: where a mesh
-/// lies a thousand times in one place a ray would meet a thousand triangles at one t otherwise, and
-/// exact arithmetic would have to tell that they are no nearer than each other.
+/// Triangles that are the same set of points. In the tree one of them represents all. Otherwise a
+/// ray through a mesh with a thousand coincident copies would hit a thousand triangles at the same
+/// t, and exact arithmetic would have to decide every tie.
 
 #include "accel/build/reference.hpp"
 
@@ -17,14 +17,15 @@ class Twins {
  public:
   Twins() = default;
 
-  /// Takes triangles with the corners of another, in any order, out of the bounded references: of
-  /// each such group the least number stays.
+  /// Removes triangles with the vertices of another, in any order, from the bounded references: the
+  /// least id of each such group remains.
   Twins(build::References& references, const Primitives& primitives);
 
-  /// The least number above `after` in the group that a primitive of the tree stands for.
+  /// The least id above `after` in the group that a primitive of the tree represents.
   [[nodiscard]] std::optional<PrimitiveId> above(PrimitiveId id, PrimitiveId after) const;
 
-  /// The primitive of the tree that stands for this one; itself unless it is a twin.
+  /// The primitive of the tree that represents this one; the primitive itself unless it is a
+  /// duplicate.
   [[nodiscard]] PrimitiveId representative(PrimitiveId id) const {
     return id < representatives_.size() ? representatives_[id] : id;
   }
@@ -32,18 +33,18 @@ class Twins {
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] std::size_t memory() const;  ///< bytes
 
-  /// Those that are not in the tree.
+  /// The primitives that are not in the tree.
   [[nodiscard]] const std::vector<PrimitiveId>& ids() const { return ids_; }
 
  private:
   struct Group {
     PrimitiveId least;
-    std::size_t first, end;  // places in ids_, where they ascend
+    std::size_t first, end;  // positions in ids_, where ids ascend
   };
 
-  std::vector<PrimitiveId> ids_;              // by group
+  std::vector<PrimitiveId> ids_;              // grouped
   std::vector<Group> groups_;                 // ascending
-  std::vector<PrimitiveId> representatives_;  // of all primitives up to the last twin
+  std::vector<PrimitiveId> representatives_;  // for all primitives up to the last duplicate
 };
 
 }  // namespace microtrace

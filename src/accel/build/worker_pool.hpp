@@ -10,17 +10,17 @@
 
 namespace microtrace::build {
 
-/// Threads that share loops, the caller's among them.
+/// Threads that share loops, including the calling thread.
 class WorkerPool {
  public:
-  /// 0: as many as the machine runs at once. Fewer where the system starts no more.
+  /// 0: default_threads(). Starts fewer if the system refuses more.
   explicit WorkerPool(unsigned threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// f(0) ... f(count - 1), in any order and at once; returns when all have. If some throw, one of
-  /// the exceptions is thrown here and calls not yet begun are dropped.
+  /// Calls f(0) ... f(count - 1), in any order and concurrently; returns when all are done. If some
+  /// throw, one of the exceptions is rethrown here and calls not yet started are dropped.
   void run(std::size_t count, const std::function<void(std::size_t)>& f);
 
  private:

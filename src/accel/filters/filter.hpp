@@ -1,13 +1,13 @@
 #pragma once
-/// Floating-point filters: each decides a hit in float64 with a proven error bound, or says that it
-/// can't.
+/// Floating-point filters: each decides a hit in float64 with a proven error bound, or reports that
+/// it can't.
 ///
-/// A filter is a shape seen from one origin o: what depends on o alone is computed once (for all
-/// the rays of a camera), then each direction costs a few multiplications. The constructors take
-/// float32 data; every bound below counts roundings as Higham does (Accuracy and Stability of
-/// Numerical Algorithms, 2002, section 3.1): a sum of products in which each term sees at most k
-/// roundings errs by at most gamma_k = k U / (1 - k U) times the sum of the terms' magnitudes, its
-/// "permanent". tests/property/bounds holds the counts to what some input needs.
+/// A filter is a shape seen from one origin o: terms that depend only on o are computed once (for
+/// all rays of a camera), then each direction takes a few multiplications. The constructors take
+/// float32 data. Every bound below counts roundings as Higham does (Accuracy and Stability of
+/// Numerical Algorithms, 2002, section 3.1): a sum of products in which each term has at most k
+/// roundings has an error of at most gamma_k = k U / (1 - k U) times the sum of the terms'
+/// magnitudes, called its "permanent". tests/property/bounds has inputs that need these counts.
 
 #include "accel/filters/roundings.hpp"
 
@@ -19,9 +19,9 @@
 
 namespace microtrace {
 
-/// Coordinates within this keep every intermediate result far from overflow, and all that underflow
-/// can add to a form of degree six below kUnderflow: 2^-1075 times at most 2^(6 * 64), a few
-/// hundred times. Anything larger is left to exact arithmetic.
+/// Within this limit no intermediate result overflows, and underflow adds less than kUnderflow to a
+/// form of degree six: 2^-1075 times at most 2^(6 * 64), a few hundred times. Larger coordinates
+/// are left to exact arithmetic.
 inline constexpr float kLargestCoordinate = 0x1p64F;
 
 [[nodiscard]] constexpr double gamma(double roundings) {
@@ -30,20 +30,20 @@ inline constexpr float kLargestCoordinate = 0x1p64F;
 
 enum class Certainty { miss, hit, unsure };
 
-/// What a filter found. If the shape is hit, lo is below the exact t; if that is certain, hi is
-/// above it.
+/// The result of a filter. Unless it is a miss, lo is below the exact t of a hit; if the hit is
+/// certain, hi is above it.
 struct Verdict {
   Certainty certainty = Certainty::miss;
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
 };
 
-/// The closed range in which a ray looks for hits.
+/// The closed interval in which a ray looks for hits.
 struct Range {
   double t_min, t_max;
 };
 
-/// A rounded number and a bound on its distance from the exact one.
+/// A rounded number and a bound of its distance from the exact one.
 struct Approximate {
   double value, error;
 
@@ -51,15 +51,15 @@ struct Approximate {
   [[nodiscard]] bool is_negative() const { return value < -error; }
 };
 
-/// Sum of x_i y_i where each product with its own past sees at most `roundings` roundings, the
-/// sum's two included.
+/// The sum of x_i y_i, where each product has at most `roundings` roundings, including earlier ones
+/// and the two of the sum.
 [[nodiscard]] inline Approximate dot_product(const DVec3& x, const DVec3& y, int roundings) {
   const double a = x.x * y.x, b = x.y * y.y, c = x.z * y.z;
   return {.value = a + b + c,
           .error = gamma(roundings) * (std::abs(a) + std::abs(b) + std::abs(c)) + kUnderflow};
 }
 
-/// Whether filters may be asked about a number; not so for NaN.
+/// Whether a number is within the filters' limit; false for NaN.
 [[nodiscard]] inline bool is_filterable(float x) {
   return std::abs(x) <= kLargestCoordinate;
 }
@@ -67,10 +67,10 @@ struct Approximate {
   return is_filterable(v.x) && is_filterable(v.y) && is_filterable(v.z);
 }
 
-/// Where numerator / denominator lies in the range. The quotient q of the rounded parts obeys
-/// |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound's own are eight, of the second
-/// order: 1 + gamma(8) would do for them. Any size above the error would do; four times that keeps
-/// lo and hi near each other.
+/// The interval of numerator / denominator, compared with the range. The quotient q of the rounded
+/// parts satisfies |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound itself has
+/// eight roundings of second order, for which 1 + gamma(8) would suffice. Any |d| above its error
+/// would be valid; four times the error keeps lo and hi close.
 [[nodiscard]] inline Verdict quotient_verdict(const Approximate& numerator,
                                               const Approximate& denominator, const Range& range) {
   const double size = std::abs(denominator.value);

@@ -13,7 +13,7 @@ class PlaneFilter {
   PlaneFilter(const Plane& plane, const Vec3& o) : PlaneFilter(plane.point, plane.normal, o) {}
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    // Two roundings would do, since products of two float32 are exact; four cost nothing.
+    // Two roundings would suffice, because products of two float32 are exact; four cost nothing.
     return quotient_verdict(height_, dot_product(normal_, d, 4), range);
   }
 
@@ -22,7 +22,7 @@ class PlaneFilter {
   Approximate height_;
 };
 
-/// A disc seen from o: its plane, then the squared distance of the crossing from the centre.
+/// A disc seen from o: its plane, then the squared distance of the intersection from the center.
 class DiscFilter {
  public:
   DiscFilter(const Disc& disc, const Vec3& o)
@@ -33,22 +33,23 @@ class DiscFilter {
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
     Verdict crossing = plane_(d, range);
     if (crossing.certainty == Certainty::miss) return crossing;
-    // A ray nearly within the plane: nothing is known of t, so nothing of the distance.
+    // If the ray is nearly in the plane, t is unbounded, and so is the distance.
     if (!std::isfinite(crossing.lo)) return crossing;
-    // Half of the radius would do; twice that costs a few more rays next to the edge.
+    // Half of the radius would suffice; the full one only makes a few more rays near the edge
+    // undecided.
     const double t = (crossing.lo + crossing.hi) / 2, radius_of_t = crossing.hi - crossing.lo;
     double distance2 = 0, error = 0;
     for (int k = 0; k < 3; ++k) {
-      // q = (o - c) + t d: two roundings of the first term, three of the second, t's among them,
-      // and t's own distance from the exact parameter.
+      // q = (o - c) + t d: two roundings of the first term, three of the second, including that of
+      // t, and the error of t.
       const double q = from_center_[k] + t * d[k];
       const double q_error = gamma(kRoundings) * (std::abs(from_center_[k]) + std::abs(t * d[k])) +
                              radius_of_t * std::abs(d[k]) + kUnderflow;
       distance2 += q * q;
       error += (2 * std::abs(q) + q_error) * q_error;
     }
-    // The squares and their sum have three roundings. The roundings of q_error are of the second
-    // order and at most ten: 1 + gamma(10) would do.
+    // The squares and their sum have three roundings. The roundings of q_error are of second order
+    // and at most ten: 1 + gamma(10) would suffice.
     error = error * (1 + gamma(20)) + gamma(kRoundings) * distance2 + kUnderflow;
     const double outside = distance2 - radius2_;
     if (outside > error) return {.certainty = Certainty::miss};

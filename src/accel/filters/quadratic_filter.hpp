@@ -7,9 +7,9 @@
 
 namespace microtrace {
 
-/// The two roots (-b -+ s) / a in order, each numerator with its bound; a > 0 certain, s the root
-/// of the discriminant. The first root certainly in range is the hit; a root that may or may not be
-/// in range ends the search.
+/// The two roots (-b -+ s) / a in order, with error bounds of the numerators; a > 0 is certain, and
+/// s is the root of the discriminant. The first root that is certainly in range is the hit; a root
+/// that may be in range makes the result unsure.
 [[nodiscard]] inline Verdict first_root_verdict(const Approximate& a, const Approximate& b,
                                                 const Approximate& s, const Range& range) {
   const double error = b.error + s.error + gamma(1) * (std::abs(b.value) + s.value);
@@ -18,32 +18,33 @@ namespace microtrace {
   return quotient_verdict({.value = -b.value + s.value, .error = error}, a, range);
 }
 
-/// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x),
-/// for error <= x, of which callers ask for four times as much. Half of gamma(4) would do, since it
-/// is for two roundings of the second order.
+/// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x)
+/// for error <= x; callers require four times as much. Half of gamma(4) would suffice, because it
+/// covers two roundings of second order.
 [[nodiscard]] inline Approximate square_root(const Approximate& x) {
   const double root = std::sqrt(x.value);
   return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(1) * root};
 }
 
-/// A sphere seen from o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 = 0, whose
-/// discriminant is by Lagrange's identity r^2 d.d - |d x m|^2, free of the cancellation of (d.m)^2
-/// - (d.d)(m.m - r^2).
+/// A sphere seen from o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 = 0. By Lagrange's
+/// identity the discriminant is r^2 d.d - |d x m|^2, without the cancellation of (d.m)^2 -
+/// (d.d)(m.m - r^2).
 class SphereFilter {
  public:
   SphereFilter(const Sphere& sphere, const Vec3& o)
       : m_(DVec3(o) - DVec3(sphere.center)), radius2_(double{sphere.radius} * sphere.radius) {
     const double m2 = glm::dot(m_, m_);
-    // Only its sign counts: two roundings of m, one of the squares, two of their sum.
+    // Only its sign is used: two roundings of m, one of the squares, two of their sum.
     outside_ = {.value = m2 - radius2_, .error = gamma(5) * m2 + kUnderflow};
   }
 
   [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    // v = d x m: m's rounding, the product's and the difference's: |v - v*| <= u (2 p + |v|) for
-    // the permanent p of a component, so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p + |v|)^2.
-    // v^2 has three more of its own, d^2 r^2 three and the difference one: in all u (4 |v| p + 6
-    // v^2 + 4 d^2 r^2), and v^2 <= |v| p. The term of the second order counts where v vanishes but
-    // v* does not: there u^2 p^2 would do four times, as a hit is certain only above four errors.
+    // v = d x m has the roundings of m, of the products and of the difference: |v - v*| <= u (2 p +
+    // |v|) for the permanent p of a component, so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p +
+    // |v|)^2. v^2 has three more roundings, d^2 r^2 three and the difference one: in all u (4 |v| p
+    // + 6 v^2 + 4 d^2 r^2), and v^2 <= |v| p. The second-order term matters if v vanishes but v*
+    // does not: there u^2 p^2 would suffice four times over, because a hit is certain only above
+    // four errors.
     const DVec3 left(d.y * m_.z, d.z * m_.x, d.x * m_.y);
     const DVec3 right(d.z * m_.y, d.x * m_.z, d.y * m_.x);
     const DVec3 v = left - right, p = glm::abs(left) + glm::abs(right);
@@ -93,13 +94,14 @@ class QuadricFilter {
     Approximate alpha = {
         .value = form(squares_, mixed_, d),
         .error = gamma(kRoundings) * form(glm::abs(squares_), glm::abs(mixed_), size) + kUnderflow};
-    // beta is half the gradient's product.
+    // beta is half of the product with the gradient.
     Approximate beta = {
         .value = glm::dot(gradient_, d) / 2,
         .error = gamma(kRoundings) * glm::dot(gradient_permanent_, size) / 2 + kUnderflow};
     const double b2 = beta.value * beta.value, ac = alpha.value * value_.value;
-    // The roundings of the products and of the difference are within those that beta and alpha have
-    // bounds for and have not. Those of the bound are of the second order: 1 + gamma(8) would do.
+    // The roundings of the products and of the difference are within the bounds of beta and alpha,
+    // which count more roundings than there are. Those of the bound itself are of second order: 1 +
+    // gamma(8) would suffice.
     const Approximate discriminant = {
         .value = b2 - ac,
         .error = ((2 * std::abs(beta.value) + beta.error) * beta.error +
@@ -117,9 +119,9 @@ class QuadricFilter {
   }
 
  private:
-  // Products of two float32 are exact, of three have one rounding. Five sums follow in the form of
-  // three, which make six for alpha; with two more sums eight for the value. beta has three sums in
-  // the gradient, one product and two sums: six.
+  // Products of two float32 are exact, products of three have one rounding. Five sums follow in the
+  // form of three products, which makes six for alpha; with two more sums eight for the value. beta
+  // has three sums in the gradient, one product and two sums: six.
   static constexpr int kRoundings = 8;
 
   // a x^2 + b y^2 + c z^2 + d xy + e xz + f yz

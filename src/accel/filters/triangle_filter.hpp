@@ -11,8 +11,8 @@
 
 namespace microtrace {
 
-/// A cross product, and the sums of the magnitudes of each component's two terms. Where the factors
-/// have one rounding each, a component has four.
+/// A cross product, and for each component the sum of the magnitudes of its two terms. If the
+/// factors have one rounding each, a component has four.
 struct CrossProduct {
   DVec3 value, permanent;
 
@@ -22,10 +22,10 @@ struct CrossProduct {
     permanent = glm::abs(left) + glm::abs(right);
   }
 
-  /// A vector that is exact, as if it were one.
+  /// An exact vector in the form of a cross product.
   explicit CrossProduct(const DVec3& exact) : value(exact), permanent(glm::abs(exact)) {}
 
-  /// Its product with d, itself exact: four roundings from before, one of the product, two of the
+  /// The product with an exact vector d: four roundings from before, one of the product, two of the
   /// sum.
   [[nodiscard]] Approximate along(const DVec3& d) const {
     return {.value = glm::dot(d, value),
@@ -39,7 +39,7 @@ class TrianglePlaneFilter {
   TrianglePlaneFilter(const Triangle& triangle, const Vec3& o)
       : normal_(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a)) {
     const DVec3 from_a = DVec3(triangle.a) - DVec3(o);
-    // A one rounding, n four of its own, the product one, the sum two.
+    // A has one rounding, n four, the product one, the sum two.
     height_ = {.value = glm::dot(from_a, normal_.value),
                .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal_.permanent) +
                         kUnderflow};
@@ -55,8 +55,9 @@ class TrianglePlaneFilter {
 };
 
 /// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of w_a = d.(B x C), w_b =
-/// d.(C x A), w_c = d.(A x B) say on which side of its edges the ray passes: two strictly opposite
-/// signs are a miss, three equal ones a crossing of the triangle's plane within it.
+/// d.(C x A), w_c = d.(A x B) tell the side on which the ray passes each edge. Two strictly
+/// opposite signs are a miss; three equal signs are an intersection of the triangle's plane inside
+/// the triangle.
 class TriangleFilter {
  public:
   TriangleFilter(const Triangle& triangle, const Vec3& o)
@@ -82,12 +83,14 @@ class TriangleFilter {
   }
 
  private:
-  /// Whether d x A, d x B and d x C certainly lie on one side of an axis: seen along d the triangle
-  /// then does not hold the ray, even where it has no area or the ray runs in its plane.
+  /// Whether some component of d x A, d x B and d x C certainly has the same sign for all three
+  /// vertices. Projected along d, the ray is then outside the triangle, even if the triangle has no
+  /// area or contains the ray in its plane.
   [[nodiscard]] bool passes_by(const DVec3& d) const {
     std::array<bool, 3> all_positive{true, true, true}, all_negative = all_positive;
     for (const DVec3& corner : corners_) {
-      // A has one rounding, the product one; that of the difference does not change its sign.
+      // A has one rounding, the product one; the rounding of the difference doesn't change its
+      // sign.
       const CrossProduct side(d, corner);
       for (int i = 0; i < 3; ++i) {
         const Approximate x{.value = side.value[i],

@@ -1,7 +1,7 @@
 #pragma once
-/// Eight triangles against a ray by the signed volumes of docs/derivations.md, on float32 with an
-/// error bound (docs/exactness.md derives it): a lane is certainly out, certainly in with t in an
-/// interval, or left to the slow path.
+/// Tests eight triangles against a ray by the signed volumes of docs/derivations.md, in float32
+/// with an error bound (derived in docs/exactness.md). Each lane is a certain miss, a certain hit
+/// with t in an interval, or left to the fallback.
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -11,19 +11,19 @@ namespace microtrace {
 namespace {
 
 constexpr float kUnit = 0x1p-24F;   // unit roundoff of float32
-constexpr float kTiny = 0x1p-100F;  // above all that underflow can add: 2^-107
+constexpr float kTiny = 0x1p-100F;  // above the total effect of underflow: 2^-107
 constexpr float kFarthestHit =
-    0x1p64F;  // coordinates up to 2^38 and d from 2^-20 on put every hit below 2^60
+    0x1p64F;  // coordinates up to 2^38 and d from 2^-20 keep every hit below 2^60
 
 template <class F>
 struct Interval {
   F lo, hi;
 };
 
-/// Around height / size, where size is above 16 times its error. Of the last factor half would do,
-/// since t and its ends have three roundings; and so would 8 times the error: sizes as small as
-/// that are sums that nearly cancel, whose errors and whose height's are below 13/17 of their
-/// bounds.
+/// The interval of height / size, where size exceeds 16 times its error. Of the last factor half
+/// would suffice, because t and its ends have three roundings. So would 8 times the error: sizes
+/// that small are sums with strong cancellation, whose errors and whose height's errors are below
+/// 13/17 of their bounds.
 template <class F, class G, class H>
 inline Interval<F> interval(const F& height, const F& size, const G& height_error,
                             const H& size_error) {
@@ -42,16 +42,17 @@ inline Float<N> lanes_of(const Float<N>& x) {
   return x;
 }
 
-/// Triangles against rays: N of one against one of the other, whose parts are scalars.
+/// N triangles against one ray, or one triangle against N rays; the part that is not a vector is a
+/// scalar.
 template <int N, class RayPart>
 struct VolumeTest {
   using F = Float<N>;
-  Lanes maybe;    ///< lanes that are not certainly missed
-  Lanes certain;  ///< those of them that are certainly hit
+  Lanes maybe;    ///< lanes that are not certain misses
+  Lanes certain;  ///< those of them that are certain hits
   F height, size, height_error;
   RayPart size_error;
 
-  /// A: from the origin to the corner; m: TriangleBlock's edge_product.
+  /// a: vector from the origin to the vertex; m: TriangleBlock's edge_product.
   template <class TrianglePart>
   VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
              const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
@@ -62,7 +63,7 @@ struct VolumeTest {
                        nz = e1[0] * e2[1] - e1[1] * e2[0];
     const F signed_size = nx * d[0] + ny * d[1] + nz * d[2];
     size = magnitude(signed_size);
-    // Each times the sign of signed_size.
+    // All multiplied by the sign of signed_size.
     const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
     const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
     height = with_sign_of<N>(nx * a[0] + ny * a[1] + nz * a[2], signed_size);
@@ -71,11 +72,12 @@ struct VolumeTest {
     const F edge_error = (a_sum * em + m) * (15.01F * kUnit * d_sum) + kTiny;
     height_error = a_sum * (17.01F * kUnit * m) + kTiny;
     size_error = 15.01F * kUnit * d_sum * m + kTiny;
-    // How far inside all three edges; negative outside.
+    // The distance inside all three edges; negative outside.
     const F within = lesser(lesser(u, v), size - (u + v));
     maybe = less_equal<N>(-edge_error, within);
     maybe &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
-    // Where signed_size may have the wrong sign, so does height: nothing is behind for certain.
+    // If signed_size may have the wrong sign, so may height; then the triangle is never certainly
+    // behind.
     maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin) |
              less_equal<N>(size, lanes_of<N>(size_error));
     certain = maybe & less<N>(edge_error, within) & less<N>(lanes_of<N>(16 * size_error), size);
@@ -87,8 +89,8 @@ template <int N>
 struct BlockTest {
   Lanes maybe, certain;  ///< as VolumeTest's
 
-  /// Leaves out hits that are certainly beyond t_limit.
-  /// Inlined by force: GCC would not, which costs a tenth.
+  /// Drops hits that are certainly beyond t_limit. Inlined explicitly: GCC would not inline it,
+  /// which makes traversal a tenth slower.
   __attribute__((always_inline)) void run(const TriangleBlock& block, const KernelRay& ray,
                                           float t_limit) {
     using F = Float<N>;
@@ -112,9 +114,9 @@ struct BlockTest {
     }
   }
 
-  /// Whether t() holds for a lane.
+  /// Whether t() is valid for a lane.
   [[nodiscard]] bool has_t(int lane) const { return size_[lane] > 16 * size_error_; }
-  /// Where a certain lane is hit.
+  /// Bounds of t for a lane that is a certain hit.
   [[nodiscard]] Interval<float> t(int lane) const {
     return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
   }
@@ -128,7 +130,7 @@ inline std::uint32_t first_entry(ChildRef leaf) {
   return (leaf & ~child_ref::kKind) >> 3U;
 }
 
-/// f(entry) for the entries of a leaf until it returns true; whether it did.
+/// Calls f(entry) for the entries of a leaf until it returns true; returns whether it did.
 template <class F>
 inline bool for_each_entry(ChildRef leaf, const F& f) {
   const std::uint32_t first = first_entry(leaf);
@@ -139,15 +141,15 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
   return false;
 }
 
-/// Takes the lanes that a block's test has left into account: updates best to the nearest hit. With
-/// kAny it stops at the first. slowly(id, best) is the slow path.
+/// Updates best to the nearest hit among the lanes that a block's test has not rejected. With kAny
+/// it stops at the first hit. slowly(id, best) is the fallback.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
                        Best& best, const Slowly& slowly) {
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
-    if (id == best.id) continue;  // large triangles are in several leaves
+    if (id == best.id) continue;  // large triangles can be in several leaves
     const Interval<float> t = test.t(lane);
     bool is_certain = (test.certain >> lane & 1U) != 0;
     if (!is_certain) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Which kernels run. Not for the kernels' own translation units.
+/// Selects the kernels to run. Not to be included by the kernels' own translation units.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
@@ -8,14 +8,14 @@
 
 namespace microtrace {
 
-/// The sets that this processor runs, the fastest first.
+/// Kernels for the instruction sets that this processor supports, fastest first.
 [[nodiscard]] std::vector<const Kernels*> available_kernels();
 
-/// The first of them; or the one that the environment variable MICROTRACE_ISA names (portable,
-/// avx2, avx512), if it is among them, portable if it is not.
+/// The first of them, or the ones that the environment variable MICROTRACE_ISA names (portable,
+/// avx2, avx512); portable if these are not available.
 [[nodiscard]] const Kernels& best_kernels();
 
-/// For rays that leave surfaces, chosen likewise.
+/// The kernels for rays that leave surfaces, selected the same way.
 [[nodiscard]] const SpawnKernels& best_spawn_kernels();
 
 }  // namespace microtrace

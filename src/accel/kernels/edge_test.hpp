@@ -1,6 +1,6 @@
 #pragma once
-/// What float32 can't tell about a triangle's edges, float64 mostly can: the forms of
-/// block_test.hpp again, for one triangle and one ray, with the same bound by the smaller unit.
+/// Decides most triangle edges that float32 can't: the forms of block_test.hpp in float64, for one
+/// triangle and one ray, with the same bound for the smaller unit roundoff.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -16,8 +16,8 @@ inline std::uint64_t edge_tests() {
   return edge_test_count;
 }
 
-/// A triangle as a ray's origin sees it, in float64: a from the origin to its first corner, the two
-/// edges from there.
+/// A triangle relative to a ray's origin in float64: a is the vector from the origin to its first
+/// vertex, e1 and e2 are the two edges from there.
 struct NearTriangle {
   double a[3], e1[3], e2[3];
 
@@ -36,13 +36,13 @@ inline double largest_magnitude(const double (&x)[3]) {
   return greater(greater(__builtin_fabs(x[0]), __builtin_fabs(x[1])), __builtin_fabs(x[2]));
 }
 
-/// Whether a ray certainly leaves the plane of triangle k of a block behind: most that float32
-/// leaves open are those that rays have just come from.
+/// Whether the plane of triangle k of a block certainly lies behind the ray. Most triangles that
+/// float32 leaves undecided are the ones that the ray has just left.
 inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
   const NearTriangle t(block, k, o);
-  // Bounds by each component's own terms, of which a wall's has one: a ray that has left a floor at
-  // 0 begins 2^-149 above it. A term of the height sees 8 roundings; the rest is of
-  // the second order.
+  // Bounds by each component's own terms; an axis-aligned triangle has only one. This matters
+  // because a ray that has left a floor at 0 starts 2^-149 above it. A term of the height has 8
+  // roundings; the rest is of second order.
   constexpr double roundings = 8.01 * 0x1p-53;
   double height = 0, size = 0, height_sum = 0, size_sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -60,7 +60,7 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
                   : size < -size_bound && height > height_bound;
 }
 
-/// Whether the line of a ray goes through triangle k of a block, all edges included.
+/// Whether the line of a ray passes through triangle k of a block, including its edges.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;
   const auto [a, e1, e2] = NearTriangle(block, k, o);

@@ -1,5 +1,5 @@
 #pragma once
-/// The children of a node that a ray enters, and the stack on which they wait.
+/// Finds the children of a node that a ray enters, and stores them on a stack.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -8,15 +8,16 @@
 namespace microtrace {
 namespace {
 
-constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder keeps trees below 64 levels
+constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder limits the depth to 64
 
-/// Stands for no more subtrees.
+/// Marks the end of the stack.
 constexpr ChildRef kFinished = child_ref::kKind;
 
-/// Subtrees yet to visit, with the distance at which the ray enters them; at the bottom kFinished.
+/// Subtrees still to be visited, with the distance at which the ray enters them. kFinished is at
+/// the bottom.
 struct RayStack {
   int size;
-  ChildRef child[kStackSize + kWidth];  // writing a node's children overwrites kWidth places
+  ChildRef child[kStackSize + kWidth];  // writing a node's children overwrites kWidth slots
   float near[kStackSize + kWidth];
 
   void clear() {
@@ -26,7 +27,7 @@ struct RayStack {
   }
 };
 
-/// Takes what was pushed last, without kAny and what begins beyond the limit.
+/// Pops the last pushed subtree; without kAny skips those that start beyond the limit.
 template <bool kAny>
 inline ChildRef pop(RayStack& stack, float limit) {
   int top = stack.size - 1;
@@ -37,7 +38,7 @@ inline ChildRef pop(RayStack& stack, float limit) {
   return stack.child[top];
 }
 
-/// Of eight children those that the ray enters before `limit`, and where.
+/// The children, out of eight, that the ray enters before `limit`, and their entry distances.
 template <int N>
 struct NodeTest {
   Lanes entered = 0;
@@ -45,7 +46,7 @@ struct NodeTest {
 
   NodeTest(const WideNode& node, const KernelRay& ray, float limit) {
     using F = Float<N>;
-    const float* planes = node.lo_x;  // all six arrays lie one after another
+    const float* planes = node.lo_x;  // the six arrays are consecutive
     for (int i = 0; i < kWidth; i += N) {
       const auto distance = [&](const std::uint32_t(&plane)[3], const float(&factor)[3], int axis) {
         return (load<N>(planes + plane[axis] + i) - ray.o[axis]) * factor[axis];
@@ -56,7 +57,8 @@ struct NodeTest {
       const F far_x = distance(ray.far_plane, ray.far_factor, 0);
       const F far_y = distance(ray.far_plane, ray.far_factor, 1);
       const F far_z = distance(ray.far_plane, ray.far_factor, 2);
-      // 0 * infinity is NaN, and means no limit: lesser and greater drop a NaN on their left.
+      // 0 * infinity is NaN, and means no limit: lesser and greater drop a NaN in their first
+      // argument.
       const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_begin))));
       const F leave = lesser(far_x, lesser(far_y, lesser(far_z, all<N>(limit))));
       entered |= less_equal<N>(enter, leave) << i;
@@ -65,14 +67,14 @@ struct NodeTest {
   }
 };
 
-/// Steps into the children of a node that the ray enters before `limit`: returns the nearest, with
-/// kAny some one, and pushes the others, with kAny without their distance. If there are none it
-/// pops one: of what lies on the stack, without kAny, the first that begins before the limit.
+/// Visits the children of a node that the ray enters before `limit`: returns the nearest, or with
+/// kAny any one, and pushes the others, with kAny without their distance. If there are none, pops a
+/// subtree: with kAny the top one, otherwise the first that starts before the limit.
 template <int N, bool kAny>
 inline ChildRef step_into(const WideNode& node, const KernelRay& ray, float limit,
                           RayStack& stack) {
   const NodeTest<N> test(node, ray, limit);
-  // A ninth bit, where no child is entered.
+  // The ninth bit is for the case that no child is entered.
   const int lane =
       kAny ? first_lane(test.entered | 0x100U) & 7 : least_lane(test.entered, test.near);
   const Lanes others = test.entered & ~(Lanes{1} << lane);

@@ -1,7 +1,7 @@
 #pragma once
-/// Any-hit queries of rays that begin near each other, as far as they go together: 64 rays walk
-/// down the tree with a set of those that enter each subtree; N rays at a time are held against a
-/// box or a triangle. Where few are left, the rest is work for stream.hpp.
+/// Any-hit queries of rays with nearby origins. 64 rays traverse the tree with a set of the rays
+/// that enter each subtree; boxes and triangles are tested against N rays at a time. If few rays
+/// are left, the remaining work is passed to stream.hpp.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -10,13 +10,13 @@
 namespace microtrace {
 namespace {
 
-/// Work left over: a ray that is to visit a subtree.
+/// Remaining work: a ray that must visit a subtree.
 struct StreamItem {
   int ray;
   ChildRef child;
 };
 
-/// What packets leave over. Where it is full, they do the work themselves.
+/// The remaining work of all packets. If this array is full, the packets do the work themselves.
 struct StreamItems {
   static constexpr int kCapacity = 4 * kStreamRays;
   int size = 0;
@@ -32,7 +32,7 @@ class PacketWalk {
              StreamItems& items)
       : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
 
-  /// The rays from `first` on, a multiple of kRays.
+  /// Traces the rays from `first` on, a multiple of kRays.
   void run(int first) {
     first_ = first;
     open_ = 0;
@@ -56,7 +56,7 @@ class PacketWalk {
 
  private:
   using F = Float<N>;
-  static constexpr int kFew = 10;  // rays that go on faster one by one
+  static constexpr int kFew = 10;  // up to this many rays are faster one by one
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
   using B = Float<kNodeLanes>;
 
@@ -65,10 +65,11 @@ class PacketWalk {
     std::uint64_t rays;
   };
 
-  // A box around all rays from o to o + t_max d. The computed end is off by at most u |t_max d| +
-  // u |o + t_max d|. Half of the margin would do: a plane that the exact end reaches is a float32,
-  // so the sum is rounded past it by no more than the product was, and the margin's own rounding
-  // doesn't take it back. Infinity times 0 is NaN and leaves a comparison's other side.
+  // Computes a box around all rays from o to o + t_max d. The rounded end has an error of at most u
+  // |t_max d| + u |o + t_max d|. Half of the margin would suffice: a plane that the exact end
+  // reaches is a float32, so the sum is rounded past it by no more than the product was, and the
+  // margin's own rounding doesn't undo this. Infinity times 0 is NaN, which leaves the other
+  // argument of a comparison.
   void bound_segments() {
     const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,7 +86,7 @@ class PacketWalk {
     }
   }
 
-  // Children that the box around all rays touches.
+  // Children that overlap the box around all rays.
   [[nodiscard]] Lanes touched(const WideNode& node) const {
     Lanes lanes = 0;
     for (int i = 0; i < kWidth; i += kNodeLanes) {
@@ -101,7 +102,7 @@ class PacketWalk {
     return lanes;
   }
 
-  // f(i, lanes) for every N rays from i on of which some, `lanes`, are in the set.
+  // Calls f(i, lanes) for every N rays starting at i of which some, `lanes`, are in the set.
   template <class Visit>
   void for_each_lanes(std::uint64_t rays, const Visit& f) const {
     for (int i = 0; i < kRays; i += N) {
@@ -130,7 +131,7 @@ class PacketWalk {
         for (int axis = 0; axis < 3; ++axis) {
           const F zero{}, l = all<N>(lo[axis]), h = all<N>(hi[axis]);
           const F near_plane = near[axis] < zero ? h : l, far_plane = near[axis] < zero ? l : h;
-          // NaN on the left is dropped, as in NodeTest.
+          // A NaN in the first argument is dropped, as in NodeTest.
           enter = greater((near_plane - o[axis]) * near[axis], enter);
           leave = lesser((far_plane - o[axis]) * far[axis], leave);
         }
@@ -173,7 +174,7 @@ class PacketWalk {
       const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
       for (int k = 0; k < kWidth; ++k) {
         const float x = block.a_x[k], y = block.a_y[k], z = block.a_z[k];
-        if (!(x == x)) break;  // NaN: the block's unused places
+        if (!(x == x)) break;  // NaN: the block's unused slots
         const F a[3] = {x - o[0], y - o[1], z - o[2]};
         const float e1[3] = {block.b_x[k] - x, block.b_y[k] - y, block.b_z[k] - z};
         const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
@@ -194,7 +195,7 @@ class PacketWalk {
     });
   }
 
-  // What float32 leaves open: mostly triangles that rays have just left.
+  // Decides cases that float32 leaves undecided, mostly triangles that rays have just left.
   void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
     std::uint64_t rest = 0;
     for (; rays != 0; rays &= rays - 1) {

@@ -1,7 +1,7 @@
 #pragma once
-/// The parameters of hits that are known to be, rounded once: t = (A.n) / (d.n) by float64 with
-/// TrianglePlaneFilter's error bound (src/accel/filters/triangle_filter.hpp derives it), for
-/// several hits at once.
+/// Rounds the parameters of known hits once: t = (A.n) / (d.n) in float64 with
+/// TrianglePlaneFilter's error bound (derived in src/accel/filters/triangle_filter.hpp), for
+/// several hits at a time.
 
 #include "accel/filters/roundings.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// D is one number or several.
+/// D is a scalar or a vector.
 template <class D>
 struct Double3 {
   D x, y, z;
@@ -24,12 +24,12 @@ inline double magnitude(double x) {
   return __builtin_fabs(x);
 }
 
-/// A triangle's plane as seen from o, a ray's origin: n = e1 x e2 and A.n with A = a - o.
+/// A triangle's plane relative to a ray's origin o: n = e1 x e2 and A.n with A = a - o.
 template <class D>
 struct SeenPlane {
   Double3<D> n;
   D height, height_error;
-  Double3<D> sum;  ///< of the magnitudes that make each component of n
+  Double3<D> sum;  ///< the permanent of each component of n
 
   SeenPlane(const Double3<D>& o, const Double3<D>& a, const Double3<D>& b, const Double3<D>& c) {
     const Double3<D> from = a - o, e1 = b - a, e2 = c - a;
@@ -46,15 +46,16 @@ struct SeenPlane {
   }
 };
 
-/// Writes N parameters; returns those that are certain. size_error bounds that of d.n.
+/// Writes N parameters; returns the lanes that are certain. size_error bounds the error of d.n.
 template <int N, class D>
 inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, const D& size_error,
                      float* t) {
   using V = Double<N>;
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
-  // As quotient_verdict, with one division: t and its ends have three roundings more than the
-  // quotient, so half of the eight would do. Where size is above 64 times its error, 1 / (size -
-  // error) is at most 64/63 / size, and 32 times would do; less is not enough to round t by.
+  // As quotient_verdict, with one division. t and its ends have three more roundings than the
+  // quotient, so half of the eight would suffice. If size exceeds 64 times its error, 1 / (size -
+  // error) is at most 64/63 / size, and a factor of 32 would suffice; smaller sizes are too
+  // imprecise to round t.
   const V inverse = 1.0 / size, middle = plane.height * inverse, distance = magnitude(middle);
   V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.04 +
             distance * (8 * kRounding) + kUnderflow;
@@ -94,7 +95,7 @@ std::uint64_t round_t(HitBatch& hits) {
   return certain;
 }
 
-/// One triangle after another of those that a tile's rays hit.
+/// Processes the triangles that a packet's rays hit, one after another.
 template <int N>
 class TileRounding {
  public:
@@ -118,7 +119,7 @@ class TileRounding {
   }
 
  private:
-  // Rays that hit one triangle: its plane is that of the rays before, often.
+  // For rays that hit the same triangle, which is often the triangle of the preceding rays.
   Lanes round_one(std::uint32_t place, int i) {
     if (place != place_) {
       place_ = place;
@@ -134,7 +135,7 @@ class TileRounding {
     return round_t<N>(plane_, d(i), size_error_, t_ + i);
   }
 
-  // Rays without a hit take the triangle `other`.
+  // Rays without a hit use the triangle `other`.
   Lanes round_several(std::uint32_t other, int i) const {
     float corner[9][N];
     for (int lane = 0; lane < N; ++lane) {

@@ -1,12 +1,12 @@
 #pragma once
-/// What the walks through the tree do with vectors, beyond simd/vectors.hpp.
+/// Vector functions for tree traversal, in addition to simd/vectors.hpp.
 
 #include "simd/vectors.hpp"
 
 namespace microtrace {
 namespace {
 
-/// Writes a number to the given lanes' places.
+/// Stores a number in the given lanes' elements.
 template <int N>
 inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
 #if defined(__AVX512VL__)
@@ -21,7 +21,8 @@ inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
-/// combine of all lanes, halving the vector as often as needed. combine must not depend on order.
+/// Combines all lanes by halving the vector repeatedly. The result of combine must not depend on
+/// the order.
 template <int N, class Combine>
 inline float combined(const Float<N>& v, const Combine& combine) {
   if constexpr (N == 1) {
@@ -46,7 +47,7 @@ inline int first_lane(std::uint64_t lanes) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512VL__)
-/// For each set of eight lanes their numbers, a byte each, the lowest first.
+/// For each set of eight lanes their indices in ascending order, one byte each.
 struct PackingTable {
   std::uint64_t order[256];
 };
@@ -62,7 +63,7 @@ constexpr PackingTable kPacking = [] {
 }();
 #endif
 
-/// Writes the given lanes of eight values one after another. May overwrite eight places.
+/// Stores the given lanes of eight values consecutively. May overwrite eight elements.
 template <class T>
 inline void store_lanes(Lanes lanes, const T* values, T* to) {
   static_assert(sizeof(T) == 4);
@@ -83,12 +84,11 @@ inline void store_lanes(Lanes lanes, const T* values, T* to) {
 #endif
 }
 
-/// Of the given lanes that with the least of eight keys, none of which is negative; without lanes
-/// some number up to 7.
-/// Keys that differ in their last three bits alone count as equal.
+/// The lane, out of the given ones, with the least of eight nonnegative keys; without lanes some
+/// number up to 7. Keys that differ only in their last three bits count as equal.
 inline int least_lane(Lanes lanes, const float* keys) {
 #if defined(__AVX2__)
-  // The lane's number in the key's last bits.
+  // Stores the lane's index in the key's last bits.
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i bits = _mm256_castps_si256(_mm256_loadu_ps(keys));
   const __m256i key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), bits), lane);
@@ -114,7 +114,7 @@ inline int least_lane(Lanes lanes, const float* keys) {
 #endif
 }
 
-/// Which of eight numbers are within [first, last].
+/// The lanes whose numbers are within [first, last].
 inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std::uint32_t last) {
 #if defined(__AVX2__)
   typedef std::uint32_t Numbers __attribute__((vector_size(32)));

@@ -1,5 +1,5 @@
 #pragma once
-/// One ray through the eight-wide tree, nearest children first.
+/// Traverses the eight-wide tree with one ray, nearest children first.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"

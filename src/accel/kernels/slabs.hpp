@@ -1,13 +1,13 @@
 #pragma once
-/// Factors for the distances to the planes of boxes, with margins that make a box test safe: no box
-/// is missed that the ray touches in real arithmetic. After Ize, "Robust BVH Ray Traversal", JCGT
-/// 2013, whose 2 ulp are not enough where d is subnormal.
+/// Factors for the distances to the planes of boxes, with margins that make the box test
+/// conservative: no box is missed that the ray touches in real arithmetic. After Ize, "Robust BVH
+/// Ray Traversal", JCGT 2013, whose 2 ulps are insufficient if d is subnormal.
 ///
-/// q = fl(1 / |d|) is within (1 +- u) / |d|. Two ulp less is at most (1 - u) / |d|, and fl(x) <= x
-/// (1 + u), so that fl(fl(lo - o) * near) is at most the exact distance for lo >= o; where lo < o
-/// it is negative, and t_min >= 0 takes its place. Three ulp more are at least (1 + u)^2 / |d|,
-/// which serves the far side. Where q overflows, near is as large as a float can be but finite, and
-/// far is infinite: 0 * infinity is NaN and means no limit.
+/// q = fl(1 / |d|) is within (1 +- u) / |d|. Two ulps less is at most (1 - u) / |d|, and fl(x) <= x
+/// (1 + u), so fl(fl(lo - o) * near) is at most the exact distance for lo >= o; for lo < o it is
+/// negative, and t_min >= 0 replaces it. Three ulps more is at least (1 + u)^2 / |d|, which is
+/// sufficient for the far side. If q overflows, near is the largest float and far is infinite: 0 *
+/// infinity is NaN and means no limit.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -15,7 +15,7 @@
 namespace microtrace {
 namespace {
 
-/// For the lanes of d; d = 0 counts as positive.
+/// Computes the factors for the lanes of d; d = 0 counts as positive.
 template <int N>
 inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   using F = Float<N>;
@@ -23,7 +23,7 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   const F q = 1 / magnitude(d);
   const F capped = lesser(q, largest);
   const F below = moved_by_ulps<N>(capped, -2);
-  // Moving FLT_MAX up would pass infinity and give NaN; one ulp reaches it.
+  // Adding ulps to FLT_MAX would pass infinity and give NaN; one ulp gives infinity.
   const F above = q < all<N>(0x1p127F) ? moved_by_ulps<N>(capped, 3) : all<N>(__builtin_inff());
   near = d < zero ? -below : below;
   far = d < zero ? -above : above;
@@ -51,8 +51,8 @@ inline void prepare_ray(KernelRay& ray) {
     ray.far_factor[axis] = far[axis];
     sum += __builtin_fabsf(d[axis]);
   }
-  // The sum and the product have three roundings, so half of that would do; of the kernels' other
-  // factors next to 1 it would leave out u^2, for which the bounds have a hundredth.
+  // The sum and the product have three roundings, so half of the margin would suffice. The kernels'
+  // other factors near 1 omit u^2, which the hundredth in the bounds covers.
   ray.d_sum = sum * (1 + 0x1p-21F);
   find_planes(ray);
 }

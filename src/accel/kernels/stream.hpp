@@ -1,7 +1,7 @@
 #pragma once
-/// Many unrelated rays in flight. A ray alone waits for memory, and for each step's result before
-/// the next; here one pass steps every ray that stands at a node and the next every ray that stands
-/// at a leaf, so that their steps overlap, and what a ray needs next is fetched meanwhile.
+/// Traces many incoherent rays at a time. A single ray waits for memory, and for each step's result
+/// before the next step. Here one pass steps every ray that is at a node, and the next pass every
+/// ray that is at a leaf, so that their steps overlap and the data of the next step is prefetched.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -50,7 +50,7 @@ void prepare_stream(KernelStream& stream) {
     std::uint64_t& set = stream.suited[i / 64];
     set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
   }
-  // Packets bound whole groups: the last ray fills the last.
+  // Packets need full groups: the last ray is repeated.
   for (int i = stream.count; i % kTileRays != 0; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       stream.o[axis][i] = stream.o[axis][i - 1];
@@ -65,7 +65,7 @@ void prepare_stream(KernelStream& stream) {
 template <int N, bool kAny>
 class StreamWalk {
  public:
-  /// Without items all rays walk the whole tree.
+  /// Without items all rays traverse the whole tree.
   StreamWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow,
              const StreamItems* items)
       : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
@@ -99,7 +99,7 @@ class StreamWalk {
 
   struct List {
     int size = 0;
-    std::uint32_t place[kInFlight + 8];  // more, as eight are written at a time
+    std::uint32_t place[kInFlight + 8];  // with room for stores of eight elements
   };
 
   struct MaybeHit {
@@ -107,7 +107,7 @@ class StreamWalk {
     const TriangleBlock* block;
   };
 
-  // Puts the next ray into a place, if there is one.
+  // Starts the next ray in a slot, if there is one.
   void start(std::uint32_t place) {
     const int last = items_ != nullptr ? items_->size : stream_.count;
     const auto item = [&](int i) {
@@ -158,8 +158,8 @@ class StreamWalk {
     }
   }
 
-  // Rays at triangles, in two loops: all tests, which don't branch, and what the few that may be
-  // hits mean.
+  // Processes rays at triangles in two loops: all tests, which don't branch, then the few possible
+  // hits.
   void meet_blocks() {
     int hits = 0;
     for_each(leaves_, [&](Flight& flight, ChildRef& next) {
@@ -167,7 +167,7 @@ class StreamWalk {
       flight.test.run(block, flight.ray, flight.best.hi);
       hits_[hits] = {&flight, &block};
       hits += flight.test.maybe != 0;
-      // The leaf's other blocks are a leaf of their own.
+      // The leaf's remaining blocks are pushed as a leaf of their own.
       const int top = flight.stack.size;
       flight.stack.child[top] = next + (1U << 3U) - 1;
       flight.stack.near[top] = 0;
@@ -177,7 +177,7 @@ class StreamWalk {
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
       meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, slow_path(*flight));
-      ++flight->stack.size;  // what it has popped may lie beyond the hit now
+      ++flight->stack.size;  // the popped entry may be beyond the new hit
       next_[flight - flights_] = next_after_leaf(*flight);
     }
   }
@@ -193,8 +193,8 @@ class StreamWalk {
     };
   }
 
-  // Lists the places by what their rays stand at, without branches on that, which would be
-  // mispredicted often. Returns how many there are.
+  // Sorts the slots by the kind of subtree their rays visit next, without branches, which would
+  // often be mispredicted. Returns their number.
   int sort_places() {
     nodes_.size = leaves_.size = others_.size = finished_.size = 0;
     for (std::uint32_t first = 0; first < kInFlight; first += 8) {
@@ -213,14 +213,14 @@ class StreamWalk {
     return nodes_.size + leaves_.size + others_.size + finished_.size;
   }
 
-  // Where what a kind of ChildRef refers to lies: at begin + (child & mask) * scale.
+  // The address of the data of a kind of ChildRef: begin + (child & mask) * scale.
   struct Place {
     const char* begin;
     std::size_t mask, scale;
-    std::size_t last;  // of the cache lines needed
+    std::size_t last;  // number of cache lines needed, minus one
   };
 
-  // Inlined by force: GCC takes a function of prefetches alone for one without effect.
+  // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const Place& place = places_[child >> 30U];
     const char* p = place.begin + (child & place.mask) * place.scale;
@@ -235,9 +235,9 @@ class StreamWalk {
   KernelStream& stream_;
   const StreamSlowPath& slow_;
   const StreamItems* items_;
-  int started_ = 0;  // rays, or items
+  int started_ = 0;  // rays, or items, started so far
   List nodes_, leaves_, others_, finished_;
-  ChildRef next_[kInFlight];  // what the ray in each place visits next
+  ChildRef next_[kInFlight];  // the next subtree of the ray in each slot
   static_assert(sizeof(TriangleBlock) % 8 == 0);
   const Place places_[4] = {
       {reinterpret_cast<const char*>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
@@ -254,7 +254,7 @@ void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamS
   StreamWalk<N, false>(tree, stream, slow, nullptr).run();
 }
 
-/// M: rays that packets test at a time.
+/// M: number of rays that packets test at a time.
 template <int N, int M>
 void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow) {
   StreamItems items;

@@ -1,8 +1,8 @@
 #pragma once
-/// 64 rays from one origin through the tree together: a node's eight boxes are first held against
-/// the beam that the rays form, then each box that is left against the rays, only to know whether
-/// one enters. What depends on the origin alone is computed once for each triangle, so that each
-/// ray costs three dot products.
+/// Traverses the tree with 64 rays that have a common origin. A node's eight boxes are first tested
+/// against the beam around all rays; each remaining box is then tested against the rays until one
+/// enters it. Terms that depend only on the origin are computed once per triangle, so each ray
+/// takes three dot products.
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -48,7 +48,7 @@ class TileWalk {
     limit_ = greatest_of<N>(limit);
   }
 
-  // The children's planes through which rays enter and leave along an axis.
+  // The planes of the children through which rays enter and leave along an axis.
   struct Slab {
     const float *enter, *leave;
   };
@@ -88,10 +88,10 @@ class TileWalk {
     return top;
   }
 
-  // Inlined by force: GCC takes a function of prefetches alone for one without effect.
+  // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const bool is_node = (child & child_ref::kKind) == 0;
-    // As numbers: where there are other primitives alone, blocks is null.
+    // As integers: if there are only other primitives, blocks is null.
     const auto p = is_node
                        ? reinterpret_cast<std::uintptr_t>(tree_.nodes) + child * sizeof(WideNode)
                        : reinterpret_cast<std::uintptr_t>(tree_.blocks) +
@@ -116,7 +116,7 @@ class TileWalk {
           enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
           leave = lesser(far_factor * (negative ? lo[axis] : hi[axis]), leave);
         } else {
-          // Which plane comes first depends on the ray; the sign of the factors tells.
+          // The order of the planes depends on the ray: on the sign of the factors.
           const F zero{};
           const F l = all<N>(lo[axis]), h = all<N>(hi[axis]);
           enter = greater(near_factor * (near_factor < zero ? h : l), enter);
@@ -153,7 +153,7 @@ class TileWalk {
     }
   }
 
-  // Those that group `group` may see, on the rays [i, i + N).
+  // Tests the triangles that are not culled for `group` against the rays [i, i + N).
   void meet_triangles(const TileView<kNodeLanes>& view, int group, int i,
                       const TriangleBlock& block, std::uint32_t index) {
     const F dx = load<N>(tile_.d[0] + i), dy = load<N>(tile_.d[1] + i),
@@ -193,7 +193,8 @@ class TileWalk {
     std::uint32_t place;
   };
 
-  // Rays [i, i + N) of which some, `maybe`, go through a triangle, `certain` for certain.
+  // Processes the rays [i, i + N): those in `maybe` may hit a triangle, those in `certain`
+  // certainly do.
   void meet_hits(const Quotient& q, Lanes maybe, Lanes certain, int i, const Candidate& triangle) {
     const F best_lo = load<N>(tile_.best_lo + i), best_hi = load<N>(tile_.best_hi + i);
     const F t_begin = load<N>(tile_.t_begin + i);
@@ -219,12 +220,12 @@ class TileWalk {
     }
     for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
       const int ray = i + first_lane(lanes);
-      // A triangle that was split among leaves comes more than once.
+      // A triangle that was split among leaves is tested more than once.
       if (tile_.best_id[ray] != id) decide_slowly(ray, id, triangle.place);
     }
   }
 
-  // Moves what it can from `maybe` alone to `certain`, or out.
+  // Moves lanes that float64 can decide from `maybe` to `certain`, or removes them.
   void look_at_edges(Lanes& maybe, Lanes& certain, int i, const Candidate& triangle) const {
     for (Lanes lanes = maybe & ~certain; lanes != 0; lanes &= lanes - 1) {
       const int lane = first_lane(lanes), ray = i + lane;

@@ -1,5 +1,6 @@
 #pragma once
-/// A tile's rays, as the walk wants them: by columns, with the beam that they form.
+/// Fills a packet with rays: transposes them to one array per component, and computes the beam
+/// around them.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -8,7 +9,7 @@
 namespace microtrace {
 namespace {
 
-/// Eight rows of eight become columns.
+/// Transposes an 8 x 8 matrix.
 inline void transpose(Float<8> (&m)[8]) {
   Float<8> pairs[8], fours[8];
   for (int i = 0; i < 8; i += 2) {
@@ -28,7 +29,7 @@ inline void transpose(Float<8> (&m)[8]) {
   }
 }
 
-/// Rays by rows become columns. False if they have several origins.
+/// Transposes rays to one array per component. Returns false if they have different origins.
 inline bool read_rows(const float* rays, KernelTile& tile) {
   Float<8> differences{};
   for (int i = 0; i < kTileRays; i += 8) {
@@ -44,7 +45,7 @@ inline bool read_rows(const float* rays, KernelTile& tile) {
     store<8>(tile.best_lo + i, column[7]);
     store<8>(tile.best_hi + i, column[7]);
   }
-  // Different float32s never have the difference 0, and NaN fails the comparison.
+  // Different float32 numbers never have the difference 0, and the comparison is false for NaN.
   return less_equal<8>(differences, Float<8>{}) == all_lanes<8>;
 }
 
@@ -59,7 +60,7 @@ inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
   return beam;
 }
 
-/// Bounds of the factors of all rays: they fall as |d| grows.
+/// Bounds of the factors of all rays: the factors decrease as |d| increases.
 inline void bound_factors(const float (&least)[3], const float (&greatest)[3], KernelTile& tile) {
   const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
   float near[8], far[8];
@@ -90,7 +91,7 @@ bool fill_tile(const float* rays, int count, KernelTile& tile) {
     if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
   }
   if (!read_rows(rays, tile)) return false;
-  // Who asks for one tile after another has the next behind this one, mostly.
+  // The caller's next packet is usually stored after this one.
   for (int i = 0; i < 8 * kTileRays; i += 16) __builtin_prefetch(rays + 8 * kTileRays + i);
   __builtin_memset(tile.best_id, 0xff, sizeof tile.best_id);
   __builtin_memset(tile.best_place, 0xff, sizeof tile.best_place);

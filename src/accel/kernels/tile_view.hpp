@@ -1,6 +1,6 @@
 #pragma once
-/// A block's triangles as the rays of a tile see them from their common origin, and which of them
-/// which rays may see at all.
+/// A block's triangles relative to the common origin of a packet's rays, and the groups of rays
+/// that may hit them.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -9,17 +9,17 @@
 namespace microtrace {
 namespace {
 
-/// N triangles at a time, N <= kWidth.
+/// Processes N triangles at a time, N <= kWidth.
 template <int N>
 struct TileView {
-  // Each times the sign of n . d, where that is the same for all directions of the beam.
+  // All multiplied by the sign of n . d, if it is the same for all directions of the beam.
   alignas(64) float u[3][kWidth];  ///< e2 x A
   float v[3][kWidth];              ///< A x e1
   float n[3][kWidth];              ///< e1 x e2
   float height[kWidth];            ///< n . A
   float error[kWidth], size_error[kWidth], height_error[kWidth];
-  Lanes seen[kGroups];  ///< triangles that are not certainly missed by every ray of a group
-  Lanes two_sided;      ///< triangles of which some rays may see one side and some the other
+  Lanes seen[kGroups];  ///< for each group, triangles that are not certainly missed by all its rays
+  Lanes two_sided;      ///< triangles that rays may hit from both sides
 
   TileView(const TriangleBlock& block, const KernelTile& tile) : seen{}, two_sided(0) {
     for (int i = 0; i < kWidth; i += N) look_at(block, tile, i);
@@ -37,7 +37,7 @@ struct TileView {
   static Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  // Of the product with any direction of the beam.
+  // The range of the product with all directions of the beam.
   static Range over(const Beam& beam, const Vector& a) {
     return {a.x * beam.centre[0] + a.y * beam.centre[1] + a.z * beam.centre[2],
             magnitude(a.x) * beam.radius[0] + magnitude(a.y) * beam.radius[1] +
@@ -66,8 +66,8 @@ struct TileView {
                     load<N>(block.c_z + i) - corner.z};
     Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
     F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-    // Each triangle's own bounds: a huge one beside it would make a tiny one uncertain for every
-    // ray. em and m as TriangleBlock's.
+    // Bounds for each triangle: with common bounds, a huge triangle would make a tiny one undecided
+    // for every ray. em and m as in TriangleBlock.
     const F a_sum = magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
     const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
     const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
@@ -76,8 +76,8 @@ struct TileView {
     const F size_bound = m * (15.01F * kUnit * tile.d_sum) + kTiny;
 
     const Range size = over(tile.beam, normal);
-    // The range has as many roundings as a ray's product has: half of the bound would do, for the
-    // centre and the radius make no more than the largest |d|.
+    // The range has as many roundings as the product with a ray. Half of the bound would suffice,
+    // because center and radius together do not exceed the largest |d|.
     const Lanes both = less_equal<N>(magnitude(size.middle) - size.radius, 2 * size_bound);
     normal = with_sign_of(normal, size.middle);
     p = with_sign_of(p, size.middle);
@@ -85,9 +85,8 @@ struct TileView {
     h = microtrace::with_sign_of<N>(h, size.middle);
     two_sided |= both << i;
 
-    // A group is certainly outside an edge where u, v or size - u - v is negative for all its
-    // directions. The third form has nine roundings, for which 18 units would do: 1.5 bounds are
-    // more.
+    // A group certainly misses if u, v or size - u - v is negative for all its directions. The
+    // third form has nine roundings, for which 18 units would suffice; 1.5 bounds are more.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for (int group = 0; group < kGroups; ++group) {
       const Beam& beam = tile.group_beam[group];

@@ -1,5 +1,5 @@
 #pragma once
-/// The triangles near a place.
+/// Finds the triangles near a box.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -9,10 +9,10 @@
 namespace microtrace {
 namespace {
 
-/// A query that has found so many looks closer at others: see passing_triangles.
+/// A query with this many results also applies passing_triangles.
 constexpr int kFewPlaces = 8;
 
-/// The lanes in which [lo, hi] and the intervals of an axis have a number in common.
+/// The lanes in which [lo, hi] overlaps the box along an axis.
 template <int N>
 inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const PlaceQuery& box, int axis) {
   return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
@@ -30,7 +30,8 @@ inline Lanes touched_children(const WideNode& node, const PlaceQuery& box) {
   return lanes;
 }
 
-/// By the triangles' boxes. Unused places hold NaN, which overlaps nothing.
+/// The triangles whose bounding boxes overlap the box. Unused slots are NaN, which overlaps
+/// nothing.
 template <int N>
 inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box) {
   Lanes lanes = 0;
@@ -38,7 +39,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box
     Lanes touched = all_lanes<N>;
     const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
     for (int axis = 0; axis < 3; ++axis) {
-      // The corners' arrays lie one after another.
+      // The arrays of the vertices are consecutive.
       const Float<N> a = load<N>(axes[axis]), b = load<N>(axes[axis] + 3 * kWidth),
                      c = load<N>(axes[axis] + 6 * kWidth);
       touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
@@ -48,7 +49,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box
   return lanes;
 }
 
-/// The box about its center; the reach is rounded up.
+/// The box as center and reach; the reach is rounded up.
 struct CenteredBox {
   float center[3], reach[3];
 
@@ -60,12 +61,12 @@ struct CenteredBox {
   }
 };
 
-/// Triangles that certainly pass the box on one side, as long thin ones do that slant through it
-/// with their own boxes: some axis along which the box is seen left of one edge and right of
-/// another. With A and B from the center to an edge's ends and r the reach, the area A_i B_j - A_j
-/// B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box; each of its terms has
-/// three roundings; that of the difference does not change its sign. Half of these bounds would do,
-/// of the eight units as well as of what is beside the reach for roundings of the second order.
+/// Triangles that certainly pass the box on one side although their bounding boxes overlap it, as
+/// long thin triangles do: along some axis the box is left of one edge and right of another. With A
+/// and B from the center to an edge's ends and r the reach, the area A_i B_j - A_j B_i changes by
+/// at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box. Each of its terms has three roundings;
+/// the rounding of the difference does not change its sign. Half of these bounds would suffice,
+/// both of the eight units and of the margin of the reach for second-order roundings.
 template <int N>
 inline Lanes passing_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;
@@ -94,13 +95,13 @@ inline Lanes passing_triangles(const TriangleBlock& block, int i, const Centered
   return passing;
 }
 
-/// A query on its way through the tree.
+/// The state of a query's traversal.
 struct PlaceSearch {
   int size;
   ChildRef stack[kStackSize + kWidth];
 };
 
-/// One node or leaf further.
+/// Visits one node or leaf.
 template <int N>
 inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
   const ChildRef next = search.stack[--search.size];
@@ -124,7 +125,7 @@ inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
       continue;
     }
     Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
-    // The few that most queries find are cheaper looked at later.
+    // Most queries find few triangles, which are cheaper to test later.
     if (query.count >= kFewPlaces && lanes != 0) {
       const CenteredBox box(query);
       for (int k = 0; k < kWidth; k += N)

@@ -1,5 +1,6 @@
 #pragma once
-/// How a ray leaves a surface; docs/exactness.md says why this is enough.
+/// Steps in the search for the origin of a ray that leaves a surface; docs/exactness.md proves that
+/// they are sufficient.
 
 #include "accel/filters/shape_filter.hpp"
 #include "exact/implicit.hpp"
@@ -23,15 +24,14 @@
 
 namespace microtrace {
 
-/// The distance from |x| to the next larger number: x, rounded to nearest, errs by at most half of
-/// it.
+/// The distance from |x| to the next larger float32. The rounding error of x is at most half of it.
 inline double spacing(float x) {
   const std::uint32_t exponent = std::bit_cast<std::uint32_t>(x) >> 23U & 255U;
-  // 2^(exponent - 150), which is below float64's least by far.
+  // 2^(exponent - 150), far above the least float64.
   return std::bit_cast<double>(std::uint64_t{std::max(exponent, 1U) + 1023 - 150} << 52U);
 }
 
-/// -0 made 0, as coordinates of origins have it; other numbers as they are.
+/// Replaces -0 by 0, because origins have no coordinate of -0.
 inline float unsigned_zero(float x) {
   return x + 0.0F;
 }
@@ -39,7 +39,7 @@ inline Vec3 unsigned_zeros(const Vec3& v) {
   return v + Vec3(0.0F);
 }
 
-/// The next representable number above x (`up`) or below it; x finite.
+/// The next float32 above x (`up`) or below it; x must be finite.
 inline float neighbour(float x, bool up) {
   if (x == 0)
     return up ? std::numeric_limits<float>::denorm_min()
@@ -48,7 +48,7 @@ inline float neighbour(float x, bool up) {
   return unsigned_zero(std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1));
 }
 
-/// How an origin is moved off a surface: one coordinate, number by number.
+/// A step that moves an origin off a surface: one coordinate to the next float32.
 struct Nudge {
   int axis;
   bool up;
@@ -56,8 +56,8 @@ struct Nudge {
   void apply(Vec3& p) const { p[axis] = neighbour(p[axis], up); }
 };
 
-/// Along the axis of which one step gains most, v being the surface's gradient or what stands for
-/// it.
+/// The axis whose step increases the surface's function most. v is the surface's gradient or a
+/// substitute.
 [[nodiscard]] inline Nudge best_nudge(const Vec3& p, const DVec3& v) {
   int best = 0;
   for (int k = 1; k < 3; ++k) {
@@ -76,21 +76,21 @@ inline DVec3 gradient_of(const exact::Implicit& f, const Vec3& p) {
   return g;
 }
 
-/// Whether p is on that side, and a ray from there meets the surface as often as from the surface
-/// itself: once if F turns back to zero, else never.
+/// Whether p is on the given side, and a ray from p has as many zeros of F as a ray from the
+/// surface itself: one if F returns to zero, else none.
 inline bool is_clear_of(const exact::Implicit& f, const Vec3& p, const Vec3& direction, int side) {
   if (f.value(exact::vector(p)).sign() != side) return false;
   const bool returns = f.quadratic(exact::vector(direction)).sign() * side < 0;
   return f.zeros_ahead(p, direction) == (returns ? 1 : 0);
 }
 
-/// A surface asked by exact arithmetic. point() goes first.
+/// Queries a surface with exact arithmetic. point() must be called first.
 template <class AnyShape>
 class ExactSurface {
  public:
   explicit ExactSurface(const AnyShape& shape) : shape_(shape) {}
 
-  /// The hit's point rounded, if there is a hit.
+  /// The hit point, rounded; nothing if there is no hit.
   std::optional<Vec3> point(const Ray& ray) {
     t_ = exact::first_hit(shape_, ray);
     if (!t_) return std::nullopt;
@@ -111,13 +111,14 @@ class ExactSurface {
   std::optional<exact::Root> t_;
 };
 
-/// On which side of the plane through a with that normal all of the box x +- radius lies, -1 or 1;
-/// 0 if that is not known. The normal is the cross product of two edges from a, a of float32.
+/// The side, -1 or 1, of the plane through a with this normal on which the whole box x +- radius
+/// certainly lies; 0 if unknown. The normal is the cross product of two edges from a, with a in
+/// float32.
 [[nodiscard]] inline int certain_side(const Vec3& a, const CrossProduct& normal, const DVec3& x,
                                       const DVec3& radius) {
   const DVec3 from_a = x - DVec3(a);
   // As in TrianglePlaneFilter. The normal and the product with the radius have eight roundings of
-  // the second order, where 1 + gamma(8) would do.
+  // second order, for which 1 + gamma(8) would suffice.
   const Approximate value{
       .value = glm::dot(from_a, normal.value),
       .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal.permanent) +
@@ -125,32 +126,34 @@ class ExactSurface {
   return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
 }
 
-/// o + t d, and how far off at most, axis by axis.
+/// o + t d, with an error bound per axis.
 struct PointOnRay {
   DVec3 value, error;
 
   PointOnRay(const Ray& ray, const exact::Enclosure& t) {
     const DVec3 o(ray.o), d(ray.d), along = (t.lo + t.hi) / 2 * d;
     value = o + along;
-    // Half of that would do: the exact t is within (hi - lo) / 2 of the middle, and there are four
-    // roundings: of the middle, the product, the sum, and of the ends where the point is rounded.
+    // Half of this bound would suffice: the exact t is within (hi - lo) / 2 of the middle, and
+    // there are four roundings: of the middle, the product, the sum, and of the ends when the point
+    // is rounded.
     error = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(along)) +
             DVec3(kUnderflow);
   }
 };
 
-/// Coordinate k of a point of the plane through a, by the two others:
+/// Coordinate k of a point in the plane through a, computed from the other two:
 ///
 ///     p_k = a_k - w,   w = s / n_k,   s = sum over j != k of n_j r_j,   r = p - a.
 ///
-/// Its error is relative to |n_j / n_k| and |p_k|, not to the ray's origin as that of o_k + t d_k
-/// is: floors at height 0 and walls off an axis by an ulp have coordinates next to 0, which only
-/// this tells. With P the permanent of n, |n| errs by gamma_4 P, and with e the error of p, s errs
-/// by sum |n_j| e_j + gamma_7 P_j (|r_j| + e_j): n's four roundings, one of r_j, one of the
-/// product, one of the sum; an eighth is for the quotient's. That has |w| (gamma_4 P_k) / |n_k|
-/// more, the difference one rounding of the result, and the ends one where they are rounded. Bounds
-/// that half would do for: gamma(8) of w, gamma(4) of the result, gamma(16) of the second order,
-/// and gamma(6) in the size, since a small |n_k| errs by three roundings alone.
+/// Its error is relative to |n_j / n_k| and |p_k|, while the error of o_k + t d_k is relative to
+/// the ray's origin. This matters on floors at height 0 and on walls that are tilted by an ulp,
+/// where coordinates are near 0. With P the permanent of n, the error of |n| is gamma_4 P, and with
+/// e the error of p, the error of s is sum |n_j| e_j + gamma_7 P_j (|r_j| + e_j): four roundings of
+/// n, one of r_j, one of the product, one of the sum; the eighth in the code is for the quotient.
+/// The quotient adds |w| (gamma_4 P_k) / |n_k|, the difference one rounding of the result, and the
+/// ends one rounding each. Half would suffice of these bounds: gamma(8) of w, gamma(4) of the
+/// result, gamma(16) of the second order, and gamma(6) in the size, because a small |n_k| has only
+/// three roundings.
 [[nodiscard]] inline Approximate coordinate_in_plane(const Vec3& a, const CrossProduct& n,
                                                      const PointOnRay& p, int k) {
   const double size = std::abs(n.value[k]) - gamma(6) * n.permanent[k];
@@ -168,13 +171,13 @@ struct PointOnRay {
                    gamma(4) * std::abs(value) + kUnderflow};
 }
 
-/// The float32 to which every number of [lo, hi] rounds, if that is one.
+/// The float32 to which every number in [lo, hi] rounds, if there is only one.
 [[nodiscard]] inline std::optional<float> rounded(double lo, double hi) {
   const auto below = static_cast<float>(lo), above = static_cast<float>(hi);
   return below == above ? std::optional(unsigned_zero(below)) : std::nullopt;
 }
 
-/// The point rounded to float32, where its bounds leave no doubt.
+/// The point rounded to float32, if its bounds determine the result.
 [[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p) {
   Vec3 result{0};
   for (int k = 0; k < 3; ++k) {
@@ -185,7 +188,7 @@ struct PointOnRay {
   return result;
 }
 
-/// The same for a point of the plane through a with that normal.
+/// The same for a point in the plane through a with this normal.
 [[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p, const Vec3& a,
                                                        const CrossProduct& normal) {
   Vec3 result{0};
@@ -199,7 +202,7 @@ struct PointOnRay {
   return result;
 }
 
-/// A triangle asked in float64 first.
+/// Queries a triangle in float64 first, then exactly.
 class TriangleSurface {
  public:
   explicit TriangleSurface(const Triangle& triangle)
@@ -230,11 +233,10 @@ class TriangleSurface {
       largest = std::max(largest, std::abs(normal_.value[k]) * spacing(p[k]));
       error += gamma(5) * normal_.permanent[k] * spacing(p[k]);
     }
-    // So far the choice of the axis and its sign are right, or as good; and so they would be at
-    // twice that error.
+    // Up to this error, and even twice as much, the chosen axis and sign are right or equally good.
     return error <= 0x1p-9 * largest ? normal_.value : plane().normal();
   }
-  // A ray that goes to a side doesn't come back from there.
+  // A ray that goes to one side of a plane doesn't return.
   [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& /*direction*/, int side) const {
     return sign_at(p) == side;
   }
@@ -245,7 +247,7 @@ class TriangleSurface {
     return plane().side(q);
   }
 
-  /// The sign of the plane's function in all of the box x +- radius; 0 if that is not known.
+  /// The sign of the plane's function in the whole box x +- radius; 0 if unknown.
   [[nodiscard]] int certain_sign(const DVec3& x, const DVec3& radius) const {
     return certain_side(triangle_.a, normal_, x, radius);
   }
@@ -258,18 +260,18 @@ class TriangleSurface {
 
   const Triangle& triangle_;
   CrossProduct normal_;
-  mutable std::optional<exact::TrianglePlane> plane_;  // made on first need
+  mutable std::optional<exact::TrianglePlane> plane_;  // created when first needed
 };
 
-/// The beginning of a search for an origin.
+/// The start of the search for an origin.
 struct Departure {
-  Vec3 p;          ///< the hit's point, each coordinate rounded
-  int side;        ///< the sign of the surface's function where the new ray goes
-  bool goes_back;  ///< to the side that the ray came from
-  Nudge nudge;     ///< leads from the surface to that side
+  Vec3 p;          ///< the hit point, each coordinate rounded
+  int side;        ///< sign of the surface's function on the new ray's side
+  bool goes_back;  ///< whether the new ray returns to the side of the incoming ray
+  Nudge nudge;     ///< steps from the surface to that side
 };
 
-/// Nothing if there is no hit or no direction.
+/// Nothing if there is no hit or the direction is zero or not finite.
 template <class Surface>
 std::optional<Departure> departure(Surface& surface, const Ray& ray, const Vec3& direction) {
   if (!exact::is_finite(direction) || direction == Vec3(0)) return std::nullopt;
@@ -278,9 +280,9 @@ std::optional<Departure> departure(Surface& surface, const Ray& ray, const Vec3&
   const int before = surface.side(ray, -ray.d);
   int side = surface.side(ray, direction);
   if (side == 0) side = before;
-  if (side == 0) side = 1;  // the ray itself ran within the surface
+  if (side == 0) side = 1;  // the incoming ray is within the surface
   DVec3 outwards = double(side) * surface.gradient(*p);
-  if (outwards == DVec3(0)) outwards = direction;  // the tip of a cone
+  if (outwards == DVec3(0)) outwards = direction;  // the apex of a cone
   return Departure{.p = *p,
                    .side = side,
                    .goes_back = before == 0 || side == before,

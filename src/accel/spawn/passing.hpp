@@ -1,5 +1,5 @@
 #pragma once
-/// Whether surfaces keep out of a small box, in float64.
+/// Float64 tests whether a small box is clear of surfaces.
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/departure.hpp"
@@ -19,14 +19,15 @@ inline CrossProduct normal_of(const Triangle& t) {
   return {DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)};
 }
 
-/// Twice the area of a b p, seen along an axis, for all of the box p +- radius.
+/// Twice the area of the triangle a b p in projection along an axis, for all p in the box p +-
+/// radius.
 inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec3& p,
                               const DVec3& radius) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const DVec3 edge = DVec3(b) - DVec3(a), from_a = p - DVec3(a);
   const double left = edge[i] * from_a[j], right = edge[j] * from_a[i];
-  // Each factor one rounding, the products one, the difference one; the change within the box four
-  // of the second order, where 1 + gamma(4) would do.
+  // Each factor has one rounding, the products one, the difference one; the change within the box
+  // four of second order, for which 1 + gamma(4) would suffice.
   return {
       .value = left - right,
       .error = gamma(4) * (std::abs(left) + std::abs(right)) +
@@ -34,8 +35,8 @@ inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec
                kUnderflow};
 }
 
-/// Whether all of the box p +- radius lies beside a triangle of which float64 can't tell that it
-/// has an area: some axis along which it is seen certainly left of one edge and right of another.
+/// Whether the whole box p +- radius lies beside a triangle that may have no area: in projection
+/// along some axis it is certainly left of one edge and right of another.
 inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& radius) {
   for (int axis = 0; axis < 3; ++axis) {
     bool any_positive = false, any_negative = false;
@@ -49,13 +50,13 @@ inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& ra
   return false;
 }
 
-/// Whether all of the box p +- radius lies beside the triangle, as seen along the axis nearest to
-/// its normal: so it is where triangles share a plane.
+/// Whether the whole box p +- radius lies beside the triangle, in projection along the axis nearest
+/// to its normal. This is the common case for coplanar triangles.
 inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3& p,
                       const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  // The normal has four roundings: half of that would do.
+  // The normal has four roundings: half of this would suffice.
   if (!(size[axis] > 2 * gamma(4) * normal.permanent[axis] + kUnderflow))
     return is_beside_segment(t, p, radius);
   const bool positive = normal.value[axis] > 0;
@@ -76,12 +77,12 @@ inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, const
           .error = gamma(7) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
 }
 
-/// A plane across an axis, as floors and walls have it.
+/// An axis-aligned plane, such as a floor or a wall.
 struct AxisPlane {
   int axis;
   float at;
 
-  /// The plane through a with that normal, if it is one.
+  /// The plane through a with this normal, if it is axis-aligned.
   static std::optional<AxisPlane> of(const Vec3& a, const DVec3& normal_permanent) {
     for (int k = 0; k < 3; ++k) {
       if (normal_permanent[(k + 1) % 3] == 0 && normal_permanent[(k + 2) % 3] == 0)
@@ -111,7 +112,7 @@ inline bool lies_in(const AxisPlane&, const Quadric&) {
   return false;
 }
 
-// Whether no way between two points of the box p +- radius meets the surface: for certain.
+// Whether certainly no segment between two points of the box p +- radius meets the surface.
 
 inline bool passes(const Triangle& t, const DVec3& p, const DVec3& radius) {
   const CrossProduct normal = normal_of(t);
@@ -134,11 +135,11 @@ inline bool passes(const Quadric& q, const DVec3& p, const DVec3& radius) {
            m.x * x.y * x.z;
   };
   const double value = form(squares, mixed, p) + glm::dot(linear, p) + double{q.j};
-  // With all terms positive the polynomial's growth bounds its change within the box. The value has
-  // one rounding of the products and eight of sums: five in the form, two in the product, one of
-  // both; that of the last is of the second order. Near zero the sum of some of the terms is at
-  // most half of the permanent, which makes four roundings at most; the fifth, and 1 + gamma(16),
-  // are for the second order and for a value as large as the growth.
+  // With all terms positive, the growth of the polynomial bounds its change within the box. The
+  // value has one rounding of the products and eight of sums: five in the form, two in the product,
+  // one of both; the last one is of second order. Near zero the sum of some of the terms is at most
+  // half of the permanent, which leaves at most four roundings; the fifth, and 1 + gamma(16), cover
+  // the second order and a value as large as the growth.
   const DVec3 size = glm::abs(p), a = glm::abs(squares), m = glm::abs(mixed), l = glm::abs(linear);
   const DVec3 gradient(2 * a.x * size.x + m.z * size.y + m.y * size.z + l.x,
                        2 * a.y * size.y + m.z * size.x + m.x * size.z + l.y,

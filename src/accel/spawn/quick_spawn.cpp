@@ -12,8 +12,8 @@
 namespace microtrace {
 namespace {
 
-/// As often is an origin moved off a sphere at most: as often as spawn_among does before it looks
-/// further away.
+/// The maximum number of steps by which an origin is moved off a sphere: the number that
+/// spawn_among tries before it looks further along the ray.
 constexpr int kBallSteps = 8;
 
 bool is_filterable(const Ray& ray) {
@@ -41,7 +41,7 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
   const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
   if (!p_) return;
-  // One rounding of the difference: half of gamma(2) would do.
+  // The difference has one rounding: half of gamma(2) would suffice.
   surface_ = Ball{.sphere = s,
                   .from_center = x.value - DVec3(s.center),
                   .error = x.error + gamma(2) * glm::abs(x.value - DVec3(s.center))};
@@ -52,7 +52,7 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
     second = std::max(second, std::min(gain, largest));
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Else the choice of the axis is exact arithmetic's. A gain has one rounding, far below 2^-31.
+  // Otherwise exact arithmetic chooses the axis. A gain has one rounding, far below 2^-31.
   if (!(largest > second * (1 + 0x1p-30)))
     p_.reset();
   else
@@ -69,7 +69,7 @@ void QuickSpawn::set_reach(int steps) {
 void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
-  // As in TrianglePlaneFilter. The normal is exact, so half of that would do.
+  // As in TrianglePlaneFilter. The normal is exact, so half of this would suffice.
   const Approximate height{
       .value = glm::dot(from_a, flat.normal.value),
       .error = gamma(9) * glm::dot(glm::abs(from_a), flat.normal.permanent) + kUnderflow};
@@ -85,8 +85,8 @@ void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
     error += gamma(5) * flat.normal.permanent[k] * unit;
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Else the choice of the axis is exact arithmetic's (TriangleSurface::gradient, which says that
-  // half of gamma(5) would do).
+  // Otherwise exact arithmetic chooses the axis (TriangleSurface::gradient, which states that half
+  // of gamma(5) would suffice).
   if (!(error <= 0x1p-9 * largest))
     p_.reset();
   else
@@ -114,7 +114,7 @@ std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) 
   for (int step = 0; step <= kFlatSteps; ++step) {
     const int sign = certain_side(flat.a, flat.normal, DVec3(q), DVec3(0));
     if (sign == side) return q;
-    // No term but zeros: on the plane, as often on floors and walls.
+    // All terms are zero: on the plane, which is common on floors and walls.
     const DVec3 from_a = DVec3(q) - DVec3(flat.a);
     const bool is_on = glm::dot(glm::abs(from_a), flat.normal.permanent) == 0;
     if (sign == 0 && !is_on) return std::nullopt;
@@ -125,7 +125,7 @@ std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) 
 
 std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) const {
   const DVec3 w(direction), size = glm::abs(w);
-  // The product and the sums have three roundings: half of gamma(6) would do.
+  // The product and the sums have three roundings: half of gamma(6) would suffice.
   const Approximate slope{.value = glm::dot(ball.from_center, w),
                           .error = gamma(6) * glm::dot(glm::abs(ball.from_center), size) +
                                    glm::dot(ball.error, size) + kUnderflow};
@@ -138,7 +138,7 @@ std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) 
     const Approximate f = ball_value(ball.sphere.center, ball.sphere.radius, DVec3(q), DVec3(0));
     if (!f.is_positive() && !f.is_negative()) return std::nullopt;
     if (f.is_positive() == (side > 0)) {
-      // From within there is one way out; from outside it must not lead back.
+      // From inside a ray leaves the sphere once; from outside it must not enter it.
       if (side < 0 || dot_product(DVec3(q) - center, w, 4).is_positive()) return q;
       return std::nullopt;
     }

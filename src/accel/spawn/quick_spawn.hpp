@@ -1,5 +1,5 @@
 #pragma once
-/// Spawned origins by float64 alone, where that is sure: nearly always, and much sooner.
+/// Spawned origins computed in float64 alone, if certain: nearly always, and much faster.
 
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -20,25 +20,25 @@
 
 namespace microtrace {
 
-/// The point where a ray hits a surface other than a triangle, for rays that leave it. Answers are
-/// spawn_among's.
+/// The point where a ray hits a surface other than a triangle, and origins of rays that leave it.
+/// The answers equal those of spawn_among.
 class QuickSpawn {
  public:
-  /// `ray` hits the surface.
+  /// `ray` must hit the surface.
   QuickSpawn(const Plane& surface, const Ray& ray);
   QuickSpawn(const Disc& surface, const Ray& ray);
   QuickSpawn(const Sphere& surface, const Ray& ray);
-  /// Not sure of anything.
+  /// Never certain.
   QuickSpawn(const Quadric& surface, const Ray& ray);
 
-  /// Rounded; nothing if it is not known well enough to look at what is near.
+  /// The rounded point; nothing if it is not known precisely enough to search its neighborhood.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
-  /// Origins and the exact point lie so near to it, axis by axis.
+  /// Bound of the distance of origins and the exact point from the rounded point, per axis.
   [[nodiscard]] const DVec3& reach() const { return reach_; }
-  /// That of the surface, if it has one.
+  /// The surface's plane, if it is axis-aligned.
   [[nodiscard]] std::optional<AxisPlane> axis_plane() const;
 
-  /// Nothing if float64 can't tell. Good only where no other surface comes between.
+  /// Nothing if float64 can't decide. Valid only if no other surface is near.
   [[nodiscard]] std::optional<Vec3> origin(const Vec3& direction) const;
 
  private:
@@ -48,7 +48,7 @@ class QuickSpawn {
   };
   struct Ball {
     Sphere sphere;
-    DVec3 from_center, error;  ///< to the exact point, and how far off axis by axis
+    DVec3 from_center, error;  ///< vector to the exact point, with its error per axis
   };
 
   void set_flat(const Flat& flat, const Ray& ray);
@@ -59,13 +59,13 @@ class QuickSpawn {
   std::variant<std::monostate, Flat, Ball> surface_;
   std::optional<Vec3> p_;
   DVec3 reach_{0};
-  int axis_ = 0;  // along which origins are moved
+  int axis_ = 0;  // axis along which origins are moved
 };
 
-/// Several hits at a time.
+/// Computes the origins of several hits at a time.
 class QuickSpawns {
  public:
-  /// `outside` names the primitives that are not in the tree. Without leaves there is no tree.
+  /// `outside` lists the primitives that are not in the tree. A tree without leaves is not passed.
   QuickSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
               const Kernels& kernels, const SpawnKernels& spawn_kernels,
               const std::optional<TreeView>& tree)
@@ -75,8 +75,8 @@ class QuickSpawns {
         spawn_kernels_(spawn_kernels),
         tree_(tree) {}
 
-  /// Answers spawns from the front, at least one if there is any, and returns how many. Nothing
-  /// stands for what only exact arithmetic can tell.
+  /// Answers a number of spawns from the front, at least one if there are any, and returns this
+  /// number. The answer is nothing if only exact arithmetic can find it.
   std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
  private:
@@ -84,12 +84,12 @@ class QuickSpawns {
   static constexpr std::size_t kSpawns = 4 * kHits;
   static_assert(kHits == kSpawnLanes);
 
-  /// A surface that rays leave, where float64 is sure of the point.
+  /// A surface that rays leave, whose hit point float64 can determine.
   struct Departure {
     PrimitiveId id;
-    bool is_triangle;                 ///< its place in departures_ is that among the hits
-    std::optional<QuickSpawn> other;  ///< if it is none
-    bool is_alone;                    ///< no other surface comes between the point and origins
+    bool is_triangle;                 ///< whether departures_ has it, at the index of the hit
+    std::optional<QuickSpawn> other;  ///< for surfaces other than triangles
+    bool is_alone;                    ///< no other surface is between the point and the origins
   };
 
   void add(const Bvh::Spawn& spawn);
@@ -107,7 +107,7 @@ class QuickSpawns {
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
   std::array<Departure, kHits> surfaces_;
-  std::array<std::size_t, kSpawns> hit_of_;  // for each spawn
+  std::array<std::size_t, kSpawns> hit_of_;  // index of the hit, for each spawn
   std::array<PlaceQuery, kHits> queries_;
   DepartureLanes departures_{};
   OriginLanes origins_{};

@@ -27,7 +27,7 @@ DVec3 vector_of(const double (&lanes)[3][kSpawnLanes], std::size_t lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
 
-/// Around the box p +- reach, which is rounded by less than the reach.
+/// Sets the query to the box p +- reach; the rounding error is less than the reach.
 void set_box(const Vec3& p, const DVec3& reach, PlaceQuery& query) {
   for (int k = 0; k < 3; ++k) {
     query.lo[k] = static_cast<float>(p[k] - 2 * reach[k]);
@@ -35,7 +35,7 @@ void set_box(const Vec3& p, const DVec3& reach, PlaceQuery& query) {
   }
 }
 
-/// Touches nothing.
+/// Sets the query to an empty box.
 void set_empty(PlaceQuery& query) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) query.lo[k] = infinity, query.hi[k] = -infinity;
@@ -79,7 +79,7 @@ bool QuickSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) c
   if (found.count < 0) return false;
   const PrimitiveId own = surfaces_[hit].id;
   const std::optional<AxisPlane> plane = axis_plane_of(hit);
-  // What lies in the plane that the ray leaves is on no way off it.
+  // Surfaces in the plane that the ray leaves don't obstruct it.
   const auto is_passed_by = [&](const auto& shape) {
     return (plane && lies_in(*plane, shape)) || passes(shape, DVec3(p), reach);
   };

@@ -7,7 +7,7 @@
 namespace microtrace {
 namespace {
 
-/// As kFlatSteps, for a surface that has no such bound.
+/// As kFlatSteps, for surfaces that have no such bound.
 constexpr int kCurvedSteps = 64;
 
 template <class Surface>

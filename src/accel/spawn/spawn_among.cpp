@@ -19,12 +19,12 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return true;
 }
 
-/// The other surfaces near a hit, and on which side of each the origin of the new ray must be:
-/// where the ray was just before the hit, if the new one goes back there, else where the ray gets
-/// just behind it.
+/// The other surfaces near a hit, and the side of each on which the origin of the new ray must be:
+/// the side of the point just before the hit if the new ray returns there, else of the point just
+/// behind the hit.
 class Neighbours {
  public:
-  /// p is the hit's point, rounded.
+  /// p is the hit point, rounded.
   Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
              bool goes_back)
       : primitives_(primitives),
@@ -34,7 +34,7 @@ class Neighbours {
         witness_(goes_back ? -ray.d : ray.d),
         point_(ray, KnownHit(primitives, ray, id, Twins()).bounds()) {}
 
-  /// Takes primitive id into account if it has a point in the box.
+  /// Considers primitive id if it has a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
     if (id == id_) return;
     for (const Side& side : sides_) {
@@ -46,8 +46,9 @@ class Neighbours {
     });
   }
 
-  /// Whether the straight way from the hit to q meets none of them: q is strictly on the right
-  /// side, or passes beside it. A surface in which the ray runs has no right side.
+  /// Whether the segment from the hit to q meets none of the surfaces: q is strictly on the
+  /// required side, or the segment passes beside the surface. A surface that contains the ray has
+  /// no required side.
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       const int sign = primitives_.visit(side.id, [&](const auto& shape) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Exact arithmetic on dyadic rationals, the numbers m 2^k with integers m and k: every finite
-/// float is one, and sums, differences and products of them are again. Nothing rounds, nothing
-/// allocates.
+/// Exact arithmetic on dyadic rationals, the numbers m 2^k with integers m and k. Every finite
+/// float is one, and so are their sums, differences and products. There is no rounding and no
+/// allocation.
 
 #include "exact/numbers/limbs.hpp"
 
@@ -12,13 +12,14 @@
 
 namespace microtrace::exact {
 
-/// A dyadic rational: sign, and a magnitude of 64-bit limbs, the lowest worth 2^(64 exponent).
+/// A dyadic rational: a sign, and a magnitude in 64-bit limbs, the lowest of which counts multiples
+/// of 2^(64 exponent).
 ///
 /// Capacity: a float32 is a multiple of 2^-149 below 2^128 in magnitude, so a form of degree k in
-/// float32s is a multiple of 2^-149k below c 2^128k, where c sums its coefficients' magnitudes. The
-/// largest one evaluated compares two roots of quadrics: degree 24, c < 2^37 (docs/exactness.md
-/// derives it), so its limbs stand for 2^(-64*56) to 2^(64*49 - 1): 105 of them. A product has two
-/// more, zero, before it is trimmed.
+/// float32 numbers is a multiple of 2^-149k below c 2^128k, where c is the sum of the magnitudes of
+/// its coefficients. The largest form compares two roots of quadrics: degree 24, c < 2^37 (derived
+/// in docs/exactness.md), so its limbs range from 2^(-64*56) to 2^(64*49 - 1): 105 limbs. Before a
+/// product is trimmed it has two more limbs, which are zero.
 class Dyadic {
  public:
   static constexpr int capacity = 112;  ///< limbs
@@ -35,7 +36,7 @@ class Dyadic {
   /// -1, 0 or 1.
   [[nodiscard]] int sign() const { return sign_; }
 
-  /// The magnitude's limbs from the lowest, which is worth 2^(64 exponent()), to the highest.
+  /// The limbs of the magnitude, lowest first. The lowest counts multiples of 2^(64 exponent()).
   [[nodiscard]] std::span<const std::uint64_t> limbs() const {
     return {limbs_.data(), static_cast<std::size_t>(size_)};
   }
@@ -49,7 +50,7 @@ class Dyadic {
   /// The sign of x - y.
   friend int compare(const Dyadic& x, const Dyadic& y);
 
-  /// Not for zero.
+  /// Must not be zero.
   [[nodiscard]] Leading leading() const;
 
  private:
@@ -59,21 +60,21 @@ class Dyadic {
   void trim();
   /// The position above the highest limb.
   [[nodiscard]] int top() const { return exponent_ + size_; }
-  /// The limb worth 2^(64 position).
+  /// The limb that counts multiples of 2^(64 position).
   [[nodiscard]] std::uint64_t at(int position) const {
     const auto index = static_cast<unsigned>(position - exponent_);
     return index < static_cast<unsigned>(size_) ? limbs_[index] : 0;
   }
-  /// x + y where y's sign is replaced.
+  /// x + y with the sign of y replaced.
   static Dyadic sum(const Dyadic& x, const Dyadic& y, int sign_of_y);
   static int compare_magnitudes(const Dyadic& x, const Dyadic& y);
   void add_magnitudes(const Dyadic& x, const Dyadic& y);
-  /// |x| - |y|, where |x| > |y|.
+  /// |x| - |y|, given |x| > |y|.
   void subtract_magnitudes(const Dyadic& x, const Dyadic& y);
 
   int sign_ = 0;
-  int exponent_ = 0;  // counts limbs
-  int size_ = 0;      // limbs in use; the highest and the lowest of them are not zero
+  int exponent_ = 0;  // in limbs
+  int size_ = 0;      // limbs in use; the highest and the lowest are nonzero
   std::array<std::uint64_t, capacity> limbs_;
 };
 

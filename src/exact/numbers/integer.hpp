@@ -1,6 +1,6 @@
 #pragma once
-/// Integers of fixed width, so that a question about coordinates on one grid is answered exactly
-/// without a loop over lengths: a product is as wide as its factors together, a sum as its terms.
+/// Fixed-width integers for exact queries about coordinates on a common grid, without loops over
+/// variable lengths: a product is as wide as its factors together, a sum as wide as its terms.
 
 #include "exact/numbers/limbs.hpp"
 
@@ -10,17 +10,17 @@
 
 namespace microtrace::exact {
 
-/// An integer of 64 * Limbs bits in two's complement, the lowest limb first.
+/// An integer of 64 * Limbs bits in two's complement, lowest limb first.
 ///
-/// Overflow can't happen where all numbers begin as Integer<L> below 2^(64 L - 8) in magnitude: a
-/// form of degree k has 64 L k bits and is below c 2^(k (64 L - 8)), where c sums its coefficients'
-/// magnitudes, and no form evaluated has c >= 2^(8 k - 1).
+/// Overflow can't happen if all numbers start as Integer<L> below 2^(64 L - 8) in magnitude: a form
+/// of degree k has 64 L k bits and is below c 2^(k (64 L - 8)), where c is the sum of the
+/// magnitudes of its coefficients, and all evaluated forms have c < 2^(8 k - 1).
 template <int Limbs>
 class Integer {
  public:
   constexpr Integer() = default;  ///< zero
 
-  /// magnitude 2^shift with that sign, which must fit; shift >= 0.
+  /// magnitude 2^shift with this sign. The result must fit; shift >= 0.
   static Integer shifted(bool is_negative, std::uint64_t magnitude, int shift) {
     const std::uint64_t flipped = is_negative ? ~std::uint64_t{0} : 0;
     Integer result;
@@ -71,7 +71,8 @@ class Integer {
 
   template <int Others>
   friend Integer<Limbs + Others> operator*(const Integer& x, const Integer<Others>& y) {
-    // As if unsigned; a negative factor then counts 2^64Limbs times the other one too much.
+    // Multiplies as unsigned numbers. If a factor is negative, the product is then too large by
+    // 2^64Limbs times the other factor.
     Integer<Limbs + Others> product;
     for (std::size_t i = 0; i < Limbs; ++i) {
       Wide carry = 0;
@@ -87,7 +88,7 @@ class Integer {
     return product;
   }
 
-  /// The same number with more limbs.
+  /// The same number with a larger width.
   template <int More>
   [[nodiscard]] Integer<More> widened() const {
     static_assert(More >= Limbs);
@@ -97,7 +98,7 @@ class Integer {
     return result;
   }
 
-  /// Times 2^shift, which must fit: 0 <= shift < 64 Limbs.
+  /// Multiplies by 2^shift; the result must fit: 0 <= shift < 64 Limbs.
   [[nodiscard]] Integer operator<<(int shift) const {
     const auto whole = static_cast<std::size_t>(shift / 64);
     const int part = shift % 64;
@@ -110,7 +111,7 @@ class Integer {
     return result;
   }
 
-  /// See Leading. Not for zero.
+  /// See Leading. Must not be zero.
   [[nodiscard]] Leading leading() const {
     const Integer size = is_negative() ? -*this : *this;
     std::size_t top = Limbs - 1;
@@ -122,7 +123,7 @@ class Integer {
   [[nodiscard]] std::uint64_t limb(std::size_t i) const { return limbs_[i]; }
   std::uint64_t& limb(std::size_t i) { return limbs_[i]; }
 
-  /// Takes 2^(64 position) y away, modulo the width.
+  /// Subtracts 2^(64 position) y, modulo the width.
   template <int Others>
   void subtract_above(const Integer<Others>& y, std::size_t position) {
     Wide borrow = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// What exact numbers of fixed and of any width have in common: limbs of 64 bits, and the leading
-/// bits of a magnitude, from which bounds in float64 are made.
+/// Shared by fixed-width and arbitrary-width exact numbers: 64-bit limbs, and the leading bits of a
+/// magnitude, from which float64 bounds are computed.
 
 #include <bit>
 #include <concepts>
@@ -13,8 +13,8 @@ namespace microtrace::exact {
 /// Two limbs.
 __extension__ using Wide = unsigned __int128;
 
-/// A finite float32 or float64: |x| = mantissa 2^exponent. Infinities and NaN are taken for numbers
-/// with the next exponent.
+/// A finite float32 or float64: |x| = mantissa 2^exponent. Infinities and NaN are decoded as if
+/// they had the next exponent.
 struct Decoded {
   bool negative;
   std::uint64_t mantissa;
@@ -33,14 +33,15 @@ template <std::floating_point Float>
   return {bits != magnitude, fraction | hidden, least - 1 + biased};
 }
 
-/// A magnitude's leading bits: |x| = (mantissa + delta) 2^exponent, 1/2 <= mantissa < 1 of 53 bits,
-/// and 0 <= delta < 2^-53.
+/// The leading bits of a magnitude: |x| = (mantissa + delta) 2^exponent, where mantissa has 53
+/// bits, 1/2 <= mantissa < 1, and 0 <= delta < 2^-53.
 struct Leading {
   double mantissa;
   int exponent;
 };
 
-/// Of a magnitude with the highest limb `first`, not zero, which ends at 2^top, and the next below.
+/// For a magnitude whose highest limb is `first`, which is nonzero, followed by `second`; `top` is
+/// the exponent just above `first`.
 [[nodiscard]] inline Leading leading_of(std::uint64_t first, std::uint64_t second, int top) {
   const int zeros = std::countl_zero(first);
   const std::uint64_t bits = zeros == 0 ? first : first << zeros | second >> (64 - zeros);

@@ -11,7 +11,7 @@ namespace {
 int sign_of_sum(const Dyadic& x, int s, const Dyadic& a) {
   if (s == 0 || a.sign() == 0) return x.sign();
   if (x.sign() == 0 || x.sign() == s) return s;
-  // The terms have opposite signs: the one with the larger square wins.
+  // The terms have opposite signs: the one with the larger square decides.
   return x.sign() * compare(square(x), a);
 }
 
@@ -32,8 +32,8 @@ Scaled magnitude(const Dyadic& x) {
   return {leading.mantissa, leading.exponent};
 }
 
-/// |p| + sqrt(q), not zero: error 3 u, of which the square root brings (2 u) / 2 + u and the sum
-/// one more.
+/// |p| + sqrt(q), not zero: error 3 u, of which the square root contributes (2 u) / 2 + u and the
+/// sum u.
 Scaled magnitude_plus_sqrt(const Dyadic& p, const Dyadic& q) {
   if (q.sign() == 0) return magnitude(p);
   Scaled root = magnitude(q);
@@ -60,7 +60,7 @@ Root rational(float t) {
 }
 
 std::strong_ordering operator<=>(const Root& x, const Root& y) {
-  // x - y times the positive x.r y.r.
+  // x - y multiplied by x.r y.r, which is positive.
   const Dyadic difference = x.p * y.r - y.p * x.r;
   int sign = difference.sign();
   if (x.sign != 0 || y.sign != 0) {
@@ -83,8 +83,8 @@ Enclosure enclose(const Root& t) {
   int sign = t.p.sign() != 0 ? t.p.sign() : t.sign;
   Scaled numerator, denominator;
   if (cancels) {
-    // p + s sqrt(q) = (p^2 - q) / (p - s sqrt(q)): the difference is exact, the denominator's terms
-    // have one sign.
+    // p + s sqrt(q) = (p^2 - q) / (p - s sqrt(q)): the numerator is exact, and the terms of the
+    // denominator have the same sign.
     const Dyadic product = square(t.p) - q;
     if (product.sign() == 0) return {0, 0};
     sign *= product.sign();

@@ -9,13 +9,13 @@
 
 namespace microtrace::exact {
 
-/// t = (p + sign sqrt(q)) / r with r > 0 and q >= 0; rational where sign is 0.
+/// t = (p + sign sqrt(q)) / r with r > 0 and q >= 0; rational if sign is 0.
 struct Root {
   Dyadic p, q, r;
   int sign = 0;
 };
 
-/// As a root.
+/// The rational t as a root.
 [[nodiscard]] inline Root rational(const Ratio<Dyadic>& t) {
   return {t.p, {}, t.r, 0};
 }
@@ -26,15 +26,15 @@ struct Root {
 /// The number t itself.
 [[nodiscard]] Root rational(float t);
 
-/// The order of the two real numbers, decided without rounding.
+/// The exact order of the two real numbers.
 [[nodiscard]] std::strong_ordering operator<=>(const Root& x, const Root& y);
 [[nodiscard]] bool operator==(const Root& x, const Root& y);
 
-/// A double next to x: see middle().
+/// A double close to x: see middle().
 [[nodiscard]] double to_double(const Dyadic& x);
 
-/// Doubles around t, a few units in the last place apart; where |t| is about 2^1000 or more, or
-/// 2^-1000 or less, the upper bound may be infinity or the lower one 0.
+/// Doubles below and above t, a few units in the last place apart. If |t| is about 2^1000 or more,
+/// or 2^-1000 or less, the upper bound may be infinity or the lower bound 0.
 [[nodiscard]] Enclosure enclose(const Root& t);
 
 /// The float32 nearest to t.

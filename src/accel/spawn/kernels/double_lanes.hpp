@@ -1,6 +1,7 @@
 #pragma once
-/// CrossProduct, Approximate and what they need, for N lanes: operation by operation as in
-/// src/accel/filters, since which axis an origin is moved along depends on every bit.
+/// CrossProduct, Approximate and related types for N lanes. They perform the same operations in the
+/// same order as src/accel/filters, because the axis along which an origin is moved depends on
+/// every bit.
 
 #include "accel/filters/roundings.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 constexpr float kGreatestCoordinate = 0x1p64F;  // kLargestCoordinate
 
-/// All bits of a lane set where something holds.
+/// A lane mask: all bits of a lane are set if a condition holds.
 template <int N>
 using DoubleMask = typename DoubleVector<N>::bits_type;
 
@@ -60,7 +61,7 @@ struct CrossProducts {
     return {left - right, {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2]}}};
   }
 
-  /// A product with a vector and the bound of its error, as so many roundings have it.
+  /// A product with a vector, and its error bound for a number of roundings.
   struct Form {
     Double<N> value, error;
   };
@@ -70,7 +71,7 @@ struct CrossProducts {
   }
 };
 
-/// The floats whose lanes are within what filters may be asked about.
+/// The lanes whose floats are within the filters' limit.
 template <int N>
 inline DoubleMask<N> filterable(const Doubles3<N>& x) {
   const double most = kGreatestCoordinate;

@@ -4,16 +4,16 @@
 namespace microtrace {
 namespace {
 
-/// spacing() of floats, which are given as float64.
+/// spacing() of floats that are stored as float64.
 template <int N>
 inline Double<N> spacings(const Double<N>& x) {
-  // A float's exponent is its double's: 2^-149 is the least.
+  // A float's exponent is that of the double; 2^-149 is the least.
   using Bits = DoubleMask<N>;
   const Bits exponent = (Bits)x >> 52 & 0x7ff, least = Bits{} + (1 + 1023 - 127);
   return (Double<N>)(((exponent < least ? least : exponent) - 23) << 52);
 }
 
-/// As TrianglePlaneFilter and rounded_point() have it: N hits from the i-th on.
+/// As TrianglePlaneFilter and rounded_point(), for N hits starting at i.
 template <int N>
 inline void find_departures_of(DepartureLanes& lanes, int i) {
   using D = Double<N>;
@@ -59,20 +59,20 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
         (1 + 16 * kRounding);
     const D in_plane_error = n_size > 0 ? w_error + 4 * kRounding * magnitude(in_plane) + kUnderflow
                                         : D{} + __builtin_inf();
-    // Where that says nothing it may be NaN, which leaves the other bound.
+    // A bound from the plane may be NaN, which leaves the other bound.
     const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
             above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
     const D least = __builtin_convertvector(__builtin_convertvector(below, Float<N>), D),
             greatest = __builtin_convertvector(__builtin_convertvector(above, Float<N>), D);
     is_sure &= least == greatest;
-    p.v[k] = least + D{};  // -0 made 0
+    p.v[k] = least + D{};  // replaces -0 by 0
     units.v[k] = spacings<N>(p.v[k]);
     const D gain = magnitude(normal.value.v[k]) * units.v[k];
     error = error + 5 * kRounding * normal.permanent.v[k] * units.v[k];
     axis = gain > largest ? D{} + k : axis;
     largest = greater(gain, largest);
   }
-  // Else the choice of the axis is exact arithmetic's (TriangleSurface::gradient).
+  // Otherwise exact arithmetic chooses the axis (TriangleSurface::gradient).
   is_sure &= error <= 0x1p-9 * largest;
   for (int k = 0; k < 3; ++k) narrowed<N>(p.v[k], lanes.p[k] + i);
   store3<N>(normal.value, lanes.n, i);

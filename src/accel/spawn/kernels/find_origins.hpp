@@ -4,17 +4,17 @@
 namespace microtrace {
 namespace {
 
-/// neighbour() of floats.
+/// neighbour() for N floats.
 template <int N>
 inline Float<N> neighbours(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
-  using Bits = Unsigned<N>;  // those of -0 and NaN, in lanes that do not count, wrap around
+  using Bits = Unsigned<N>;  // -0 and NaN, in unused lanes, wrap around
   const Bits bits = (Bits)x, one = Bits{} + 1;
   const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
   const Bits from_zero = up != 0 ? one : one | 0x80000000U;
   return (Float<N>)(x == 0 ? from_zero : away);
 }
 
-/// N origins from the i-th on.
+/// Finds N origins starting at i.
 template <int N>
 inline void find_origins_of(OriginLanes& lanes, int i) {
   using D = Double<N>;
@@ -37,11 +37,11 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
     const Mask in_front = value > error, behind = value < -error;
     const Mask is_there = (to_front & in_front) | (to_back & behind);
     is_sure |= open & is_there;
-    // No term but zeros: on the plane, as often on floors and walls.
+    // All terms are zero: on the plane, which is common on floors and walls.
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
-    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D) + D{};  // -0 made 0
+    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D) + D{};  // no -0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);
