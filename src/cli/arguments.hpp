@@ -1,46 +1,113 @@
 #pragma once
-/// The command line.
+/// What the command line asks for.
 
-#include "cli/arguments_camera.hpp"
-#include "cli/arguments_light.hpp"
-#include "cli/arguments_sampling.hpp"
 #include "cli/frames.hpp"
-#include "cli/option_values.hpp"
+#include "cli/options/values.hpp"
 
+#include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
+#include <microtrace/math.hpp>
 #include <microtrace/path.hpp>
+#include <microtrace/render.hpp>
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace microtrace::cli {
+
+/// At most one of camera, orbit and eye.
+struct CameraOptions {
+  std::string camera;  ///< of the scene, by name or index; empty: the first
+  std::optional<OrbitView> orbit{};
+  std::optional<DVec3> eye{};
+  std::optional<DVec3> target{};         ///< absent: the center of the scene's bounding box
+  DVec3 up{0, 1, 0};                     ///< of eye
+  std::optional<double> vertical_fov{};  ///< of orbit and eye, degrees
+
+  [[nodiscard]] bool is_of_scene() const { return !orbit && !eye; }
+  /// Of --view, or the default one, with --fov.
+  [[nodiscard]] View view() const;
+};
+
+/// Uniform radiance, the studio, or a map's file.
+using EnvironmentSource = std::variant<Vec3, Studio, std::filesystem::path>;
+
+struct EnvironmentOptions {
+  std::optional<EnvironmentSource> source{};
+  std::optional<double> rotation{};  ///< degrees
+  std::optional<float> intensity{};
+  std::optional<Background> background{};
+
+  [[nodiscard]] bool is_transparent() const {
+    return background && background->kind == Background::Kind::transparent;
+  }
+  [[nodiscard]] bool shows_environment() const {
+    return background && background->kind == Background::Kind::environment;
+  }
+};
+
+/// How 8-bit formats show light; the integrator decides what is absent.
+struct DisplayOptions {
+  std::optional<double> exposure{};  ///< stops
+  std::optional<ToneMap> tone_map{};
+};
+
+/// Part `index`, from 1, of `count`.
+struct Shard {
+  std::uint32_t index = 1, count = 1;
+};
+
+struct SamplingOptions {
+  std::uint32_t samples = 0;  ///< per pixel; 0 until apply_defaults()
+  PixelFilter filter = PixelFilter::box;
+  std::uint32_t seed = 0;
+  double target_error = 0;                                      ///< 0: none
+  double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
+  std::optional<Shard> shard{};                 ///< renders these samples alone, and no picture
+  std::filesystem::path checkpoint{};           ///< empty: none
+  std::vector<std::filesystem::path> resume{};  ///< checkpoints to continue
+  double save_every = 60;                       ///< seconds
+  bool is_progressive = false;
+
+  /// The shard's samples.
+  [[nodiscard]] std::optional<SampleRange> range() const;
+  /// Whether samples are read from files or written while rendering.
+  [[nodiscard]] bool uses_files() const {
+    return !checkpoint.empty() || !resume.empty() || is_progressive;
+  }
+  [[nodiscard]] bool needs_passes() const {
+    return uses_files() || target_error > 0 || time_limit < std::numeric_limits<double>::infinity();
+  }
+};
 
 enum class Statistics { none, text, json };
 enum class Progress { none, bar, json };
 
 struct Arguments {
-  std::string scene;             ///< a file, or "-" for standard input
-  std::filesystem::path output;  ///< a file, or "-" for standard output
+  std::string scene;              ///< a file, or "-" for standard input
+  std::filesystem::path output;   ///< a file, or "-" for standard output
+  std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
   LoadOptions load{};
   std::optional<FrameRange> frames{};  ///< output and sidecar are then patterns
   std::optional<ImageSize> size{};
   std::optional<PixelRect> crop{};
-  Surroundings surroundings{};
-  Exposure exposure{};
-  Sampling sampling{};
+  EnvironmentOptions environment{};
+  DisplayOptions display{};
+  SamplingOptions sampling{};
   std::optional<Subject> wanted{};       ///< what --integrator names
-  Subject integrator = Technique::flat;  ///< as settle() has it
+  Subject integrator = Technique::flat;  ///< after apply_defaults()
   PathOptions path{};
   Channels aovs{};
-  std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
-  Viewpoint viewpoint{};
-  unsigned threads = 0;
+  CameraOptions camera{};
+  unsigned threads = 0;                         ///< 0: default_threads()
   std::optional<double> max_time{};             ///< seconds for the whole run
-  std::optional<std::uint64_t> memory_limit{};  ///< bytes; nothing: default_memory_limit()
+  std::optional<std::uint64_t> memory_limit{};  ///< bytes; absent: default_memory_limit()
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;
   Progress progress = Progress::bar;
@@ -48,31 +115,19 @@ struct Arguments {
   bool verbose = false;
   bool strict = false;
   bool validate = false;
+  /// The options that samples depend on, as Checkpoint::identity has them.
+  std::string identity{};
+
+  // Of merge alone:
+  std::vector<std::filesystem::path> checkpoints{};
+  bool allows_missing_samples = false;
 };
 
-/// Reads the command line. Prints help or version to standard output, and usage errors to standard
-/// error; then the exit code stands in `exit_code` and there is nothing to do.
-struct Parsed {
-  Arguments arguments;
-  std::optional<int> exit_code{};
-};
-[[nodiscard]] Parsed parse_arguments(int argc, char** argv);
+/// Fills in what depends on the scene's format: glTF assets are path traced over gray, JSON scenes
+/// are rendered flat. Throws Error (usage) for options that contradict the result.
+void apply_defaults(Arguments& arguments, SceneFormat format);
 
-/// An option as --help describes it.
-struct OptionHelp {
-  std::vector<std::string> names{};  ///< with their dashes, short ones first
-  bool has_value = false;            ///< one must follow
-  std::string value{};               ///< its kind, in the words of --help
-  std::string text{};
-};
-/// All options of parse_arguments().
-[[nodiscard]] std::vector<OptionHelp> list_options();
-
-/// Fills in what is left to the scene's format: glTF assets are drawn with light, over grey, JSON
-/// scenes flat. Throws Error (usage) where options make no sense then.
-void settle(Arguments& arguments, SceneFormat format);
-
-/// That of the settled arguments.
+/// After apply_defaults().
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Arguments& arguments);
 
 }  // namespace microtrace::cli

@@ -1,10 +1,8 @@
 #include "cli/frames.hpp"
 
-#include "cli/option_values.hpp"
-
+#include <cstddef>
 #include <optional>
-
-#include <CLI/Error.hpp>
+#include <string_view>
 
 namespace microtrace::cli {
 namespace {
@@ -47,36 +45,27 @@ std::optional<Filled> filled(const std::string& pattern, std::uint32_t frame) {
 
 }  // namespace
 
-FrameRange parse_frames(const std::string& text) {
+FrameRange parse_frames(const OptionValue& value) {
+  const std::string_view text = value.text;
   const std::size_t colon = text.find(':');
-  if (colon != std::string::npos) {
-    const auto first = whole_number(std::string_view(text).substr(0, colon));
-    const auto last = whole_number(std::string_view(text).substr(colon + 1));
+  if (colon != text.npos) {
+    const auto first = whole_number(text.substr(0, colon));
+    const auto last = whole_number(text.substr(colon + 1));
     if (first && last && *first <= *last && *last <= kMaxFrame) {
       return {.first = *first, .last = *last};
     }
   }
-  throw CLI::ValidationError("--frames",
-                             "wants FIRST:LAST, whole numbers of at most 999999 in this order, as "
-                             "0:47, not " +
-                                 text);
-}
-
-double parse_fps(const std::string& text) {
-  const double fps = parse_number("--fps", text);
-  if (fps > 0) return fps;
-  throw CLI::ValidationError("--fps", "must be above 0, is " + text);
+  value.refuse("FIRST:LAST, whole numbers up to 999999 in ascending order, such as 0:47");
 }
 
 void check_pattern(const char* option, const std::string& pattern) {
   if (pattern == "-") return;
   const std::optional<Filled> one = filled(pattern, 0);
   if (one && one->places == 1) return;
-  throw CLI::ValidationError(
-      option,
-      "must have the frame's number once, as in out_%04d.png (%d for no leading zeros, %% "
-      "for %), where --frames is given; it is " +
-          pattern);
+  refuse_usage(std::string(option) +
+               ": must contain the frame number once if --frames is given, such as out_%04d.png "
+               "(%d for no leading zeros, %% for %), is " +
+               pattern);
 }
 
 std::filesystem::path frame_path(const std::string& pattern, std::uint32_t frame) {

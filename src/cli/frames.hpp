@@ -1,6 +1,8 @@
 #pragma once
 /// Sequences of pictures.
 
+#include "cli/options/option_value.hpp"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -18,12 +20,8 @@ struct FrameRange {
   [[nodiscard]] double time(std::uint32_t frame) const { return frame / fps; }
 };
 
-/// A:B, both included
-[[nodiscard]] FrameRange parse_frames(const std::string& text);
-/// A number above 0
-[[nodiscard]] double parse_fps(const std::string& text);
-
-// Both throw CLI::ValidationError, as does the next.
+/// A:B, both included. Throws Error (usage), as does the next.
+[[nodiscard]] FrameRange parse_frames(const OptionValue& value);
 
 /// Throws unless a file's name has its frame's number once, as %d or %04d; %% stands for %.
 /// `option` is the one that gave it. Standard output, "-", takes all frames one after another.

@@ -1,7 +1,10 @@
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
-#include "cli/completion.hpp"
+#include "cli/camera.hpp"
+#include "cli/environment.hpp"
 #include "cli/merge.hpp"
+#include "cli/options/completion.hpp"
+#include "cli/options/parse.hpp"
 #include "cli/outputs.hpp"
 #include "cli/picture.hpp"
 #include "cli/signals.hpp"
@@ -19,6 +22,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -49,16 +53,16 @@ LoadOptions load_options(const cli::Arguments& arguments) {
 std::optional<PerspectiveCamera> framing_of(SceneFile& file, const cli::Arguments& arguments,
                                             const cli::FrameRange& frames) {
   LoadedScene posed = file.at(frames.time(frames.first));
-  const cli::Viewpoint& viewpoint = arguments.viewpoint;
-  const bool has_own = !posed.scene.cameras.empty() || !viewpoint.camera.empty();
-  if (viewpoint.is_of_scene() && has_own) return std::nullopt;
-  Framing framing = cli::framing_for(viewpoint, arguments.size.value_or(posed.scene.size));
+  const cli::CameraOptions& camera_options = arguments.camera;
+  const bool has_own = !posed.scene.cameras.empty() || !camera_options.camera.empty();
+  if (camera_options.is_of_scene() && has_own) return std::nullopt;
+  Framing framing(camera_options.view(), arguments.size.value_or(posed.scene.size));
   framing.add(posed.scene);
   for (std::uint32_t frame = frames.first + 1; frame <= frames.last; ++frame) {
     posed = file.at(frames.time(frame));
     framing.add(posed.scene);
   }
-  PerspectiveCamera camera = cli::camera_of(framing, viewpoint);
+  PerspectiveCamera camera = cli::camera_of(framing, camera_options);
   camera.pose.position += framing.origin();
   return camera;
 }
@@ -72,7 +76,7 @@ int run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   options.times = &times;
   const ReadFiles inputs;
   SceneFile file(arguments.scene, options);
-  cli::settle(arguments, file.format());
+  cli::apply_defaults(arguments, file.format());
   const std::string output = arguments.output.string(), sidecar = arguments.sidecar.string();
   const auto progress = cli::progress_of(arguments, frames.count());
   std::optional<PerspectiveCamera> framing;
@@ -84,13 +88,13 @@ int run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
   cli::Warnings log(arguments);
   std::vector<Diagnostic> light_warnings;
   const auto environment =
-      cli::load_environment(arguments.surroundings, light_warnings, *arguments.load.memory);
+      cli::load_environment(arguments.environment, light_warnings, *arguments.load.memory);
   log.report(light_warnings);
   RenderCache cache;
   for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
     auto [scene, warnings] = file.at(frames.time(frame));
     log.report(warnings);
-    cli::surround(scene, environment, arguments.surroundings);
+    cli::apply_environment(scene, environment, arguments.environment);
     const ImageSize size = arguments.size.value_or(scene.size);
     Camera camera;
     if (framing) {
@@ -98,7 +102,7 @@ int run_frames(cli::Arguments arguments, const cli::FrameRange& frames) {
       still.pose.position -= scene.origin;
       camera = still;
     } else {
-      camera = cli::choose_camera(scene, arguments.viewpoint, size);
+      camera = cli::choose_camera(scene, arguments.camera, size);
     }
     watch.loaded(std::exchange(times, {}));
     if (arguments.validate) continue;
@@ -124,18 +128,18 @@ int run(cli::Arguments arguments) {
   LoadOptions options = load_options(arguments);
   options.times = &times;
   std::optional<ReadDigest> digest;
-  if (arguments.sampling.keeps_samples()) digest.emplace();
+  if (arguments.sampling.uses_files()) digest.emplace();
   const ReadFiles inputs;
   SceneFile file(arguments.scene, options);
-  cli::settle(arguments, file.format());
+  cli::apply_defaults(arguments, file.format());
   auto [scene, warnings] = file.at(arguments.load.time);
   const auto environment =
-      cli::load_environment(arguments.surroundings, warnings, *arguments.load.memory);
+      cli::load_environment(arguments.environment, warnings, *arguments.load.memory);
   cli::Warnings log(arguments);
   log.report(warnings);
-  cli::surround(scene, environment, arguments.surroundings);
+  cli::apply_environment(scene, environment, arguments.environment);
   const ImageSize size = arguments.size.value_or(scene.size);
-  const Camera camera = cli::choose_camera(scene, arguments.viewpoint, size);
+  const Camera camera = cli::choose_camera(scene, arguments.camera, size);
   watch.loaded(times);
   if (arguments.validate) return log.print_verdict(arguments.scene);
 
@@ -143,8 +147,7 @@ int run(cli::Arguments arguments) {
   cli::refuse_to_write_over(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
   cli::PictureFiles files{.picture = arguments.output, .sidecar = arguments.sidecar};
   std::optional<cli::SampleFiles> samples;
-  if (arguments.sampling.keeps_samples())
-    files.samples = &samples.emplace(arguments, digest->value());
+  if (arguments.sampling.uses_files()) files.samples = &samples.emplace(arguments, digest->value());
   if (samples) log.report(samples->warnings());
   cli::refuse_to_write_over(inputs,
                             {{"--output", arguments.output}, {"--sidecar", arguments.sidecar}});
@@ -171,21 +174,25 @@ int exit_code_of(const Work& work) {
   }
 }
 
+bool is_merge(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "merge";
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const FloatEnvironment environment;
   cli::handle_signals();
   if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
-  if (cli::is_merge(argc, argv)) {
-    const cli::ParsedMerge merge = cli::parse_merge(argc, argv);
+  if (is_merge(argc, argv)) {
+    const cli::Parsed merge = cli::parse_arguments(cli::Command::merge, argc - 1, argv + 1);
     if (merge.exit_code) return *merge.exit_code;
     return exit_code_of([&] {
       cli::merge_samples(merge.arguments);
       return 0;
     });
   }
-  const cli::Parsed parsed = cli::parse_arguments(argc, argv);
+  const cli::Parsed parsed = cli::parse_arguments(cli::Command::render, argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
   if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
   return exit_code_of([&] {

@@ -1,37 +1,12 @@
 #pragma once
 /// microtrace merge: one picture of the samples of several checkpoints.
 
-#include "cli/arguments_light.hpp"
-
-#include <microtrace/io.hpp>
-
-#include <filesystem>
-#include <optional>
-#include <vector>
+#include "cli/arguments.hpp"
 
 namespace microtrace::cli {
 
-struct MergeArguments {
-  std::vector<std::filesystem::path> files;
-  std::filesystem::path output;
-  Exposure exposure{};  ///< what is not given is as the first checkpoint says
-  PpmEncoding ppm = PpmEncoding::binary;
-  bool is_partial = false;  ///< a picture is wanted though samples are missing
-  bool quiet = false;
-};
-
-/// Whether the command line begins with the word.
-[[nodiscard]] bool is_merge(int argc, char** argv);
-
-/// As parse_arguments().
-struct ParsedMerge {
-  MergeArguments arguments;
-  std::optional<int> exit_code{};
-};
-[[nodiscard]] ParsedMerge parse_merge(int argc, char** argv);
-
-/// Writes the picture. Throws Error, usage where samples are in none of the files and is_partial
-/// does not allow it.
-void merge_samples(const MergeArguments& arguments);
+/// Writes the picture of arguments.checkpoints. Display options that are absent are the first
+/// checkpoint's. Throws Error: usage for missing samples, unless these are allowed.
+void merge_samples(const Arguments& arguments);
 
 }  // namespace microtrace::cli

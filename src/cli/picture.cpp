@@ -1,5 +1,6 @@
 #include "cli/picture.hpp"
 
+#include "cli/environment.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress_bar.hpp"
 #include "cli/verbose.hpp"
@@ -52,7 +53,7 @@ void check_outputs(const Arguments& arguments, const std::filesystem::path& outp
   if (arguments.sampling.is_progressive && output == "-")
     throw Error(ErrorKind::usage, "standard output", "can't be written again; name a file by -o");
   refuse_same_files({{"--output", output}, {"--sidecar", sidecar}, {"--checkpoint", checkpoint}});
-  check_image_path(output, {.alpha = arguments.surroundings.is_transparent(),
+  check_image_path(output, {.alpha = arguments.environment.is_transparent(),
                             .channels = !arguments.aovs.empty()});
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
@@ -78,21 +79,21 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
       .crop = arguments.crop,
       .aovs = arguments.aovs.exact,
       .sampled_aovs = arguments.aovs.sampled,
-      .transparent = arguments.surroundings.is_transparent(),
+      .transparent = arguments.environment.is_transparent(),
   };
   if (files.samples != nullptr) {
     Film shown({.width = 1, .height = 1});
     shown.display = integrator->display(shown);
-    expose(shown, arguments.exposure);
+    apply_display(shown, arguments.display);
     options.passes = files.samples->passes(shown.display);
-  } else if (arguments.sampling.wants_passes()) {
+  } else if (arguments.sampling.needs_passes()) {
     options.passes = Passes{.target_error = arguments.sampling.target_error,
                             .time_limit = arguments.sampling.time_limit};
   }
   if (has_ids_for_sidecar_alone(arguments, files)) options.aovs.push_back(Aov::id);
   Film film = render(scene, camera, size, options);
   watch.rendered(times);
-  expose(film, arguments.exposure);
+  apply_display(film, arguments.display);
   if (counts.invalid_samples > 0 && !arguments.quiet) {
     std::fprintf(stderr, "warning: %llu samples were no numbers and count as black\n",
                  static_cast<unsigned long long>(counts.invalid_samples));

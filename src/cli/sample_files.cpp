@@ -14,11 +14,11 @@ namespace {
 /// All that samples depend on: the program, the files that were read, options.
 std::string identity_of(const Arguments& arguments, std::uint64_t files) {
   return "version\t" MICROTRACE_VERSION "\nscene files\t" + std::to_string(files) + "\n" +
-         arguments.sampling.identity;
+         arguments.identity;
 }
 
 /// The checkpoints to go on from, each once.
-std::vector<std::filesystem::path> files_of(const Sampling& sampling) {
+std::vector<std::filesystem::path> files_of(const SamplingOptions& sampling) {
   std::vector<std::filesystem::path> files = sampling.resume;
   std::error_code ignored;
   const bool is_new = std::ranges::none_of(files, [&](const std::filesystem::path& file) {
@@ -34,7 +34,7 @@ std::vector<std::filesystem::path> files_of(const Sampling& sampling) {
 SampleFiles::SampleFiles(const Arguments& arguments, std::uint64_t files)
     : arguments_(arguments),
       samples_{.identity = identity_of(arguments, files),
-               .has_alpha = arguments.surroundings.is_transparent(),
+               .has_alpha = arguments.environment.is_transparent(),
                .samples = arguments.sampling.samples},
       saved_(std::chrono::steady_clock::now()) {
   for (const std::filesystem::path& file : files_of(arguments.sampling))
@@ -55,7 +55,7 @@ std::vector<Diagnostic> SampleFiles::warnings() const {
 Passes SampleFiles::passes(const Display& display) {
   samples_.display = display;
   return {.sums = &samples_.sums,
-          .part = arguments_.sampling.part(),
+          .part = arguments_.sampling.range(),
           .target_error = arguments_.sampling.target_error,
           .time_limit = arguments_.sampling.time_limit,
           .after_each = [this](const SampleSums&) { save_if_due(); }};

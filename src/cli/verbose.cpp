@@ -50,11 +50,10 @@ std::string images_of(const Scene& scene) {
 }
 
 std::string camera_text(const Arguments& arguments, const Scene& scene) {
-  const Viewpoint& viewpoint = arguments.viewpoint;
-  if (viewpoint.eye) return "at --eye";
-  if (viewpoint.orbit)
-    return viewpoint.orbit->distance ? "as --view asks" : "framed, as --view asks";
-  if (!viewpoint.camera.empty()) return viewpoint.camera;
+  const CameraOptions& options = arguments.camera;
+  if (options.eye) return "at --eye";
+  if (options.orbit) return options.orbit->distance ? "as --view asks" : "framed, as --view asks";
+  if (!options.camera.empty()) return options.camera;
   if (scene.cameras.empty()) return "framed, for the scene has none";
   return scene.cameras[0].name + ", the first of " + std::to_string(scene.cameras.size());
 }

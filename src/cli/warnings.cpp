@@ -12,9 +12,9 @@ namespace microtrace::cli {
 namespace {
 
 std::string camera_name(const Arguments& arguments, const Scene& scene) {
-  const Viewpoint& viewpoint = arguments.viewpoint;
-  if (!viewpoint.is_of_scene() || scene.cameras.empty()) return "the camera";
-  return "the camera " + (viewpoint.camera.empty() ? scene.cameras[0].name : viewpoint.camera);
+  const CameraOptions& options = arguments.camera;
+  if (!options.is_of_scene() || scene.cameras.empty()) return "the camera";
+  return "the camera " + (options.camera.empty() ? scene.cameras[0].name : options.camera);
 }
 
 bool is_dark(const Light& light) {

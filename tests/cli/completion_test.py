@@ -4,13 +4,13 @@
 usage: completion_test.py PROGRAM [unittest arguments]
 """
 
-import re
 import shlex
 import subprocess
 import sys
 import unittest
 
 sys.dont_write_bytecode = True
+import option_table
 from program import PROGRAM, ProgramTest
 
 
@@ -28,8 +28,8 @@ class Completion(ProgramTest):
         return result.stdout
 
     def help_options(self):
-        text = self.run_program("--help").stdout.decode()
-        return set(re.findall(r"(?m)^  (?:-\w,)*(--[a-z-]+)", text)) | set(re.findall(r"(?m)^  -\w,(?:-\w,)*(--[a-z-]+)", text))
+        groups = option_table.parse(self.run_program("--help").stdout.decode())
+        return {option.name for options in groups.values() for option in options if option.name.startswith("--")}
 
     def complete_in_bash(self, *words):
         script = self.script("bash")
@@ -68,7 +68,7 @@ class Completion(ProgramTest):
         self.run_shell("zsh", "-f", "-n", str(script))
         text = script.read_text()
         for option in self.help_options():
-            self.assertIn(f"){option}", text)
+            self.assertRegex(text, rf"'(\([^)]*\)|\*){option}[=[]")
 
     def test_offered_words_are_taken(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",

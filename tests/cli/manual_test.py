@@ -1,42 +1,94 @@
 #!/usr/bin/env python3
-"""The manual page against --help: the same options, each with the same names.
+"""The options' descriptions in docs/ against --help: the manual page has the same texts, docs/command-line.md a row for each.
 
-usage: manual_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+--update writes the options into the manual page.
+
+usage: manual_test.py PROGRAM SOURCE_FOLDER [--update | unittest arguments]
 """
 
 import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from program import ProgramTest
+import option_table
+from program import PROGRAM, ProgramTest
 
-MANUAL = (Path(sys.argv[2]) / "docs/microtrace.1.scd").read_text()
+DOCS = Path(sys.argv[2]) / "docs"
+MANUAL = DOCS / "microtrace.1.scd"
+PARTS = re.compile(r"(?s)(.*; The options are written by tests/cli/manual_test\.py --update\.\n)(.*)(; End of the options\.\n.*)")
 
 
-def names(line):
-    return frozenset(re.findall(r"(?<![\w-])--?[a-z][\w-]*", line))
+def help_text(*command):
+    return subprocess.run([PROGRAM, *command, "--help"], capture_output=True, text=True, check=True).stdout
+
+
+def groups():
+    """All options under their headings, each once."""
+    all_groups = option_table.parse(help_text())
+    return {**all_groups, "Merging": option_table.parse(help_text("merge"))["Merging"]}
+
+
+def bold_options(text):
+    text = re.sub(r"([_*\\<>])", r"\\\1", text)
+    return re.sub(r"(?<![\w-])(--[a-z][a-z-]*)", r"*\1*", text)
+
+
+def wrapped(text, width=118):
+    """Lines that begin with a word: other characters mean something to scdoc there."""
+    lines = [""]
+    for word in text.split():
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > width and re.match(r"\w|\*--", word):
+            lines.append(word)
+        else:
+            lines[-1] += " " * bool(lines[-1]) + word
+    return "".join(f"\t{line}\n" for line in lines)
+
+
+def entry(option):
+    names = ", ".join(f"*{name}*" for name in option.names)
+    optional = option.value.startswith("[=")
+    value = option.value.strip("[=].")
+    value = f"[=_{value}_]" if optional else f" _{value}_" if value else ""
+    text = option.text[0].upper() + option.text[1:] + "."
+    if option.default:
+        text += f" Default: {option.default}."
+    return f"{names}{value}\n{wrapped(bold_options(text))}\n"
+
+
+def written_options():
+    return "\n" + "".join(f"## {title}\n\n{''.join(map(entry, options))}" for title, options in groups().items())
 
 
 class Manual(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.help = self.run_program("--help").stdout.decode()
+    def test_every_option_is_described(self):
+        manual, page = MANUAL.read_text(), (DOCS / "command-line.md").read_text()
+        in_manual = set(re.findall(r"\*(--?[a-z][a-z-]*)\*(?=[^\n]*\n\t)", manual))
+        rows = set(re.findall(r"`(--?[a-z][a-z-]*)", "\n".join(re.findall(r"(?m)^\| ([^|]*(?:\\\|[^|]*)*) \|", page))))
+        known = {name for options in groups().values() for option in options for name in option.names if name.startswith("-")}
+        self.assertGreater(len(known), 40)
+        self.assertEqual(known - in_manual, set(), "missing in docs/microtrace.1.scd")
+        self.assertEqual(known - rows, set(), "missing in the tables of docs/command-line.md")
+        self.assertEqual(in_manual - known, set(), "docs/microtrace.1.scd describes options that there are not")
+        self.assertEqual(rows - known, set(), "docs/command-line.md describes options that there are not")
 
-    def test_options_are_those_of_help(self):
-        # A line of --help that begins with an option: its names end where a value or the text begins.
-        helped = {names(re.split(r"\s{2,}| [A-Z]", line.strip())[0])
-                  for line in self.help.splitlines() if re.match(r"\s+-", line)}
-        described = {names(line) for line in MANUAL.splitlines() if line.startswith("*-")}
-        self.assertGreater(len(helped), 20)
-        self.assertEqual(helped, described, "docs/microtrace.1.scd has other options than --help")
+    def test_manual_page_has_the_texts_of_help(self):
+        self.maxDiff = None
+        self.assertEqual(PARTS.fullmatch(MANUAL.read_text())[2], written_options(),
+                         "run tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update")
 
     def test_exit_codes_are_those_of_help(self):
-        footer = self.help[self.help.index("Exit codes:"):self.help.index("Examples:")]
-        codes = re.findall(r"^\S*\s+\*(\d+)\*$", MANUAL, re.MULTILINE)
+        text = help_text()
+        footer = text[text.index("Exit codes:"):text.index("Examples:")]
+        codes = re.findall(r"^\S*\s+\*(\d+)\*$", MANUAL.read_text(), re.MULTILINE)
         self.assertEqual(re.findall(r"\b(\d+) ", footer), codes)
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
+    if sys.argv[3:] == ["--update"]:
+        head, _, tail = PARTS.fullmatch(MANUAL.read_text()).groups()
+        MANUAL.write_text(head + written_options() + tail)
+    else:
+        unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -1,7 +1,6 @@
-#include "cli/completion.hpp"
+#include "cli/options/completion.hpp"
 
-#include "cli/arguments.hpp"
-#include "cli/option_values.hpp"
+#include "cli/options/option.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -40,24 +39,44 @@ std::string in_single_quotes(const std::string& text) {
   return out + "'";
 }
 
-bool takes_file(const OptionHelp& option) {
-  return option.value == "FILE" || option.value == "FOLDER" || option.names.back() == "--env";
+std::vector<Option> named_options() {
+  std::vector<Option> options;
+  for (const OptionGroup& group : option_groups(Command::render)) {
+    for (const Option& option : group.options) {
+      if (!option.is_positional()) options.push_back(option);
+    }
+  }
+  return options;
 }
 
-std::string bash_script(const std::vector<OptionHelp>& options) {
-  std::vector<std::string> names, files, free;
+std::vector<std::string> names_of(const Option& option) {
+  const std::vector<std::string_view> names = option.all_names();
+  return {names.begin(), names.end()};
+}
+
+std::vector<std::string> words_of(const Option& option) {
+  return option.words != nullptr ? option.words() : std::vector<std::string>{};
+}
+
+/// Whether the next word is the option's value.
+bool has_value(const Option& option) {
+  return !option.is_flag();
+}
+
+std::string bash_script() {
+  std::vector<std::string> all_names, files, free;
   std::string choices;
-  for (const OptionHelp& option : options) {
-    names.insert(names.end(), option.names.begin(), option.names.end());
-    if (!option.has_value) continue;
-    const std::vector<std::string> words = words_of(option.names.back());
+  for (const Option& option : named_options()) {
+    const std::vector<std::string> names = names_of(option), words = words_of(option);
+    all_names.insert(all_names.end(), names.begin(), names.end());
+    if (!has_value(option)) continue;
+    const bool takes_file = option.completion != Completion::none;
     if (!words.empty()) {
-      choices +=
-          "    " + joined(option.names, "|") + ") words=" + in_single_quotes(joined(words, " "));
-      choices += takes_file(option) ? " files=yes ;;\n" : " ;;\n";
+      choices += "    " + joined(names, "|") + ") words=" + in_single_quotes(joined(words, " "));
+      choices += takes_file ? " files=yes ;;\n" : " ;;\n";
     } else {
-      std::vector<std::string>& kind = takes_file(option) ? files : free;
-      kind.insert(kind.end(), option.names.begin(), option.names.end());
+      std::vector<std::string>& kind = takes_file ? files : free;
+      kind.insert(kind.end(), names.begin(), names.end());
     }
   }
   return R"(# bash completion for microtrace
@@ -70,7 +89,7 @@ _microtrace() {
     *)
       if [[ $current == -* ]]; then
         words=)" +
-         in_single_quotes(joined(names, " ")) + R"(
+         in_single_quotes(joined(all_names, " ")) + R"(
       else
         files=scenes
       fi
@@ -89,40 +108,43 @@ complete -F _microtrace microtrace
 )";
 }
 
-std::string zsh_script(const std::vector<OptionHelp>& options) {
+std::string zsh_value(const Option& option) {
+  const std::vector<std::string> words = words_of(option);
+  std::string value = ":" + escaped(std::string(option.metavar), ":\\") + ":";
+  if (option.completion == Completion::folders) return value + "_files -/";
+  if (option.completion == Completion::files) return value + "_files";
+  return value + (words.empty() ? " " : "(" + joined(words, " ") + ")");
+}
+
+std::string zsh_script() {
   std::string script = "#compdef microtrace\n_arguments -s \\\n";
-  for (const OptionHelp& option : options) {
-    for (const std::string& name : option.names) {
-      std::string entry = "(" + joined(option.names, " ") + ")" + name;
-      if (option.has_value && name.starts_with("--")) entry += '=';
-      entry += "[" + escaped(option.text, "[]:\\") + "]";
-      if (option.has_value) {
-        const std::vector<std::string> words = words_of(option.names.back());
-        entry += ":" + option.value + ":";
-        entry += takes_file(option) ? "_files"
-                 : words.empty()    ? " "
-                                    : "(" + joined(words, " ") + ")";
-      }
+  for (const Option& option : named_options()) {
+    const std::vector<std::string> names = names_of(option);
+    for (const std::string& name : names) {
+      std::string entry = option.is_repeatable ? "*" + name : "(" + joined(names, " ") + ")" + name;
+      if (has_value(option) && name.starts_with("--")) entry += '=';
+      entry += "[" + escaped(std::string(option.help), "[]:\\") + "]";
+      if (has_value(option)) entry += zsh_value(option);
       script += "  " + in_single_quotes(entry) + " \\\n";
     }
   }
   return script + "  '*:scene:_files -g \"*.(json|gltf|glb)(-.)\"'\n";
 }
 
-std::string fish_script(const std::vector<OptionHelp>& options) {
+std::string fish_script() {
   std::string script = "# fish completion for microtrace\n";
-  for (const OptionHelp& option : options) {
+  for (const Option& option : named_options()) {
     script += "complete -c microtrace";
-    for (const std::string& name : option.names) {
+    for (const std::string& name : names_of(option)) {
       const bool is_long = name.starts_with("--");
       script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
     }
-    if (option.has_value) {
-      const std::vector<std::string> words = words_of(option.names.back());
-      script += takes_file(option) ? " -r -F" : " -x";
+    if (has_value(option)) {
+      const std::vector<std::string> words = words_of(option);
+      script += option.completion != Completion::none ? " -r -F" : " -x";
       if (!words.empty()) script += " -a " + in_single_quotes(joined(words, " "));
     }
-    script += " -d " + in_single_quotes(escaped(option.text, "\\")) + "\n";
+    script += " -d " + in_single_quotes(escaped(std::string(option.help), "\\")) + "\n";
   }
   return script;
 }
@@ -134,17 +156,16 @@ bool is_completion(int argc, char** argv) {
 }
 
 std::optional<std::string> completion_script(std::string_view shell) {
-  const std::vector<OptionHelp> options = list_options();
-  if (shell == "bash") return bash_script(options);
-  if (shell == "zsh") return zsh_script(options);
-  if (shell == "fish") return fish_script(options);
+  if (shell == "bash") return bash_script();
+  if (shell == "zsh") return zsh_script();
+  if (shell == "fish") return fish_script();
   return std::nullopt;
 }
 
 int print_completion(int argc, char** argv) {
   const std::optional<std::string> script = argc == 3 ? completion_script(argv[2]) : std::nullopt;
   if (!script) {
-    std::fputs("error: microtrace completion wants one of bash, zsh, fish\n", stderr);
+    std::fputs("error: microtrace completion wants bash, zsh or fish\n", stderr);
     return static_cast<int>(ErrorKind::usage);
   }
   if (std::fputs(script->c_str(), stdout) == EOF || std::fflush(stdout) != 0) {

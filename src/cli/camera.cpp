@@ -1,0 +1,49 @@
+#include "cli/camera.hpp"
+
+#include "scene/trigonometry.hpp"
+#include "scene/validate.hpp"
+
+#include <cstddef>
+
+namespace microtrace::cli {
+
+PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options) {
+  const DVec3 target = options.target ? *options.target - framing.origin() : framing.center();
+  if (options.orbit && options.orbit->distance)
+    return framing.camera_around(target, *options.orbit->distance);
+  if (!options.eye) return framing.camera();
+  const DVec3 eye = *options.eye - framing.origin();
+  const PerspectiveCamera camera{
+      .pose = {.position = eye, .direction = target - eye, .up = options.up},
+      .vertical_fov = radians_from_degrees(options.view().vertical_fov)};
+  if (const auto problem = validate(camera)) {
+    refuse_usage(problem->field == "direction"
+                     ? "--eye: is the target; give another one by --target"
+                     : "--up: must not be parallel to the direction from --eye to the target");
+  }
+  return camera;
+}
+
+Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
+  if (!options.is_of_scene()) {
+    Framing framing(options.view(), size);
+    framing.add(scene);
+    return camera_of(framing, options);
+  }
+  const std::string& wanted = options.camera;
+  if (wanted.empty()) return default_camera(scene, size);
+  for (const NamedCamera& camera : scene.cameras) {
+    if (camera.name == wanted) return camera.camera;
+  }
+  const auto index = whole_number(wanted);
+  if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
+  std::string message = "--camera: there is no camera " + wanted + "; the scene has";
+  if (scene.cameras.empty()) message += " none: leave --camera out, or use --view or --eye";
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    message += i == 0 ? " " : ", ";
+    message += std::to_string(i) + " (" + scene.cameras[i].name + ")";
+  }
+  refuse_usage(message);
+}
+
+}  // namespace microtrace::cli

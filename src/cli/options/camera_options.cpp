@@ -1,0 +1,67 @@
+#include "cli/arguments.hpp"
+#include "cli/options/option.hpp"
+
+#include <array>
+
+namespace microtrace::cli {
+namespace {
+
+double parse_fov(const OptionValue& value) {
+  const double degrees = value.number();
+  if (!(degrees > 0 && degrees < 180)) value.refuse("degrees between 0 and 180");
+  return degrees;
+}
+
+constexpr std::array kCameraOptions{
+    Option{.names = "-c,--camera",
+           .metavar = "NAME",
+           .help = "camera of the scene, by name or by index from 0",
+           .default_value = "the first; without one, --view 30,25",
+           .samples = Samples::change,
+           .set = [](Arguments& a, const OptionValue& value) { a.camera.camera = value.text; }},
+    Option{
+        .names = "--view",
+        .metavar = "VIEW",
+        .help = "frame the whole scene from front (+z), back, left, right (+x), top, bottom or "
+                "iso, or from AZIMUTH,ELEVATION in degrees: 0,0 is +z and 90,0 is +x; or place "
+                "the camera at AZIMUTH,ELEVATION,DISTANCE from the target",
+        .samples = Samples::change,
+        .words = view_names,
+        .excludes = "--camera",
+        .set = [](Arguments& a, const OptionValue& value) { a.camera.orbit = parse_view(value); }},
+    Option{.names = "--eye",
+           .metavar = "x,y,z",
+           .help = "position of a camera that looks at the target",
+           .samples = Samples::change,
+           .excludes = "--camera --view",
+           .set = [](Arguments& a, const OptionValue& value) { a.camera.eye = value.point(); }},
+    Option{.names = "--target",
+           .metavar = "x,y,z",
+           .help = "point that --eye, or --view with a distance, looks at",
+           .default_value = "the center of the scene's bounding box",
+           .samples = Samples::change,
+           .set = [](Arguments& a, const OptionValue& value) { a.camera.target = value.point(); }},
+    Option{.names = "--up",
+           .metavar = "x,y,z",
+           .help = "up direction of --eye",
+           .default_value = "0,1,0",
+           .samples = Samples::change,
+           .needs = "--eye",
+           .set = [](Arguments& a, const OptionValue& value) { a.camera.up = value.point(); }},
+    Option{.names = "--fov",
+           .metavar = "DEGREES",
+           .help = "vertical field of view of --view and --eye",
+           .default_value = "45",
+           .samples = Samples::change,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.camera.vertical_fov = parse_fov(value); }},
+};
+static_assert(is_complete(kCameraOptions));
+
+}  // namespace
+
+std::span<const Option> camera_options() {
+  return kCameraOptions;
+}
+
+}  // namespace microtrace::cli

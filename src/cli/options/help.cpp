@@ -1,0 +1,94 @@
+#include "cli/options/help.hpp"
+
+#include <cstddef>
+#include <sstream>
+#include <string_view>
+
+namespace microtrace::cli {
+namespace {
+
+constexpr std::size_t kLeft = 27, kRight = 72;  // columns of names, and of descriptions
+
+constexpr std::string_view kRenderUsage =
+    R"(microtrace: renders JSON and glTF scenes with exact visibility, the same bytes everywhere
+Usage: microtrace [OPTIONS] SCENE
+       microtrace merge [OPTIONS] CHECKPOINT...
+       microtrace completion bash|zsh|fish
+)";
+
+constexpr std::string_view kMergeUsage =
+    R"(microtrace merge: makes one picture of the samples in several checkpoints
+Usage: microtrace merge [OPTIONS] CHECKPOINT...
+)";
+
+constexpr std::string_view kFooter = R"(
+Exit codes: 0 done, 1 internal error, 2 usage error, 3 invalid scene, 4 required feature
+            unsupported, 5 input or output error, 6 limit reached, 130 interrupted.
+
+Examples:
+  microtrace scenes/perspective1.json -o perspective1.ppm
+  microtrace model.glb --size 1920x1080 --spp 16 -o model.png
+  microtrace model.glb --aov id,depth,normal --background transparent -o model.exr
+  microtrace scene.json -o - | other-program
+  microtrace merge CHECKPOINT... -o picture.png
+)";
+
+/// The words of the text in lines of the right column; all but the first are indented.
+std::string wrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string result;
+  std::size_t length = 0;
+  for (std::string word; words >> word;) {
+    const bool breaks = length > 0 && length + 1 + word.size() > kRight;
+    if (breaks) {
+      result += '\n' + std::string(kLeft, ' ');
+      length = 0;
+    } else if (length > 0) {
+      result += ' ';
+      ++length;
+    }
+    result += word;
+    length += word.size();
+  }
+  return result;
+}
+
+std::string line_of(const Option& option) {
+  std::string line = "  ";
+  for (const std::string_view name : option.all_names()) {
+    if (line.size() > 2) line += ", ";
+    line += name;
+  }
+  if (!option.implied_value.empty()) {
+    line.append("[=").append(option.metavar).append("]");
+  } else if (!option.metavar.empty()) {
+    line.append(" ").append(option.metavar);
+  }
+  if (option.is_positional() && option.is_repeatable) line += "...";
+  line += line.size() + 2 > kLeft ? '\n' + std::string(kLeft, ' ')
+                                  : std::string(kLeft - line.size(), ' ');
+  std::string text(option.help);
+  if (!option.default_value.empty()) text.append(" [").append(option.default_value).append("]");
+  return line + wrapped(text) + '\n';
+}
+
+}  // namespace
+
+std::string program_name(Command command) {
+  return command == Command::merge ? "microtrace merge" : "microtrace";
+}
+
+std::string help_text(Command command) {
+  std::string text(command == Command::merge ? kMergeUsage : kRenderUsage);
+  text += "Defaults are in [brackets].\n";
+  std::string_view title;
+  for (const OptionGroup& group : option_groups(command)) {
+    if (group.title != title) text.append("\n").append(group.title).append(":\n");
+    title = group.title;
+    for (const Option& option : group.options) text += line_of(option);
+  }
+  if (command == Command::render) text += kFooter;
+  return text;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,14 @@
+#pragma once
+#include "cli/options/option.hpp"
+
+#include <string>
+
+namespace microtrace::cli {
+
+/// "microtrace" or "microtrace merge"
+[[nodiscard]] std::string program_name(Command command);
+
+/// The text of --help, for a terminal of 100 columns.
+[[nodiscard]] std::string help_text(Command command);
+
+}  // namespace microtrace::cli

@@ -1,0 +1,104 @@
+#include "cli/arguments.hpp"
+#include "cli/options/option.hpp"
+
+#include <array>
+
+namespace microtrace::cli {
+namespace {
+
+EnvironmentSource parse_environment(const OptionValue& value) {
+  if (value.text == "studio") return Studio{};
+  if (const auto radiance = parse_radiance(value.text)) return *radiance;
+  if (!value.text.empty() && value.text[0] != '#') return std::filesystem::path(value.text);
+  value.refuse(
+      "studio, #rrggbb (sRGB), three numbers from 0 up (linear light) such as 0.2,0.4,1, or a "
+      "file");
+}
+
+std::vector<std::string> tone_map_names() {
+  std::vector<std::string> names;
+  for (const ToneMap map : kToneMaps) names.emplace_back(name_of(map));
+  return names;
+}
+
+ToneMap parse_tone_map(const OptionValue& value) {
+  if (const auto map = tone_map_named(value.text)) return *map;
+  value.refuse(listed(tone_map_names()));
+}
+
+constexpr std::array kPpmEncodings{Choice<PpmEncoding>{"binary", PpmEncoding::binary},
+                                   Choice<PpmEncoding>{"ascii", PpmEncoding::ascii}};
+
+constexpr std::array kLightOptions{
+    Option{
+        .names = "--env",
+        .metavar = "LIGHT",
+        .help = "environment light: studio (built in), #rrggbb in sRGB, r,g,b in linear light, or "
+                "the file of a latitude-longitude map (.hdr, .exr, ...); flat pictures don't "
+                "depend on it",
+        .default_value = "as the scene says; the studio if it has neither lights nor environment",
+        .samples = Samples::change,
+        .completion = Completion::files,
+        .words = [] { return std::vector<std::string>{"studio"}; },
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.environment.source = parse_environment(value); }},
+    Option{.names = "--env-rotation",
+           .metavar = "DEGREES",
+           .help =
+               "rotation of the environment about the vertical axis, counterclockwise seen from "
+               "above",
+           .default_value = "0",
+           .samples = Samples::change,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.environment.rotation = value.number(); }},
+    Option{.names = "--env-intensity",
+           .metavar = "X",
+           .help = "factor of the environment's radiance",
+           .default_value = "1",
+           .samples = Samples::change,
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.environment.intensity = static_cast<float>(value.number(0, kMaxRadiance));
+               }},
+};
+static_assert(is_complete(kLightOptions));
+
+constexpr std::array kDisplayOptions{
+    Option{.names = "--exposure",
+           .metavar = "EV",
+           .help = "exposure of 8-bit pictures in stops, -64 to 64: light is multiplied by 2^EV",
+           .default_value = "0; for merge as in the first checkpoint",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.display.exposure = value.number(-64, 64); }},
+    Option{.names = "--tonemap",
+           .metavar = "NAME",
+           .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
+           .default_value =
+               "khronos-pbr-neutral for path, else none; for merge as in the first checkpoint",
+           .samples = Samples::keep,
+           .words = tone_map_names,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
+    Option{
+        .names = "--ppm",
+        .metavar = "KIND",
+        .help = "encoding of PPM files: binary (P6) or ascii (P3)",
+        .default_value = "binary",
+        .samples = Samples::keep,
+        .words = [] { return names_of(kPpmEncodings); },
+        .set = [](Arguments& a, const OptionValue& value) { a.ppm = value.choice(kPpmEncodings); }},
+};
+static_assert(is_complete(kDisplayOptions));
+
+}  // namespace
+
+std::span<const Option> light_options() {
+  return kLightOptions;
+}
+
+std::span<const Option> display_options() {
+  return kDisplayOptions;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,85 @@
+#pragma once
+/// The options of the command line, one row each. Parsing, --help, the manual page, completion,
+/// suggestions for mistyped names and the identity of checkpoints are all made from these rows.
+///
+/// To add an option: a row in one of src/cli/options/*_options.cpp, and the code that uses the
+/// value. Tests name the option where docs/command-line.md or the manual page lacks it;
+/// `tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update` writes it into the manual page.
+
+#include "cli/options/option_value.hpp"
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::cli {
+
+struct Arguments;
+
+/// The commands that take an option.
+enum class Command { render, merge };
+
+/// Whether the samples of a random integrator depend on an option. Samples are put together only
+/// if all such options have the same values.
+enum class Samples { undecided, change, keep };
+
+/// What a shell offers as a value, beside Option::words.
+enum class Completion { none, files, folders };
+
+struct Option {
+  /// With commas between, short ones first: "-o,--output"; a positional argument has no dashes.
+  std::string_view names;
+  std::string_view metavar{};  ///< the value in --help: "FILE"; empty: a flag, which has no value
+  std::string_view help;
+  std::string_view default_value{};  ///< in words or as it would be given; empty: none
+  std::string_view implied_value{};  ///< of an option that may be given without a value
+  Samples samples = Samples::undecided;
+  Completion completion = Completion::none;
+  std::vector<std::string> (*words)() = nullptr;  ///< values with names; null: none
+  bool is_required = false;
+  bool is_repeatable = false;
+  std::string_view needs{};     ///< an option that must be given too
+  std::string_view excludes{};  ///< options that can't be given too, with spaces between
+  /// Stores the value, or of a flag the fact that it is given. Throws Error (usage). Rows of one
+  /// command are called in the table's order. Null for --help and --version, which end the program.
+  void (*set)(Arguments&, const OptionValue&) = nullptr;
+
+  /// "--output": the first long name, or the positional argument's.
+  [[nodiscard]] std::string_view name() const;
+  [[nodiscard]] std::vector<std::string_view> all_names() const;
+  [[nodiscard]] bool is_flag() const { return metavar.empty() || !implied_value.empty(); }
+  [[nodiscard]] bool is_positional() const { return !names.starts_with('-'); }
+};
+
+/// Options under one heading of --help.
+struct OptionGroup {
+  std::string_view title;
+  std::span<const Option> options;
+};
+
+/// All options of a command, in the order of --help.
+[[nodiscard]] std::vector<OptionGroup> option_groups(Command command);
+
+// The tables.
+[[nodiscard]] std::span<const Option> picture_options();
+[[nodiscard]] std::span<const Option> camera_options();
+[[nodiscard]] std::span<const Option> light_options();
+[[nodiscard]] std::span<const Option> display_options();
+[[nodiscard]] std::span<const Option> sampling_options();
+[[nodiscard]] std::span<const Option> asset_options();
+[[nodiscard]] std::span<const Option> checkpoint_options();
+[[nodiscard]] std::span<const Option> running_options();
+[[nodiscard]] std::span<const Option> report_options();
+[[nodiscard]] std::span<const Option> common_options();
+[[nodiscard]] std::span<const Option> merge_options();
+
+/// Whether a table's rows have what none can go without.
+constexpr bool is_complete(std::span<const Option> options) {
+  return std::ranges::all_of(options, [](const Option& option) {
+    return !option.names.empty() && !option.help.empty() && option.samples != Samples::undecided;
+  });
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,72 @@
+#pragma once
+/// The text of an option's value, and what it can be read as.
+
+#include <microtrace/math.hpp>
+
+#include <cstdint>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// Decimal digits alone, without sign.
+[[nodiscard]] std::optional<std::uint32_t> whole_number(std::string_view text);
+
+/// Finite numbers with commas between; none where the text is something else.
+[[nodiscard]] std::vector<double> numbers_of(std::string_view text);
+
+[[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
+
+/// "a, b or c"
+[[nodiscard]] std::string listed(std::span<const std::string> words);
+
+/// A name that an option accepts as its value.
+template <class T>
+struct Choice {
+  std::string_view name;
+  T value;
+};
+
+template <class Choices>
+[[nodiscard]] std::vector<std::string> names_of(const Choices& choices) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.emplace_back(choice.name);
+  return names;
+}
+
+/// Each conversion throws Error (usage), which names the option and says what it accepts.
+struct OptionValue {
+  std::string option;  ///< "--size"
+  std::string text;
+
+  [[nodiscard]] std::uint32_t whole_number(std::uint32_t least, std::uint32_t most) const;
+  [[nodiscard]] double number() const;
+  /// From `least` to `most`, both included.
+  [[nodiscard]] double number(double least, double most) const;
+  [[nodiscard]] double positive_number() const;
+  [[nodiscard]] double seconds() const { return number(0, std::numeric_limits<double>::max()); }
+  [[nodiscard]] DVec3 point() const;
+  /// A whole number of bytes, or of KiB, MiB or GiB with K, M or G behind it; above 0.
+  [[nodiscard]] std::uint64_t bytes() const;
+
+  template <class Choices>
+  [[nodiscard]] auto choice(const Choices& choices) const {
+    for (const auto& choice : choices) {
+      if (choice.name == text) return choice.value;
+    }
+    refuse(listed(names_of(choices)));
+  }
+
+  /// "--size: wants {accepted}, not {text}"
+  [[noreturn]] void refuse(const std::string& accepted) const;
+};
+
+/// An error of the command line.
+[[noreturn]] void refuse_usage(const std::string& message);
+
+}  // namespace microtrace::cli

@@ -1,0 +1,162 @@
+#include "cli/options/parse.hpp"
+
+#include "cli/options/help.hpp"
+#include "cli/options/usage_error.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace microtrace::cli {
+namespace {
+
+/// An option that is on the command line.
+struct Given {
+  const Option* option;
+  std::vector<std::string> values;
+};
+
+/// CLI11 splits the command line; the rows of the table read the values.
+class Parser {
+ public:
+  explicit Parser(Command command) {
+    app_.name(program_name(command));
+    app_.set_help_flag();
+    for (const OptionGroup& group : option_groups(command)) {
+      for (const Option& option : group.options) add(option);
+    }
+    for (const auto& [option, added] : options_) {
+      if (!option->needs.empty()) added->needs(app_.get_option(std::string(option->needs)));
+      std::istringstream excluded{std::string(option->excludes)};
+      for (std::string name; excluded >> name;) added->excludes(app_.get_option(name));
+    }
+  }
+
+  /// Throws CLI::ParseError and Error (usage).
+  std::vector<Given> parse(int argc, char** argv) {
+    app_.parse(argc, argv);
+    std::vector<Given> given;
+    for (const auto& [option, added] : options_) {
+      if (added->count() == 0 || option->set == nullptr) continue;
+      if (option->metavar.empty()) {
+        if (added->as<bool>()) given.push_back({option, {""}});
+        continue;
+      }
+      const std::vector<std::string> values = added->reduced_results();
+      if (std::ranges::find(values, std::string()) != values.end())
+        refuse_usage(std::string(option->name()) + ": wants a value, is empty");
+      given.push_back({option, values});
+    }
+    return given;
+  }
+
+  [[nodiscard]] const CLI::App& app() const { return app_; }
+
+ private:
+  void add(const Option& option) {
+    std::string names(option.names);
+    CLI::Option* added = nullptr;
+    if (option.name() == "--help") {
+      added = app_.set_help_flag(names);
+    } else if (option.name() == "--version") {
+      added = app_.set_version_flag(names, "microtrace " MICROTRACE_VERSION);
+    } else if (option.is_flag()) {
+      if (!option.implied_value.empty()) names.append("{").append(option.implied_value).append("}");
+      added = app_.add_flag(names);
+    } else {
+      added = app_.add_option(names);
+    }
+    if (option.is_required) added->required();
+    if (option.is_repeatable) {
+      // A positional argument takes all words that are left, an option one each time.
+      added->expected(option.is_positional() ? -1 : 1);
+      added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+    options_.emplace_back(&option, added);
+  }
+
+  CLI::App app_;
+  std::vector<std::pair<const Option*, CLI::Option*>> options_{};
+};
+
+std::string identity_of(const std::vector<Given>& given) {
+  std::string identity;
+  for (const auto& [option, values] : given) {
+    if (option->samples != Samples::change) continue;
+    identity += option->name();
+    char before = '\t';
+    for (const std::string& value : values) {
+      identity += before;
+      // Names may hold any bytes; these two separate entries.
+      for (const char c : value) identity += c == '\n' || c == '\t' ? ' ' : c;
+      before = ' ';
+    }
+    identity += '\n';
+  }
+  return identity;
+}
+
+std::filesystem::path default_output(const std::string& scene, bool has_frames) {
+  if (scene == "-") refuse_usage("--output is required if the scene is standard input");
+  return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
+}
+
+/// Rules for several options, and values that depend on others.
+void complete(Arguments& a) {
+  const CameraOptions& camera = a.camera;
+  const bool has_position = camera.eye || (camera.orbit && camera.orbit->distance);
+  if (camera.target && !has_position)
+    refuse_usage("--target requires --eye, or --view with a distance");
+  if (camera.vertical_fov && camera.is_of_scene()) refuse_usage("--fov requires --view or --eye");
+  if (!a.load.animation.empty() && !a.load.time && !a.frames)
+    refuse_usage("--animation requires --time or --frames");
+  if (a.output.empty() && !a.validate && !a.sampling.shard)
+    a.output = default_output(a.scene, a.frames.has_value());
+  if (a.sidecar.empty() && std::ranges::find(a.aovs.exact, Aov::id) != a.aovs.exact.end())
+    (a.sidecar = a.output) += ".json";
+  if (a.frames && !a.output.empty()) check_pattern("--output", a.output.string());
+  if (a.frames && !a.sidecar.empty()) check_pattern("--sidecar", a.sidecar.string());
+}
+
+int print(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) != EOF && std::fflush(stdout) == 0) return 0;
+  std::fputs("error: standard output can't be written\n", stderr);
+  return static_cast<int>(ErrorKind::io);
+}
+
+}  // namespace
+
+Parsed parse_arguments(Command command, int argc, char** argv) {
+  Parsed parsed;
+  Arguments& a = parsed.arguments;
+  Parser parser(command);
+  try {
+    const std::vector<Given> given = parser.parse(argc, argv);
+    for (const auto& [option, values] : given) {
+      for (const std::string& value : values) option->set(a, {std::string(option->name()), value});
+    }
+    if (command == Command::render) complete(a);
+    a.identity = identity_of(given);
+  } catch (const CLI::CallForHelp&) {
+    parsed.exit_code = print(help_text(command));
+  } catch (const CLI::CallForVersion& version) {
+    parsed.exit_code = print(std::string(version.what()) + "\n");
+  } catch (const CLI::ParseError& error) {
+    parsed.exit_code = report_usage_error(command, message_of(command, parser.app(), error));
+  } catch (const Error& error) {
+    parsed.exit_code = report_usage_error(command, error.what());
+  }
+  return parsed;
+}
+
+}  // namespace microtrace::cli

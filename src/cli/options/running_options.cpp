@@ -1,0 +1,132 @@
+#include "cli/arguments.hpp"
+#include "cli/options/option.hpp"
+
+#include <array>
+
+namespace microtrace::cli {
+namespace {
+
+constexpr std::array kStatistics{Choice<Statistics>{"text", Statistics::text},
+                                 Choice<Statistics>{"json", Statistics::json}};
+constexpr std::array kProgress{Choice<Progress>{"bar", Progress::bar},
+                               Choice<Progress>{"json", Progress::json},
+                               Choice<Progress>{"none", Progress::none}};
+
+constexpr std::array kRunningOptions{
+    Option{.names = "-t,-j,--threads",
+           .metavar = "N",
+           .help = "number of threads, 1 to 1024; the picture doesn't depend on it",
+           .default_value = "one per processor",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.threads = value.whole_number(1, 1024); }},
+    Option{.names = "--max-time",
+           .metavar = "S",
+           .help = "end the run after S seconds with exit code 6 and no picture, whatever it is "
+                   "doing; for untrusted scenes",
+           .default_value = "none",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.max_time = value.positive_number(); }},
+    Option{.names = "--memory-limit",
+           .metavar = "BYTES",
+           .help =
+               "maximum memory, in bytes or with K, M or G for KiB, MiB or GiB: a request beyond "
+               "it ends the run with exit code 6",
+           .default_value = "three quarters of what is free",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue& value) { a.memory_limit = value.bytes(); }},
+    Option{.names = "--stats",
+           .metavar = "KIND",
+           .help = "report time, memory and ray counts on standard error as text or, with "
+                   "--stats=json, as JSON",
+           .implied_value = "text",
+           .samples = Samples::keep,
+           .words = [] { return names_of(kStatistics); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.statistics = value.choice(kStatistics); }},
+    Option{.names = "--progress",
+           .metavar = "KIND",
+           .help = "progress on standard error: bar (if it is a terminal), json (one line per "
+                   "update) or none",
+           .default_value = "bar",
+           .samples = Samples::keep,
+           .words = [] { return names_of(kProgress); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.progress = value.choice(kProgress); }},
+    Option{.names = "--strict",
+           .help = "treat warnings as errors: exit code 3 and no picture",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.strict = true; }},
+    Option{.names = "--validate",
+           .help = "check the scene, print the result, render nothing; exit code 3 if the scene "
+                   "breaks a rule of its format",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.validate = true; }},
+};
+static_assert(is_complete(kRunningOptions));
+
+constexpr std::array kReportOptions{
+    Option{.names = "-v,--verbose",
+           .help = "report what is read, how it is rendered and what is written",
+           .samples = Samples::keep,
+           .excludes = "--quiet",
+           .set = [](Arguments& a, const OptionValue&) { a.verbose = true; }},
+    Option{.names = "--version",
+           .help = "print the program's name and version",
+           .samples = Samples::keep},
+};
+static_assert(is_complete(kReportOptions));
+
+constexpr std::array kCommonOptions{
+    Option{.names = "-q,--quiet",
+           .help = "no warnings, no progress bar, no line about what was written",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.quiet = true; }},
+    Option{.names = "-h,--help", .help = "print this list", .samples = Samples::keep},
+};
+static_assert(is_complete(kCommonOptions));
+
+constexpr std::array kMergeOptions{
+    Option{.names = "CHECKPOINT",
+           .metavar = "FILE",
+           .help = "files that --checkpoint wrote for one picture",
+           .samples = Samples::keep,
+           .completion = Completion::files,
+           .is_required = true,
+           .is_repeatable = true,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.checkpoints.emplace_back(value.text); }},
+    Option{.names = "-o,--output",
+           .metavar = "FILE",
+           .help = "picture file; the extension selects the format",
+           .samples = Samples::keep,
+           .completion = Completion::files,
+           .is_required = true,
+           .set = [](Arguments& a, const OptionValue& value) { a.output = value.text; }},
+    Option{.names = "--partial",
+           .help = "make a picture even if samples are missing, which is an error otherwise",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.allows_missing_samples = true; }},
+};
+static_assert(is_complete(kMergeOptions));
+
+}  // namespace
+
+std::span<const Option> running_options() {
+  return kRunningOptions;
+}
+
+std::span<const Option> report_options() {
+  return kReportOptions;
+}
+
+std::span<const Option> common_options() {
+  return kCommonOptions;
+}
+
+std::span<const Option> merge_options() {
+  return kMergeOptions;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,154 @@
+#include "cli/arguments.hpp"
+#include "cli/options/option.hpp"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+
+namespace microtrace::cli {
+namespace {
+
+constexpr std::array kFilters{Choice<PixelFilter>{"box", PixelFilter::box},
+                              Choice<PixelFilter>{"blackman-harris", PixelFilter::blackman_harris}};
+constexpr std::array kBackfaces{Choice<Backfaces>{"pass", Backfaces::pass},
+                                Choice<Backfaces>{"occlude", Backfaces::occlude}};
+
+constexpr std::array kSamplingOptions{
+    Option{
+        .names = "--integrator",
+        .metavar = "NAME",
+        .help = "rendering method: flat (colors without light), path (path tracing), or one of the "
+                "exact quantities "
+                "of --aov",
+        .default_value = "path for glTF, flat for JSON",
+        .samples = Samples::change,
+        .words = integrator_names,
+        .set = [](Arguments& a, const OptionValue& value) { a.wanted = parse_integrator(value); }},
+    Option{.names = "--spp,--samples",
+           .metavar = "N",
+           .help =
+               "samples per pixel, 1 to 65536; a single one without light is at the pixel's center",
+           .default_value = "64 for path, else 1",
+           .samples = Samples::keep,
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.sampling.samples = value.whole_number(1, kMaxSamples);
+               }},
+    Option{
+        .names = "--filter",
+        .metavar = "NAME",
+        .help = "pixel filter: box (the pixel's square) or blackman-harris (a bell 3 pixels wide)",
+        .default_value = "box",
+        .samples = Samples::change,
+        .words = [] { return names_of(kFilters); },
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.sampling.filter = value.choice(kFilters); }},
+    Option{.names = "--seed",
+           .metavar = "N",
+           .help = "random seed, 0 to 4294967295: another one gives other noise",
+           .default_value = "0",
+           .samples = Samples::change,
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.sampling.seed = value.whole_number(0, std::numeric_limits<std::uint32_t>::max());
+               }},
+    Option{
+        .names = "--max-depth",
+        .metavar = "N",
+        .help = "maximum path length in segments, 1 to 65536: 1 shows emission only, 2 adds direct "
+                "light",
+        .default_value = "32",
+        .samples = Samples::change,
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.path.max_depth = value.whole_number(1, 65536); }},
+    Option{.names = "--backfaces",
+           .metavar = "KIND",
+           .help = "what the back of a one-sided surface does to light paths: pass (let them "
+                   "through, as for the camera) or occlude (end them, so that walls seen from "
+                   "outside keep the sun out)",
+           .default_value = "pass",
+           .samples = Samples::change,
+           .words = [] { return names_of(kBackfaces); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.path.backfaces = value.choice(kBackfaces); }},
+};
+static_assert(is_complete(kSamplingOptions));
+
+Shard parse_shard(const OptionValue& value) {
+  const std::string_view text = value.text;
+  const std::size_t slash = text.find('/');
+  const auto index = whole_number(text.substr(0, slash));
+  const auto count = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count)
+    value.refuse("I/N, shard I of N, with I from 1 to N");
+  return {.index = *index, .count = *count};
+}
+
+constexpr std::array kCheckpointOptions{
+    Option{
+        .names = "--target-error",
+        .metavar = "E",
+        .help = "stop sampling tiles whose relative error is at most E, such as 0.02; --spp is "
+                "the maximum",
+        .default_value = "take all samples",
+        .samples = Samples::change,
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.sampling.target_error = value.positive_number(); }},
+    Option{.names = "--time-limit",
+           .metavar = "S",
+           .help = "start no further sampling pass S seconds after rendering began; the picture is "
+                   "made of the samples taken",
+           .default_value = "none",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.time_limit = value.seconds(); }},
+    Option{
+        .names = "--checkpoint",
+        .metavar = "FILE",
+        .help = "save the samples to FILE while rendering and at the end; if FILE exists, "
+                "continue from it",
+        .samples = Samples::keep,
+        .completion = Completion::files,
+        .set = [](Arguments& a, const OptionValue& value) { a.sampling.checkpoint = value.text; }},
+    Option{.names = "--resume",
+           .metavar = "FILE",
+           .help = "continue from this checkpoint too; may be repeated",
+           .samples = Samples::keep,
+           .completion = Completion::files,
+           .is_repeatable = true,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.resume.emplace_back(value.text); }},
+    Option{.names = "--shard",
+           .metavar = "I/N",
+           .help = "take only part I of N of the samples, into --checkpoint, and write no picture; "
+                   "microtrace merge makes it",
+           .samples = Samples::keep,
+           .needs = "--checkpoint",
+           .excludes = "--output --aov --sidecar --progressive --target-error",
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.shard = parse_shard(value); }},
+    Option{.names = "--progressive",
+           .help = "write the picture repeatedly while rendering",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue&) { a.sampling.is_progressive = true; }},
+    Option{.names = "--save-every",
+           .metavar = "S",
+           .help = "seconds between writing checkpoints and progressive pictures",
+           .default_value = "60",
+           .samples = Samples::keep,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.save_every = value.seconds(); }},
+};
+static_assert(is_complete(kCheckpointOptions));
+
+}  // namespace
+
+std::span<const Option> sampling_options() {
+  return kSamplingOptions;
+}
+
+std::span<const Option> checkpoint_options() {
+  return kCheckpointOptions;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,68 @@
+#include "cli/options/usage_error.hpp"
+
+#include "base/nearest_name.hpp"
+#include "base/printable.hpp"
+#include "cli/options/help.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <vector>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace microtrace::cli {
+namespace {
+
+std::vector<std::string_view> long_names(Command command) {
+  std::vector<std::string_view> long_names;
+  for (const OptionGroup& group : option_groups(command)) {
+    for (const Option& option : group.options) {
+      for (const std::string_view name : option.all_names()) {
+        if (name.starts_with("--")) long_names.push_back(name);
+      }
+    }
+  }
+  return long_names;
+}
+
+std::string unknown_option(Command command, std::string_view argument) {
+  const std::string name(argument.substr(0, argument.find('=')));
+  std::string message = "unknown option " + printable(name);
+  if (!name.starts_with("--")) return message;
+  const std::vector<std::string_view> known = long_names(command);
+  const std::string_view nearest = nearest_name(name, known);
+  if (!nearest.empty()) message.append("; did you mean ").append(nearest).append("?");
+  return message;
+}
+
+}  // namespace
+
+std::string message_of(Command command, const CLI::App& app, const CLI::ParseError& error) {
+  // CLI11 reports what is missing before what it doesn't know; a mistyped option is often why
+  // something is missing.
+  const std::vector<std::string> left = app.remaining();
+  const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
+  const auto option = std::ranges::find_if(left, is_option);
+  if (option != left.end()) return unknown_option(command, *option);
+  if (!left.empty()) return "unexpected argument " + in_quotes(left.front());
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    const std::string text = error.what();
+    const std::string name = text.substr(0, text.find(':'));
+    const CLI::Option* known = app.get_option_no_throw(name);
+    return name + (known != nullptr && known->count() > 1 ? " is given twice" : " wants a value");
+  }
+  return printable(error.what());
+}
+
+int report_usage_error(Command command, const std::string& message) {
+  std::fprintf(stderr, "error: %s\nRun %s --help for the options.\n", message.c_str(),
+               program_name(command).c_str());
+  return static_cast<int>(ErrorKind::usage);
+}
+
+}  // namespace microtrace::cli

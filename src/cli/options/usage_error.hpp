@@ -1,0 +1,21 @@
+#pragma once
+#include "cli/options/option.hpp"
+
+#include <string>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace microtrace::cli {
+
+/// What is wrong with a command line that CLI11 refuses; unknown options come first, with the
+/// nearest name that is known.
+[[nodiscard]] std::string message_of(Command command, const CLI::App& app,
+                                     const CLI::ParseError& error);
+
+/// Prints the message to standard error; returns the exit code of usage errors.
+[[nodiscard]] int report_usage_error(Command command, const std::string& message);
+
+}  // namespace microtrace::cli

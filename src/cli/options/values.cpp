@@ -1,0 +1,169 @@
+#include "cli/options/values.hpp"
+
+#include "scene/srgb.hpp"
+#include "scene/validate.hpp"
+
+#include <microtrace/environment.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace microtrace::cli {
+namespace {
+
+constexpr std::array kViews{
+    Choice<View>{"front", {.azimuth = 0, .elevation = 0}},
+    Choice<View>{"right", {.azimuth = 90, .elevation = 0}},
+    Choice<View>{"back", {.azimuth = 180, .elevation = 0}},
+    Choice<View>{"left", {.azimuth = 270, .elevation = 0}},
+    Choice<View>{"top", {.azimuth = 0, .elevation = 90}},
+    Choice<View>{"bottom", {.azimuth = 0, .elevation = -90}},
+    // Looks along a cube's diagonal: sin^2 = 1/3.
+    Choice<View>{"iso", {.azimuth = 45, .elevation = 35.264389682754654}},
+};
+
+std::optional<Vec3> parse_hex_color(std::string_view digits) {
+  if (digits.find_first_not_of("0123456789abcdefABCDEF") != std::string_view::npos)
+    return std::nullopt;
+  Vec3 color(0);
+  for (glm::length_t i = 0; i < 3; ++i) {
+    std::uint8_t code = 0;
+    const char* begin = digits.data() + 2 * i;
+    std::from_chars(begin, begin + 2, code, 16);
+    color[i] = static_cast<float>(linear_from_srgb(code / 255.0));
+  }
+  return color;
+}
+
+/// A number as the nearest float32, without rounding to float64 before.
+std::optional<float> parse_float(std::string_view text) {
+  float value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// #rrggbb in sRGB, or three numbers in [0, greatest].
+std::optional<Vec3> parse_color(std::string_view text, float greatest) {
+  if (text.size() == 7 && text[0] == '#') return parse_hex_color(text.substr(1));
+  const std::vector<std::string_view> parts = split_at_commas(text);
+  if (parts.size() != 3) return std::nullopt;
+  Vec3 color(0);
+  for (glm::length_t i = 0; i < 3; ++i) {
+    const auto value = parse_float(parts[static_cast<std::size_t>(i)]);
+    if (!value || !(*value >= 0 && *value <= greatest)) return std::nullopt;
+    color[i] = *value;
+  }
+  return color;
+}
+
+template <class Quantities>
+void add_names(std::vector<std::string>& names, const Quantities& quantities) {
+  for (const auto quantity : quantities) names.emplace_back(name_of(quantity));
+}
+
+}  // namespace
+
+ImageSize parse_size(const OptionValue& value) {
+  const std::string_view text = value.text;
+  const std::size_t x = text.find('x');
+  const auto width = whole_number(text.substr(0, x));
+  const auto height = x == text.npos ? std::nullopt : whole_number(text.substr(x + 1));
+  if (!width || !height) value.refuse("WIDTHxHEIGHT in pixels, such as 640x480");
+  const ImageSize size{.width = *width, .height = *height};
+  if (const auto problem = validate(size))
+    refuse_usage(value.option + ": " + problem->field + " " + problem->message);
+  return size;
+}
+
+PixelRect parse_crop(const OptionValue& value) {
+  std::vector<std::uint32_t> sides;
+  for (const std::string_view part : split_at_commas(value.text)) {
+    if (const auto side = whole_number(part)) sides.push_back(*side);
+  }
+  if (sides.size() != 4 || split_at_commas(value.text).size() != 4)
+    value.refuse("x0,y0,x1,y1 in pixels");
+  return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
+}
+
+OrbitView parse_view(const OptionValue& value) {
+  for (const auto& [name, view] : kViews) {
+    if (name == value.text) return {.view = view};
+  }
+  const std::vector<double> numbers = numbers_of(value.text);
+  const bool has_distance = numbers.size() == 3;
+  if ((numbers.size() != 2 && !has_distance) || std::abs(numbers[1]) > 90 ||
+      (has_distance && !(numbers[2] > 0))) {
+    std::string names;
+    for (const auto& [name, view] : kViews) names.append(name).append(", ");
+    value.refuse(names +
+                 "or AZIMUTH,ELEVATION in degrees, elevation from -90 to 90, or both and a "
+                 "distance above 0");
+  }
+  OrbitView orbit{.view = {.azimuth = numbers[0], .elevation = numbers[1]}};
+  if (has_distance) orbit.distance = numbers[2];
+  return orbit;
+}
+
+std::vector<std::string> view_names() {
+  return names_of(kViews);
+}
+
+Background parse_background(const OptionValue& value) {
+  if (value.text == "transparent") return {.kind = Background::Kind::transparent};
+  if (value.text == "env") return {.kind = Background::Kind::environment};
+  if (const auto color = parse_color(value.text, 1)) return {.color = *color};
+  value.refuse(
+      "transparent, env, #rrggbb (sRGB), or three numbers from 0 to 1 (linear light) such as "
+      "0.2,0.4,1");
+}
+
+std::optional<Vec3> parse_radiance(const std::string& text) {
+  return parse_color(text, kMaxRadiance);
+}
+
+Subject parse_integrator(const OptionValue& value) {
+  if (value.text == "flat") return Technique::flat;
+  if (value.text == "path") return Technique::path;
+  if (const auto aov = aov_named(value.text)) return *aov;
+  value.refuse(listed(integrator_names()));
+}
+
+std::vector<std::string> integrator_names() {
+  std::vector<std::string> names{"flat", "path"};
+  add_names(names, kAovs);
+  return names;
+}
+
+Channels parse_aovs(const OptionValue& value) {
+  Channels channels;
+  const auto add = [&](auto& list, auto aov) {
+    if (std::ranges::find(list, aov) != list.end())
+      refuse_usage(value.option + ": names " + std::string(name_of(aov)) + " twice");
+    list.push_back(aov);
+  };
+  for (const std::string_view name : split_at_commas(value.text)) {
+    if (const auto aov = aov_named(name)) {
+      add(channels.exact, *aov);
+    } else if (const auto sampled = sampled_aov_named(name)) {
+      add(channels.sampled, *sampled);
+    } else {
+      value.refuse("a comma-separated list of " + listed(aov_names()));
+    }
+  }
+  return channels;
+}
+
+std::vector<std::string> aov_names() {
+  std::vector<std::string> names;
+  add_names(names, kAovs);
+  add_names(names, kSampledAovs);
+  return names;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,67 @@
+#pragma once
+/// Values that options are given in a notation of their own.
+
+#include "cli/options/option_value.hpp"
+
+#include <microtrace/aov.hpp>
+#include <microtrace/film.hpp>
+#include <microtrace/framing.hpp>
+#include <microtrace/math.hpp>
+#include <microtrace/sampled_aov.hpp>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace microtrace::cli {
+
+// Each parse_ throws Error (usage), which names the option and says what it accepts.
+
+/// WIDTHxHEIGHT
+[[nodiscard]] ImageSize parse_size(const OptionValue& value);
+/// x0,y0,x1,y1
+[[nodiscard]] PixelRect parse_crop(const OptionValue& value);
+
+/// The viewing direction of --view.
+struct OrbitView {
+  View view{};
+  std::optional<double> distance{};  ///< from the target; absent: the whole scene is framed
+};
+
+/// A side's name, AZIMUTH,ELEVATION in degrees, or AZIMUTH,ELEVATION,DISTANCE
+[[nodiscard]] OrbitView parse_view(const OptionValue& value);
+[[nodiscard]] std::vector<std::string> view_names();
+
+/// What is visible behind all objects.
+struct Background {
+  enum class Kind { color, transparent, environment } kind = Kind::color;
+  Vec3 color{0};  ///< linear Rec. 709; black unless it is of that kind
+};
+
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent" or "env"
+[[nodiscard]] Background parse_background(const OptionValue& value);
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; else nothing
+[[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
+
+/// How colors are computed.
+enum class Technique { flat, path };
+/// What a picture shows: colors, or a quantity.
+using Subject = std::variant<Technique, Aov>;
+
+[[nodiscard]] Subject parse_integrator(const OptionValue& value);
+[[nodiscard]] std::vector<std::string> integrator_names();
+
+/// What --aov names.
+struct Channels {
+  std::vector<Aov> exact{};
+  std::vector<SampledAov> sampled{};
+
+  [[nodiscard]] bool empty() const { return exact.empty() && sampled.empty(); }
+};
+
+/// Names of quantities with commas between, each once
+[[nodiscard]] Channels parse_aovs(const OptionValue& value);
+[[nodiscard]] std::vector<std::string> aov_names();
+
+}  // namespace microtrace::cli

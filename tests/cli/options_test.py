@@ -1,0 +1,104 @@
+#!/usr/bin/env python3
+"""What the table of options says of each: its default, and whether samples depend on it.
+
+usage: options_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import re
+import sys
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import option_table
+from program import ProgramTest
+
+SOURCE = Path(sys.argv[2]).resolve()
+SCENE = SOURCE / "scenes/perspective1.json"
+LIGHT = [SCENE, "--integrator", "path", "--size", "16x12", "-q"]
+# Without these an option is refused.
+CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--fps": ["--frames", "3:3"]}
+# Other values than the defaults.
+SAMPLES_DEPEND = {
+    "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
+    "--filter": "blackman-harris", "--seed": "1", "--max-depth": "1", "--backfaces": "occlude",
+    "--env": "#ff8000", "--env-rotation": "90", "--env-intensity": "0.5", "--target-error": "0.5", "--time": "1", "--variant": "0"}
+SAMPLES_STAY = {
+    "--threads": "3", "--stats": None, "--progress": "none", "--exposure": "2", "--tonemap": "aces", "--memory-limit": "1G",
+    "--max-time": "600", "--verbose": None, "--strict": None, "--time-limit": "500", "--save-every": "1", "--ppm": "ascii",
+    "--allow-path": ".", "--aov": "depth", "--sidecar": "a.json", "--progressive": None, "--spp": "3"}
+
+
+class Options(ProgramTest):
+    def options(self):
+        groups = option_table.parse(self.run_program("--help").stdout.decode())
+        return [option for options in groups.values() for option in options]
+
+    def render(self, *arguments, picture="a.ppm"):
+        result = self.run_program(*arguments, "-o", picture)
+        self.assertEqual(result.returncode, 0, (arguments, result.stderr))
+        return (self.folder / picture).read_bytes()
+
+    def test_defaults_are_what_the_program_does_without_the_option(self):
+        count = 0
+        for option in self.options():
+            default = option.default.split(";")[0]
+            if not re.fullmatch(r"[a-z0-9.,:-]+", default) or default == "none":
+                continue
+            with self.subTest(option.name, default=default):
+                count += 1
+                context = CONTEXT.get(option.name, [])
+                picture = "%d.ppm" if "--frames" in context else "3.ppm"
+                pictures = []
+                for more in ([], [option.name, default]):
+                    result = self.run_program(*LIGHT, "--spp", "2", *context, *more, "-o", picture)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    pictures.append((self.folder / "3.ppm").read_bytes())
+                self.assertEqual(pictures[0], pictures[1])
+        self.assertGreater(count, 10)
+
+    def test_samples_that_differ_are_not_put_together(self):
+        self.render(*LIGHT, "--spp", "2", "--checkpoint", "c")
+        checkpoint = (self.folder / "c").read_bytes()
+        known = {name for option in self.options() for name in option.names}
+        for option, value in SAMPLES_DEPEND.items():
+            self.assertIn(option, known)
+            light = [word for word in LIGHT if option != "--size" or word not in ("--size", "16x12")]
+            result = self.run_program(*light, "--spp", "2", option, value, "--resume", "c", "-o", "a.exr")
+            self.assertEqual(result.returncode, 2, (option, result.stderr))
+            self.assertIn(b"c: holds samples of another picture: ", result.stderr)
+        self.assertEqual((self.folder / "c").read_bytes(), checkpoint)
+
+    def test_other_options_may_differ(self):
+        whole = self.render(*LIGHT, "--spp", "3")
+        known = {name for option in self.options() for name in option.names}
+        for option, value in SAMPLES_STAY.items():
+            self.assertIn(option, known)
+            (self.folder / "c").unlink(missing_ok=True)
+            self.render(*LIGHT, "--spp", "2", "--checkpoint", "c")
+            quiet = LIGHT[:-1] if option == "--verbose" else LIGHT
+            more = ["--spp", "3"] if option != "--spp" else []
+            picture = "a.exr" if option == "--aov" else "a.ppm"
+            self.render(*quiet, *more, option, *([value] if value else []), "--checkpoint", "c", picture=picture)
+            self.assertEqual(self.render(*LIGHT, "--spp", "3", "--resume", "c"), whole, option)
+
+    def test_options_are_given_once(self):
+        for arguments, message in ((["--spp", "3", "--spp", "4"], b"error: --spp is given twice\n"),
+                                   (["--fov", "30"], b"error: --fov requires --view or --eye\n"),
+                                   (["--stats=xml"], b"error: --stats: wants text or json, not xml\n"),
+                                   (["--filter", "gauss"], b"error: --filter: wants box or blackman-harris, not gauss\n")):
+            result = self.run_program(*LIGHT, *arguments)
+            self.assertEqual(result.returncode, 2)
+            self.assertTrue(result.stderr.startswith(message), result.stderr)
+        # Switches may be repeated, and switched off.
+        self.assertEqual(self.run_program(*LIGHT, "-q", "--quiet", "--spp", "1", "-o", "a.ppm").stderr, b"")
+        self.assertIn(b"wrote", self.run_program(*LIGHT[:-1], "--quiet=false", "--spp", "1", "-o", "a.ppm").stderr)
+        self.assertEqual(self.run_program(*LIGHT, "--quiet=perhaps").returncode, 2)
+
+    def test_help_comes_before_other_errors(self):
+        for arguments in (["--fov", "wide", "--help"], ["--help"], ["-h", "--fps", "3"]):
+            self.assertEqual(self.run_program(*arguments).returncode, 0, arguments)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
