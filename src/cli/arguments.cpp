@@ -3,6 +3,8 @@
 #include <microtrace/aov.hpp>
 #include <microtrace/error.hpp>
 
+#include <algorithm>
+
 namespace microtrace::cli {
 namespace {
 
@@ -50,6 +52,15 @@ void apply_defaults(Arguments& a, SceneFormat format) {
   // Lighter than shadows and darker than highlights, so that models stand out.
   if (is_gltf && is_path && !a.environment.background)
     a.environment.background = Background{.color = Vec3(0.6F)};
+}
+
+SurfaceDetail surface_detail(const Arguments& a) {
+  const bool shows_albedo = std::ranges::find(a.aovs.exact, Aov::albedo) != a.aovs.exact.end();
+  const Aov* quantity = a.wanted ? std::get_if<Aov>(&*a.wanted) : nullptr;
+  if (quantity != nullptr && *quantity != Aov::albedo && !shows_albedo) return SurfaceDetail::shape;
+  if (!a.aovs.empty()) return SurfaceDetail::all;
+  if (!a.wanted) return SurfaceDetail::usual;
+  return a.wanted == Subject(Technique::flat) ? SurfaceDetail::color : SurfaceDetail::all;
 }
 
 std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {

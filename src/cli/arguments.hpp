@@ -127,6 +127,9 @@ struct Arguments {
 /// are rendered flat. Throws Error (usage) for options that contradict the result.
 void apply_defaults(Arguments& arguments, SceneFormat format);
 
+/// The properties of surfaces that the picture and its channels show.
+[[nodiscard]] SurfaceDetail surface_detail(const Arguments& arguments);
+
 /// After apply_defaults().
 [[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Arguments& arguments);
 

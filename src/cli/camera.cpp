@@ -46,4 +46,27 @@ Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize
   refuse_usage(message);
 }
 
+std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
+                                           const Arguments& arguments) {
+  if (sequence.count() == 1) return std::nullopt;  // choose_camera frames it
+  const CameraOptions& options = arguments.camera;
+  if (options.is_of_scene() && !options.camera.empty()) return std::nullopt;
+  LoadedScene posed = file.at(sequence.time(0));
+  if (options.is_of_scene() && !posed.scene.cameras.empty()) return std::nullopt;
+  Framing framing(options.view(), arguments.size.value_or(posed.scene.size));
+  framing.add(posed.scene);
+  for (std::uint32_t index = 1; index < sequence.count(); ++index) {
+    posed = file.at(sequence.time(index));
+    framing.add(posed.scene);
+  }
+  PerspectiveCamera camera = camera_of(framing, options);
+  camera.pose.position += framing.origin();
+  return camera;
+}
+
+PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera) {
+  camera.pose.position -= scene.origin;
+  return camera;
+}
+
 }  // namespace microtrace::cli

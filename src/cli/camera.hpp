@@ -2,10 +2,14 @@
 /// The camera that the command line asks for.
 
 #include "cli/arguments.hpp"
+#include "cli/sequence.hpp"
 
 #include <microtrace/camera.hpp>
 #include <microtrace/framing.hpp>
+#include <microtrace/io.hpp>
 #include <microtrace/scene.hpp>
+
+#include <optional>
 
 namespace microtrace::cli {
 
@@ -17,5 +21,13 @@ namespace microtrace::cli {
 /// names of the scene's cameras.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const CameraOptions& options,
                                    ImageSize size);
+
+/// The camera at rest that frames all pictures of a sequence of several, unless that is a camera of
+/// the scene; in the world's coordinates. Poses the scene for each.
+[[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
+                                                         const Arguments& arguments);
+
+/// The same camera in the scene's coordinates instead of the world's.
+[[nodiscard]] PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera);
 
 }  // namespace microtrace::cli

@@ -41,23 +41,22 @@ void refuse_same_files(const std::vector<Output>& outputs) {
   }
 }
 
-void check_frames(const ReadFiles& inputs, const FrameRange& frames, const std::string& picture,
-                  const std::string& sidecar) {
-  std::unordered_set<std::string> pictures;
+void check_inputs_are_kept(const ReadFiles& inputs, const Sequence& sequence) {
   const auto normal = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal().string();
   };
-  for (std::uint32_t frame = frames.first; frame <= frames.last; ++frame) {
-    const Output image{"--output", frame_path(picture, frame)};
-    const Output beside{"--sidecar", frame_path(sidecar, frame)};
-    refuse_to_write_over(inputs, {image, beside});
-    if (sidecar.empty()) continue;
-    refuse_same_files({image, beside});
-    pictures.insert(normal(image.path));
+  std::unordered_set<std::string> pictures;
+  for (std::uint32_t index = 0; index < sequence.count(); ++index) {
+    const Output picture{"--output", sequence.picture(index)};
+    const Output sidecar{"--sidecar", sequence.sidecar(index)};
+    refuse_to_write_over(inputs, {picture, sidecar});
+    refuse_same_files({picture, sidecar});
+    if (!sidecar.path.empty() && sequence.count() > 1) pictures.insert(normal(picture.path));
   }
-  for (std::uint32_t frame = frames.first; frame <= frames.last && !sidecar.empty(); ++frame) {
-    const Output beside{"--sidecar", frame_path(sidecar, frame)};
-    if (pictures.contains(normal(beside.path))) refuse_same({"--output", {}}, beside);
+  // A sidecar may also have the name of another frame's picture.
+  for (std::uint32_t index = 0; !pictures.empty() && index < sequence.count(); ++index) {
+    const Output sidecar{"--sidecar", sequence.sidecar(index)};
+    if (pictures.contains(normal(sidecar.path))) refuse_same({"--output", {}}, sidecar);
   }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Files to be written must be none of those that were read, and none of each other.
 
-#include "cli/arguments.hpp"
+#include "cli/sequence.hpp"
 
 #include <microtrace/read_files.hpp>
 
@@ -23,8 +23,7 @@ void refuse_to_write_over(const ReadFiles& inputs, const std::vector<Output>& ou
 /// Throws Error (usage) where two of the outputs are one file.
 void refuse_same_files(const std::vector<Output>& outputs);
 
-/// Both, for the pictures and sidecars of all frames, whose names are patterns.
-void check_frames(const ReadFiles& inputs, const FrameRange& frames, const std::string& picture,
-                  const std::string& sidecar);
+/// Both, for all pictures and sidecars of a sequence.
+void check_inputs_are_kept(const ReadFiles& inputs, const Sequence& sequence);
 
 }  // namespace microtrace::cli

@@ -45,8 +45,8 @@ std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_
   return arguments.quiet || arguments.progress == Progress::none ? nullptr : progress_bar(pictures);
 }
 
-void check_outputs(const Arguments& arguments, const std::filesystem::path& output,
-                   const std::filesystem::path& sidecar) {
+void check_outputs(const Arguments& arguments, const Sequence& sequence) {
+  const std::filesystem::path output = sequence.picture(0), sidecar = sequence.sidecar(0);
   const std::filesystem::path& checkpoint = arguments.sampling.checkpoint;
   if (!checkpoint.empty()) check_checkpoint_path(checkpoint);
   if (arguments.sampling.shard) return;

@@ -1,0 +1,30 @@
+#pragma once
+/// The pictures of one run: one for each frame, or a single one.
+
+#include "cli/arguments.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace microtrace::cli {
+
+class Sequence {
+ public:
+  /// The arguments must outlive it.
+  explicit Sequence(const Arguments& arguments) : arguments_(arguments) {}
+
+  [[nodiscard]] std::uint32_t count() const;
+  /// When picture `index`, from 0, shows the scene; nothing: in the pose without animation.
+  [[nodiscard]] std::optional<double> time(std::uint32_t index) const;
+  [[nodiscard]] std::filesystem::path picture(std::uint32_t index) const;
+  [[nodiscard]] std::filesystem::path sidecar(std::uint32_t index) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path path(const std::filesystem::path& name,
+                                           std::uint32_t index) const;
+
+  const Arguments& arguments_;
+};
+
+}  // namespace microtrace::cli
