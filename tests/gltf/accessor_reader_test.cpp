@@ -33,7 +33,7 @@ class Reading {
   std::string text_;
   io::JsonDocument document_;
   io::gltf::Asset asset_;
-  tinygltf::Model model_;
+  io::gltf::Model model_;
   std::vector<io::gltf::Buffer> buffers_;
   io::gltf::BufferViews views_;
 

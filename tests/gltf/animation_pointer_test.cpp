@@ -1,4 +1,5 @@
 #include "gltf/asset_builder.hpp"
+#include "io/gltf/animation/property.hpp"
 #include "io/gltf/scene/scene.hpp"
 #include "support/png_file.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::IsNull;
 using testing::NotNull;
 using Numbers = std::vector<float>;
 
@@ -168,6 +170,21 @@ TEST(GltfAnimationPointer, CamerasChange) {
   const auto flat = std::get<OrthographicCamera>(cameras(0).at(1).camera);
   EXPECT_GT(flat.aspect_ratio, 0);
   EXPECT_GT(flat.depth.far, flat.depth.near);
+}
+
+TEST(GltfAnimationPointer, RepairedCamerasKeepTheirOtherProperties) {
+  std::string text = R"({"cameras": [{"perspective": {"zfar": 1, "znear": 2, "yfov": 3)";
+  for (int i = 0; i < 20; ++i) text += ", \"a" + std::to_string(i) + "\": 0";
+  text += "}}]}";
+  const io::JsonDocument document(text, "test.gltf");
+  io::JsonValue part = io::gltf::animated_part(document.root());
+  io::gltf::repair_properties(part);
+  const io::JsonValue& camera = *part.find("cameras")->items.at(0).find("perspective");
+  EXPECT_THAT(camera.find("zfar"), IsNull());
+  ASSERT_THAT(camera.find("znear"), NotNull());
+  EXPECT_EQ(camera.find("znear")->number, 2);
+  ASSERT_THAT(camera.find("yfov"), NotNull());
+  EXPECT_EQ(camera.find("yfov")->number, 3);
 }
 
 TEST(GltfAnimationPointer, CamerasNeverLookThroughAHalfSpace) {

@@ -1,5 +1,8 @@
 #include "io/json/document.hpp"
+#include "io/json/write.hpp"
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -231,6 +234,59 @@ TEST(JsonDocument, EscapesPointersAsRfc6901Says) {
   EXPECT_EQ(child("", "a/b"), "/a~1b");
   EXPECT_EQ(child("/x", "m~n"), "/x/m~0n");
   EXPECT_EQ(child("/x", std::size_t{3}), "/x/3");
+}
+
+TEST(JsonDocument, ResolvesPointers) {
+  JsonDocument document(R"({"a/b": [7, {"m~n": 8, "": 9}]})", "s.json");
+  const auto number = [&](std::string_view pointer) {
+    const JsonValue* value = resolve(document.root(), pointer);
+    return value != nullptr ? value->number : -1;
+  };
+  EXPECT_EQ(number("/a~1b/0"), 7);
+  EXPECT_EQ(number("/a~1b/1/m~0n"), 8);
+  EXPECT_EQ(number("/a~1b/1/"), 9);
+  EXPECT_EQ(resolve(document.root(), ""), &document.root());
+  for (const char* wrong : {"a", "/a", "/a~1b/2", "/a~1b/x", "/a~1b/0/x", "/a~1b/0x", "/a~2b"}) {
+    EXPECT_EQ(number(wrong), -1) << wrong;
+  }
+}
+
+/// What the JSON of a text is written as again.
+std::string rewritten(std::string_view text, std::span<const std::string_view> left_out = {}) {
+  const JsonDocument document(text, "s.json");
+  std::string result;
+  append_json(result, document.root(), left_out);
+  return result;
+}
+
+TEST(JsonWriter, WritesWhatIsReadAsTheSame) {
+  const std::string_view compact =
+      R"({"a":[null,true,false,[],{}],"b":{"c":"\"\\/\u0001\u001fé"},"d":[7,-3,0.1,-12.5,1e+300]})";
+  std::string expected(compact);
+  for (const auto& [from, to] :
+       {std::pair("0.1", "1e-01"), std::pair("-3", "-3e+00"), std::pair("-12.5", "-1.25e+01")}) {
+    expected.replace(expected.find(from), std::string_view(from).size(), to);
+  }
+  EXPECT_EQ(rewritten(compact), expected);
+  EXPECT_EQ(rewritten(expected), expected);
+}
+
+TEST(JsonWriter, KeepsTheBitsOfNumbers) {
+  for (const char* text : {"0.1", "-0.0", "1e-320", "9007199254740993e3", "123456789012345678",
+                           "0.30000000000000004", "1.7976931348623157e308"}) {
+    const JsonDocument before(text, "s.json");
+    const std::string again = rewritten(text);
+    const JsonDocument after(again, "s.json");
+    EXPECT_EQ(after.root().number, before.root().number) << text;
+    EXPECT_EQ(std::signbit(after.root().number), std::signbit(before.root().number)) << text;
+  }
+  EXPECT_EQ(rewritten("[3.0, 5e2, 9007199254740992.0]"), "[3,500,9007199254740992]");
+}
+
+TEST(JsonWriter, LeavesOutMembersAtAnyDepth) {
+  constexpr std::array<std::string_view, 2> left_out = {"x", "y"};
+  EXPECT_EQ(rewritten(R"({"x":1,"a":{"y":{},"b":[{"x":2}]},"y":3})", left_out),
+            R"({"a":{"b":[{}]}})");
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ HIDDEN = {
 # Libraries that only these folders may include.
 LIBRARIES = {
     r"CGAL/|gmp": ["tests/oracle"],
-    r"tiny_gltf|nlohmann/": ["src/io", "tests"],
+    r"tiny_gltf": ["src/io/gltf/document/model.cpp"],
+    r"nlohmann/": ["src/io/json", "src/io/sidecar", "tests"],
     r"OpenImageIO/": ["src/modules/openimageio", "tests/image"],
     r"Imf": ["src/modules/openexr"],
     r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],

@@ -35,11 +35,15 @@ struct JsonValue {
 
   /// The member of that name, or null.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
+  [[nodiscard]] JsonValue* find(std::string_view key);
 
   /// To be called where members were added or taken away: find() looks them up by an index.
   void index_members();
 
  private:
+  /// The number of the member of that name, or that of members.
+  [[nodiscard]] std::size_t position(std::string_view key) const;
+
   /// The numbers of the members in the order of their keys, where they are many.
   std::shared_ptr<const std::vector<std::uint32_t>> by_key_{};
 };
@@ -68,6 +72,7 @@ class JsonDocument {
                RepeatedKeys repeated = RepeatedKeys::are_refused);
 
   [[nodiscard]] const JsonValue& root() const { return root_; }
+  [[nodiscard]] JsonValue& root() { return root_; }
   [[nodiscard]] const std::string& file() const { return file_; }
   /// Keys of objects whose place a later one of the same name has taken.
   [[nodiscard]] const OutdoneKeys& outdone_keys() const { return outdone_keys_; }
@@ -87,5 +92,12 @@ class JsonDocument {
 /// Appends one reference token to a JSON pointer, escaped as RFC 6901 says.
 [[nodiscard]] std::string child(const std::string& pointer, std::string_view key);
 [[nodiscard]] std::string child(const std::string& pointer, std::size_t index);
+
+/// The reference tokens of a JSON pointer, unescaped; nothing where it is not well-formed.
+[[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
+
+/// The value that a JSON pointer leads to, or null.
+[[nodiscard]] const JsonValue* resolve(const JsonValue& root, std::string_view pointer);
+[[nodiscard]] JsonValue* resolve(JsonValue& root, std::string_view pointer);
 
 }  // namespace microtrace::io

@@ -8,16 +8,26 @@
 
 namespace microtrace::io {
 
-const JsonValue* JsonValue::find(std::string_view key) const {
+std::size_t JsonValue::position(std::string_view key) const {
   if (by_key_) {
     const auto found = std::ranges::lower_bound(
         *by_key_, key, {}, [this](std::uint32_t i) { return std::string_view(members[i].key); });
     const bool is_there = found != by_key_->end() && members[*found].key == key;
-    return is_there ? &members[*found].value : nullptr;
+    return is_there ? *found : members.size();
   }
   const auto found = std::find_if(members.begin(), members.end(),
                                   [key](const auto& member) { return member.key == key; });
-  return found == members.end() ? nullptr : &found->value;
+  return static_cast<std::size_t>(found - members.begin());
+}
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+  const std::size_t i = position(key);
+  return i < members.size() ? &members[i].value : nullptr;
+}
+
+JsonValue* JsonValue::find(std::string_view key) {
+  const std::size_t i = position(key);
+  return i < members.size() ? &members[i].value : nullptr;
 }
 
 void JsonValue::index_members() {

@@ -1,6 +1,50 @@
 #include "io/json/document.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
 namespace microtrace::io {
+namespace {
+
+/// A reference token with ~1 for / and ~0 for ~; nothing where a ~ is neither.
+std::optional<std::string> unescaped(std::string_view token) {
+  std::string result;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    if (token[i] != '~') {
+      result += token[i];
+      continue;
+    }
+    if (++i == token.size() || (token[i] != '0' && token[i] != '1')) return std::nullopt;
+    result += token[i] == '0' ? '~' : '/';
+  }
+  return result;
+}
+
+/// Value is JsonValue, const or not.
+template <typename Value>
+Value* step(Value& value, const std::string& token) {
+  if (value.kind != JsonValue::Kind::array) return value.find(token);
+  std::size_t index = 0;
+  const char* end = token.data() + token.size();
+  const auto [rest, error] = std::from_chars(token.data(), end, index);
+  const bool is_index = error == std::errc() && rest == end && index < value.items.size();
+  return is_index ? &value.items[index] : nullptr;
+}
+
+template <typename Value>
+Value* resolved(Value& root, std::string_view pointer) {
+  const std::optional<std::vector<std::string>> tokens = pointer_tokens(pointer);
+  if (!tokens) return nullptr;
+  Value* value = &root;
+  for (const std::string& token : *tokens) {
+    value = step(*value, token);
+    if (value == nullptr) return nullptr;
+  }
+  return value;
+}
+
+}  // namespace
 
 std::string child(const std::string& pointer, std::string_view key) {
   std::string out = pointer + "/";
@@ -18,6 +62,27 @@ std::string child(const std::string& pointer, std::string_view key) {
 
 std::string child(const std::string& pointer, std::size_t index) {
   return pointer + "/" + std::to_string(index);
+}
+
+std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer) {
+  std::vector<std::string> tokens;
+  while (!pointer.empty()) {
+    if (pointer[0] != '/') return std::nullopt;
+    const std::string_view rest = pointer.substr(1);
+    std::optional<std::string> token = unescaped(rest.substr(0, rest.find('/')));
+    if (!token) return std::nullopt;
+    tokens.push_back(*std::move(token));
+    pointer = rest.substr(std::min(rest.find('/'), rest.size()));
+  }
+  return tokens;
+}
+
+const JsonValue* resolve(const JsonValue& root, std::string_view pointer) {
+  return resolved(root, pointer);
+}
+
+JsonValue* resolve(JsonValue& root, std::string_view pointer) {
+  return resolved(root, pointer);
 }
 
 }  // namespace microtrace::io

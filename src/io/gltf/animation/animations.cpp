@@ -27,25 +27,10 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-std::size_t components(int type) {
-  switch (type) {
-    case TINYGLTF_TYPE_SCALAR:
-      return 1;
-    case TINYGLTF_TYPE_VEC2:
-      return 2;
-    case TINYGLTF_TYPE_VEC3:
-      return 3;
-    case TINYGLTF_TYPE_VEC4:
-      return 4;
-    default:
-      return 0;
-  }
-}
-
 /// The targets of each primitive of a mesh are as many as those of its first.
-std::size_t target_count(const tinygltf::Model& model, int mesh) {
-  if (mesh < 0) return 0;
-  const auto& primitives = model.meshes[static_cast<std::size_t>(mesh)].primitives;
+std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
+  if (!mesh) return 0;
+  const auto& primitives = model.meshes[*mesh].primitives;
   return primitives.empty() ? 0 : primitives[0].targets.size();
 }
 
@@ -54,7 +39,7 @@ std::size_t target_count(const tinygltf::Model& model, int mesh) {
 /// Reads channels, and each accessor once.
 class AnimationPlayer::Reader {
  public:
-  Reader(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
+  Reader(Asset& asset, const Model& model, AccessorReader& reader)
       : asset_(asset), model_(model), reader_(reader) {}
 
   std::optional<Channel> read(const Element& animation, const Element& channel) {
@@ -147,14 +132,14 @@ class AnimationPlayer::Reader {
   std::optional<std::size_t> width_of(const Target& target) {
     const auto& [at, node, path, property] = target;
     if (is_pointed_at(path)) return property.width;
-    const tinygltf::Node& animated = model_.nodes[node];
+    const Model::Node& animated = model_.nodes[node];
     if (path == Path::weights) {
       const std::size_t targets = target_count(model_, animated.mesh);
       if (targets != 0) return targets;
       asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
       return std::nullopt;
     }
-    if (!animated.matrix.empty()) {  // check_animations has told, but of pointers
+    if (animated.matrix) {  // check_animations has told, but of pointers
       asset_.tolerate(at, "animates a node that has a matrix; it is ignored");
       return std::nullopt;
     }
@@ -168,16 +153,16 @@ class AnimationPlayer::Reader {
 
   /// Integers may stand for numbers as they are, and must for true and false, in steps.
   bool fits(const Element& sampler, const Target& target) const {
-    const tinygltf::Accessor& in = accessor(sampler.member("input"));
-    const tinygltf::Accessor& out = accessor(sampler.member("output"));
+    const Model::Accessor& in = accessor(sampler.member("input"));
+    const Model::Accessor& out = accessor(sampler.member("output"));
     const JsonValue* kind = sampler.value->find("interpolation");
     const bool is_step = kind != nullptr && kind->string == "STEP";
     const std::size_t values = kind != nullptr && kind->string == "CUBICSPLINE" ? 3 : 1;
-    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT ||
-        components(out.type) != target.property.width || out.count != in.count * values) {
+    if (in.type != ElementType::scalar || in.component_type != f32 || is_matrix(out.type) ||
+        component_count(out.type) != target.property.width || out.count != in.count * values) {
       return false;
     }
-    const bool is_float = out.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_float = out.component_type == f32;
     return target.path == Path::property || (!is_float && is_step);
   }
 
@@ -186,10 +171,12 @@ class AnimationPlayer::Reader {
            reader_.has_data(accessor_of(sampler.member("output")));
   }
 
-  static int accessor_of(const Element& at) { return static_cast<int>(at.value->number); }
+  static std::size_t accessor_of(const Element& at) {
+    return static_cast<std::size_t>(at.value->number);
+  }
 
-  const tinygltf::Accessor& accessor(const Element& at) const {
-    return model_.accessors[static_cast<std::size_t>(accessor_of(at))];
+  const Model::Accessor& accessor(const Element& at) const {
+    return model_.accessors[accessor_of(at)];
   }
 
   Keyframes keyframes(const Element& sampler, Path path, std::size_t width) {
@@ -209,7 +196,7 @@ class AnimationPlayer::Reader {
     }
     const std::size_t wanted = keys.times->size() * values_of_key * width;
     if (keys.values->size() != wanted) {
-      const std::size_t size = components(accessor(output).type);
+      const std::size_t size = component_count(accessor(output).type);
       asset_.fail(output, "has " + std::to_string(keys.values->size() / size) + " elements; " +
                               std::to_string(keys.times->size()) + " keys need " +
                               std::to_string(wanted / size));
@@ -242,45 +229,45 @@ class AnimationPlayer::Reader {
   }
 
   void check_types(const Element& input, const Element& output, Path path) const {
-    const tinygltf::Accessor& in = accessor(input);
-    const tinygltf::Accessor& out = accessor(output);
-    if (in.type != TINYGLTF_TYPE_SCALAR || in.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+    const Model::Accessor& in = accessor(input);
+    const Model::Accessor& out = accessor(output);
+    if (in.type != ElementType::scalar || in.component_type != f32) {
       asset_.fail(input, "refers to an accessor that is not of type SCALAR and of floats");
     }
-    const int type = path == Path::weights    ? TINYGLTF_TYPE_SCALAR
-                     : path == Path::rotation ? TINYGLTF_TYPE_VEC4
-                                              : TINYGLTF_TYPE_VEC3;
+    const ElementType type = path == Path::weights    ? ElementType::scalar
+                             : path == Path::rotation ? ElementType::vec4
+                                                      : ElementType::vec3;
     const bool may_be_integer = path == Path::rotation || path == Path::weights;
-    const bool is_integer = out.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
-    const bool is_narrow = component_size(out.componentType) < 4;
+    const bool is_integer = out.component_type != f32;
+    const bool is_narrow = component_size(out.component_type) < 4;
     if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
       asset_.fail(output, "refers to an accessor of a type that is not for its path");
     }
   }
 
   Numbers numbers(const Element& at) {
-    const int index = accessor_of(at);
+    const std::size_t index = accessor_of(at);
     Numbers& result = numbers_[index];
     if (result) return result;
-    const tinygltf::Accessor& source = accessor(at);
-    charge(at, source.count * components(source.type));
+    const Model::Accessor& source = accessor(at);
+    charge(at, source.count * component_count(source.type));
     result = std::make_shared<const std::vector<float>>(
-        source.type == TINYGLTF_TYPE_SCALAR ? reader_.read<float>(index)
-        : source.type == TINYGLTF_TYPE_VEC2 ? flattened(reader_.read<glm::vec2>(index))
-        : source.type == TINYGLTF_TYPE_VEC3 ? flattened(reader_.read<Vec3>(index))
-                                            : flattened(reader_.read<glm::vec4>(index)));
+        source.type == ElementType::scalar ? reader_.read<float>(index)
+        : source.type == ElementType::vec2 ? flattened(reader_.read<glm::vec2>(index))
+        : source.type == ElementType::vec3 ? flattened(reader_.read<Vec3>(index))
+                                           : flattened(reader_.read<glm::vec4>(index)));
     return result;
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
-  std::unordered_map<int, Numbers> numbers_;        // by accessor
-  std::unordered_map<int, bool> ascends_, finite_;  // by accessor, as far as looked at
-  std::size_t count_ = 0;                           // of them all
+  std::unordered_map<std::size_t, Numbers> numbers_;        // by accessor
+  std::unordered_map<std::size_t, bool> ascends_, finite_;  // by accessor, as far as looked at
+  std::size_t count_ = 0;                                   // of them all
 };
 
-AnimationPlayer::AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+AnimationPlayer::AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                                  const std::vector<std::size_t>& animations) {
   Reader channel_reader(asset, model, reader);
   for (const std::size_t index : animations) {

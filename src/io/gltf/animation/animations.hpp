@@ -28,7 +28,7 @@ class AnimationPlayer {
  public:
   /// Channels without a target node, and those of properties that can't be animated, play no part;
   /// for the latter there is a warning. Throws Error: invalid_scene, limit.
-  AnimationPlayer(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+  AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                   const std::vector<std::size_t>& animations);
 
   /// What all channels say at that time, in seconds. Where two have one target, the later one

@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::array<std::string_view, 3> animated_members = {"materials", "cameras", "extensions"};
 
-std::vector<std::string> tokens_of(std::string_view pointer) {
-  std::vector<std::string> tokens;
-  while (pointer.starts_with('/')) {
-    pointer.remove_prefix(1);
-    tokens.emplace_back(pointer.substr(0, pointer.find('/')));
-    pointer.remove_prefix(tokens.back().size());
-  }
-  return tokens;
-}
-
 const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   const std::optional<std::size_t> index = index_in(token);
   return index && *index < array.items.size() ? &array.items[*index] : nullptr;
@@ -81,13 +71,8 @@ class Walk {
   Place place_ = Place::root;
 };
 
-JsonValue* find(JsonValue& object, std::string_view key) {
-  const auto member = std::ranges::find(object.members, key, &JsonMember::key);
-  return member != object.members.end() ? &member->value : nullptr;
-}
-
 JsonValue& make_member(JsonValue& object, const std::string& key) {
-  if (JsonValue* value = find(object, key)) return *value;
+  if (JsonValue* value = object.find(key)) return *value;
   object.members.emplace_back(JsonMember{.key = key, .value = {}});
   object.index_members();
   return object.members.back().value;
@@ -95,40 +80,41 @@ JsonValue& make_member(JsonValue& object, const std::string& key) {
 
 /// The items of an array in an object that may be absent.
 std::span<JsonValue> items(JsonValue* object, std::string_view key) {
-  JsonValue* array = object != nullptr ? find(*object, key) : nullptr;
+  JsonValue* array = object != nullptr ? object->find(key) : nullptr;
   return array != nullptr ? std::span(array->items) : std::span<JsonValue>();
 }
 
 JsonValue* extension_of(JsonValue& object, std::string_view name) {
-  JsonValue* extensions = find(object, "extensions");
-  return extensions != nullptr ? find(*extensions, name) : nullptr;
+  JsonValue* extensions = object.find("extensions");
+  return extensions != nullptr ? extensions->find(name) : nullptr;
 }
 
 void repair_perspective(JsonValue& camera) {
-  JsonValue* yfov = find(camera, "yfov");
+  JsonValue* yfov = camera.find("yfov");
   yfov->number = std::clamp<double>(yfov->number, std::numeric_limits<float>::min(),
                                     std::nextafter(std::numbers::pi, 0));
-  const JsonValue* far = find(camera, "zfar");
-  if (far == nullptr || far->number > find(camera, "znear")->number) return;
+  const JsonValue* far = camera.find("zfar");
+  if (far == nullptr || far->number > camera.find("znear")->number) return;
   std::erase_if(camera.members, [](const JsonMember& member) { return member.key == "zfar"; });
+  camera.index_members();
 }
 
 void repair_orthographic(JsonValue& camera) {
   constexpr double least = 1e-6;
   for (const char* key : {"xmag", "ymag"}) {
-    double& magnitude = find(camera, key)->number;
+    double& magnitude = camera.find(key)->number;
     if (std::abs(magnitude) < least) magnitude = least;
   }
-  const double near = find(camera, "znear")->number;
-  double& far = find(camera, "zfar")->number;
+  const double near = camera.find("znear")->number;
+  double& far = camera.find("zfar")->number;
   if (far <= near) far = near + std::max(least, least * near);
 }
 
 void repair_cone(JsonValue& light) {
-  JsonValue* spot = find(light, "spot");
-  JsonValue* inner = spot != nullptr ? find(*spot, "innerConeAngle") : nullptr;
+  JsonValue* spot = light.find("spot");
+  JsonValue* inner = spot != nullptr ? spot->find("innerConeAngle") : nullptr;
   if (inner == nullptr) return;
-  const JsonValue* outer = find(*spot, "outerConeAngle");
+  const JsonValue* outer = spot->find("outerConeAngle");
   const double angle = outer != nullptr ? outer->number : std::numbers::pi / 4;
   inner->number = std::min(inner->number, std::nextafter(angle, 0));
 }
@@ -136,7 +122,9 @@ void repair_cone(JsonValue& light) {
 }  // namespace
 
 std::optional<AnimatedProperty> find_property(const Asset& asset, std::string_view pointer) {
-  AnimatedProperty property{.path = tokens_of(pointer)};
+  std::optional<std::vector<std::string>> tokens = pointer_tokens(pointer);
+  if (!tokens) return std::nullopt;
+  AnimatedProperty property{.path = *std::move(tokens)};
   const Rule* rule = Walk(asset).follow(property.path);
   if (rule == nullptr) return std::nullopt;
   const std::string& first = property.path[0];
@@ -171,8 +159,7 @@ void set_property(JsonValue& part, const AnimatedProperty& property,
                   const std::vector<double>& value) {
   JsonValue* at = &part;
   for (const std::string& token : std::span(property.path).first(property.path.size() - 1)) {
-    at =
-        at->kind == JsonValue::Kind::array ? &at->items[index_in(token).value()] : find(*at, token);
+    at = at->kind == JsonValue::Kind::array ? &at->items[index_in(token).value()] : at->find(token);
   }
   const auto write = [&property](JsonValue& target, double x) {
     target.kind = JsonValue::Kind::number;
@@ -187,15 +174,15 @@ void set_property(JsonValue& part, const AnimatedProperty& property,
 
 void repair_properties(JsonValue& part) {
   for (JsonValue& camera : items(&part, "cameras")) {
-    if (JsonValue* perspective = find(camera, "perspective")) repair_perspective(*perspective);
-    if (JsonValue* orthographic = find(camera, "orthographic")) repair_orthographic(*orthographic);
+    if (JsonValue* perspective = camera.find("perspective")) repair_perspective(*perspective);
+    if (JsonValue* orthographic = camera.find("orthographic")) repair_orthographic(*orthographic);
   }
   for (JsonValue& light : items(extension_of(part, "KHR_lights_punctual"), "lights")) {
     repair_cone(light);
   }
   for (JsonValue& material : items(&part, "materials")) {
     JsonValue* refraction = extension_of(material, "KHR_materials_ior");
-    JsonValue* ior = refraction != nullptr ? find(*refraction, "ior") : nullptr;
+    JsonValue* ior = refraction != nullptr ? refraction->find("ior") : nullptr;
     // 0 stands for an infinite one.
     if (ior != nullptr && ior->number > 0 && ior->number < 1) ior->number = 1;
   }

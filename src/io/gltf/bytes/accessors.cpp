@@ -28,9 +28,9 @@ Number load(const char* bytes) {
 
 std::uint32_t load_unsigned(const char* bytes, int component_type) {
   switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case u8:
       return load<std::uint8_t>(bytes);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case u16:
       return load<std::uint16_t>(bytes);
     default:
       return load<std::uint32_t>(bytes);
@@ -89,8 +89,8 @@ template <typename Element>
 using Decoder = void (*)(const char*, std::size_t, const std::uint32_t*, std::span<Element>);
 
 template <typename Element>
-Decoder<Element> decoder(const tinygltf::Accessor& accessor) {
-  const int type = accessor.componentType;
+Decoder<Element> decoder(const Model::Accessor& accessor) {
+  const int type = accessor.component_type;
   if constexpr (std::is_integral_v<typename Parts<Element>::Component>) {
     if (component_size(type) == 1) return decode<std::uint8_t, false, Element>;
     if (component_size(type) == 2) return decode<std::uint16_t, false, Element>;
@@ -100,15 +100,15 @@ Decoder<Element> decoder(const tinygltf::Accessor& accessor) {
       return accessor.normalized ? decode<Stored, true, Element> : decode<Stored, false, Element>;
     };
     switch (type) {
-      case TINYGLTF_COMPONENT_TYPE_BYTE:
+      case i8:
         return choose(std::int8_t{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      case u8:
         return choose(std::uint8_t{});
-      case TINYGLTF_COMPONENT_TYPE_SHORT:
+      case i16:
         return choose(std::int16_t{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      case u16:
         return choose(std::uint16_t{});
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      case u32:
         return choose(std::uint32_t{});
       default:
         return decode<float, false, Element>;
@@ -120,14 +120,14 @@ Decoder<Element> decoder(const tinygltf::Accessor& accessor) {
 
 /// Where the elements of an accessor lie.
 struct AccessorReader::Source {
-  const tinygltf::Accessor& accessor;
+  const Model::Accessor& accessor;
   std::string_view bytes{};  // from the first element on; empty if there is no buffer view
   std::size_t stride = 0, size = 0, count = 0;
   std::string_view sparse_indices{}, sparse_values{};
   std::size_t sparse_count = 0;
 
   [[nodiscard]] std::uint32_t sparse_index(std::size_t i) const {
-    const int type = accessor.sparse.indices.componentType;
+    const int type = accessor.sparse->index_type;
     return load_unsigned(&sparse_indices[i * component_size(type)], type);
   }
 
@@ -146,55 +146,50 @@ struct AccessorReader::Source {
   }
 };
 
-AccessorReader::AccessorReader(const Asset& asset, const tinygltf::Model& model,
-                               const BufferViews& views)
+AccessorReader::AccessorReader(const Asset& asset, const Model& model, const BufferViews& views)
     : asset_(asset), model_(model), views_(views), sparse_is_checked_(model.accessors.size()) {}
 
-bool AccessorReader::has_data(int index) const {
+bool AccessorReader::has_data(std::size_t index) const {
   if (replaced_.contains(index)) return true;
-  const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-  return (accessor.bufferView < 0 || views_.bytes(accessor.bufferView)) &&
-         (!accessor.sparse.isSparse || (views_.bytes(accessor.sparse.indices.bufferView) &&
-                                        views_.bytes(accessor.sparse.values.bufferView)));
+  const Model::Accessor& accessor = model_.accessors[index];
+  const auto& sparse = accessor.sparse;
+  return (!accessor.view || views_.bytes(*accessor.view)) &&
+         (!sparse || (views_.bytes(sparse->indices_view) && views_.bytes(sparse->values_view)));
 }
 
-std::size_t AccessorReader::count(int index) const {
-  const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+std::size_t AccessorReader::count(std::size_t index) const {
+  const Model::Accessor& accessor = model_.accessors[index];
   const auto replaced = replaced_.find(index);
   if (replaced == replaced_.end()) return accessor.count;
-  return replaced->second.size() / element_size(accessor.type, accessor.componentType);
+  return replaced->second.size() / element_size(accessor.type, accessor.component_type);
 }
 
-AccessorReader::Source AccessorReader::source(int index) {
-  const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+AccessorReader::Source AccessorReader::source(std::size_t index) {
+  const Model::Accessor& accessor = model_.accessors[index];
   Source result{.accessor = accessor};
-  result.size = element_size(accessor.type, accessor.componentType);
+  result.size = element_size(accessor.type, accessor.component_type);
   result.stride = result.size;
   result.count = count(index);
   if (const auto replaced = replaced_.find(index); replaced != replaced_.end()) {
     result.bytes = replaced->second;
     return result;
   }
-  if (accessor.bufferView < 0 && accessor.count > max_elements) {
-    asset_.fail(asset_.element("accessors", static_cast<std::size_t>(index)).member("count"),
+  if (!accessor.view && accessor.count > max_elements) {
+    asset_.fail(asset_.element("accessors", index).member("count"),
                 "is more than 2^27, the most elements that an accessor without bufferView may have",
                 ErrorKind::limit);
   }
-  if (accessor.bufferView >= 0) {
-    result.bytes = views_.bytes(accessor.bufferView).value().substr(accessor.byteOffset);
-    const auto view = static_cast<std::size_t>(accessor.bufferView);
-    const std::size_t stride = model_.bufferViews[view].byteStride;
+  if (accessor.view) {
+    result.bytes = views_.bytes(*accessor.view).value().substr(accessor.offset);
+    const std::size_t stride = model_.buffer_views[*accessor.view].stride;
     if (stride != 0) result.stride = stride;
   }
-  if (const auto& sparse = accessor.sparse; sparse.isSparse) {
-    result.sparse_indices = views_.bytes(sparse.indices.bufferView)
-                                .value()
-                                .substr(static_cast<std::size_t>(sparse.indices.byteOffset));
-    result.sparse_values = views_.bytes(sparse.values.bufferView)
-                               .value()
-                               .substr(static_cast<std::size_t>(sparse.values.byteOffset));
-    result.sparse_count = static_cast<std::size_t>(sparse.count);
-    check_sparse(static_cast<std::size_t>(index), result);
+  if (const auto& sparse = accessor.sparse) {
+    result.sparse_indices =
+        views_.bytes(sparse->indices_view).value().substr(sparse->indices_offset);
+    result.sparse_values = views_.bytes(sparse->values_view).value().substr(sparse->values_offset);
+    result.sparse_count = sparse->count;
+    check_sparse(index, result);
   }
   return result;
 }
@@ -216,7 +211,7 @@ void AccessorReader::check_sparse(std::size_t index, const Source& source) {
 }
 
 template <typename Element>
-std::vector<Element> AccessorReader::read(int accessor) {
+std::vector<Element> AccessorReader::read(std::size_t accessor) {
   const Source from = source(accessor);
   const Decoder<Element> decode_all = decoder<Element>(from.accessor);
   take_memory(from.count * sizeof(Element), "the elements of accessors");
@@ -230,7 +225,8 @@ std::vector<Element> AccessorReader::read(int accessor) {
 }
 
 template <typename Element>
-std::vector<Element> AccessorReader::read(int accessor, std::span<const std::uint32_t> numbers) {
+std::vector<Element> AccessorReader::read(std::size_t accessor,
+                                          std::span<const std::uint32_t> numbers) {
   const Source from = source(accessor);
   const Decoder<Element> decode_some = decoder<Element>(from.accessor);
   take_memory(numbers.size() * sizeof(Element), "the elements of accessors");
@@ -255,7 +251,7 @@ std::vector<Element> AccessorReader::read(int accessor, std::span<const std::uin
 }
 
 template <typename Element>
-std::vector<Element> AccessorReader::read_finite(int accessor,
+std::vector<Element> AccessorReader::read_finite(std::size_t accessor,
                                                  std::span<const std::uint32_t> numbers) {
   std::vector<Element> result = read<Element>(accessor, numbers);
   for (Element& element : result) {
@@ -266,13 +262,14 @@ std::vector<Element> AccessorReader::read_finite(int accessor,
   return result;
 }
 
-void AccessorReader::replace(int accessor, std::string elements) {
+void AccessorReader::replace(std::size_t accessor, std::string elements) {
   replaced_[accessor] = std::move(elements);
 }
 
-#define MICROTRACE_READ(Element)                                    \
-  template std::vector<Element> AccessorReader::read<Element>(int); \
-  template std::vector<Element> AccessorReader::read<Element>(int, std::span<const std::uint32_t>);
+#define MICROTRACE_READ(Element)                                            \
+  template std::vector<Element> AccessorReader::read<Element>(std::size_t); \
+  template std::vector<Element> AccessorReader::read<Element>(std::size_t,  \
+                                                              std::span<const std::uint32_t>);
 MICROTRACE_READ(float)
 MICROTRACE_READ(glm::vec2)
 MICROTRACE_READ(Vec3)
@@ -284,7 +281,7 @@ MICROTRACE_READ(glm::uvec4)
 
 #define MICROTRACE_READ_FINITE(Element)                               \
   template std::vector<Element> AccessorReader::read_finite<Element>( \
-      int, std::span<const std::uint32_t>);
+      std::size_t, std::span<const std::uint32_t>);
 MICROTRACE_READ_FINITE(Vec2)
 MICROTRACE_READ_FINITE(Vec3)
 MICROTRACE_READ_FINITE(Vec4)

@@ -6,17 +6,16 @@
 
 namespace microtrace::io::gltf {
 
-BufferViews::BufferViews(Asset& asset, const tinygltf::Model& model,
-                         const std::vector<Buffer>& buffers)
-    : decoded_(model.bufferViews.size()), bytes_(model.bufferViews.size()) {
+BufferViews::BufferViews(Asset& asset, const Model& model, const std::vector<Buffer>& buffers)
+    : decoded_(model.buffer_views.size()), bytes_(model.buffer_views.size()) {
   std::size_t left = max_buffer_bytes;  // of what is decoded
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
-    const tinygltf::BufferView& view = model.bufferViews[i];
+    const Model::BufferView& view = model.buffer_views[i];
     if (auto decoded = decode_meshopt(asset, model, i, buffers, left)) {
       decoded_[i] = *std::move(decoded);
       bytes_[i] = decoded_[i];
-    } else if (const auto& bytes = buffers[static_cast<std::size_t>(view.buffer)].bytes) {
-      bytes_[i] = bytes->substr(view.byteOffset, view.byteLength);
+    } else if (const auto& bytes = buffers[view.buffer].bytes) {
+      bytes_[i] = bytes->substr(view.offset, view.length);
     }
   }
 }

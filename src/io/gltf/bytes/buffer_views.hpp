@@ -17,11 +17,11 @@ class BufferViews {
  public:
   /// Of views that check_accessors has accepted; compressed ones are decoded. The buffers must
   /// outlive this. Throws Error: invalid_scene, limit, unsupported.
-  BufferViews(Asset& asset, const tinygltf::Model& model, const std::vector<Buffer>& buffers);
+  BufferViews(Asset& asset, const Model& model, const std::vector<Buffer>& buffers);
 
   /// Nothing where the view's buffer has no data.
-  [[nodiscard]] std::optional<std::string_view> bytes(int view) const {
-    return bytes_[static_cast<std::size_t>(view)];
+  [[nodiscard]] std::optional<std::string_view> bytes(std::size_t view) const {
+    return bytes_[view];
   }
 
  private:

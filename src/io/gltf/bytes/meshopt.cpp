@@ -26,7 +26,7 @@ void require(const Asset& asset, const Element& at, bool holds, const char* mess
 }
 
 /// What the extension says; it asks for all that is checked here.
-Description describe(const Asset& asset, const Element& at, const tinygltf::BufferView& view) {
+Description describe(const Asset& asset, const Element& at, const Model::BufferView& view) {
   Description result;
   result.count = whole_number(asset, at, "count");
   result.stride = whole_number(asset, at, "byteStride", 256);
@@ -34,11 +34,11 @@ Description describe(const Asset& asset, const Element& at, const tinygltf::Buff
   if (at.value->find("filter") != nullptr) result.filter = string(asset, at, "filter");
   require(asset, at, mode == "ATTRIBUTES" || mode == "TRIANGLES" || mode == "INDICES",
           "has a mode that is none of ATTRIBUTES, TRIANGLES, INDICES");
-  require(asset, at, view.byteStride == 0 || view.byteStride == result.stride,
+  require(asset, at, view.stride == 0 || view.stride == result.stride,
           "has another byteStride than the view");
   require(asset, at,
-          result.stride > 0 && view.byteLength % result.stride == 0 &&
-              view.byteLength / result.stride == result.count,
+          result.stride > 0 && view.length % result.stride == 0 &&
+              view.length / result.stride == result.count,
           "must have as many elements of byteStride bytes as fill the view's byteLength");
   if (mode == "ATTRIBUTES") {
     require(asset, at, result.stride % 4 == 0,
@@ -75,12 +75,11 @@ std::optional<std::string_view> compressed(const Asset& asset, const Element& at
 
 }  // namespace
 
-std::optional<std::string> decode_meshopt(Asset& asset, const tinygltf::Model& model,
-                                          std::size_t view, const std::vector<Buffer>& buffers,
-                                          std::size_t& left) {
+std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std::size_t view,
+                                          const std::vector<Buffer>& buffers, std::size_t& left) {
   const auto at = extension(asset.element("bufferViews", view), meshopt_extension);
   if (!at) return std::nullopt;
-  const Description description = describe(asset, *at, model.bufferViews[view]);
+  const Description description = describe(asset, *at, model.buffer_views[view]);
   const std::optional<std::string_view> bytes = compressed(asset, *at, buffers);
   if (!bytes) return std::nullopt;
 

@@ -18,7 +18,7 @@ inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
 /// bytes have no data. `left` is how many bytes may be made, and becomes less by them. Throws
 /// Error: invalid_scene, limit, unsupported where there is no module to do it and the asset
 /// requires it (else a warning, and nothing).
-[[nodiscard]] std::optional<std::string> decode_meshopt(Asset& asset, const tinygltf::Model& model,
+[[nodiscard]] std::optional<std::string> decode_meshopt(Asset& asset, const Model& model,
                                                         std::size_t view,
                                                         const std::vector<Buffer>& buffers,
                                                         std::size_t& left);

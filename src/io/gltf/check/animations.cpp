@@ -1,6 +1,6 @@
 #include "io/gltf/check/animation_pointer.hpp"
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/document/component_types.hpp"
+#include "io/gltf/document/element_types.hpp"
 #include "io/gltf/document/extension.hpp"
 
 #include <optional>
@@ -57,7 +57,7 @@ class AnimationCheck {
   }
 
   /// A channel without a target is passed over (glTF 2.0, section 3.11).
-  static void leave_out(const Element& target) { Asset::drop(target, {"node", "extensions"}); }
+  void leave_out(const Element& target) { asset_.drop(target, {"node", "extensions"}); }
 
   /// False, with a warning, for a broken rule without which the channel can't be played.
   bool wrong(const Element& at, const std::string& message) {
@@ -123,7 +123,7 @@ class AnimationCheck {
     if (!why.empty()) return wrong(text, why);
     if (at.value->find("node") != nullptr) {
       asset_.tolerate(at.member("node"), "must be absent beside a pointer; it is ignored");
-      Asset::drop(at, {"node"});
+      asset_.drop(at, {"node"});
     }
     return true;
   }

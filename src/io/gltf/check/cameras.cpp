@@ -9,14 +9,14 @@ namespace {
 /// Takes a camera that shows nothing from the asset: check_nodes takes it from its nodes.
 void leave_out(Asset& asset, const Element& camera, const Element& at, const std::string& why) {
   asset.tolerate(at, why + "; the camera is left out");
-  Asset::drop(camera, {"type"});
+  asset.drop(camera, {"type"});
 }
 
 void check_perspective(Asset& asset, const Element& camera, const Element& at) {
   const JsonValue* far = at.value->find("zfar");
   if (far != nullptr && far->number <= at.member("znear").value->number) {
     asset.tolerate(at.member("zfar"), "must be greater than znear; it is ignored");
-    Asset::drop(at, {"zfar"});
+    asset.drop(at, {"zfar"});
   }
   const Element yfov = at.member("yfov");
   const double angle = yfov.value->number;
@@ -24,7 +24,7 @@ void check_perspective(Asset& asset, const Element& camera, const Element& at) {
     leave_out(asset, camera, yfov, "is no angle to look through");
   } else if (angle >= std::numbers::pi) {
     asset.warn(yfov, "should be below pi, an angle in radians; the camera is left out");
-    Asset::drop(camera, {"type"});
+    asset.drop(camera, {"type"});
   }
 }
 
@@ -46,7 +46,7 @@ void check_camera(Asset& asset, const Element& at) {
   const char* other = perspective ? "orthographic" : "perspective";
   if (at.value->find(other) != nullptr) {
     asset.tolerate(at.member(other), "stands in a camera of the other type; it is ignored");
-    Asset::drop(at, {other});
+    asset.drop(at, {other});
   }
   if (at.value->find(type) == nullptr) {
     return leave_out(asset, at, at, "lacks the property \"" + type + "\" that its type names");

@@ -27,7 +27,7 @@ void check_light(Asset& asset, const Element& at) {
   const double outer = number_or(*spot.value, "outerConeAngle", std::numbers::pi / 4);
   if (inner.value->number < outer) return;
   asset.tolerate(inner, "must be smaller than outerConeAngle; the light's cone has a sharp edge");
-  Asset::set(inner, std::nextafter(outer, 0));
+  asset.set(inner, std::nextafter(outer, 0));
 }
 
 /// KHR_materials_variants: a variant picks one material.
@@ -53,7 +53,7 @@ void check_materials(Asset& asset) {
     if (ior <= 0 || ior >= 1) continue;
     asset.tolerate(extra->member("ior"),
                    "must be 0 or at least 1, is " + text_of(ior) + "; 1 is taken");
-    Asset::set(extra->member("ior"), 1);
+    asset.set(extra->member("ior"), 1);
   }
   for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");

@@ -1,6 +1,6 @@
 #include "io/gltf/check/semantics.hpp"
 #include "io/gltf/check/texture_infos.hpp"
-#include "io/gltf/document/component_types.hpp"
+#include "io/gltf/document/element_types.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,10 +56,6 @@ bool is_quantised(std::string_view name, const Format& f, bool of_target) {
     return f.type == (of_target ? "VEC3" : "VEC4") && is_signed && f.normalized;
   }
   return name == "TEXCOORD" && f.type == "VEC2" && is_short;
-}
-
-std::size_t component_size(int type) {
-  return is_one_of(type, {i8, u8}) ? 1 : is_one_of(type, {i16, u16}) ? 2 : 4;
 }
 
 class MeshCheck {
@@ -118,7 +114,7 @@ class MeshCheck {
                                                  " has " + text(count) + "; it is ignored");
       dropped.push_back(member.key);
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// TEXCOORD_0, TEXCOORD_1 and so on without a gap; as many JOINTS as WEIGHTS.
@@ -162,7 +158,7 @@ class MeshCheck {
                         "holds positions without min and max, which glTF 2.0 asks for");
       }
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// False where nothing can be made of it.
@@ -209,7 +205,7 @@ class MeshCheck {
       asset_.tolerate(attribute, wrong + "; it is ignored");
       dropped.push_back(member.key);
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
     attributes(at, true);
   }
 

@@ -34,7 +34,7 @@ void check_matrix(Asset& asset, const Element& at) {
   for (const char* other : {"translation", "rotation", "scale"}) {
     if (at.value->find(other) != nullptr) {
       asset.tolerate(at.member(other), "stands beside a matrix; it is ignored");
-      Asset::drop(at, {other});
+      asset.drop(at, {other});
     }
   }
   const Element matrix = at.member("matrix");
@@ -61,7 +61,7 @@ void check_rotation(Asset& asset, const Element& at) {
   for (const JsonValue& item : at.value->items) square += item.number * item.number;
   if (square == 0) {
     asset.tolerate(at, "is zero, must be a unit quaternion; it turns nothing");
-    return Asset::set(at.item(3), 1);
+    return asset.set(at.item(3), 1);
   }
   if (std::abs(square - 1) > 1e-3) asset.tolerate(at, "is no unit quaternion; it is normalized");
 }
@@ -73,7 +73,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
     if (has_skin) asset.tolerate(at.member("skin"), "has no effect: the node has no mesh");
     if (at.value->find("weights") == nullptr) return;
     asset.tolerate(at.member("weights"), "have no effect: the node has no mesh");
-    return Asset::drop(at, {"weights"});
+    return asset.drop(at, {"weights"});
   }
   const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
   if (has_skin && !parts.has_joints) {
@@ -83,11 +83,11 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
 }
 
 /// A camera whose type check_schema did not know.
-void check_camera(const Asset& asset, const Element& at) {
+void check_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
   const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
-  if (camera.find("type") == nullptr) Asset::drop(at, {"camera"});
+  if (camera.find("type") == nullptr) asset.drop(at, {"camera"});
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ void check_weights(Asset& asset, const Element& at, std::size_t targets) {
   asset.tolerate(at.member("weights"), "has " + std::to_string(weights->items.size()) +
                                            " items for " + std::to_string(targets) +
                                            " morph targets; they are ignored");
-  Asset::drop(at, {"weights"});
+  asset.drop(at, {"weights"});
 }
 
 void check_nodes(Asset& asset, const NodeForest& forest) {

@@ -1,5 +1,5 @@
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/document/component_types.hpp"
+#include "io/gltf/document/element_types.hpp"
 
 #include <algorithm>
 #include <string>

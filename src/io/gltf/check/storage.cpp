@@ -1,5 +1,5 @@
 #include "io/gltf/check/semantics.hpp"
-#include "io/gltf/document/component_types.hpp"
+#include "io/gltf/document/element_types.hpp"
 
 #include <cmath>
 #include <string>
@@ -24,20 +24,14 @@ void check_view(Asset& asset, const Element& at) {
   }
 }
 
-std::size_t components(const std::string& type) {
-  if (type == "SCALAR") return 1;
-  const auto n = static_cast<std::size_t>(type.back() - '0');
-  return type.starts_with("MAT") ? n * n : n;
-}
-
 void check_bounds(Asset& asset, const Element& at) {
-  const std::size_t expected = components(at.member("type").value->string);
+  const std::size_t expected = component_count(element_type(at.member("type").value->string));
   for (const char* key : {"min", "max"}) {
     const JsonValue* bounds = at.value->find(key);
     if (bounds == nullptr || bounds->items.size() == expected) continue;
     asset.tolerate(at.member(key), "must have " + std::to_string(expected) + " items, has " +
                                        std::to_string(bounds->items.size()) + "; it is ignored");
-    Asset::drop(at, {key});
+    asset.drop(at, {key});
   }
 }
 
@@ -54,7 +48,7 @@ void check_accessor(Asset& asset, const Element& at) {
   const bool can_be_normalized = component->number != f32 && component->number != u32;
   if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
     asset.tolerate(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
-    Asset::drop(at, {"normalized"});
+    asset.drop(at, {"normalized"});
   }
 }
 

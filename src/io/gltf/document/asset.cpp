@@ -1,7 +1,6 @@
 #include "io/gltf/document/asset.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 namespace microtrace::io::gltf {
@@ -37,21 +36,7 @@ Element Asset::element(std::string_view name, std::size_t index) const {
 }
 
 const JsonValue* Asset::find(std::string_view pointer) const {
-  const JsonValue* value = &json_.root();
-  while (value != nullptr && !pointer.empty()) {
-    const std::size_t end = std::min(pointer.find('/', 1), pointer.size());
-    const std::string_view token = pointer.substr(1, end - 1);
-    std::size_t index = 0;
-    if (value->kind == JsonValue::Kind::array) {
-      const auto read = std::from_chars(token.data(), token.data() + token.size(), index);
-      const bool is_there = read.ec == std::errc{} && index < value->items.size();
-      value = is_there ? &value->items[index] : nullptr;
-    } else {
-      value = value->find(token);
-    }
-    pointer.remove_prefix(end);
-  }
-  return value;
+  return resolve(json_.root(), pointer);
 }
 
 bool Asset::uses(std::string_view extension) const {
@@ -63,18 +48,13 @@ bool Asset::requires_extension(std::string_view extension) const {
 }
 
 void Asset::drop(const Element& object, const std::unordered_set<std::string_view>& keys) {
-  // Elements let their holders read; the document itself is the asset's to change.
-  auto& value = const_cast<JsonValue&>(*object.value);
-  std::vector<JsonMember> left;
-  for (JsonMember& member : value.members) {
-    if (!keys.contains(member.key)) left.push_back(std::move(member));
-  }
-  value.members = std::move(left);
+  JsonValue& value = *resolve(json_.root(), object.pointer);
+  std::erase_if(value.members, [&](const JsonMember& member) { return keys.contains(member.key); });
   value.index_members();
 }
 
 void Asset::set(const Element& at, double number) {
-  const_cast<JsonValue*>(at.value)->number = number;
+  resolve(json_.root(), at.pointer)->number = number;
 }
 
 void Asset::fail(const Element& at, std::string message, ErrorKind kind) const {

@@ -39,7 +39,7 @@ class Asset {
   /// Item `index` of that array, which has it.
   [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
 
-  /// The value that a JSON pointer without escapes leads to, or null.
+  /// The value that a JSON pointer leads to, or null.
   [[nodiscard]] const JsonValue* find(std::string_view pointer) const;
   /// Whether extensionsUsed names that extension.
   [[nodiscard]] bool uses(std::string_view extension) const;
@@ -48,9 +48,9 @@ class Asset {
 
   /// Takes members that do no good out of an object of the asset's JSON, after a warning. What is
   /// left is what readers see. Elements in the object are no longer good.
-  static void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
+  void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
   /// Puts another number in the place of one, after a warning.
-  static void set(const Element& at, double number);
+  void set(const Element& at, double number);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
@@ -73,7 +73,7 @@ class Asset {
   /// `at` is the first of so many places.
   void note(const Element& at, const std::string& message, Severity severity, std::size_t places);
 
-  const JsonDocument& json_;
+  JsonDocument& json_;
   std::unordered_set<std::string_view> used_, required_;  // extensions
   std::unordered_map<std::string, Warning> warnings_;     // by text
 };

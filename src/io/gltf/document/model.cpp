@@ -1,103 +1,62 @@
 #include "io/gltf/document/model.hpp"
 
 #include "base/memory_account.hpp"
+#include "io/json/write.hpp"
 
 #include <microtrace/material.hpp>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 
-#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
 
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 10> parsed = {
-    "asset",  "extensionsUsed", "scene",       "scenes",    "nodes",
-    "meshes", "accessors",      "bufferViews", "materials", "cameras"};
+/// What tinygltf parses. It gets no URIs, no images, no extensions and no extras.
+constexpr std::array<std::string_view, 7> parsed_members = {
+    "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
 
-// tinygltf 2.7.0 refuses an index accessor without a buffer view, which glTF allows. So indices
-// travel as an attribute; check_schema admits no attribute of this name.
-constexpr const char* indices_name = "INDICES";
+/// Indices and sparse parts are taken from the JSON itself: tinygltf 2.7.0 refuses index accessors
+/// without a buffer view, which glTF allows, and keeps sparse offsets in an int.
+constexpr std::array<std::string_view, 4> left_out = {"extensions", "extras", "indices", "sparse"};
 
-nlohmann::json copy_of(const JsonValue& value) {
-  switch (value.kind) {
-    case JsonValue::Kind::null:
-      return nullptr;
-    case JsonValue::Kind::boolean:
-      return value.boolean;
-    case JsonValue::Kind::string:
-      return value.string;
-    case JsonValue::Kind::number: {
-      // tinygltf takes 3.0 for no integer; glTF takes it for one.
-      const bool integer = std::trunc(value.number) == value.number &&
-                           std::abs(value.number) <= 0x1p53 && !std::signbit(value.number);
-      if (integer) return static_cast<std::int64_t>(value.number);
-      return value.number;
-    }
-    case JsonValue::Kind::array: {
-      nlohmann::json copy = nlohmann::json::array();
-      for (const JsonValue& item : value.items) copy.push_back(copy_of(item));
-      return copy;
-    }
-    case JsonValue::Kind::object: {
-      nlohmann::json copy = nlohmann::json::object();
-      for (const JsonMember& member : value.members) {
-        if (member.key != "extensions" && member.key != "extras") {
-          copy[member.key] = copy_of(member.value);
-        }
-      }
-      return copy;
-    }
-  }
-  return nullptr;
+/// One whose type is not known.
+bool is_unknown(const JsonValue& accessor) {
+  return accessor.find("type") == nullptr || accessor.find("componentType") == nullptr;
 }
 
-/// tinygltf refuses an asset for what check_schema survives: an accessor of unknown type, which no
-/// part of a mesh may then use, and a camera of unknown type, which no node then names.
-void fill_in(nlohmann::json& asset) {
-  for (nlohmann::json& accessor : asset["accessors"]) {
-    if (accessor.contains("type") && accessor.contains("componentType")) continue;
-    accessor = {{"type", "SCALAR"}, {"componentType", 5121}, {"count", 1}};
-  }
-  for (nlohmann::json& camera : asset["cameras"]) {
-    if (camera.contains("type")) continue;
-    camera = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}};
-  }
-}
-
-nlohmann::json parsed_part(const JsonValue& root) {
-  nlohmann::json result = nlohmann::json::object();
+/// The repaired asset's JSON for tinygltf.
+std::string parsed_part(const JsonValue& root) {
+  std::string text = "{";
+  const auto separate = [&text] {
+    if (text.back() != '{' && text.back() != '[') text += ',';
+  };
   for (const JsonMember& member : root.members) {
-    if (std::ranges::find(parsed, member.key) == parsed.end()) continue;
-    result[member.key] = copy_of(member.value);
-  }
-  fill_in(result);
-  if (!result.contains("meshes")) return result;
-  for (nlohmann::json& mesh : result["meshes"]) {
-    for (nlohmann::json& primitive : mesh["primitives"]) {
-      const auto indices = primitive.find("indices");
-      if (indices == primitive.end()) continue;
-      primitive["attributes"][indices_name] = *indices;
-      primitive.erase("indices");
+    if (std::ranges::find(parsed_members, member.key) == parsed_members.end()) continue;
+    separate();
+    append_json(text, member.key);
+    text += ':';
+    if (member.key != "accessors") {
+      append_json(text, member.value, left_out);
+      continue;
     }
-  }
-  return result;
-}
-
-void restore_indices(tinygltf::Model& model) {
-  for (tinygltf::Mesh& mesh : model.meshes) {
-    for (tinygltf::Primitive& primitive : mesh.primitives) {
-      const auto indices = primitive.attributes.find(indices_name);
-      if (indices == primitive.attributes.end()) continue;
-      primitive.indices = indices->second;
-      primitive.attributes.erase(indices);
+    text += '[';
+    for (const JsonValue& accessor : member.value.items) {
+      separate();
+      if (is_unknown(accessor)) {  // it would keep tinygltf from reading the others
+        text += R"({"type":"SCALAR","componentType":5121,"count":1})";
+      } else {
+        append_json(text, accessor, left_out);
+      }
     }
+    text += ']';
   }
+  return text + '}';
 }
 
 /// tinygltf without access to files and without an image decoder.
@@ -118,43 +77,8 @@ tinygltf::TinyGLTF make_parser() {
   return parser;
 }
 
-std::size_t count_values(const JsonValue& value) {
-  std::size_t result = 1;
-  for (const JsonValue& item : value.items) result += count_values(item);
-  for (const JsonMember& member : value.members) result += count_values(member.value);
-  return result;
-}
-
-/// What the model holds for each item of the asset's arrays, but for its small parts.
-void count_model(const Asset& asset) {
-  const auto count = [&](const char* array, std::size_t bytes) {
-    take_memory(asset.array(array).size() * bytes, "the asset's model");
-  };
-  constexpr std::size_t parts = 256;
-  count("nodes", sizeof(tinygltf::Node) + parts);
-  count("meshes", sizeof(tinygltf::Mesh) + parts);
-  count("accessors", sizeof(tinygltf::Accessor) + parts);
-  count("bufferViews", sizeof(tinygltf::BufferView));
-  count("materials", sizeof(tinygltf::Material) + 8 * parts + sizeof(Material));
-  count("cameras", sizeof(tinygltf::Camera) + parts);
-  count("scenes", sizeof(tinygltf::Scene) + parts);
-  for (const JsonValue& mesh : asset.array("meshes")) {
-    const JsonValue* primitives = mesh.find("primitives");
-    if (primitives == nullptr) continue;
-    take_memory(primitives->items.size() * (sizeof(tinygltf::Primitive) + parts),
-                "the asset's model");
-  }
-}
-
-}  // namespace
-
-tinygltf::Model parse_model(const Asset& asset) {
-  // The JSON that tinygltf parses, and what it parses it to.
-  constexpr std::size_t bytes_of_value = 160;
-  const MemoryAccount work = temporary_memory(count_values(*asset.root().value) * bytes_of_value,
-                                              "reading the asset's JSON");
-  count_model(asset);
-  const std::string text = parsed_part(*asset.root().value).dump();
+tinygltf::Model parse(const Asset& asset) {
+  const std::string text = parsed_part(*asset.root().value);
   if (text.size() > std::numeric_limits<unsigned>::max()) {
     asset.fail(asset.root(), "has more JSON than tinygltf can take (4 GiB); split the file",
                ErrorKind::limit);
@@ -168,7 +92,188 @@ tinygltf::Model parse_model(const Asset& asset) {
     while (error.ends_with('\n')) error.pop_back();
     asset.fail(asset.root(), "tinygltf can't read the asset: " + error);
   }
-  restore_indices(model);
+  return model;
+}
+
+std::size_t index_of(const JsonValue& value) {
+  return static_cast<std::size_t>(value.number);
+}
+
+/// A number that may be absent.
+std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
+  const JsonValue* value = object.find(key);
+  return value != nullptr ? std::optional(index_of(*value)) : std::nullopt;
+}
+
+/// tinygltf's -1 stands for none.
+std::optional<std::size_t> index_of(int index) {
+  return index >= 0 ? std::optional(static_cast<std::size_t>(index)) : std::nullopt;
+}
+
+std::vector<std::size_t> indices_of(const std::vector<int>& indices) {
+  return {indices.begin(), indices.end()};
+}
+
+ElementType type_of(int tinygltf_type) {
+  switch (tinygltf_type) {
+    case TINYGLTF_TYPE_SCALAR:
+      return ElementType::scalar;
+    case TINYGLTF_TYPE_VEC2:
+      return ElementType::vec2;
+    case TINYGLTF_TYPE_VEC3:
+      return ElementType::vec3;
+    case TINYGLTF_TYPE_VEC4:
+      return ElementType::vec4;
+    case TINYGLTF_TYPE_MAT2:
+      return ElementType::mat2;
+    case TINYGLTF_TYPE_MAT3:
+      return ElementType::mat3;
+    default:
+      return ElementType::mat4;
+  }
+}
+
+Model::Sparse sparse_of(const JsonValue& json) {
+  const JsonValue &indices = *json.find("indices"), &values = *json.find("values");
+  return {.count = index_of(*json.find("count")),
+          .indices_view = index_of(*indices.find("bufferView")),
+          .indices_offset = index_in(indices, "byteOffset").value_or(0),
+          .index_type = static_cast<int>(indices.find("componentType")->number),
+          .values_view = index_of(*values.find("bufferView")),
+          .values_offset = index_in(values, "byteOffset").value_or(0)};
+}
+
+Model::Accessor accessor_of(const tinygltf::Accessor& accessor, const JsonValue& json) {
+  if (is_unknown(json)) return {};
+  Model::Accessor result{.type = type_of(accessor.type),
+                         .component_type = accessor.componentType,
+                         .normalized = accessor.normalized,
+                         .count = accessor.count,
+                         .view = index_of(accessor.bufferView),
+                         .offset = accessor.byteOffset};
+  if (const JsonValue* sparse = json.find("sparse")) result.sparse = sparse_of(*sparse);
+  return result;
+}
+
+Model::Attributes attributes_of(const std::map<std::string, int>& attributes) {
+  Model::Attributes result;
+  for (const auto& [name, accessor] : attributes) {
+    result.emplace_hint(result.end(), name, static_cast<std::size_t>(accessor));
+  }
+  return result;
+}
+
+Model::Primitive primitive_of(const tinygltf::Primitive& primitive, const JsonValue& json) {
+  Model::Primitive result{.attributes = attributes_of(primitive.attributes),
+                          .indices = index_in(json, "indices"),
+                          .material = index_of(primitive.material),
+                          .mode = static_cast<Model::Mode>(primitive.mode)};
+  for (const auto& target : primitive.targets) result.targets.push_back(attributes_of(target));
+  return result;
+}
+
+Model::Mesh mesh_of(tinygltf::Mesh& mesh, const JsonValue& json) {
+  Model::Mesh result{.name = std::move(mesh.name), .weights = std::move(mesh.weights)};
+  const std::vector<JsonValue>& primitives = json.find("primitives")->items;
+  result.primitives.reserve(primitives.size());
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    result.primitives.push_back(primitive_of(mesh.primitives[i], primitives[i]));
+  }
+  return result;
+}
+
+DVec3 vector_of(const std::vector<double>& v, const DVec3& standard) {
+  return v.empty() ? standard : DVec3(v[0], v[1], v[2]);
+}
+
+Model::Node node_of(tinygltf::Node& node) {
+  Model::Node result{.name = std::move(node.name),
+                     .children = indices_of(node.children),
+                     .mesh = index_of(node.mesh),
+                     .skin = index_of(node.skin),
+                     .camera = index_of(node.camera),
+                     .weights = std::move(node.weights)};
+  if (!node.matrix.empty()) {
+    DMat4& matrix = result.matrix.emplace();
+    for (std::size_t i = 0; i < 16; ++i) {
+      matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
+    }
+  }
+  result.translation = vector_of(node.translation, result.translation);
+  result.scale = vector_of(node.scale, result.scale);
+  if (const auto& q = node.rotation; !q.empty()) result.rotation = {q[0], q[1], q[2], q[3]};
+  return result;
+}
+
+/// From the JSON: tinygltf 2.7.0 refuses those without inverse bind matrices, which glTF allows.
+Model::Skin skin_of(const JsonValue& json) {
+  Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
+  for (const JsonValue& joint : json.find("joints")->items) {
+    result.joints.push_back(index_of(joint));
+  }
+  return result;
+}
+
+std::size_t count_values(const JsonValue& value) {
+  std::size_t result = 1;
+  for (const JsonValue& item : value.items) result += count_values(item);
+  for (const JsonMember& member : value.members) result += count_values(member.value);
+  return result;
+}
+
+/// What the model holds for each item of the asset's arrays, but for its small parts.
+void count_model(const Asset& asset) {
+  const auto count = [](std::size_t items, std::size_t bytes) {
+    take_memory(items * bytes, "the asset's model");
+  };
+  constexpr std::size_t parts = 128;
+  count(asset.array("nodes").size(), sizeof(Model::Node) + parts);
+  count(asset.array("meshes").size(), sizeof(Model::Mesh) + parts);
+  count(asset.array("accessors").size(), sizeof(Model::Accessor));
+  count(asset.array("bufferViews").size(), sizeof(Model::BufferView));
+  count(asset.array("materials").size(), sizeof(Material) + parts);
+  count(asset.array("scenes").size(), parts);
+  for (const JsonValue& mesh : asset.array("meshes")) {
+    const JsonValue* primitives = mesh.find("primitives");
+    if (primitives == nullptr) continue;
+    count(primitives->items.size(), sizeof(Model::Primitive) + 3 * parts);
+  }
+}
+
+}  // namespace
+
+Model parse_model(const Asset& asset) {
+  // The text, tinygltf's own JSON, and what tinygltf makes of it.
+  constexpr std::size_t bytes_of_value = 160, bytes_of_item = 512;
+  const JsonValue& root = *asset.root().value;
+  std::size_t work_bytes = count_values(root) * bytes_of_value;
+  for (const std::string_view array : parsed_members) {
+    work_bytes += asset.array(array).size() * bytes_of_item;
+  }
+  const MemoryAccount work = temporary_memory(work_bytes, "reading the asset's JSON");
+  count_model(asset);
+  tinygltf::Model parsed = parse(asset);
+  Model model;
+  for (const tinygltf::BufferView& view : parsed.bufferViews) {
+    model.buffer_views.push_back({.buffer = static_cast<std::size_t>(view.buffer),
+                                  .offset = view.byteOffset,
+                                  .length = view.byteLength,
+                                  .stride = view.byteStride});
+  }
+  const std::vector<JsonValue>&accessors = asset.array("accessors"),
+        &meshes = asset.array("meshes");
+  for (std::size_t i = 0; i < accessors.size(); ++i) {
+    model.accessors.push_back(accessor_of(parsed.accessors[i], accessors[i]));
+  }
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    model.meshes.push_back(mesh_of(parsed.meshes[i], meshes[i]));
+  }
+  for (tinygltf::Node& node : parsed.nodes) model.nodes.push_back(node_of(node));
+  for (const JsonValue& skin : asset.array("skins")) model.skins.push_back(skin_of(skin));
+  for (const tinygltf::Scene& scene : parsed.scenes) {
+    model.scenes.push_back(indices_of(scene.nodes));
+  }
+  model.scene = index_of(parsed.defaultScene).value_or(0);
   return model;
 }
 

@@ -34,7 +34,7 @@ std::size_t index_of(const Asset& asset, const std::string& wanted) {
 
 }  // namespace
 
-void choose_variant(const Asset& asset, const std::string& variant, tinygltf::Model& model) {
+void choose_variant(const Asset& asset, const std::string& variant, Model& model) {
   if (variant.empty()) return;
   const auto wanted = static_cast<double>(index_of(asset, variant));
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
@@ -49,7 +49,7 @@ void choose_variant(const Asset& asset, const std::string& variant, tinygltf::Mo
         if (variants == nullptr || material == nullptr) continue;
         const auto is_wanted = [wanted](const JsonValue& item) { return item.number == wanted; };
         if (std::ranges::any_of(variants->items, is_wanted)) {
-          model.meshes[i].primitives[k].material = static_cast<int>(material->number);
+          model.meshes[i].primitives[k].material = static_cast<std::size_t>(material->number);
         }
       }
     }

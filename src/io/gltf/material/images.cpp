@@ -110,7 +110,7 @@ class ImageLoader {
                                            MemoryAccount& memory) const {
     const MemoryScope scope(memory);
     if (const JsonValue* view = at.value->find("bufferView")) {
-      return views_.bytes(static_cast<int>(view->number));
+      return views_.bytes(static_cast<std::size_t>(view->number));
     }
     const Element uri = at.member("uri");
     storage = is_data_uri(uri.value->string)

@@ -23,11 +23,6 @@ constexpr const char* name_of_extension = "KHR_draco_mesh_compression";
 constexpr std::size_t most_triangles_per_byte = 1024;
 constexpr std::size_t id_of_indices = ~std::size_t{0};
 
-std::size_t components(int type) {
-  return static_cast<std::size_t>(
-      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
-}
-
 /// Indices as elements of an accessor.
 std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size) {
   std::string result(indices.size() * size, '\0');
@@ -49,11 +44,11 @@ const ModuleFunction& draco_function() {
 struct DracoDecoder::Job {
   Element at;
   std::size_t view = 0;
-  int indices = 0;                   // the accessor
-  std::vector<int> accessors{};      // of the attributes
-  std::vector<std::size_t> sizes{};  // bytes of their elements
+  std::size_t indices = 0;               // the accessor
+  std::vector<std::size_t> accessors{};  // of the attributes
+  std::vector<std::size_t> sizes{};      // bytes of their elements
   std::vector<MicrotraceDracoAttribute> attributes{};
-  std::map<int, Source> sources{};
+  std::map<std::size_t, Source> sources{};
   MicrotraceDraco mesh{};
   std::size_t left = 0;  // bytes that may be taken
   std::vector<std::uint32_t> corners{};
@@ -123,15 +118,15 @@ void keep_complaint(void* job, const char* text) {
 
 }  // namespace
 
-bool DracoDecoder::decode(const Element& primitive_at, const tinygltf::Primitive& primitive) {
+bool DracoDecoder::decode(const Element& primitive_at, const Model::Primitive& primitive) {
   const auto at = extension(primitive_at, name_of_extension);
   if (!at) return false;
-  const std::size_t view = index(asset_, *at, "bufferView", model_.bufferViews.size());
-  const auto bytes = views_.bytes(static_cast<int>(view));
+  const std::size_t view = index(asset_, *at, "bufferView", model_.buffer_views.size());
+  const auto bytes = views_.bytes(view);
   if (!bytes || !has_module(*at)) return false;
-  if (primitive.indices < 0) asset_.fail(primitive_at, "lacks the indices that Draco fills");
+  if (!primitive.indices) asset_.fail(primitive_at, "lacks the indices that Draco fills");
 
-  Job job{.at = *at, .view = view, .indices = primitive.indices, .left = left_};
+  Job job{.at = *at, .view = view, .indices = *primitive.indices, .left = left_};
   job.mesh.bytes = bytes->data();
   job.mesh.size = bytes->size();
   plan(primitive, job);
@@ -155,22 +150,23 @@ bool DracoDecoder::has_module(const Element& at) {
   return false;
 }
 
-void DracoDecoder::plan(const tinygltf::Primitive& primitive, Job& job) const {
+void DracoDecoder::plan(const Model::Primitive& primitive, Job& job) const {
   job.sources.emplace(job.indices, Source(job.view, id_of_indices));
   const Element names = job.at.member("attributes");
   for (const JsonMember& member : names.value->members) {
     const auto attribute = primitive.attributes.find(member.key);
     if (attribute == primitive.attributes.end()) continue;
     const std::size_t id = whole_number(asset_, names, member.key, 0xFFFFFFFF);
-    const tinygltf::Accessor& target = accessor(attribute->second);
-    if (components(target.type) > 4) asset_.fail(names.member(member.key), "is of matrices");
+    const Model::Accessor& target = accessor(attribute->second);
+    if (component_count(target.type) > 4) asset_.fail(names.member(member.key), "is of matrices");
     if (!job.sources.emplace(attribute->second, Source(job.view, id)).second) continue;
     job.accessors.push_back(attribute->second);
-    job.sizes.push_back(element_size(target.type, target.componentType));
-    job.attributes.push_back({.id = static_cast<std::uint32_t>(id),
-                              .components = static_cast<std::uint32_t>(components(target.type)),
-                              .type = static_cast<std::uint32_t>(target.componentType),
-                              .values = nullptr});
+    job.sizes.push_back(element_size(target.type, target.component_type));
+    job.attributes.push_back(
+        {.id = static_cast<std::uint32_t>(id),
+         .components = static_cast<std::uint32_t>(component_count(target.type)),
+         .type = static_cast<std::uint32_t>(target.component_type),
+         .values = nullptr});
   }
 }
 
@@ -195,27 +191,27 @@ void DracoDecoder::run(Job& job) {
     reader_.replace(job.accessors[i], std::move(job.values[i]));
   }
   reader_.replace(job.indices,
-                  narrowed(job.corners, component_size(accessor(job.indices).componentType)));
+                  narrowed(job.corners, component_size(accessor(job.indices).component_type)));
   for (const auto& [replaced, source] : job.sources) sources_[replaced] = source;
 }
 
 void DracoDecoder::check_counts(const Job& job, std::size_t points) const {
-  const tinygltf::Accessor& indices = accessor(job.indices);
-  const std::uint64_t numbers = std::uint64_t{1} << 8 * component_size(indices.componentType);
+  const Model::Accessor& indices = accessor(job.indices);
+  const std::uint64_t numbers = std::uint64_t{1} << 8 * component_size(indices.component_type);
   if (points >= numbers) {
     asset_.fail(job.at,
                 "has " + std::to_string(points) +
                     " vertices, more than indices of the accessor's componentType can name");
   }
-  const auto differs = [&](int index) { return accessor(index).count != points; };
+  const auto differs = [&](std::size_t index) { return accessor(index).count != points; };
   if (indices.count == job.corners.size() && std::ranges::none_of(job.accessors, differs)) return;
   asset_.tolerate(job.at, "holds " + std::to_string(job.corners.size()) + " indices and " +
                               std::to_string(points) +
                               " vertices, not as many as the accessors say; all of it is drawn");
 }
 
-const tinygltf::Accessor& DracoDecoder::accessor(int index) const {
-  return model_.accessors[static_cast<std::size_t>(index)];
+const Model::Accessor& DracoDecoder::accessor(std::size_t index) const {
+  return model_.accessors[index];
 }
 
 }  // namespace microtrace::io::gltf

@@ -29,8 +29,8 @@ std::optional<std::uint32_t> tangent_set(const Material& material) {
   return material.anisotropy->texture ? material.anisotropy->texture->uv_set : 0;
 }
 
-std::size_t bytes_of_topology(int mode, std::size_t vertices) {
-  const bool one_for_each = mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_LINE;
+std::size_t bytes_of_topology(Model::Mode mode, std::size_t vertices) {
+  const bool one_for_each = mode != Model::Mode::triangles && mode != Model::Mode::lines;
   return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
 }
 
@@ -56,7 +56,7 @@ bool leave_out_infinite(Surface& surface) {
 
 class SurfaceMaker {
  public:
-  SurfaceMaker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+  SurfaceMaker(Asset& asset, const Model& model, AccessorReader& reader,
                std::span<const Material> materials, SurfaceDetail detail,
                std::vector<std::uint32_t>& unlit)
       : asset_(asset),
@@ -67,7 +67,7 @@ class SurfaceMaker {
         unlit_(unlit),
         detail_(detail) {}
 
-  std::optional<Surface> make(const Element& at, const tinygltf::Primitive& primitive) {
+  std::optional<Surface> make(const Element& at, const Model::Primitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) {
       asset_.warn(at, "has no POSITION attribute; nothing is drawn for it");
@@ -75,7 +75,7 @@ class SurfaceMaker {
     }
     const bool is_draco = draco_.decode(at, primitive);
     if (!reader_.has_data(position->second) ||
-        (primitive.indices >= 0 && !reader_.has_data(primitive.indices))) {
+        (primitive.indices && !reader_.has_data(*primitive.indices))) {
       asset_.warn(at,
                   "needs a buffer without data: one that has no uri and is not the BIN chunk; "
                   "nothing is drawn for it");
@@ -86,7 +86,7 @@ class SurfaceMaker {
         vertices_of(at, primitive, position->second, indices);
     take_memory(bytes_of_topology(primitive.mode, vertices.size()), "the triangles of meshes");
     Surface result{.material = material_of(primitive)};
-    const int mode = is_draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    const Model::Mode mode = is_draco ? Model::Mode::triangles : primitive.mode;
     if (add_primitives(mode, vertices, result.mesh)) {
       asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
     }
@@ -110,13 +110,9 @@ class SurfaceMaker {
   }
 
  private:
-  const tinygltf::Accessor& accessor(int index) const {
-    return model_.accessors[static_cast<std::size_t>(index)];
-  }
-
   /// make_materials puts the one of primitives without material last.
-  std::uint32_t material_of(const tinygltf::Primitive& primitive) const {
-    if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
+  std::uint32_t material_of(const Model::Primitive& primitive) const {
+    if (primitive.material) return static_cast<std::uint32_t>(*primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
@@ -152,23 +148,23 @@ class SurfaceMaker {
     elements_ += count;
   }
 
-  std::vector<std::uint32_t> vertices_of(const Element& at, const tinygltf::Primitive& primitive,
-                                         int position, MemoryAccount& memory) {
+  std::vector<std::uint32_t> vertices_of(const Element& at, const Model::Primitive& primitive,
+                                         std::size_t position, MemoryAccount& memory) {
     const MemoryScope scope(memory);
     const std::size_t vertex_count = reader_.count(position);
-    if (primitive.indices < 0) {
+    if (!primitive.indices) {
       check_count(at, vertex_count);
       take_memory(vertex_count * sizeof(std::uint32_t), "the vertices of meshes");
       std::vector<std::uint32_t> result(vertex_count);
       std::iota(result.begin(), result.end(), 0U);
       return result;
     }
-    const tinygltf::Accessor& indices = accessor(primitive.indices);
-    check_count(at.member("indices"), reader_.count(primitive.indices));
-    std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(primitive.indices);
-    const Element source = asset_.element("accessors", static_cast<std::size_t>(primitive.indices));
+    const Model::Accessor& indices = model_.accessors[*primitive.indices];
+    check_count(at.member("indices"), reader_.count(*primitive.indices));
+    std::vector<std::uint32_t> result = reader_.read<std::uint32_t>(*primitive.indices);
+    const Element source = asset_.element("accessors", *primitive.indices);
     const std::uint64_t greatest =
-        (std::uint64_t{1} << 8 * component_size(indices.componentType)) - 1;
+        (std::uint64_t{1} << 8 * component_size(indices.component_type)) - 1;
     bool restarts = false;
     for (std::uint32_t& vertex : result) {
       if (vertex < vertex_count && vertex != greatest) continue;
@@ -189,7 +185,7 @@ class SurfaceMaker {
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
   DracoDecoder draco_;
   std::span<const Material> materials_;
@@ -200,7 +196,7 @@ class SurfaceMaker {
 
 }  // namespace
 
-std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const tinygltf::Model& model,
+std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const Model& model,
                                                 AccessorReader& reader,
                                                 std::span<const Material> materials,
                                                 SurfaceDetail detail,

@@ -32,8 +32,10 @@ struct Surface {
 /// that add_unlit_copies appends for those named in `unlit`, which are added there. Primitives
 /// without POSITION or without data make none, with a warning. Throws Error: invalid_scene where
 /// accessors are not what the primitive needs or indices are out of range, limit.
-[[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(
-    Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
-    std::span<const Material> materials, SurfaceDetail detail, std::vector<std::uint32_t>& unlit);
+[[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const Model& model,
+                                                              AccessorReader& reader,
+                                                              std::span<const Material> materials,
+                                                              SurfaceDetail detail,
+                                                              std::vector<std::uint32_t>& unlit);
 
 }  // namespace microtrace::io::gltf

@@ -1,34 +1,32 @@
 #include "io/gltf/mesh/topology.hpp"
 
-#include "io/gltf/document/model.hpp"
-
 #include <algorithm>
 
 namespace microtrace::io::gltf {
 namespace {
 
 /// What one run of vertices makes, without restarts.
-bool add_run(int mode, std::span<const std::uint32_t> v, Mesh& mesh) {
+bool add_run(Model::Mode mode, std::span<const std::uint32_t> v, Mesh& mesh) {
   const std::size_t n = v.size();
   switch (mode) {
-    case TINYGLTF_MODE_POINTS:
+    case Model::Mode::points:
       for (const std::uint32_t vertex : v) mesh.segments.push_back({vertex, vertex});
       return false;
-    case TINYGLTF_MODE_LINE:
+    case Model::Mode::lines:
       for (std::size_t i = 0; i + 1 < n; i += 2) mesh.segments.push_back({v[i], v[i + 1]});
       return n % 2 != 0;
-    case TINYGLTF_MODE_LINE_LOOP:
-    case TINYGLTF_MODE_LINE_STRIP:
+    case Model::Mode::line_loop:
+    case Model::Mode::line_strip:
       for (std::size_t i = 0; i + 1 < n; ++i) mesh.segments.push_back({v[i], v[i + 1]});
-      if (mode == TINYGLTF_MODE_LINE_LOOP && n > 1) mesh.segments.push_back({v[n - 1], v[0]});
+      if (mode == Model::Mode::line_loop && n > 1) mesh.segments.push_back({v[n - 1], v[0]});
       return n == 1;
-    case TINYGLTF_MODE_TRIANGLES:
+    case Model::Mode::triangles:
       mesh.triangles.reserve(mesh.triangles.size() + n / 3);
       for (std::size_t i = 0; i + 2 < n; i += 3) {
         mesh.triangles.push_back({v[i], v[i + 1], v[i + 2]});
       }
       return n % 3 != 0;
-    case TINYGLTF_MODE_TRIANGLE_STRIP:
+    case Model::Mode::triangle_strip:
       for (std::size_t i = 0; i + 2 < n; ++i) {
         mesh.triangles.push_back({v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]});
       }
@@ -73,7 +71,7 @@ std::vector<std::uint32_t> used_of_many(Mesh& mesh, std::size_t uses) {
 
 }  // namespace
 
-bool add_primitives(int mode, std::span<const std::uint32_t> vertices, Mesh& mesh) {
+bool add_primitives(Model::Mode mode, std::span<const std::uint32_t> vertices, Mesh& mesh) {
   bool left_over = vertices.empty();
   while (!vertices.empty()) {
     const auto end = std::ranges::find(vertices, restart);

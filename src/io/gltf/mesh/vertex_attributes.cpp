@@ -9,8 +9,8 @@ namespace {
 
 class AttributeReader {
  public:
-  AttributeReader(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
-                  const Element& attributes, const tinygltf::Primitive& primitive,
+  AttributeReader(Asset& asset, const Model& model, AccessorReader& reader,
+                  const Element& attributes, const Model::Primitive& primitive,
                   std::span<const std::uint32_t> vertices)
       : asset_(asset),
         model_(model),
@@ -20,27 +20,28 @@ class AttributeReader {
         vertices_(vertices) {}
 
   [[nodiscard]] std::vector<Vec3> normals() {
-    const std::optional<int> accessor = find("NORMAL", {TINYGLTF_TYPE_VEC3});
+    const std::optional<std::size_t> accessor = find("NORMAL", {ElementType::vec3});
     return accessor ? reader_.read_finite<Vec3>(*accessor, vertices_) : std::vector<Vec3>();
   }
 
   [[nodiscard]] std::vector<Vec4> tangents() {
-    const std::optional<int> accessor = find("TANGENT", {TINYGLTF_TYPE_VEC4});
+    const std::optional<std::size_t> accessor = find("TANGENT", {ElementType::vec4});
     return accessor ? reader_.read_finite<Vec4>(*accessor, vertices_) : std::vector<Vec4>();
   }
 
   [[nodiscard]] std::vector<Vec2> uv_set(std::uint32_t set) {
-    const std::optional<int> accessor =
-        find("TEXCOORD_" + std::to_string(set), {TINYGLTF_TYPE_VEC2});
+    const std::optional<std::size_t> accessor =
+        find("TEXCOORD_" + std::to_string(set), {ElementType::vec2});
     return accessor ? reader_.read_finite<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
   }
 
   /// Those without alpha are opaque.
   [[nodiscard]] std::vector<Vec4> colors() {
-    const std::optional<int> accessor = find("COLOR_0", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4});
+    const std::optional<std::size_t> accessor =
+        find("COLOR_0", {ElementType::vec3, ElementType::vec4});
     if (!accessor) return {};
     std::vector<Vec4> result;
-    if (type(*accessor) == TINYGLTF_TYPE_VEC4) {
+    if (model_.accessors[*accessor].type == ElementType::vec4) {
       result = reader_.read_finite<Vec4>(*accessor, vertices_);
     } else {
       result.reserve(vertices_.size());
@@ -51,19 +52,19 @@ class AttributeReader {
   }
 
  private:
-  [[nodiscard]] int type(int accessor) const {
-    return model_.accessors[static_cast<std::size_t>(accessor)].type;
-  }
-
   /// The accessor of that attribute, where the primitive has it and its data is there.
-  std::optional<int> find(const std::string& name, std::initializer_list<int> types) {
+  std::optional<std::size_t> find(const std::string& name,
+                                  std::initializer_list<ElementType> types) {
     const auto attribute = primitive_.attributes.find(name);
     if (attribute == primitive_.attributes.end()) return std::nullopt;
-    const int accessor = attribute->second;
-    if (std::ranges::find(types, type(accessor)) == types.end()) {
-      asset_.fail(attributes_.member(name),
-                  "refers to an accessor that is not of type VEC" + std::to_string(*types.begin()) +
-                      (types.size() > 1 ? " or VEC" + std::to_string(*(types.end() - 1)) : ""));
+    const std::size_t accessor = attribute->second;
+    if (std::ranges::find(types, model_.accessors[accessor].type) == types.end()) {
+      asset_.fail(
+          attributes_.member(name),
+          "refers to an accessor that is not of type VEC" +
+              std::to_string(component_count(*types.begin())) +
+              (types.size() > 1 ? " or VEC" + std::to_string(component_count(*(types.end() - 1)))
+                                : ""));
     }
     if (reader_.has_data(accessor)) return accessor;
     asset_.warn(attributes_.member(name), "has no data; the attribute is left out");
@@ -71,15 +72,12 @@ class AttributeReader {
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
   const Element& attributes_;
-  const tinygltf::Primitive& primitive_;
+  const Model::Primitive& primitive_;
   std::span<const std::uint32_t> vertices_;
 };
-
-static_assert(TINYGLTF_TYPE_VEC2 == 2 && TINYGLTF_TYPE_VEC4 == 4,
-              "types are named by their number");
 
 /// Whether a set of texture coordinates is wanted.
 bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
@@ -90,8 +88,8 @@ bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
 
 }  // namespace
 
-void read_attributes(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
-                     const Element& attributes, const tinygltf::Primitive& primitive,
+void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
+                     const Element& attributes, const Model::Primitive& primitive,
                      std::span<const std::uint32_t> vertices, const AttributeWish& wish,
                      Mesh& mesh) {
   AttributeReader attribute(asset, model, reader, attributes, primitive, vertices);

@@ -27,8 +27,8 @@ struct AttributeWish {
 /// ascending, into the mesh. Numbers that are not finite are 0; attributes without data are left
 /// out. Throws Error (invalid_scene) where an accessor's type is not one that glTF 2.0 and
 /// KHR_mesh_quantization allow there.
-void read_attributes(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
-                     const Element& attributes, const tinygltf::Primitive& primitive,
+void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
+                     const Element& attributes, const Model::Primitive& primitive,
                      std::span<const std::uint32_t> vertices, const AttributeWish& wish,
                      Mesh& mesh);
 

@@ -19,7 +19,7 @@ constexpr glm::dvec4 no_turn(0, 0, 0, 1);
 
 class Maker {
  public:
-  Maker(Asset& asset, const tinygltf::Model& model, AccessorReader& reader, const Element& at)
+  Maker(Asset& asset, const Model& model, AccessorReader& reader, const Element& at)
       : asset_(asset), model_(model), reader_(reader), attributes_(at.member("attributes")) {}
 
   /// Nothing, with a warning, where an attribute's buffer has no data.
@@ -41,9 +41,9 @@ class Maker {
                   "brings the asset to more than 2^22 instances, the most that is read",
                   ErrorKind::limit);
     }
-    const auto translations = read<Vec3>("TRANSLATION", TINYGLTF_TYPE_VEC3, false);
-    const auto rotations = read<glm::vec4>("ROTATION", TINYGLTF_TYPE_VEC4, true);
-    const auto scales = read<Vec3>("SCALE", TINYGLTF_TYPE_VEC3, false);
+    const auto translations = read<Vec3>("TRANSLATION", ElementType::vec3, false);
+    const auto rotations = read<glm::vec4>("ROTATION", ElementType::vec4, true);
+    const auto scales = read<Vec3>("SCALE", ElementType::vec3, false);
     if (lacks_data_) return std::nullopt;
     take_memory(*count * sizeof(DMat4), "the transforms of instances");
     std::vector<DMat4> result(*count, DMat4(1));
@@ -57,15 +57,13 @@ class Maker {
 
  private:
   template <typename Vector>
-  std::vector<Vector> read(const char* name, int type, bool may_be_normalized) {
+  std::vector<Vector> read(const char* name, ElementType type, bool may_be_normalized) {
     if (attributes_.value->find(name) == nullptr) return {};
-    const auto accessor =
-        static_cast<int>(index(asset_, attributes_, name, model_.accessors.size()));
-    const tinygltf::Accessor& source = model_.accessors[static_cast<std::size_t>(accessor)];
-    const bool is_float = source.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const std::size_t accessor = index(asset_, attributes_, name, model_.accessors.size());
+    const Model::Accessor& source = model_.accessors[accessor];
+    const bool is_float = source.component_type == f32;
     const bool is_normalized = may_be_normalized && source.normalized &&
-                               (source.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
-                                source.componentType == TINYGLTF_COMPONENT_TYPE_SHORT);
+                               (source.component_type == i8 || source.component_type == i16);
     if (source.type != type || !(is_float || is_normalized)) {
       asset_.fail(attributes_.member(name),
                   may_be_normalized ? "refers to an accessor that is not of type VEC4 and float or "
@@ -87,7 +85,7 @@ class Maker {
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
   Element attributes_;
   bool lacks_data_ = false;
@@ -95,11 +93,11 @@ class Maker {
 
 }  // namespace
 
-Instances::Instances(Asset& asset, const tinygltf::Model& model, AccessorReader& reader) {
+Instances::Instances(Asset& asset, const Model& model, AccessorReader& reader) {
   std::size_t left = max_instances;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const auto at = extension(asset.element("nodes", i), "EXT_mesh_gpu_instancing");
-    if (!at || model.nodes[i].mesh < 0) continue;
+    if (!at || !model.nodes[i].mesh) continue;
     if (at->value->find("attributes") == nullptr) {
       asset.fail(*at, "lacks the required property \"attributes\"");
     }

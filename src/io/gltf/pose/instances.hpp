@@ -18,7 +18,7 @@ inline constexpr std::size_t max_instances = std::size_t{1} << 22;
 class Instances {
  public:
   /// Throws Error: invalid_scene, limit.
-  Instances(Asset& asset, const tinygltf::Model& model, AccessorReader& reader);
+  Instances(Asset& asset, const Model& model, AccessorReader& reader);
 
   /// The transforms of the instances that a node's mesh has, in the node's space; null where the
   /// node has its mesh once, in its own place.

@@ -31,7 +31,7 @@ void add_weighted(std::vector<Sum>& sum, const std::vector<Base>& base, double w
 
 Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
                          const std::vector<double>& weights) {
-  const tinygltf::Primitive& primitive = model_.meshes[mesh].primitives[surface.number];
+  const Model::Primitive& primitive = model_.meshes[mesh].primitives[surface.number];
   Morphed result;
   const auto moves = [](double weight) { return weight != 0; };
   if (!primitive.targets.empty() && std::ranges::any_of(weights, moves)) {
@@ -68,8 +68,8 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
   return result;
 }
 
-void Morpher::add(int accessor, const std::string& name, double weight, const Surface& surface,
-                  Morphed& result) {
+void Morpher::add(std::size_t accessor, const std::string& name, double weight,
+                  const Surface& surface, Morphed& result) {
   // What is read is gone with this call; the sums of float64 are there until the mesh is placed.
   MemoryAccount deltas_memory(memory_account().budget());
   const MemoryScope scope(deltas_memory);
@@ -91,8 +91,7 @@ void Morpher::add(int accessor, const std::string& name, double weight, const Su
     if (result.uv_sets.empty()) result.uv_sets = mesh.uv_sets;
     add_weighted(result.uv_sets[set], mesh.uv_sets[set], weight, deltas(Vec2()));
   } else if (name == "COLOR_0" && !mesh.colors.empty()) {
-    const int type = model_.accessors[static_cast<std::size_t>(accessor)].type;
-    if (type == TINYGLTF_TYPE_VEC4) {
+    if (model_.accessors[accessor].type == ElementType::vec4) {
       add_weighted(result.colors, mesh.colors, weight, deltas(Vec4()));
     } else {
       add_weighted(result.colors, mesh.colors, weight, deltas(Vec3()));

@@ -30,7 +30,7 @@ struct Morphed {
 class Morpher {
  public:
   /// All three must outlive the morpher.
-  Morpher(Asset& asset, const tinygltf::Model& model, AccessorReader& reader)
+  Morpher(Asset& asset, const Model& model, AccessorReader& reader)
       : asset_(asset), model_(model), reader_(reader) {}
 
   /// Weights by target; those without one are not applied. Throws Error: invalid_scene, limit.
@@ -38,11 +38,11 @@ class Morpher {
                                 const std::vector<double>& weights);
 
  private:
-  void add(int accessor, const std::string& name, double weight, const Surface& surface,
+  void add(std::size_t accessor, const std::string& name, double weight, const Surface& surface,
            Morphed& result);
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
   std::size_t displacements_ = 0;  // counted against the maximum
 };

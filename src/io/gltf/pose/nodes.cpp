@@ -17,14 +17,6 @@ bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-DVec3 vector_of(const std::vector<double>& v, const DVec3& otherwise) {
-  return v.empty() ? otherwise : DVec3(v[0], v[1], v[2]);
-}
-
-Quaternion quaternion_of(const std::vector<double>& q) {
-  return q.empty() ? Quaternion(0, 0, 0, 1) : Quaternion(q[0], q[1], q[2], q[3]);
-}
-
 /// What the node says of itself, or its animation.
 bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
@@ -43,11 +35,9 @@ std::optional<DVec3> normalized(const DVec3& v) {
   return glm::normalize(v / largest);
 }
 
-NodeTree::NodeTree(const tinygltf::Model& model) : model_(model), parents_(model.nodes.size(), -1) {
+NodeTree::NodeTree(const Model& model) : model_(model), parents_(model.nodes.size()) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    for (const int child : model.nodes[i].children) {
-      parents_[static_cast<std::size_t>(child)] = static_cast<int>(i);
-    }
+    for (const std::size_t child : model.nodes[i].children) parents_[child] = i;
     parent_from_node_.push_back(local(i));
   }
 }
@@ -55,21 +45,15 @@ NodeTree::NodeTree(const tinygltf::Model& model) : model_(model), parents_(model
 std::vector<std::size_t> NodeTree::roots() const {
   std::vector<std::size_t> result;
   for (std::size_t i = 0; i < parents_.size(); ++i) {
-    if (parents_[i] < 0) result.push_back(i);
+    if (!parents_[i]) result.push_back(i);
   }
   return result;
 }
 
 DMat4 NodeTree::local(std::size_t index) const {
-  const tinygltf::Node& node = model_.nodes[index];
-  if (node.matrix.empty()) {
-    return composed(vector_of(node.translation, DVec3(0)), normalised(quaternion_of(node.rotation)),
-                    vector_of(node.scale, DVec3(1)));
-  }
-  DMat4 result;
-  for (std::size_t i = 0; i < 16; ++i) {
-    result[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = node.matrix[i];
-  }
+  const Model::Node& node = model_.nodes[index];
+  if (!node.matrix) return composed(node.translation, normalised(node.rotation), node.scale);
+  DMat4 result = *node.matrix;
   for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of another row
   return result;
 }
@@ -79,10 +63,9 @@ DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) cons
   if (posed == pose.end()) return parent_from_node_[index];
   const auto& [translation, scale, rotation, weights, visible] = posed->second;
   if (!translation && !scale && !rotation) return parent_from_node_[index];
-  const tinygltf::Node& node = model_.nodes[index];
-  return composed(translation.value_or(vector_of(node.translation, DVec3(0))),
-                  rotation.value_or(normalised(quaternion_of(node.rotation))),
-                  scale.value_or(vector_of(node.scale, DVec3(1))));
+  const Model::Node& node = model_.nodes[index];
+  return composed(translation.value_or(node.translation),
+                  rotation.value_or(normalised(node.rotation)), scale.value_or(node.scale));
 }
 
 std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset,
@@ -94,13 +77,11 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     }
     first = roots();
   } else {
-    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
-    for (const int node : model_.scenes[scene].nodes)
-      first.push_back(static_cast<std::size_t>(node));
+    first = model_.scenes[model_.scene];
   }
   // A child that the scene names beside its ancestor, which it must not, has its place there.
   std::stable_partition(first.begin(), first.end(),
-                        [this](std::size_t node) { return parents_[node] < 0; });
+                        [this](std::size_t node) { return !parents_[node]; });
   std::vector<bool> placed(parents_.size());
   std::vector<PlacedNode> result;
   std::vector<PlacedNode> open;
@@ -114,9 +95,9 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
     if (placed[next.node]) continue;
     placed[next.node] = true;
     result.push_back(next);
-    const std::vector<int>& children = model_.nodes[next.node].children;
+    const std::vector<std::size_t>& children = model_.nodes[next.node].children;
     for (std::size_t i = children.size(); i-- > 0;) {
-      const auto child = static_cast<std::size_t>(children[i]);
+      const std::size_t child = children[i];
       open.push_back({child, next.world_from_node * parent_from_node(child, pose),
                       next.visible && is_shown(asset, child, pose)});
     }
@@ -134,8 +115,7 @@ std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset,
   while (!open.empty()) {
     const std::size_t next = open.back();
     open.pop_back();
-    for (const int index : model_.nodes[next].children) {
-      const auto child = static_cast<std::size_t>(index);
+    for (const std::size_t child : model_.nodes[next].children) {
       result[child] = result[next] * parent_from_node(child, pose);
       open.push_back(child);
     }
@@ -152,9 +132,9 @@ std::string NodeTree::path(std::size_t node) const {
   std::vector<std::string> names = {name(node)};
   std::size_t size = names[0].size();
   bool is_whole = true;
-  for (int parent = parents_[node]; parent >= 0 && is_whole;
-       parent = parents_[static_cast<std::size_t>(parent)]) {
-    std::string above = name(static_cast<std::size_t>(parent));
+  for (std::optional<std::size_t> parent = parents_[node]; parent && is_whole;
+       parent = parents_[*parent]) {
+    std::string above = name(*parent);
     size += above.size() + 1;
     is_whole = size <= longest_path;
     if (is_whole) names.push_back(std::move(above));

@@ -36,7 +36,7 @@ struct PlacedNode {
 class NodeTree {
  public:
   /// Of nodes that check_nodes has accepted.
-  explicit NodeTree(const tinygltf::Model& model);
+  explicit NodeTree(const Model& model);
 
   /// The nodes of the default scene, else of the first one, else all: parents before children,
   /// children in their order.
@@ -57,8 +57,8 @@ class NodeTree {
   [[nodiscard]] DMat4 local(std::size_t node) const;
   [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
-  const tinygltf::Model& model_;
-  std::vector<int> parents_;  // -1 for roots
+  const Model& model_;
+  std::vector<std::optional<std::size_t>> parents_;  // of all nodes but roots
   std::vector<DMat4> parent_from_node_;
 };
 

@@ -21,11 +21,13 @@ namespace microtrace::io::gltf {
 class Poser {
  public:
   /// All must outlive the poser.
-  Poser(Asset& asset, const tinygltf::Model& model, AccessorReader& reader, const NodeTree& tree,
+  Poser(Asset& asset, const Model& model, AccessorReader& reader, const NodeTree& tree,
         const PosedNodes& pose, const DMat4& world_from_asset);
 
   /// Whether joints and not the node say where the surface of its mesh stands.
-  [[nodiscard]] bool has_skin(std::size_t node) const { return model_.nodes[node].skin >= 0; }
+  [[nodiscard]] bool has_skin(std::size_t node) const {
+    return model_.nodes[node].skin.has_value();
+  }
 
   /// A surface of the node's mesh in the world: morphed, then moved by the skin's joints or,
   /// without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
@@ -34,7 +36,7 @@ class Poser {
  private:
   [[nodiscard]] const std::vector<double>& weights(std::size_t node) const;
 
-  const tinygltf::Model& model_;
+  const Model& model_;
   const PosedNodes& pose_;
   std::vector<DMat4> world_from_node_;  // of all nodes, where there are skins
   Morpher morpher_;

@@ -26,20 +26,17 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
   const auto [found, is_new] = matrices_.try_emplace(skin);
   std::vector<DMat4>& result = found->second;
   if (!is_new) return result;
-  const Element at = asset_.element("skins", skin);
-  for (const JsonValue& joint : at.member("joints").value->items) {
-    result.push_back(world_from_node_[static_cast<std::size_t>(joint.number)]);
-  }
-  const JsonValue* accessor = at.value->find("inverseBindMatrices");
-  if (accessor == nullptr || result.empty()) return result;
-  if (!reader_.has_data(static_cast<int>(accessor->number))) {
-    asset_.warn(at.member("inverseBindMatrices"),
+  const auto& [joints, inverse_bind_matrices] = model_.skins[skin];
+  for (const std::size_t joint : joints) result.push_back(world_from_node_[joint]);
+  if (!inverse_bind_matrices || result.empty()) return result;
+  if (!reader_.has_data(*inverse_bind_matrices)) {
+    asset_.warn(asset_.element("skins", skin).member("inverseBindMatrices"),
                 "need a buffer without data; they are taken to be 1");
     return result;
   }
   std::vector<std::uint32_t> numbers(result.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
-  const auto inverse = reader_.read<glm::mat4>(static_cast<int>(accessor->number), numbers);
+  const auto inverse = reader_.read<glm::mat4>(*inverse_bind_matrices, numbers);
   for (std::size_t i = 0; i < result.size(); ++i) {
     DMat4 joint_from_mesh(inverse[i]);
     for (glm::length_t column = 0; column < 4; ++column) {
@@ -51,7 +48,7 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
 }
 
 std::optional<JointBlend> Skins::blend(std::size_t skin, std::size_t mesh, const Surface& surface) {
-  const tinygltf::Primitive& primitive = model_.meshes[mesh].primitives[surface.number];
+  const Model::Primitive& primitive = model_.meshes[mesh].primitives[surface.number];
   const Element attributes =
       asset_.element("meshes", mesh).member("primitives").item(surface.number).member("attributes");
   JointBlend result;

@@ -37,7 +37,7 @@ class JointBlend {
 class Skins {
  public:
   /// By node: where all nodes are, those of the scene and others. All must outlive the skins.
-  Skins(Asset& asset, const tinygltf::Model& model, AccessorReader& reader,
+  Skins(Asset& asset, const Model& model, AccessorReader& reader,
         const std::vector<DMat4>& world_from_node)
       : asset_(asset), model_(model), reader_(reader), world_from_node_(world_from_node) {}
 
@@ -52,7 +52,7 @@ class Skins {
   void check_weights(const Element& attributes, JointBlend& blend);
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   AccessorReader& reader_;
   const std::vector<DMat4>& world_from_node_;
   std::unordered_map<std::size_t, std::vector<DMat4>> matrices_;  // by skin

@@ -42,21 +42,20 @@ Camera camera_of(const JsonValue& camera, const Pose& pose) {
 
 }  // namespace
 
-std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
-                                      const tinygltf::Model& model, const NodeTree& tree,
-                                      const std::vector<PlacedNode>& nodes) {
+std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const Model& model,
+                                      const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
   UniqueNames names;
   std::vector<NamedCamera> result;
   for (const PlacedNode& placed : nodes) {
-    const int index = model.nodes[placed.node].camera;
-    if (index < 0) continue;
+    const std::optional<std::size_t> index = model.nodes[placed.node].camera;
+    if (!index) continue;
     const std::optional<Pose> pose = pose_of(placed.world_from_node);
     if (!pose) {
       asset.warn(asset.element("nodes", placed.node).member("camera"),
                  "has no position and orientation in the world; the camera is left out");
       continue;
     }
-    const JsonValue& camera = root.find("cameras")->items[static_cast<std::size_t>(index)];
+    const JsonValue& camera = root.find("cameras")->items[*index];
     const std::string own = name_of(camera);
     const bool named = !model.nodes[placed.node].name.empty() || own.empty();
     result.push_back({.name = names.make(named ? tree.name(placed.node) : head(own, 64)),

@@ -15,8 +15,7 @@ namespace microtrace::io::gltf {
 /// whose node has no position and orientation left (a scale of zero, numbers beyond float64) is
 /// left out with a warning.
 [[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
-                                                    const tinygltf::Model& model,
-                                                    const NodeTree& tree,
+                                                    const Model& model, const NodeTree& tree,
                                                     const std::vector<PlacedNode>& nodes);
 
 }  // namespace microtrace::io::gltf

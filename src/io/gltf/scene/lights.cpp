@@ -70,7 +70,7 @@ std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node
 
 }  // namespace
 
-std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const tinygltf::Model& model,
+std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Model& model,
                                     const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
   std::vector<NamedLight> result;
   const std::optional<Element> all = extension(root, name_of_extension);

@@ -15,8 +15,7 @@ namespace microtrace::io::gltf {
 /// has no name, by themselves. A node's scale has no effect on them. One without position or
 /// direction in the world is left out with a warning. Throws Error (invalid_scene).
 [[nodiscard]] std::vector<NamedLight> make_lights(Asset& asset, const Element& root,
-                                                  const tinygltf::Model& model,
-                                                  const NodeTree& tree,
+                                                  const Model& model, const NodeTree& tree,
                                                   const std::vector<PlacedNode>& nodes);
 
 }  // namespace microtrace::io::gltf

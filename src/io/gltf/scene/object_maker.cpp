@@ -23,12 +23,12 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
   std::size_t objects = 0, triangles = 0, vertices = 0;
   std::uint64_t bytes = 0;
   for (const PlacedNode& placed : nodes) {
-    const int mesh = model_.nodes[placed.node].mesh;
-    if (mesh < 0 || !placed.visible) continue;
+    const std::optional<std::size_t> mesh = model_.nodes[placed.node].mesh;
+    if (!mesh || !placed.visible) continue;
     const std::vector<DMat4>* instances = instances_.of(placed.node);
     const std::size_t times = instances != nullptr ? instances->size() : 1;
-    objects += times * surfaces_[static_cast<std::size_t>(mesh)].size();
-    for (const Surface& surface : surfaces_[static_cast<std::size_t>(mesh)]) {
+    objects += times * surfaces_[*mesh].size();
+    for (const Surface& surface : surfaces_[*mesh]) {
       const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
@@ -45,7 +45,7 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
 }
 
 void ObjectMaker::add_mesh(const PlacedNode& placed) {
-  if (model_.nodes[placed.node].mesh < 0 || !placed.visible) return;
+  if (!model_.nodes[placed.node].mesh || !placed.visible) return;
   const std::string path = tree_.path(placed.node);
   const std::vector<DMat4>* instances = instances_.of(placed.node);
   if (instances != nullptr && poser_.has_skin(placed.node)) {
@@ -62,7 +62,7 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
 
 void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
                            const std::string& path) {
-  const auto index = static_cast<std::size_t>(model_.nodes[node].mesh);
+  const std::size_t index = *model_.nodes[node].mesh;
   for (const Surface& surface : surfaces_[index]) {
     Mesh world = posed(node, surface, world_from_mesh);
     if (!is_finite(world)) {
@@ -88,7 +88,7 @@ Element ObjectMaker::primitive(std::size_t mesh, const Surface& surface) const {
 
 std::string ObjectMaker::name(const std::string& path, std::size_t mesh,
                               const Surface& surface) const {
-  const tinygltf::Mesh& source = model_.meshes[mesh];
+  const Model::Mesh& source = model_.meshes[mesh];
   std::string result = path + "/";
   result += source.name.empty() ? "mesh" + std::to_string(mesh) : head(source.name, 64);
   if (source.primitives.size() > 1) result += ":" + std::to_string(surface.number);

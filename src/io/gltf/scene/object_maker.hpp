@@ -19,7 +19,7 @@ namespace microtrace::io::gltf {
 class ObjectMaker {
  public:
   /// All must outlive it.
-  ObjectMaker(Asset& asset, const tinygltf::Model& model, const NodeTree& tree,
+  ObjectMaker(Asset& asset, const Model& model, const NodeTree& tree,
               const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
               Poser& poser)
       : asset_(asset),
@@ -45,7 +45,7 @@ class ObjectMaker {
                                  const Surface& surface) const;
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   const NodeTree& tree_;
   const std::vector<std::vector<Surface>>& surfaces_;
   const Instances& instances_;

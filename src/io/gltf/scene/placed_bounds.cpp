@@ -15,7 +15,7 @@ void add_corners(const PointBounds& box, const DMat4& world_from_box, PointBound
 
 }  // namespace
 
-PointBounds bounds_of(const tinygltf::Model& model, const std::vector<PlacedNode>& nodes,
+PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
                       const std::vector<std::vector<Surface>>& surfaces,
                       const Instances& instances) {
   std::vector<PointBounds> boxes(surfaces.size());  // of meshes
@@ -26,10 +26,10 @@ PointBounds bounds_of(const tinygltf::Model& model, const std::vector<PlacedNode
   }
   PointBounds result;
   for (const PlacedNode& placed : nodes) {
-    const tinygltf::Node& node = model.nodes[placed.node];
-    if (node.camera >= 0 || node.skin >= 0) result.add(DVec3(placed.world_from_node[3]));
-    if (node.mesh < 0 || !placed.visible) continue;
-    const PointBounds& box = boxes[static_cast<std::size_t>(node.mesh)];
+    const Model::Node& node = model.nodes[placed.node];
+    if (node.camera || node.skin) result.add(DVec3(placed.world_from_node[3]));
+    if (!node.mesh || !placed.visible) continue;
+    const PointBounds& box = boxes[*node.mesh];
     if (!(box.low.x <= box.high.x)) continue;
     if (const std::vector<DMat4>* each = instances.of(placed.node)) {
       for (const DMat4& instance : *each)

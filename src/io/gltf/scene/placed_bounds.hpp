@@ -11,8 +11,7 @@ namespace microtrace::io::gltf {
 
 /// About all that can be seen, and the cameras: morphed surfaces are taken for what they are
 /// without, skinned ones for where their nodes are.
-[[nodiscard]] PointBounds bounds_of(const tinygltf::Model& model,
-                                    const std::vector<PlacedNode>& nodes,
+[[nodiscard]] PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
                                     const std::vector<std::vector<Surface>>& surfaces,
                                     const Instances& instances);
 

@@ -36,7 +36,7 @@
 namespace microtrace::io {
 namespace {
 
-using gltf::Asset, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
+using gltf::Asset, gltf::Model, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
 
 /// Runs a part of the reading; whatever it throws becomes an Error.
 template <typename Part>
@@ -100,11 +100,11 @@ struct GltfFile::Content {
     return result;
   }
 
-  tinygltf::Model checked_model(const std::string& variant) {
+  Model checked_model(const std::string& variant) {
     gltf::check_requirements(asset);
     gltf::check_schema(asset);
     gltf::check_semantics(asset);
-    tinygltf::Model result = gltf::parse_model(asset);
+    Model result = gltf::parse_model(asset);
     gltf::check_accessors(asset, result);
     gltf::choose_variant(asset, variant, result);
     return result;
@@ -185,7 +185,7 @@ struct GltfFile::Content {
   gltf::Container container;
   JsonDocument json;
   Asset asset;
-  tinygltf::Model model;
+  Model model;
   NodeTree tree;
   gltf::ResourceFolders folders;
   std::vector<gltf::Buffer> buffers;

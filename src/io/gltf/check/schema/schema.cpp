@@ -44,7 +44,7 @@ class Checker {
         asset_.warn(element, "is no property that glTF 2.0 has here; it is ignored");
       }
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
  private:
@@ -127,7 +127,7 @@ class Checker {
       case Repair::clamp: {
         asset_.tolerate(at, message + "; the nearest number of that range is taken");
         const double least = rule.above_min ? std::nextafter(rule.min, rule.min + 1) : rule.min;
-        Asset::set(at, std::clamp(at.value->number, least, rule.max));
+        asset_.set(at, std::clamp(at.value->number, least, rule.max));
         return true;
       }
       case Repair::drop:
@@ -227,7 +227,7 @@ class Checker {
         index(attribute, rule);
       }
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
   void extensions(const Element& at, Place place) {
@@ -242,7 +242,7 @@ class Checker {
       require(extension, member.value.kind == Kind::object, "must be an object");
       if (!this->extension(extension, member.key, place)) dropped.push_back(member.key);
     }
-    if (!dropped.empty()) Asset::drop(at, {dropped.begin(), dropped.end()});
+    if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
   /// False where it is to be dropped.

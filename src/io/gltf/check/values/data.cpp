@@ -80,15 +80,15 @@ Bounds bounds_of(const Elements& elements) {
 
 Bounds bounds_of(const Elements& elements) {
   switch (elements.component_type()) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case i8:
       return bounds_of<std::int8_t>(elements);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case u8:
       return bounds_of<std::uint8_t>(elements);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case i16:
       return bounds_of<std::int16_t>(elements);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case u16:
       return bounds_of<std::uint16_t>(elements);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case u32:
       return bounds_of<std::uint32_t>(elements);
     default:
       return bounds_of<float>(elements);
@@ -101,7 +101,7 @@ class DataCheck {
       : asset_(asset), at_(at), elements_(elements) {}
 
   void bounds() const {
-    const bool is_float = elements_.component_type() == TINYGLTF_COMPONENT_TYPE_FLOAT;
+    const bool is_float = elements_.component_type() == f32;
     const bool has_bounds = at_.value->find("min") != nullptr || at_.value->find("max") != nullptr;
     if (!has_bounds) {
       if (is_float && !all_finite(elements_)) tolerate_not_finite();
@@ -114,7 +114,7 @@ class DataCheck {
   }
 
   void uses(const AccessorUses& uses) const {
-    if (elements_.component_type() != TINYGLTF_COMPONENT_TYPE_FLOAT) return;
+    if (elements_.component_type() != f32) return;
     if (uses.normals || uses.tangents) unit_vectors();
     if (uses.tangents) signs();
     if (uses.colors) colors();
@@ -224,7 +224,7 @@ class DataCheck {
 /// Vertices of primitives that are not drawn for want of positions; surfaces check the others.
 class IndexCheck {
  public:
-  IndexCheck(Asset& asset, const tinygltf::Model& model, const BufferViews& views)
+  IndexCheck(Asset& asset, const Model& model, const BufferViews& views)
       : asset_(asset), model_(model), views_(views), greatest_(model.accessors.size()) {}
 
   void primitive(const JsonValue& primitive) {
@@ -255,19 +255,19 @@ class IndexCheck {
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   const BufferViews& views_;
   std::vector<std::optional<double>> greatest_;  // by accessor, once it was asked for
 };
 
 /// Accessors may overlap, so that a small file asks for the reading of much.
-void check_size(const Asset& asset, const tinygltf::Model& model) {
+void check_size(const Asset& asset, const Model& model) {
   double bytes = 0;
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {
-    const tinygltf::Accessor& accessor = model.accessors[i];
-    if (accessor.bufferView < 0 && !accessor.sparse.isSparse) continue;
+    const Model::Accessor& accessor = model.accessors[i];
+    if (!accessor.view && !accessor.sparse) continue;
     bytes += static_cast<double>(accessor.count) *
-             static_cast<double>(element_size(accessor.type, accessor.componentType));
+             static_cast<double>(element_size(accessor.type, accessor.component_type));
     if (bytes <= static_cast<double>(max_buffer_bytes)) continue;
     asset.fail(asset.element("accessors", i).member("count"),
                "brings the elements of all accessors to more than 4 GiB, the most that is read",
@@ -277,7 +277,7 @@ void check_size(const Asset& asset, const tinygltf::Model& model) {
 
 }  // namespace
 
-void check_data(Asset& asset, const tinygltf::Model& model, const BufferViews& views) {
+void check_data(Asset& asset, const Model& model, const BufferViews& views) {
   check_size(asset, model);
   const std::vector<AccessorUses> uses = accessor_uses(asset);
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {

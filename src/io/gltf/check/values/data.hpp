@@ -11,6 +11,6 @@ namespace microtrace::io::gltf {
 /// the greatest, vectors, quaternions, colors, weights and matrices that are not what their use
 /// asks for, and, in primitives that are not drawn for want of positions, vertices that are not
 /// there. Throws Error (limit) where accessors hold more than max_buffer_bytes in all.
-void check_data(Asset& asset, const tinygltf::Model& model, const BufferViews& views);
+void check_data(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf

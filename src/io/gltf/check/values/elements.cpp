@@ -16,18 +16,14 @@ std::uint32_t unsigned_at(std::string_view bytes, std::size_t number, std::size_
 
 class SparseParts {
  public:
-  SparseParts(const tinygltf::Accessor& accessor, const BufferViews& views) : accessor_(accessor) {
-    const auto& [count, is_sparse, indices, values] = accessor.sparse;
-    const auto part = [&](int view, int offset) {
-      return views.bytes(view)
-          .value_or(std::string_view())
-          .substr(static_cast<std::size_t>(offset));
-    };
-    if (!views.bytes(indices.bufferView) || !views.bytes(values.bufferView)) return;
-    indices_ = part(indices.bufferView, indices.byteOffset);
-    values_ = part(values.bufferView, values.byteOffset);
-    count_ = static_cast<std::size_t>(count);
-    index_size_ = component_size(indices.componentType);
+  SparseParts(const Model::Accessor& accessor, const BufferViews& views) : accessor_(accessor) {
+    const Model::Sparse& sparse = *accessor.sparse;
+    const auto indices = views.bytes(sparse.indices_view), values = views.bytes(sparse.values_view);
+    if (!indices || !values) return;
+    indices_ = indices->substr(sparse.indices_offset);
+    values_ = values->substr(sparse.values_offset);
+    count_ = sparse.count;
+    index_size_ = component_size(sparse.index_type);
   }
 
   [[nodiscard]] bool has_data() const { return count_ > 0; }
@@ -54,43 +50,41 @@ class SparseParts {
   }
 
  private:
-  const tinygltf::Accessor& accessor_;
+  const Model::Accessor& accessor_;
   std::string_view indices_, values_;
   std::size_t count_ = 0, index_size_ = 1;
 };
 
 }  // namespace
 
-std::optional<Elements> Elements::of(const Asset& asset, const tinygltf::Model& model,
+std::optional<Elements> Elements::of(const Asset& asset, const Model& model,
                                      const BufferViews& views, std::size_t index) {
-  const tinygltf::Accessor& accessor = model.accessors[index];
-  const std::size_t size = element_size(accessor.type, accessor.componentType);
+  const Model::Accessor& accessor = model.accessors[index];
+  const std::size_t size = element_size(accessor.type, accessor.component_type);
   Elements result;
   result.count_ = accessor.count;
-  result.component_type_ = accessor.componentType;
-  result.components_ = static_cast<std::size_t>(
-      tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
+  result.component_type_ = accessor.component_type;
+  result.components_ = component_count(accessor.type);
   result.stride_ = size;
-  if (size != result.components_ * component_size(accessor.componentType)) {
+  if (size != result.components_ * component_size(accessor.component_type)) {
     return std::nullopt;  // padded columns of small integers, which no rule looks into
   }
-  if (accessor.bufferView >= 0) {
-    const std::optional<std::string_view> bytes = views.bytes(accessor.bufferView);
+  if (accessor.view) {
+    const std::optional<std::string_view> bytes = views.bytes(*accessor.view);
     if (!bytes) return std::nullopt;
-    result.bytes_ = bytes->substr(accessor.byteOffset);
-    const std::size_t stride =
-        model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    result.bytes_ = bytes->substr(accessor.offset);
+    const std::size_t stride = model.buffer_views[*accessor.view].stride;
     if (stride != 0) result.stride_ = stride;
   }
-  if (!accessor.sparse.isSparse) {
-    return accessor.bufferView >= 0 ? std::optional(std::move(result)) : std::nullopt;
+  if (!accessor.sparse) {
+    return accessor.view ? std::optional(std::move(result)) : std::nullopt;
   }
   const SparseParts sparse(accessor, views);
   if (!sparse.has_data()) return std::nullopt;
   sparse.check(asset, index);
   if (accessor.count > max_sparse_bytes / size) return std::nullopt;
   result.storage_.resize(accessor.count * size);
-  for (std::size_t i = 0; i < accessor.count && accessor.bufferView >= 0; ++i) {
+  for (std::size_t i = 0; accessor.view && i < accessor.count; ++i) {
     std::memcpy(&result.storage_[i * size], &result.bytes_[i * result.stride_], size);
   }
   sparse.put_into(result.storage_, size);
@@ -100,15 +94,15 @@ std::optional<Elements> Elements::of(const Asset& asset, const tinygltf::Model& 
 
 double Elements::number(std::size_t element, std::size_t component) const {
   switch (component_type_) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case i8:
       return at<std::int8_t>(element, component);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case u8:
       return at<std::uint8_t>(element, component);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case i16:
       return at<std::int16_t>(element, component);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case u16:
       return at<std::uint16_t>(element, component);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case u32:
       return at<std::uint32_t>(element, component);
     default:
       return static_cast<double>(at<float>(element, component));

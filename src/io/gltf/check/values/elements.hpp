@@ -17,7 +17,7 @@ class Elements {
   /// Nothing for an accessor whose numbers are not all at hand: no data, compressed, or sparse and
   /// longer than is worth putting together. Throws Error (invalid_scene) where sparse indices are
   /// out of order or range.
-  [[nodiscard]] static std::optional<Elements> of(const Asset& asset, const tinygltf::Model& model,
+  [[nodiscard]] static std::optional<Elements> of(const Asset& asset, const Model& model,
                                                   const BufferViews& views, std::size_t accessor);
 
   [[nodiscard]] std::size_t count() const { return count_; }

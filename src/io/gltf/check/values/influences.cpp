@@ -27,7 +27,7 @@ std::vector<std::size_t> joint_counts(const Asset& asset) {
 
 class InfluenceCheck {
  public:
-  InfluenceCheck(Asset& asset, const tinygltf::Model& model, const BufferViews& views)
+  InfluenceCheck(Asset& asset, const Model& model, const BufferViews& views)
       : asset_(asset), model_(model), views_(views) {}
 
   void primitive(const Element& attributes, std::size_t joint_count) {
@@ -57,16 +57,15 @@ class InfluenceCheck {
   }
 
   static std::size_t joint(const Elements& joints, std::size_t vertex, std::size_t k) {
-    return joints.component_type() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
-               ? std::size_t{joints.at<std::uint8_t>(vertex, k)}
-               : std::size_t{joints.at<std::uint16_t>(vertex, k)};
+    return joints.component_type() == u8 ? std::size_t{joints.at<std::uint8_t>(vertex, k)}
+                                         : std::size_t{joints.at<std::uint16_t>(vertex, k)};
   }
 
   static double weight(const Elements& weights, std::size_t vertex, std::size_t k) {
     switch (weights.component_type()) {
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      case u8:
         return weights.number(vertex, k) / 255;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      case u16:
         return weights.number(vertex, k) / 65535;
       default:
         return weights.number(vertex, k);
@@ -115,7 +114,7 @@ class InfluenceCheck {
   }
 
   Asset& asset_;
-  const tinygltf::Model& model_;
+  const Model& model_;
   const BufferViews& views_;
   std::vector<std::pair<Elements, Elements>> sets_;  // joints and weights
   std::size_t vertices_ = 0;                         // counted against max_elements
@@ -123,7 +122,7 @@ class InfluenceCheck {
 
 }  // namespace
 
-void check_influences(Asset& asset, const tinygltf::Model& model, const BufferViews& views) {
+void check_influences(Asset& asset, const Model& model, const BufferViews& views) {
   InfluenceCheck check(asset, model, views);
   const std::vector<std::size_t> counts = joint_counts(asset);
   for (std::size_t i = 0; i < counts.size(); ++i) {

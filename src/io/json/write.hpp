@@ -1,0 +1,18 @@
+#pragma once
+#include "io/json/document.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace microtrace::io {
+
+/// Appends a value as compact JSON that parses to the same value, without the members of those
+/// names at any depth. Integers within +-2^53 have no fraction and no exponent.
+void append_json(std::string& text, const JsonValue& value,
+                 std::span<const std::string_view> left_out);
+
+/// Appends a string in quotes, escaped.
+void append_json(std::string& text, std::string_view string);
+
+}  // namespace microtrace::io
