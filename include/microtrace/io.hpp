@@ -6,6 +6,7 @@
 #include <microtrace/film.hpp>
 #include <microtrace/memory.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/scene_format.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -21,6 +22,7 @@ struct LoadedScene {
   /// In file order: oddities, features without effect, and broken rules of the format
   /// (Severity::error) that were repaired or worked around.
   std::vector<Diagnostic> warnings;
+  SceneFormat format = SceneFormat::json;
 };
 
 /// How much of surfaces is read.
@@ -31,8 +33,6 @@ enum class SurfaceDetail {
   all,    ///< normals, tangents, all images and texture coordinates too
   usual,  ///< color in JSON scenes, all in glTF assets: what these are usually drawn with
 };
-
-enum class SceneFormat { json, gltf };
 
 /// Where the time of loading went, in seconds.
 struct LoadTimes {

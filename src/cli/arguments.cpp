@@ -1,6 +1,7 @@
 #include "cli/arguments.hpp"
 
 #include <microtrace/aov.hpp>
+#include <microtrace/defaults.hpp>
 #include <microtrace/error.hpp>
 
 #include <algorithm>
@@ -38,37 +39,28 @@ std::optional<SampleRange> SamplingOptions::range() const {
 }
 
 void apply_defaults(Arguments& a, SceneFormat format) {
-  const bool is_gltf = format == SceneFormat::gltf;
-  a.integrator = a.wanted.value_or(is_gltf ? Technique::path : Technique::flat);
-  const bool is_path = a.integrator == Subject(Technique::path);
-  if (a.environment.shows_environment() && !is_path)
+  if (!a.integrator) a.integrator = default_integrator(format);
+  if (a.is_path_traced()) a.integrator = a.path;
+  if (a.environment.shows_environment() && !a.is_path_traced())
     refuse_usage("--background: env needs path tracing; use --integrator path");
-  if (!a.aovs.sampled.empty() && !is_path) {
+  if (!a.aovs.sampled.empty() && !a.is_path_traced()) {
     refuse_usage("--aov: " + std::string(name_of(a.aovs.sampled.front())) +
                  " needs path tracing; use --integrator path");
   }
-  if (a.sampling.samples == 0) a.sampling.samples = is_path ? 64 : 1;
-  check_sampling(a.sampling, is_path);
-  // Lighter than shadows and darker than highlights, so that models stand out.
-  if (is_gltf && is_path && !a.environment.background)
-    a.environment.background = Background{.color = Vec3(0.6F)};
+  if (a.sampling.samples == 0) a.sampling.samples = default_samples(*a.integrator);
+  check_sampling(a.sampling, a.is_path_traced());
+  const std::optional<Vec3> color = default_background(format, *a.integrator);
+  if (color && !a.environment.background) a.environment.background = Background{.color = *color};
 }
 
 SurfaceDetail surface_detail(const Arguments& a) {
   const bool shows_albedo = std::ranges::find(a.aovs.exact, Aov::albedo) != a.aovs.exact.end();
-  const Aov* quantity = a.wanted ? std::get_if<Aov>(&*a.wanted) : nullptr;
+  const Aov* quantity = a.integrator ? std::get_if<Aov>(&*a.integrator) : nullptr;
   if (quantity != nullptr && *quantity != Aov::albedo && !shows_albedo) return SurfaceDetail::shape;
   if (!a.aovs.empty()) return SurfaceDetail::all;
-  if (!a.wanted) return SurfaceDetail::usual;
-  return a.wanted == Subject(Technique::flat) ? SurfaceDetail::color : SurfaceDetail::all;
-}
-
-std::unique_ptr<Integrator> make_integrator(const Arguments& arguments) {
-  if (const auto* aov = std::get_if<Aov>(&arguments.integrator))
-    return std::make_unique<AovIntegrator>(*aov);
-  if (std::get<Technique>(arguments.integrator) == Technique::path)
-    return std::make_unique<PathIntegrator>(arguments.path);
-  return std::make_unique<FlatIntegrator>();
+  if (!a.integrator) return SurfaceDetail::usual;
+  const bool is_flat = std::holds_alternative<FlatOptions>(*a.integrator);
+  return is_flat ? SurfaceDetail::color : SurfaceDetail::all;
 }
 
 }  // namespace microtrace::cli

@@ -4,6 +4,7 @@
 #include "cli/frames.hpp"
 #include "cli/options/values.hpp"
 
+#include <microtrace/defaults.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -100,9 +100,9 @@ struct Arguments {
   EnvironmentOptions environment{};
   DisplayOptions display{};
   SamplingOptions sampling{};
-  std::optional<Subject> wanted{};       ///< what --integrator names
-  Subject integrator = Technique::flat;  ///< after apply_defaults()
-  PathOptions path{};
+  /// Absent until apply_defaults(), unless it is given.
+  std::optional<IntegratorOptions> integrator{};
+  PathOptions path{};  ///< of the integrator, if that is path
   Channels aovs{};
   CameraOptions camera{};
   unsigned threads = 0;                         ///< 0: default_threads()
@@ -118,19 +118,21 @@ struct Arguments {
   /// The options that samples depend on, as Checkpoint::identity has them.
   std::string identity{};
 
+  /// After apply_defaults().
+  [[nodiscard]] bool is_path_traced() const {
+    return std::holds_alternative<PathOptions>(*integrator);
+  }
+
   // Of merge alone:
   std::vector<std::filesystem::path> checkpoints{};
   bool allows_missing_samples = false;
 };
 
-/// Fills in what depends on the scene's format: glTF assets are path traced over gray, JSON scenes
-/// are rendered flat. Throws Error (usage) for options that contradict the result.
+/// Sets the options that are not given to the library's defaults for scenes of this format. Throws
+/// Error (usage) for options that contradict the result.
 void apply_defaults(Arguments& arguments, SceneFormat format);
 
-/// The properties of surfaces that the picture and its channels show.
+/// The properties of surfaces that the picture and its channels show, before apply_defaults().
 [[nodiscard]] SurfaceDetail surface_detail(const Arguments& arguments);
-
-/// After apply_defaults().
-[[nodiscard]] std::unique_ptr<Integrator> make_integrator(const Arguments& arguments);
 
 }  // namespace microtrace::cli

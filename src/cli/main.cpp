@@ -54,9 +54,11 @@ int render_pictures(cli::Arguments arguments) {
   std::optional<cli::SampleFiles> samples;
   RenderCache cache;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
-    auto [scene, warnings] = file.at(sequence.time(index));
-    if (index == 0) environment = cli::load_environment(arguments.environment, warnings, memory);
-    log.report(warnings);
+    LoadedScene loaded = file.at(sequence.time(index));
+    Scene& scene = loaded.scene;
+    if (index == 0)
+      environment = cli::load_environment(arguments.environment, loaded.warnings, memory);
+    log.report(loaded.warnings);
     cli::apply_environment(scene, environment, arguments.environment);
     const ImageSize size = arguments.size.value_or(scene.size);
     const Camera camera = framing ? cli::in_coordinates_of(scene, *framing)

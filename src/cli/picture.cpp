@@ -62,7 +62,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
                   const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
                   Warnings& warnings, const std::function<void(double)>& progress) {
   if (arguments.verbose) tell_of_scene(arguments, scene, size);
-  const std::unique_ptr<Integrator> integrator = make_integrator(arguments);
+  const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;
   RenderCounts counts;
   RenderOptions options{
@@ -106,8 +106,7 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
         counts.missing_threads, options.threads);
   }
   if (files.samples != nullptr) files.samples->save();
-  if (std::holds_alternative<Technique>(arguments.integrator) &&
-      (arguments.strict || !arguments.quiet))
+  if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(warning_of(view_of(film, scene, camera, options), arguments, scene));
   if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
   watch.written();

@@ -58,11 +58,9 @@ std::string camera_text(const Arguments& arguments, const Scene& scene) {
   return scene.cameras[0].name + ", the first of " + std::to_string(scene.cameras.size());
 }
 
-std::string subject_of(const Arguments& arguments) {
-  if (const auto* technique = std::get_if<Technique>(&arguments.integrator)) {
-    return *technique == Technique::flat ? "flat" : "path";
-  }
-  return "an exact quantity";
+std::string integrator_text(const Arguments& arguments) {
+  if (const auto* aov = std::get_if<Aov>(&*arguments.integrator)) return std::string(name_of(*aov));
+  return arguments.is_path_traced() ? "path" : "flat";
 }
 
 }  // namespace
@@ -75,7 +73,7 @@ void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize siz
   tell("light: " + light_of(scene));
   tell("camera: " + camera_text(arguments, scene));
   tell("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
-       subject_of(arguments));
+       integrator_text(arguments));
 }
 
 }  // namespace microtrace::cli

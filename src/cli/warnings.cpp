@@ -94,8 +94,8 @@ std::optional<Diagnostic> warning_of(const FilmView& view, const Arguments& argu
                                         " sees nothing of the scene; take another by --camera, or "
                                         "look at all of it by --view 30,25");
   }
-  const bool has_light = arguments.integrator == Subject(Technique::path);
-  if (!view.is_dark || !has_light || arguments.path.max_depth == 1) return std::nullopt;
+  if (!view.is_dark || !arguments.is_path_traced() || arguments.path.max_depth == 1)
+    return std::nullopt;
   std::string message = "most of what is seen is black; the scene is lit by " + light_of(scene);
   if (!scene.environment && !scene.lights.empty())
     message += " (the studio lights only scenes without lights of their own)";

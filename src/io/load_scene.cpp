@@ -79,7 +79,11 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
 }
 
 LoadedScene read(Reader& reader, const std::filesystem::path& folder, LoadOptions options) {
-  if (auto* gltf = std::get_if<io::GltfFile>(&reader)) return gltf->at(options.time);
+  if (auto* gltf = std::get_if<io::GltfFile>(&reader)) {
+    LoadedScene result = gltf->at(options.time);
+    result.format = SceneFormat::gltf;
+    return result;
+  }
   io::LoadClock clock(options.times);
   if (options.detail == SurfaceDetail::usual) options.detail = SurfaceDetail::color;
   LoadedScene result = io::read_json_scene(std::get<io::JsonDocument>(reader), folder, options);

@@ -34,7 +34,7 @@ RUN_ELSEWHERE = [
     r"ctest -L [\w |]+$",
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
     r"ffmpeg |assimp |ulimit |sudo apt",
-    r"(find_package|target_link_libraries)\(|#include |const auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer
+    r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
 # Code blocks that are no commands: formulas and the like.
 PROSE = {"derivations.md", "exactness.md"}

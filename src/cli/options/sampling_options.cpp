@@ -14,16 +14,17 @@ constexpr std::array kBackfaces{Choice<Backfaces>{"pass", Backfaces::pass},
                                 Choice<Backfaces>{"occlude", Backfaces::occlude}};
 
 constexpr std::array kSamplingOptions{
-    Option{
-        .names = "--integrator",
-        .metavar = "NAME",
-        .help = "rendering method: flat (colors without light), path (path tracing), or one of the "
-                "exact quantities "
-                "of --aov",
-        .default_value = "path for glTF, flat for JSON",
-        .samples = Samples::change,
-        .words = integrator_names,
-        .set = [](Arguments& a, const OptionValue& value) { a.wanted = parse_integrator(value); }},
+    Option{.names = "--integrator",
+           .metavar = "NAME",
+           .help =
+               "rendering method: flat (colors without light), path (path tracing), or one of the "
+               "exact quantities "
+               "of --aov",
+           .default_value = "path for glTF, flat for JSON",
+           .samples = Samples::change,
+           .words = integrator_names,
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.integrator = parse_integrator(value); }},
     Option{.names = "--spp,--samples",
            .metavar = "N",
            .help =

@@ -127,9 +127,9 @@ std::optional<Vec3> parse_radiance(const std::string& text) {
   return parse_color(text, kMaxRadiance);
 }
 
-Subject parse_integrator(const OptionValue& value) {
-  if (value.text == "flat") return Technique::flat;
-  if (value.text == "path") return Technique::path;
+IntegratorOptions parse_integrator(const OptionValue& value) {
+  if (value.text == "flat") return FlatOptions{};
+  if (value.text == "path") return PathOptions{};
   if (const auto aov = aov_named(value.text)) return *aov;
   value.refuse(listed(integrator_names()));
 }

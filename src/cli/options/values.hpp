@@ -4,6 +4,7 @@
 #include "cli/options/option_value.hpp"
 
 #include <microtrace/aov.hpp>
+#include <microtrace/defaults.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/math.hpp>
@@ -11,7 +12,6 @@
 
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace microtrace::cli {
@@ -44,12 +44,7 @@ struct Background {
 /// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; else nothing
 [[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
 
-/// How colors are computed.
-enum class Technique { flat, path };
-/// What a picture shows: colors, or a quantity.
-using Subject = std::variant<Technique, Aov>;
-
-[[nodiscard]] Subject parse_integrator(const OptionValue& value);
+[[nodiscard]] IntegratorOptions parse_integrator(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> integrator_names();
 
 /// What --aov names.

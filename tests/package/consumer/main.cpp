@@ -3,6 +3,7 @@
 #include <microtrace/aov.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
+#include <microtrace/defaults.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
@@ -20,15 +21,15 @@
 
 int main(int argc, char** argv) {
   try {
-    const auto [scene, warnings] = microtrace::parse_scene(R"({
+    auto [scene, warnings, format] = microtrace::parse_scene(R"({
       "version": 1,
       "cameras": [{"type": "perspective", "position": [0, 0, 5], "direction": [0, 0, -1], "up": [0, 1, 0],
                    "vertical_fov": 60}],
       "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "color": [1, 0, 0]}]
     })",
-                                                           "memory.json", ".");
-    const microtrace::Camera camera = microtrace::default_camera(scene, {9, 9});
-    const microtrace::Film film = microtrace::render(scene, camera, {9, 9});
+                                                             "memory.json", ".");
+    const auto settings = microtrace::apply_defaults(scene, format);
+    const auto film = microtrace::render(scene, settings.camera, {9, 9}, settings.options);
     for (int i = 1; i < argc; ++i) microtrace::save_image(film, argv[i]);
     const microtrace::Vec3 middle = film.row(4)[4], corner = film.row(0)[0];
     const bool right =
