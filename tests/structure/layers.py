@@ -24,7 +24,7 @@ MAY_INCLUDE = {
     "modules": {"io"},
 }
 # The folders of src/io/gltf; each may include itself and those before it.
-GLTF_FOLDERS = ["document", "bytes", "check", "material", "mesh", "animation", "pose", "scene"]
+GLTF_FOLDERS = ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"]
 MOST_FILES = 20  # in a folder of src/io/gltf
 # Public headers that a part must not see.
 HIDDEN = {

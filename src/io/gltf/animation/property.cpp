@@ -2,6 +2,7 @@
 
 #include "io/gltf/check/schema/schema.hpp"
 #include "io/gltf/document/index_text.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 
 #include <algorithm>
 #include <array>
@@ -57,13 +58,12 @@ class Walk {
     const JsonValue* extensions = object_->find("extensions");
     object_ = extensions != nullptr ? extensions->find(name) : nullptr;
     if (object_ == nullptr) return false;
-    for (const ExtensionRule& rule : extension_rules()) {
-      if (rule.name != name || rule.place != place_) continue;
-      rules_ = rule.members;
-      place_ = Place::other;
-      return true;
-    }
-    return false;
+    const Extension* known = find_extension(name);
+    const ExtensionObject* here = known != nullptr ? known->object_in(place_) : nullptr;
+    if (here == nullptr) return false;
+    rules_ = here->rules;
+    place_ = Place::other;
+    return true;
   }
 
   const JsonValue* object_;

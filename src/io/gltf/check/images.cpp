@@ -1,9 +1,9 @@
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/check/semantics.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 
-#include <array>
+#include <algorithm>
 #include <string>
-#include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
@@ -18,21 +18,13 @@ void check_uri(const Asset& asset, const Element& at) {
   }
 }
 
-/// The extensions by which textures name images of a kind of their own.
-constexpr std::array<std::pair<const char*, const char*>, 4> extensions = {
-    {{"EXT_texture_avif", "image/avif"},
-     {"EXT_texture_webp", "image/webp"},
-     {"KHR_texture_basisu", "image/ktx2"},
-     {"MSFT_texture_dds", "image/vnd-ms.dds"}}};
-
 void check_media_type(Asset& asset, const Element& image) {
   const JsonValue* given = image.value->find("mimeType");
   if (given == nullptr) return;
-  for (const auto& [name, type] : extensions) {
-    if (given->string != type || asset.uses(name)) continue;
-    asset.tolerate(image.member("mimeType"),
-                   std::string("asks for extension ") + name + ", which is not declared");
-  }
+  const auto known = std::ranges::find(extensions(), given->string, &Extension::image_type);
+  if (known == extensions().end() || known->image_type.empty() || asset.uses(known->name)) return;
+  asset.tolerate(image.member("mimeType"),
+                 "asks for extension " + std::string(known->name) + ", which is not declared");
 }
 
 void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
@@ -71,9 +63,10 @@ void check_images(Asset& asset, AccessorHeads& accessors) {
     const Element at = asset.element("textures", i);
     check_source(asset, at, "image/png", "image/jpeg");
     if (at.value->find("extensions") == nullptr) continue;
-    for (const auto& [name, type] : extensions) {
-      const Element extension = at.member("extensions").member(name);
-      if (extension.value->find("source") != nullptr) check_source(asset, extension, type, "");
+    for (const Extension& known : extensions()) {
+      if (known.image_type.empty()) continue;
+      const Element own = at.member("extensions").member(known.name);
+      if (own.value->find("source") != nullptr) check_source(asset, own, known.image_type, "");
     }
   }
 }

@@ -4,6 +4,7 @@
 #include "base/printable.hpp"
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 #include "io/image/decode_image.hpp"
 #include "io/image/image_header.hpp"
 #include "io/image/ktx2_colors.hpp"
@@ -121,12 +122,10 @@ class ImageLoader {
 
   /// Kinds of images that extensions add; check_images has looked at what images say of themselves.
   void check_extension(const Element& at, ImageFormat format) {
-    const char* name = format == ImageFormat::webp   ? "EXT_texture_webp"
-                       : format == ImageFormat::ktx2 ? "KHR_texture_basisu"
-                                                     : nullptr;
-    if (name == nullptr || asset_.uses(name)) return;
-    asset_.tolerate(at,
-                    "is " + std::string(media_type(format)) + ", which asks for extension " + name);
+    const auto known = std::ranges::find(extensions(), media_type(format), &Extension::image_type);
+    if (known == extensions().end() || asset_.uses(known->name)) return;
+    asset_.tolerate(at, "is " + std::string(known->image_type) + ", which asks for extension " +
+                            std::string(known->name));
   }
 
   /// What KHR_texture_basisu demands of files that can be decoded nevertheless. The decoder refuses

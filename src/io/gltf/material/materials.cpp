@@ -1,8 +1,9 @@
 #include "io/gltf/material/materials.hpp"
 
+#include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
-#include "io/gltf/material/material_extensions.hpp"
-#include "io/gltf/material/textures.hpp"
+#include "io/gltf/extensions/extensions.hpp"
+#include "io/gltf/extensions/texture_use.hpp"
 
 #include <utility>
 
@@ -30,6 +31,29 @@ void read_metallic_roughness(const JsonValue& pbr, Material& material) {
   material.metallic_roughness_texture = texture_use(pbr, "metallicRoughnessTexture");
 }
 
+/// Reads the extensions of a material that has its other properties already.
+void read_extensions(const JsonValue& json, Material& material) {
+  for (const Extension& known : extensions()) {
+    if (known.read_material == nullptr) continue;
+    if (const JsonValue* own = extension(json, known.name)) known.read_material(*own, material);
+  }
+}
+
+/// Removes what a factor of 0 makes invisible, with its textures.
+void leave_out_unused_layers(Material& material) {
+  const auto leave_out = [](auto& layer, auto&& factor) {
+    if (layer && factor(*layer) == 0) layer.reset();
+  };
+  const auto factor = [](const auto& layer) { return layer.factor; };
+  leave_out(material.transmission, factor);
+  leave_out(material.clearcoat, factor);
+  leave_out(material.iridescence, factor);
+  leave_out(material.diffuse_transmission, factor);
+  leave_out(material.volume, [](const Volume& volume) { return volume.thickness; });
+  leave_out(material.anisotropy, [](const Anisotropy& layer) { return layer.strength; });
+  if (material.sheen && material.sheen->color == Vec3(0)) material.sheen.reset();
+}
+
 Material make_material(const JsonValue& json, UnusedLayers unused) {
   Material material = standard_material();
   material.name = name_of(json);
@@ -49,7 +73,7 @@ Material make_material(const JsonValue& json, UnusedLayers unused) {
   }
   material.emissive = vector(json, "emissiveFactor", material.emissive);
   material.emissive_texture = texture_use(json, "emissiveTexture");
-  read_material_extensions(json, material);
+  read_extensions(json, material);
   if (unused == UnusedLayers::left_out) leave_out_unused_layers(material);
   return material;
 }

@@ -2,27 +2,14 @@
 
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
-#include "scene/trigonometry.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <utility>
 
 namespace microtrace::io::gltf {
 namespace {
-
-/// KHR_texture_transform: scaled, turned anticlockwise as seen with v going down, moved.
-Mat3x2 texture_transform(const JsonValue& json) {
-  const Vec2 offset = vector(json, "offset", Vec2(0)), scale = vector(json, "scale", Vec2(1));
-  const JsonValue* rotation = json.find("rotation");
-  // The trigonometry ends at 2^20; that so large an angle turns by is anyone's guess.
-  const double angle = rotation != nullptr ? std::fmod(rotation->number, 2 * std::numbers::pi) : 0;
-  const double sine = sin_radians(angle), cosine = cos_radians(angle);
-  return {Vec2(cosine * scale.x, -sine * scale.x), Vec2(sine * scale.y, cosine * scale.y), offset};
-}
 
 Wrap wrap(const JsonValue& sampler, std::string_view key) {
   const JsonValue* mode = sampler.find(key);
@@ -54,17 +41,6 @@ std::optional<std::uint32_t> image_of(const JsonValue& texture) {
 }
 
 }  // namespace
-
-std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key) {
-  const JsonValue* info = object.find(key);
-  if (info == nullptr) return std::nullopt;
-  TextureUse use{.texture = index(*info, "index"), .uv_set = index(*info, "texCoord")};
-  if (const JsonValue* transform = extension(*info, "KHR_texture_transform")) {
-    use.texture_from_uv = texture_transform(*transform);
-    if (transform->find("texCoord") != nullptr) use.uv_set = index(*transform, "texCoord");
-  }
-  return use;
-}
 
 std::vector<Texture> make_textures(Asset& asset) {
   std::vector<Texture> textures;

@@ -1,7 +1,7 @@
 #pragma once
 /// What messages say of the values that a rule allows.
 
-#include "io/gltf/check/schema/schema.hpp"
+#include "io/gltf/document/rules.hpp"
 
 #include <string>
 

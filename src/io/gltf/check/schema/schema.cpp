@@ -3,6 +3,7 @@
 #include "base/printable.hpp"
 #include "io/gltf/check/schema/attribute_names.hpp"
 #include "io/gltf/check/schema/rule_text.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -251,16 +252,15 @@ class Checker {
       asset_.tolerate(at, "is not declared in extensionsUsed; the extension is ignored here");
       return false;
     }
-    const auto is_it = [&](const ExtensionRule& rule) { return rule.name == name; };
-    const auto here = [&](const ExtensionRule& rule) { return is_it(rule) && rule.place == place; };
-    if (std::ranges::none_of(extension_rules(), is_it)) return true;
-    const auto rule = std::ranges::find_if(extension_rules(), here);
-    if (rule == extension_rules().end()) {
+    const Extension* known = find_extension(name);
+    if (known == nullptr || known->object_in(Place::anywhere) != nullptr) return true;
+    const ExtensionObject* here = known->object_in(place);
+    if (here == nullptr) {
       asset_.tolerate(at, "is an extension that has no place in this object; it is ignored here");
       return false;
     }
     const bool outer_lacks = std::exchange(lacks_other_part_, false);
-    object(at, rule->members, Place::other);
+    object(at, here->rules, Place::other);
     return !std::exchange(lacks_other_part_, outer_lacks);
   }
 

@@ -1,4 +1,4 @@
-#include "io/gltf/check/schema/schema_rows.hpp"
+#include "io/gltf/check/schema/schema.hpp"
 
 #include <array>
 
@@ -8,16 +8,6 @@
 // types of images are by EXT_texture_webp and KHR_texture_basisu.
 
 namespace microtrace::io::gltf {
-
-constexpr Rule texture_info_rules[2] = {
-    {.key = "index", .form = Form::index, .required = true, .target = "textures"},
-    {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp},
-};
-constexpr Rule normal_texture_rules[3] = {
-    texture_info_rules[0],
-    texture_info_rules[1],
-    {.key = "scale", .form = Form::number},
-};
 
 namespace {
 

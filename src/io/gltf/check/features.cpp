@@ -1,9 +1,9 @@
-#include "io/gltf/document/features.hpp"
+#include "io/gltf/check/features.hpp"
 
 #include "base/printable.hpp"
+#include "io/gltf/extensions/extensions.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <utility>
@@ -11,37 +11,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Light has no influence on flat pictures; what it needs is read all the same.
-constexpr std::array<std::string_view, 24> honoured = {
-    "KHR_animation_pointer",  // pointers that lead nowhere are warned of where they are played
-    "EXT_mesh_gpu_instancing",
-    "EXT_meshopt_compression",
-    "EXT_texture_webp",
-    "KHR_draco_mesh_compression",
-    "KHR_lights_punctual",
-    "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",
-    "KHR_materials_diffuse_transmission",
-    "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_iridescence",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_sheen",
-    "KHR_materials_specular",
-    "KHR_materials_transmission",
-    "KHR_materials_unlit",
-    "KHR_materials_variants",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "KHR_texture_basisu",
-    "KHR_texture_transform",
-};
-
-/// Without these the picture is the same, so that an asset that requires one is drawn, with the
-/// warning that the extension is ignored.
-constexpr std::array<std::string_view, 2> without_harm = {"KHR_xmp", "KHR_xmp_json_ld"};
+Support support_of(std::string_view name) {
+  const Extension* known = find_extension(name);
+  return known != nullptr ? known->support : Support::none;
+}
 
 using Version = std::pair<unsigned, unsigned>;
 
@@ -95,11 +68,9 @@ void check_version(Asset& asset) {
 void check_extension(Asset& asset, const Element& at) {
   if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
   const std::string& name = at.value->string;
-  const bool known = std::ranges::find(honoured, name) != honoured.end() ||
-                     std::ranges::find(without_harm, name) != without_harm.end();
   if (!asset.uses(name)) {
     asset.tolerate(at, "is missing in extensionsUsed; the requirement is ignored");
-  } else if (!known) {
+  } else if (support_of(name) == Support::none) {
     asset.fail(at,
                "the asset requires extension " + in_quotes(name) +
                    ", which is not supported; export it without",
@@ -159,7 +130,7 @@ void check_requirements(Asset& asset) {
 void warn_of_ignored_features(Asset& asset, SurfaceDetail detail) {
   const std::vector<JsonValue>& used = asset.array("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (std::ranges::find(honoured, used[i].string) != honoured.end()) continue;
+    if (support_of(used[i].string) == Support::full) continue;
     asset.warn(asset.element("extensionsUsed", i),
                "extension " + in_quotes(used[i].string) + " is not supported; it is ignored");
   }

@@ -1,0 +1,16 @@
+#pragma once
+/// Where materials use textures (KHR_texture_transform).
+
+#include "io/json/document.hpp"
+
+#include <microtrace/texture.hpp>
+
+#include <optional>
+#include <string_view>
+
+namespace microtrace::io::gltf {
+
+/// The textureInfo of that name, if the object has one.
+[[nodiscard]] std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key);
+
+}  // namespace microtrace::io::gltf
