@@ -1,8 +1,8 @@
 #pragma once
 /// What the command line asks for.
 
-#include "cli/frames.hpp"
 #include "cli/options/values.hpp"
+#include "cli/pictures/frames.hpp"
 
 #include <microtrace/defaults.hpp>
 #include <microtrace/film.hpp>

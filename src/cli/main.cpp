@@ -1,16 +1,16 @@
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
-#include "cli/camera.hpp"
-#include "cli/environment.hpp"
 #include "cli/merge.hpp"
 #include "cli/options/completion.hpp"
 #include "cli/options/parse.hpp"
-#include "cli/outputs.hpp"
-#include "cli/picture.hpp"
-#include "cli/sequence.hpp"
+#include "cli/pictures/camera.hpp"
+#include "cli/pictures/environment.hpp"
+#include "cli/pictures/output_paths.hpp"
+#include "cli/pictures/render_picture.hpp"
+#include "cli/pictures/sequence.hpp"
+#include "cli/report/statistics.hpp"
+#include "cli/report/validation_result.hpp"
 #include "cli/signals.hpp"
-#include "cli/statistics.hpp"
-#include "cli/verdict.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/digest.hpp>
@@ -67,22 +67,23 @@ int render_pictures(cli::Arguments arguments) {
     if (arguments.validate) continue;
 
     if (index == 0) {
-      cli::refuse_to_write_over(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
+      cli::check_no_input_is_overwritten(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
       if (digest) log.report(samples.emplace(arguments, digest->value()).warnings());
-      cli::check_inputs_are_kept(inputs, sequence);
+      cli::check_paths(inputs, sequence);
     }
     const cli::PictureFiles files{.picture = sequence.picture(index),
                                   .sidecar = sequence.sidecar(index),
                                   .samples = samples ? &*samples : nullptr};
-    const auto tell = [&](double fraction) {
+    const auto report_progress = [&](double fraction) {
       if (progress) progress((index + fraction) / sequence.count());
     };
-    cli::make_picture(std::move(scene), camera, size, arguments, files, cache, watch, log, tell);
+    cli::render_picture(std::move(scene), camera, size, arguments, files, cache, watch, log,
+                        report_progress);
   }
-  return arguments.validate ? log.print_verdict(arguments.scene) : 0;
+  return arguments.validate ? log.print_result(arguments.scene) : 0;
 }
 
-/// Does the work, and says what went wrong with it.
+/// Runs a command; prints its error.
 template <class Work>
 int exit_code_of(const Work& work) {
   try {
@@ -125,7 +126,7 @@ int main(int argc, char** argv) {
     try {
       return render_pictures(arguments);
     } catch (const Error& error) {
-      if (arguments.validate) cli::print_refused(arguments.scene, error.kind());
+      if (arguments.validate) cli::print_refusal(arguments.scene, error.kind());
       throw;
     }
   });

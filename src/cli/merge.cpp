@@ -1,8 +1,8 @@
 #include "cli/merge.hpp"
 
-#include "cli/environment.hpp"
-#include "cli/outputs.hpp"
-#include "cli/written.hpp"
+#include "cli/pictures/environment.hpp"
+#include "cli/pictures/output_paths.hpp"
+#include "cli/report/written_files.hpp"
 
 #include <microtrace/checkpoint.hpp>
 
@@ -14,7 +14,7 @@ namespace microtrace::cli {
 
 namespace {
 
-/// Says which samples are in none of the files; nothing if all are there.
+/// "samples 16 to 32 of 50 are missing"; empty if none is.
 std::string missing_samples(const Checkpoint& all) {
   std::string ranges;
   for (const SampleRange& range : all.sums.missing({.first = 0, .last = all.samples})) {
@@ -22,7 +22,7 @@ std::string missing_samples(const Checkpoint& all) {
     ranges.append(" to ").append(std::to_string(range.last - 1));
   }
   if (!ranges.empty())
-    ranges.append(" of ").append(std::to_string(all.samples)).append(" are in none of the files");
+    ranges.append(" of ").append(std::to_string(all.samples)).append(" are missing");
   return ranges;
 }
 
@@ -35,13 +35,11 @@ void merge_samples(const Arguments& arguments) {
   check_image_path(arguments.output, {.alpha = all.has_alpha});
   for (std::size_t i = 1; i < arguments.checkpoints.size(); ++i)
     add_samples(all, load_checkpoint(arguments.checkpoints[i]), arguments.checkpoints[i]);
-  refuse_to_write_over(inputs, {{"--output", arguments.output}});
+  check_no_input_is_overwritten(inputs, {{"--output", arguments.output}});
   const std::string missing = missing_samples(all);
   if (!missing.empty() && !arguments.allows_missing_samples) {
     throw Error(ErrorKind::usage, "",
-                missing +
-                    "; add the checkpoints of the missing shards, or make a picture of what "
-                    "is there by --partial");
+                missing + "; add the checkpoints of the missing shards, or use --partial");
   }
   if (!missing.empty() && !arguments.quiet) std::fprintf(stderr, "warning: %s\n", missing.c_str());
   Film film = picture_of(all);

@@ -13,7 +13,7 @@
 namespace microtrace::cli {
 namespace {
 
-// Only calls that are safe in a signal handler.
+// Async-signal-safe calls only.
 
 void end_at_once(int signal) {
   remove_unfinished_files();
@@ -21,7 +21,7 @@ void end_at_once(int signal) {
 }
 
 void end_at_limit(int /*signal*/) {
-  constexpr char kMessage[] = "error: --max-time is over; nothing is written any more\n";
+  constexpr char kMessage[] = "error: --max-time has elapsed; nothing more is written\n";
   remove_unfinished_files();
   const ssize_t ignored = ::write(STDERR_FILENO, kMessage, sizeof kMessage - 1);
   static_cast<void>(ignored);

@@ -1,15 +1,15 @@
 #pragma once
-/// What ends the program before its work is done.
+/// Signals and the time limit of the whole run.
 
 namespace microtrace::cli {
 
-/// Makes interrupts, hang-ups and the like end the process with 128 + the signal's number and no
-/// temporary file; those that the process was started to ignore (nohup, jobs in the background)
-/// stay ignored. Writing to closed pipes and beyond size limits become errors of the write.
+/// Makes INT, TERM, HUP, QUIT and XCPU end the process with exit code 128 + the signal's number and
+/// no temporary file; those that were ignored at the start (nohup, background jobs) stay ignored.
+/// Writing to closed pipes and beyond file size limits fails instead of raising a signal.
 void handle_signals();
 
-/// After so many seconds from now the process ends with ErrorKind::limit, a message and no
-/// temporary file, whatever it does then.
+/// Ends the process after this time with the exit code of ErrorKind::limit, a message and no
+/// temporary file.
 void end_after(double seconds);
 
 }  // namespace microtrace::cli

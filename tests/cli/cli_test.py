@@ -369,9 +369,9 @@ class CommandLine(ProgramTest):
         self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
                                    (["b.json"], 'error: unexpected argument "b.json"\n'),
-                                   (["--spp"], "error: --spp wants a value\n"),
-                                   (["-o", ""], "error: --output: wants a value, is empty\n"),
-                                   (["--camera="], "error: --camera wants a value\n"),
+                                   (["--spp"], "error: --spp expects a value\n"),
+                                   (["-o", ""], "error: --output: expects a value, is empty\n"),
+                                   (["--camera="], "error: --camera expects a value\n"),
                                    (["--evil\x1b[31m"], "error: unknown option --evil\\x1b[31m\n")):
             result = self.run_program(SCENE, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, b""))

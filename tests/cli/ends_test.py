@@ -41,7 +41,7 @@ class Ends(ProgramTest):
         for more in [(), ("--checkpoint", "c", "--save-every", "1000", "--progressive")]:
             result = self.run_program(*LONG, *more, "--max-time", "0.3")
             self.assertEqual(result.returncode, 6, result.stderr)
-            self.assertEqual(result.stderr, b"error: --max-time is over; nothing is written any more\n")
+            self.assertEqual(result.stderr, b"error: --max-time has elapsed; nothing more is written\n")
             self.assertEqual(os.listdir(self.folder), [])
         result = self.run_program(SCENE, "--size", "8x6", "-o", "a.ppm", "--max-time", "3600")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -133,7 +133,7 @@ class Ends(ProgramTest):
 
     def test_resuming_with_fewer_samples_says_so(self):
         options = [SCENE, "--integrator", "path", "--size", "8x6", "-o", "a.ppm"]
-        warning = b"warning: the checkpoints hold samples up to number 4 of each pixel, beyond the 2 of --spp"
+        warning = b"warning: the checkpoints contain samples up to number 4 of each pixel, more than --spp 2"
         for spp, says in [("4", False), ("4", False), ("2", True), ("5", False)]:
             result = self.run_program(*options, "--spp", spp, "--checkpoint", "c")
             self.assertEqual(result.returncode, 0, result.stderr)

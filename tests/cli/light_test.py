@@ -149,11 +149,11 @@ class DarkPictures(ProgramTest):
                               ([self.lamp(0), self.lamp(0, "directional")], "2 lights of intensity 0, no environment"),
                               ([self.lamp(0), self.lamp(1e-9)], "2 lights (1 of intensity 0), no environment")):
             text = self.warnings({"lights": lights})
-            self.assertIn("scene.json: most of what is seen is black; the scene is lit by " + words, text)
-            self.assertIn("the studio lights only scenes without lights of their own", text)
-            self.assertIn("; light it by --env studio", text)
+            self.assertIn("scene.json: most of the visible scene is black; it is lit by " + words, text)
+            self.assertIn("the studio lights only scenes without lights", text)
+            self.assertIn("; add light with --env studio", text)
             self.assertEqual("--exposure" in text, "(1 of" in text, text)
-        self.assertIn("0 lights, a black environment; light",
+        self.assertIn("0 lights, a black environment; add light",
                       self.warnings({"environment": {"type": "uniform", "color": [0, 0, 0]}}))
 
     def test_the_exposure_that_is_named_shows_it(self):
@@ -176,20 +176,20 @@ class DarkPictures(ProgramTest):
 
     def test_behind_other_backgrounds(self):
         for options in (("--background", "#808080"), ("--background", "transparent")):
-            self.assertIn("most of what is seen is black", self.warnings({"lights": [self.lamp(0)]}, *options))
+            self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, *options))
             self.assertEqual(self.warnings({}, *options), "")
             self.assertIn("sees nothing", self.warnings({}, "--camera", "away", *options))
 
     def test_cameras_that_see_nothing(self):
         for integrator in ("path", "flat"):
-            self.assertIn("scene.json: the camera away sees nothing of the scene; take another by --camera",
+            self.assertIn("scene.json: the camera away sees nothing of the scene; choose another one with --camera",
                           self.warnings({}, "--camera", "away", "--integrator", integrator))
         self.assertEqual(self.warnings({}, "--camera", "away", "--background", "env"), "")
         self.assertEqual(self.warnings({}, "--camera", "away", "--crop", "0,0,5,5"), "")
         self.assertIn("the camera sees nothing", self.warnings({}, "--eye", "0,0,9", "--target", "0,0,18"))
 
     def test_strict_refuses(self):
-        self.assertIn("most of what is seen is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))
+        self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))
         self.assertIn("sees nothing", self.warnings({}, "--strict", "-q", "--camera", "away", code=3))
 
     def test_verbose_says_what_lights_the_scene(self):

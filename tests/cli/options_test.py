@@ -85,8 +85,8 @@ class Options(ProgramTest):
     def test_options_are_given_once(self):
         for arguments, message in ((["--spp", "3", "--spp", "4"], b"error: --spp is given twice\n"),
                                    (["--fov", "30"], b"error: --fov requires --view or --eye\n"),
-                                   (["--stats=xml"], b"error: --stats: wants text or json, not xml\n"),
-                                   (["--filter", "gauss"], b"error: --filter: wants box or blackman-harris, not gauss\n")):
+                                   (["--stats=xml"], b"error: --stats: expects text or json, not xml\n"),
+                                   (["--filter", "gauss"], b"error: --filter: expects box or blackman-harris, not gauss\n")):
             result = self.run_program(*LIGHT, *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertTrue(result.stderr.startswith(message), result.stderr)

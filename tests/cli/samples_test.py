@@ -104,11 +104,11 @@ class Samples(ProgramTest):
         # One is missing: no picture unless --partial asks for it; a run can fill the gap.
         result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
         self.assertEqual(result.returncode, 2)
-        self.assertIn(b"error: samples 16 to 32 of 50 are in none of the files; ", result.stderr)
+        self.assertIn(b"error: samples 16 to 32 of 50 are missing; ", result.stderr)
         self.assertFalse((self.folder / "none.ppm").exists())
         result = self.run_program("merge", "part1", "part3", "-o", "merged.ppm", "--partial")
         self.assertEqual(result.returncode, 0)
-        self.assertIn(b"warning: samples 16 to 32 of 50 are in none of the files\n", result.stderr)
+        self.assertIn(b"warning: samples 16 to 32 of 50 are missing\n", result.stderr)
         self.assertNotEqual(self.bytes_of("merged.ppm"), whole)
         self.render("--spp", "50", "--resume", "part1", "--resume", "part3", "-o", "filled.ppm")
         self.assertEqual(self.bytes_of("filled.ppm"), whole)

@@ -16,7 +16,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
   return text;
 }
 
-/// With a backslash before each of these characters.
+/// Puts a backslash before each of these characters.
 std::string escaped(const std::string& text, std::string_view special) {
   std::string out;
   for (const char c : text) {
@@ -26,7 +26,7 @@ std::string escaped(const std::string& text, std::string_view special) {
   return out;
 }
 
-/// In single quotes, within which no shell but fish reads backslashes.
+/// Quotes the text; within single quotes only fish interprets backslashes.
 std::string in_single_quotes(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -165,7 +165,7 @@ std::optional<std::string> completion_script(std::string_view shell) {
 int print_completion(int argc, char** argv) {
   const std::optional<std::string> script = argc == 3 ? completion_script(argv[2]) : std::nullopt;
   if (!script) {
-    std::fputs("error: microtrace completion wants bash, zsh or fish\n", stderr);
+    std::fputs("error: microtrace completion expects bash, zsh or fish\n", stderr);
     return static_cast<int>(ErrorKind::usage);
   }
   if (std::fputs(script->c_str(), stdout) == EOF || std::fflush(stdout) != 0) {

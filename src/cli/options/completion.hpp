@@ -1,5 +1,5 @@
 #pragma once
-/// microtrace completion SHELL: a script by which a shell completes the command line.
+/// microtrace completion SHELL prints a script by which the shell completes the command line.
 
 #include <optional>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace microtrace::cli {
 
-/// Whether the command line begins with the word.
+/// Whether the first argument is "completion".
 [[nodiscard]] bool is_completion(int argc, char** argv);
 
 /// Prints the script to standard output; returns the exit code.

@@ -67,7 +67,7 @@ void refuse_usage(const std::string& message) {
 }
 
 void OptionValue::refuse(const std::string& accepted) const {
-  refuse_usage(option + ": wants " + accepted + ", not " + text);
+  refuse_usage(option + ": expects " + accepted + ", not " + text);
 }
 
 std::uint32_t OptionValue::whole_number(std::uint32_t least, std::uint32_t most) const {

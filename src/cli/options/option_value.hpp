@@ -62,7 +62,7 @@ struct OptionValue {
     refuse(listed(names_of(choices)));
   }
 
-  /// "--size: wants {accepted}, not {text}"
+  /// "--size: expects {accepted}, not {text}"
   [[noreturn]] void refuse(const std::string& accepted) const;
 };
 

@@ -54,7 +54,7 @@ class Parser {
       }
       const std::vector<std::string> values = added->reduced_results();
       if (std::ranges::find(values, std::string()) != values.end())
-        refuse_usage(std::string(option->name()) + ": wants a value, is empty");
+        refuse_usage(std::string(option->name()) + ": expects a value, is empty");
       given.push_back({option, values});
     }
     return given;

@@ -54,7 +54,7 @@ std::string message_of(Command command, const CLI::App& app, const CLI::ParseErr
     const std::string text = error.what();
     const std::string name = text.substr(0, text.find(':'));
     const CLI::Option* known = app.get_option_no_throw(name);
-    return name + (known != nullptr && known->count() > 1 ? " is given twice" : " wants a value");
+    return name + (known != nullptr && known->count() > 1 ? " is given twice" : " expects a value");
   }
   return printable(error.what());
 }

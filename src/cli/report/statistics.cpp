@@ -1,4 +1,4 @@
-#include "cli/statistics.hpp"
+#include "cli/report/statistics.hpp"
 
 #include <array>
 #include <cstdint>
@@ -15,9 +15,9 @@ double peak_memory_mib() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-void report_rays(const RayCounts& counts, bool is_json) {
+void print_rays(const RayCounts& counts, bool is_json) {
   const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-  const auto tell = [&](const char* name, const RayCounts::Kind& kind) {
+  const auto print_kind = [&](const char* name, const RayCounts::Kind& kind) {
     if (is_json) {
       std::fprintf(stderr, R"("%s": {"rays": %llu, "s": %.6f}, )", name, number(kind.rays),
                    kind.seconds);
@@ -27,9 +27,9 @@ void report_rays(const RayCounts& counts, bool is_json) {
     }
   };
   if (is_json) std::fputs(R"(, "rays_by_kind": {)", stderr);
-  tell("camera", counts.camera);
-  tell("path", counts.path);
-  tell("shadow", counts.shadow);
+  print_kind("camera", counts.camera);
+  print_kind("path", counts.path);
+  print_kind("shadow", counts.shadow);
   if (is_json) {
     std::fprintf(stderr, "\"beyond\": %llu}", number(counts.beyond));
   } else if (counts.beyond > 0) {
@@ -37,7 +37,7 @@ void report_rays(const RayCounts& counts, bool is_json) {
   }
 }
 
-void report_stages(const StageCounts& counts, bool is_json) {
+void print_stages(const StageCounts& counts, bool is_json) {
   const std::array<std::pair<const char*, std::uint64_t>, 7> rows{
       {{"edges", counts.edges},
        {"filters", counts.filters},
@@ -73,7 +73,7 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
   std::size_t primitives = 0;
   for (const Object& object : scene.objects) {
     primitives += primitive_count(object.shape);
-    // Each segment is drawn as two triangles.
+    // A segment is rendered as two triangles.
     if (const auto* mesh = std::get_if<Mesh>(&object.shape))
       primitives += 2 * mesh->segments.size();
   }
@@ -95,8 +95,8 @@ void Stopwatch::report(Statistics kind, const Scene& scene, ImageSize size,
                times_.trace, render_, write_, peak_memory_mib(),
                static_cast<double>(memory.peak()) / (1 << 20), counts.samples_per_pixel, rays,
                rays / render_);
-  report_rays(counts.rays, kind == Statistics::json);
-  report_stages(counts.stages, kind == Statistics::json);
+  print_rays(counts.rays, kind == Statistics::json);
+  print_stages(counts.stages, kind == Statistics::json);
 }
 
 }  // namespace microtrace::cli

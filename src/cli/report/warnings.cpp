@@ -1,6 +1,6 @@
-#include "cli/warnings.hpp"
+#include "cli/report/warnings.hpp"
 
-#include "cli/verdict.hpp"
+#include "cli/report/validation_result.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +26,14 @@ bool is_dark(const Environment& environment) {
   return environment.intensity == 0 || (radiance != nullptr && *radiance == Vec3(0));
 }
 
-bool shines(const Scene& scene) {
+bool has_emissive_surfaces(const Scene& scene) {
   return std::ranges::any_of(scene.objects, [&](const Object& object) {
     const Material& material = material_of(scene, object);
     return material.emissive != Vec3(0) && !material.unlit;
   });
 }
 
-/// In stops, such that the brightest of what is black comes to at least a half.
+/// The exposure in stops that raises this value to at least a half.
 int exposure_for(float brightest) {
   int exponent = 0;
   std::frexp(brightest, &exponent);
@@ -50,7 +50,7 @@ Diagnostic warning_about(const Arguments& arguments, std::string message) {
 
 }  // namespace
 
-void Warnings::tell(const Diagnostic& warning) const {
+void Warnings::print(const Diagnostic& warning) const {
   if (is_strict_) throw Error(ErrorKind::invalid_scene, warning);
   if (is_quiet_) return;
   const bool is_error = is_validating_ && warning.severity == Severity::error;
@@ -59,22 +59,22 @@ void Warnings::tell(const Diagnostic& warning) const {
 
 void Warnings::report(const std::vector<Diagnostic>& warnings) {
   for (const Diagnostic& warning : warnings) {
-    if (!told_.insert(warning.text()).second) continue;
+    if (!printed_.insert(warning.text()).second) continue;
     errors_ += warning.severity == Severity::error ? 1 : 0;
-    tell(warning);
+    print(warning);
   }
 }
 
-int Warnings::print_verdict(const std::string& scene) const {
-  print_findings(scene, errors_, told_.size() - errors_);
+int Warnings::print_result(const std::string& scene) const {
+  print_validation_result(scene, errors_, printed_.size() - errors_);
   return errors_ == 0 ? 0 : static_cast<int>(ErrorKind::invalid_scene);
 }
 
 void Warnings::report_picture(const std::optional<Diagnostic>& warning) {
-  if (warning && !std::exchange(has_told_of_picture_, true)) tell(*warning);
+  if (warning && !std::exchange(has_reported_picture_, true)) print(*warning);
 }
 
-std::string light_of(const Scene& scene) {
+std::string lights_text(const Scene& scene) {
   if (!scene.environment && scene.lights.empty()) return "the built-in studio";
   const std::size_t lights = scene.lights.size();
   const auto dark = static_cast<std::size_t>(std::ranges::count_if(
@@ -82,28 +82,27 @@ std::string light_of(const Scene& scene) {
   std::string text = std::to_string(lights) + (lights == 1 ? " light" : " lights");
   if (dark > 0)
     text += dark == lights ? " of intensity 0" : " (" + std::to_string(dark) + " of intensity 0)";
-  if (shines(scene)) text += ", surfaces that shine";
+  if (has_emissive_surfaces(scene)) text += ", emissive surfaces";
   if (!scene.environment) return text + ", no environment";
   return text + (is_dark(*scene.environment) ? ", a black environment" : ", an environment");
 }
 
-std::optional<Diagnostic> warning_of(const FilmView& view, const Arguments& arguments,
-                                     const Scene& scene) {
+std::optional<Diagnostic> picture_warning(const FilmView& view, const Arguments& arguments,
+                                          const Scene& scene) {
   if (view.is_empty && !arguments.crop && !scene.objects.empty()) {
     return warning_about(arguments, camera_name(arguments, scene) +
-                                        " sees nothing of the scene; take another by --camera, or "
-                                        "look at all of it by --view 30,25");
+                                        " sees nothing of the scene; choose another one with "
+                                        "--camera, or frame the whole scene with --view 30,25");
   }
   if (!view.is_dark || !arguments.is_path_traced() || arguments.path.max_depth == 1)
     return std::nullopt;
-  std::string message = "most of what is seen is black; the scene is lit by " + light_of(scene);
+  std::string message = "most of the visible scene is black; it is lit by " + lights_text(scene);
   if (!scene.environment && !scene.lights.empty())
-    message += " (the studio lights only scenes without lights of their own)";
-  message += "; light it by --env studio";
-  if (view.brightest > 0) {
+    message += " (the studio lights only scenes without lights)";
+  message += "; add light with --env studio";
+  if (view.brightest > 0)
     message +=
-        ", or show more of its light by --exposure " + std::to_string(exposure_for(view.brightest));
-  }
+        ", or brighten the picture with --exposure " + std::to_string(exposure_for(view.brightest));
   return warning_about(arguments, std::move(message));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Sequences of pictures.
+/// Frame numbers and the file names that contain them.
 
 #include "cli/options/option_value.hpp"
 
@@ -11,7 +11,7 @@ namespace microtrace::cli {
 
 inline constexpr std::uint32_t kMaxFrame = 999999;
 
-/// Frames first to last; frame k is at k / fps seconds, whatever the first is.
+/// Frames first to last, both included; frame k is at k / fps seconds.
 struct FrameRange {
   std::uint32_t first = 0, last = 0;
   double fps = 24;
@@ -23,11 +23,11 @@ struct FrameRange {
 /// A:B, both included. Throws Error (usage), as does the next.
 [[nodiscard]] FrameRange parse_frames(const OptionValue& value);
 
-/// Throws unless a file's name has its frame's number once, as %d or %04d; %% stands for %.
-/// `option` is the one that gave it. Standard output, "-", takes all frames one after another.
+/// Throws Error (usage) unless the file name contains the frame number once, as %d or %04d; %%
+/// stands for %. `option` named it. Standard output, "-", takes all frames one after another.
 void check_pattern(const char* option, const std::string& pattern);
 
-/// The name of one frame's file.
+/// The file name of one frame.
 [[nodiscard]] std::filesystem::path frame_path(const std::string& pattern, std::uint32_t frame);
 
 }  // namespace microtrace::cli

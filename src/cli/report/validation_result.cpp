@@ -1,4 +1,4 @@
-#include "cli/verdict.hpp"
+#include "cli/report/validation_result.hpp"
 
 #include "base/printable.hpp"
 
@@ -9,7 +9,7 @@
 namespace microtrace::cli {
 namespace {
 
-const char* word_for(ErrorKind kind) {
+const char* result_of(ErrorKind kind) {
   switch (kind) {
     case ErrorKind::invalid_scene:
       return "invalid";
@@ -23,27 +23,27 @@ const char* word_for(ErrorKind kind) {
     case ErrorKind::usage:
       break;
   }
-  return "not judged";
+  return "not checked";
 }
 
-std::string count_of(std::size_t number, const char* what) {
+std::string count_text(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
 }  // namespace
 
-void print_findings(const std::string& scene, std::size_t errors, std::size_t warnings) {
-  std::string verdict =
-      errors == 0 ? "valid" : "invalid, but drawable: " + count_of(errors, "error");
-  if (warnings != 0) verdict += ", " + count_of(warnings, "warning");
-  std::printf("%s: %s\n", printable(scene).c_str(), verdict.c_str());
+void print_validation_result(const std::string& scene, std::size_t errors, std::size_t warnings) {
+  std::string result =
+      errors == 0 ? "valid" : "invalid, but drawable: " + count_text(errors, "error");
+  if (warnings != 0) result += ", " + count_text(warnings, "warning");
+  std::printf("%s: %s\n", printable(scene).c_str(), result.c_str());
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw Error(ErrorKind::io, "standard output",
               std::string("can't be written: ") + std::strerror(errno) + "; make room");
 }
 
-void print_refused(const std::string& scene, ErrorKind kind) {
-  std::printf("%s: %s\n", printable(scene).c_str(), word_for(kind));
+void print_refusal(const std::string& scene, ErrorKind kind) {
+  std::printf("%s: %s\n", printable(scene).c_str(), result_of(kind));
 }
 
 }  // namespace microtrace::cli

@@ -1,4 +1,4 @@
-#include "cli/outputs.hpp"
+#include "cli/pictures/output_paths.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -13,26 +13,24 @@ std::string name_of(const std::filesystem::path& path) {
 
 [[noreturn]] void refuse_same(const Output& a, const Output& b) {
   throw Error(ErrorKind::usage, name_of(b.path),
-              std::string("is the file of ") + a.option + " and of " + b.option +
-                  "; name another for one of them");
+              std::string("is named by both ") + a.option + " and " + b.option +
+                  "; choose another file for one of them");
 }
 
 }  // namespace
 
-void refuse_to_write_over(const ReadFiles& inputs, const std::vector<Output>& outputs) {
+void check_no_input_is_overwritten(const ReadFiles& inputs, const std::vector<Output>& outputs) {
   for (const Output& output : outputs) {
     if (output.path.empty()) continue;
     if (const auto input = inputs.name_of(output.path)) {
       throw Error(ErrorKind::usage, name_of(output.path),
-                  "would be written over " + *input +
-                      ", from which the picture is made; name "
-                      "another file by " +
-                      output.option);
+                  "would overwrite " + *input +
+                      ", an input of the picture; name another file with " + output.option);
     }
   }
 }
 
-void refuse_same_files(const std::vector<Output>& outputs) {
+void check_outputs_differ(const std::vector<Output>& outputs) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const Output &a = outputs[k], &b = outputs[i];
@@ -41,7 +39,7 @@ void refuse_same_files(const std::vector<Output>& outputs) {
   }
 }
 
-void check_inputs_are_kept(const ReadFiles& inputs, const Sequence& sequence) {
+void check_paths(const ReadFiles& inputs, const Sequence& sequence) {
   const auto normal = [](const std::filesystem::path& path) {
     return std::filesystem::absolute(path).lexically_normal().string();
   };
@@ -49,8 +47,8 @@ void check_inputs_are_kept(const ReadFiles& inputs, const Sequence& sequence) {
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     const Output picture{"--output", sequence.picture(index)};
     const Output sidecar{"--sidecar", sequence.sidecar(index)};
-    refuse_to_write_over(inputs, {picture, sidecar});
-    refuse_same_files({picture, sidecar});
+    check_no_input_is_overwritten(inputs, {picture, sidecar});
+    check_outputs_differ({picture, sidecar});
     if (!sidecar.path.empty() && sequence.count() > 1) pictures.insert(normal(picture.path));
   }
   // A sidecar may also have the name of another frame's picture.

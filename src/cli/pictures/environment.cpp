@@ -1,4 +1,4 @@
-#include "cli/environment.hpp"
+#include "cli/pictures/environment.hpp"
 
 #include "scene/trigonometry.hpp"
 

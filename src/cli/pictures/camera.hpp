@@ -2,7 +2,7 @@
 /// The camera that the command line asks for.
 
 #include "cli/arguments.hpp"
-#include "cli/sequence.hpp"
+#include "cli/pictures/sequence.hpp"
 
 #include <microtrace/camera.hpp>
 #include <microtrace/framing.hpp>

@@ -1,10 +1,10 @@
-#include "cli/picture.hpp"
+#include "cli/pictures/render_picture.hpp"
 
-#include "cli/environment.hpp"
-#include "cli/outputs.hpp"
-#include "cli/progress_bar.hpp"
-#include "cli/verbose.hpp"
-#include "cli/written.hpp"
+#include "cli/pictures/environment.hpp"
+#include "cli/pictures/output_paths.hpp"
+#include "cli/report/progress_bar.hpp"
+#include "cli/report/scene_summary.hpp"
+#include "cli/report/written_files.hpp"
 
 #include <microtrace/render.hpp>
 #include <microtrace/sidecar.hpp>
@@ -16,24 +16,24 @@
 namespace microtrace::cli {
 namespace {
 
-/// The sidecar counts pixels by their ids, whether the picture keeps these or not.
-bool has_ids_for_sidecar_alone(const Arguments& arguments, const PictureFiles& files) {
+/// The sidecar counts pixels by their ids, which the picture may not contain.
+bool needs_ids_for_sidecar_only(const Arguments& arguments, const PictureFiles& files) {
   return !files.sidecar.empty() &&
          std::ranges::find(arguments.aovs.exact, Aov::id) == arguments.aovs.exact.end();
 }
 
 void save_picture(const Arguments& arguments, const Scene& scene, const Camera& camera, Film& film,
                   const PictureFiles& files) {
-  Sidecar beside{.path = files.sidecar, .text = {}};
+  Sidecar sidecar{.path = files.sidecar, .text = {}};
   if (!files.sidecar.empty())
-    beside.text = describe_picture(scene, camera, film, files.picture.filename().string());
-  if (has_ids_for_sidecar_alone(arguments, files))
+    sidecar.text = describe_picture(scene, camera, film, files.picture.filename().string());
+  if (needs_ids_for_sidecar_only(arguments, files))
     std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
-  save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &beside);
+  save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &sidecar);
 }
 
-/// Programs that read standard error as JSON get nothing else there.
-bool tells_of_files(const Arguments& arguments) {
+/// Nothing but JSON is printed to standard error if JSON is requested.
+bool reports_files(const Arguments& arguments) {
   return !arguments.quiet && arguments.statistics != Statistics::json &&
          arguments.progress != Progress::json;
 }
@@ -51,17 +51,19 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence) {
   if (!checkpoint.empty()) check_checkpoint_path(checkpoint);
   if (arguments.sampling.shard) return;
   if (arguments.sampling.is_progressive && output == "-")
-    throw Error(ErrorKind::usage, "standard output", "can't be written again; name a file by -o");
-  refuse_same_files({{"--output", output}, {"--sidecar", sidecar}, {"--checkpoint", checkpoint}});
+    throw Error(ErrorKind::usage, "standard output",
+                "can't be rewritten by --progressive; name a file with -o");
+  check_outputs_differ(
+      {{"--output", output}, {"--sidecar", sidecar}, {"--checkpoint", checkpoint}});
   check_image_path(output, {.alpha = arguments.environment.is_transparent(),
                             .channels = !arguments.aovs.empty()});
   if (!sidecar.empty()) check_sidecar_path(sidecar, output);
 }
 
-void make_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                  const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
-                  Warnings& warnings, const std::function<void(double)>& progress) {
-  if (arguments.verbose) tell_of_scene(arguments, scene, size);
+void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
+                    const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
+                    Warnings& warnings, const std::function<void(double)>& progress) {
+  if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;
   RenderCounts counts;
@@ -90,27 +92,28 @@ void make_picture(Scene scene, const Camera& camera, ImageSize size, const Argum
     options.passes = Passes{.target_error = arguments.sampling.target_error,
                             .time_limit = arguments.sampling.time_limit};
   }
-  if (has_ids_for_sidecar_alone(arguments, files)) options.aovs.push_back(Aov::id);
+  if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
   Film film = render(scene, camera, size, options);
   watch.rendered(times);
   apply_display(film, arguments.display);
   if (counts.invalid_samples > 0 && !arguments.quiet) {
-    std::fprintf(stderr, "warning: %llu samples were no numbers and count as black\n",
+    std::fprintf(stderr, "warning: %llu samples were not numbers (NaN) and count as black\n",
                  static_cast<unsigned long long>(counts.invalid_samples));
   }
   if (counts.missing_threads > 0 && !arguments.quiet) {
     std::fprintf(
         stderr,
-        "warning: the system refused to start %u of %u threads, by a limit on processes or "
-        "memory: the picture is the same, but took longer\n",
+        "warning: the system refused to start %u of %u threads (limit on processes or memory); the "
+        "picture is the same but took longer\n",
         counts.missing_threads, options.threads);
   }
   if (files.samples != nullptr) files.samples->save();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
-    warnings.report_picture(warning_of(view_of(film, scene, camera, options), arguments, scene));
+    warnings.report_picture(
+        picture_warning(view_of(film, scene, camera, options), arguments, scene));
   if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
   watch.written();
-  if (tells_of_files(arguments)) {
+  if (reports_files(arguments)) {
     report_written(
         {.main = arguments.sampling.shard ? arguments.sampling.checkpoint : files.picture,
          .sidecar = files.sidecar},

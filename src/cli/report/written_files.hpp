@@ -1,5 +1,5 @@
 #pragma once
-/// The line on standard error that says what a run has written.
+/// The line on standard error about the files that a run has written.
 
 #include <microtrace/film.hpp>
 
@@ -13,8 +13,7 @@ struct WrittenFiles {
   std::filesystem::path sidecar;  ///< or empty
 };
 
-/// "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Says nothing of standard output,
-/// whose reader knows.
+/// "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Standard output is not mentioned.
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
                     double seconds);
 

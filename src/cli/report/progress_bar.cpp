@@ -1,4 +1,4 @@
-#include "cli/progress_bar.hpp"
+#include "cli/report/progress_bar.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -17,15 +17,15 @@ bool can_draw() {
   return isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
-void draw(double share, double seconds, std::uint32_t pictures) {
+void draw(double fraction, double seconds, std::uint32_t pictures) {
   constexpr int kWidth = 40;
-  const int filled = static_cast<int>(share * kWidth);
+  const int filled = static_cast<int>(fraction * kWidth);
   const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                           std::string(static_cast<std::size_t>(kWidth - filled), '.');
-  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left", bar.c_str(), static_cast<int>(share * 100),
-               seconds / share * (1 - share));
+  std::fprintf(stderr, "\r[%s] %3d %%, %.0f s left", bar.c_str(), static_cast<int>(fraction * 100),
+               seconds / fraction * (1 - fraction));
   if (pictures > 1) {
-    const int picture = static_cast<int>(share * pictures) + 1;
+    const int picture = static_cast<int>(fraction * pictures) + 1;
     std::fprintf(stderr, ", picture %d of %u", picture, pictures);
   }
   std::fputs("\x1b[K", stderr);
@@ -36,13 +36,13 @@ void draw(double share, double seconds, std::uint32_t pictures) {
 std::function<void(double)> progress_bar(std::uint32_t pictures) {
   if (!can_draw()) return {};
   return [pictures, start = Clock::now(), last = Clock::time_point(),
-          drawn = false](double share) mutable {
+          drawn = false](double fraction) mutable {
     using namespace std::chrono_literals;
     const Clock::time_point now = Clock::now();
-    if (share >= 1) {
+    if (fraction >= 1) {
       if (drawn) std::fputs("\r\x1b[K", stderr);
     } else if (now - start > 500ms && now - last > 100ms) {
-      draw(share, std::chrono::duration<double>(now - start).count(), pictures);
+      draw(fraction, std::chrono::duration<double>(now - start).count(), pictures);
       last = now;
       drawn = true;
     }
@@ -50,12 +50,12 @@ std::function<void(double)> progress_bar(std::uint32_t pictures) {
 }
 
 std::function<void(double)> progress_lines() {
-  return [start = Clock::now(), last = Clock::time_point()](double share) mutable {
+  return [start = Clock::now(), last = Clock::time_point()](double fraction) mutable {
     using namespace std::chrono_literals;
     const Clock::time_point now = Clock::now();
-    if (share < 1 && now - last < 100ms) return;
+    if (fraction < 1 && now - last < 100ms) return;
     last = now;
-    std::fprintf(stderr, "{\"progress\": %.4f, \"seconds\": %.3f}\n", share,
+    std::fprintf(stderr, "{\"progress\": %.4f, \"seconds\": %.3f}\n", fraction,
                  std::chrono::duration<double>(now - start).count());
   };
 }

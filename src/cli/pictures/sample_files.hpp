@@ -1,5 +1,5 @@
 #pragma once
-/// The files that samples come from and go to while a picture is made.
+/// The checkpoints that are read and written while rendering.
 
 #include "cli/arguments.hpp"
 
@@ -14,20 +14,20 @@ namespace microtrace::cli {
 
 class SampleFiles {
  public:
-  /// Reads the checkpoints that the options name, and adds them up. `files` is the digest of all
-  /// files that the scene was read from. Throws Error. The arguments must outlive it.
+  /// Reads and combines the checkpoints that the options name. `files` is the digest of all files
+  /// that the scene was read from. Throws Error. The arguments must outlive it.
   SampleFiles(const Arguments& arguments, std::uint64_t files);
   SampleFiles(const SampleFiles&) = delete;
   SampleFiles& operator=(const SampleFiles&) = delete;
 
-  /// What is odd about the samples there are.
+  /// About samples beyond --spp.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
-  /// For RenderOptions: goes on from these samples, and writes them from time to time, pictures as
-  /// they are to be shown.
+  /// For RenderOptions: continues from these samples and saves them every --save-every seconds;
+  /// progressive pictures are encoded as `display` says.
   [[nodiscard]] Passes passes(const Display& display);
 
-  /// Writes the checkpoint, if there is one.
+  /// Writes the checkpoint of --checkpoint, if it is given.
   void save() const;
 
  private:

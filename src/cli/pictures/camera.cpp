@@ -1,4 +1,4 @@
-#include "cli/camera.hpp"
+#include "cli/pictures/camera.hpp"
 
 #include "scene/trigonometry.hpp"
 #include "scene/validate.hpp"
@@ -18,7 +18,7 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
       .vertical_fov = radians_from_degrees(options.view().vertical_fov)};
   if (const auto problem = validate(camera)) {
     refuse_usage(problem->field == "direction"
-                     ? "--eye: is the target; give another one by --target"
+                     ? "--eye: equals the target; choose another one with --target"
                      : "--up: must not be parallel to the direction from --eye to the target");
   }
   return camera;
@@ -38,7 +38,7 @@ Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize
   const auto index = whole_number(wanted);
   if (index && *index < scene.cameras.size()) return scene.cameras[*index].camera;
   std::string message = "--camera: there is no camera " + wanted + "; the scene has";
-  if (scene.cameras.empty()) message += " none: leave --camera out, or use --view or --eye";
+  if (scene.cameras.empty()) message += " none: omit --camera, or use --view or --eye";
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     message += i == 0 ? " " : ", ";
     message += std::to_string(i) + " (" + scene.cameras[i].name + ")";

@@ -1,4 +1,4 @@
-#include "cli/sequence.hpp"
+#include "cli/pictures/sequence.hpp"
 
 namespace microtrace::cli {
 

@@ -10,11 +10,12 @@
 
 namespace microtrace::cli {
 
-/// Where the time of a run went.
+/// Measures the stages of a run.
 class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;
 
+  // Each ends a stage.
   void loaded(const LoadTimes& times) {
     load_ = lap();
     load_times_ = times;
@@ -25,10 +26,10 @@ class Stopwatch {
   }
   void written() { write_ = lap(); }
 
-  /// Of loading, rendering and writing together.
+  /// Loading, rendering and writing.
   [[nodiscard]] double seconds() const { return load_ + render_ + write_; }
 
-  /// Times in seconds, rays, and memory, to standard error.
+  /// Prints times, rays and memory to standard error.
   void report(Statistics kind, const Scene& scene, ImageSize size, const RenderCounts& counts,
               unsigned threads, const MemoryBudget& memory) const;
 

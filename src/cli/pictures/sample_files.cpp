@@ -1,4 +1,4 @@
-#include "cli/sample_files.hpp"
+#include "cli/pictures/sample_files.hpp"
 
 #include <microtrace/io.hpp>
 
@@ -11,13 +11,13 @@
 namespace microtrace::cli {
 namespace {
 
-/// All that samples depend on: the program, the files that were read, options.
+/// Everything that samples depend on: the program, the files that were read, options.
 std::string identity_of(const Arguments& arguments, std::uint64_t files) {
   return "version\t" MICROTRACE_VERSION "\nscene files\t" + std::to_string(files) + "\n" +
          arguments.identity;
 }
 
-/// The checkpoints to go on from, each once.
+/// The checkpoints to continue from, each once.
 std::vector<std::filesystem::path> files_of(const SamplingOptions& sampling) {
   std::vector<std::filesystem::path> files = sampling.resume;
   std::error_code ignored;
@@ -46,9 +46,9 @@ std::vector<Diagnostic> SampleFiles::warnings() const {
   const std::vector<SampleRange>& ranges = samples_.sums.ranges();
   if (ranges.empty() || ranges.back().last <= wanted) return {};
   Diagnostic more;
-  more.message = "the checkpoints hold samples up to number " + std::to_string(ranges.back().last) +
-                 " of each pixel, beyond the " + std::to_string(wanted) +
-                 " of --spp; the picture has all of them";
+  more.message = "the checkpoints contain samples up to number " +
+                 std::to_string(ranges.back().last) + " of each pixel, more than --spp " +
+                 std::to_string(wanted) + "; the picture uses all of them";
   return {more};
 }
 

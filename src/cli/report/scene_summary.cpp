@@ -1,7 +1,7 @@
-#include "cli/verbose.hpp"
+#include "cli/report/scene_summary.hpp"
 
 #include "base/printable.hpp"
-#include "cli/warnings.hpp"
+#include "cli/report/warnings.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +11,7 @@
 namespace microtrace::cli {
 namespace {
 
-void tell(const std::string& text) {
+void print_info(const std::string& text) {
   std::fprintf(stderr, "info: %s\n", printable(text).c_str());
 }
 
@@ -19,8 +19,8 @@ std::string counted(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-/// How many triangles, lines and other primitives the objects have.
-std::string primitives_of(const Scene& scene) {
+/// Numbers of primitives by kind.
+std::string primitives_text(const Scene& scene) {
   std::size_t triangles = 0, segments = 0, others = 0;
   for (const Object& object : scene.objects) {
     if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
@@ -35,7 +35,7 @@ std::string primitives_of(const Scene& scene) {
   return text + ", " + counted(others, "other shape");
 }
 
-std::string images_of(const Scene& scene) {
+std::string images_text(const Scene& scene) {
   std::size_t decoded = 0;
   std::uint32_t side = 0;
   for (const auto& image : scene.images) {
@@ -51,10 +51,10 @@ std::string images_of(const Scene& scene) {
 
 std::string camera_text(const Arguments& arguments, const Scene& scene) {
   const CameraOptions& options = arguments.camera;
-  if (options.eye) return "at --eye";
-  if (options.orbit) return options.orbit->distance ? "as --view asks" : "framed, as --view asks";
+  if (options.eye) return "--eye";
+  if (options.orbit) return options.orbit->distance ? "--view" : "--view, the scene is framed";
   if (!options.camera.empty()) return options.camera;
-  if (scene.cameras.empty()) return "framed, for the scene has none";
+  if (scene.cameras.empty()) return "none, the scene is framed";
   return scene.cameras[0].name + ", the first of " + std::to_string(scene.cameras.size());
 }
 
@@ -65,15 +65,15 @@ std::string integrator_text(const Arguments& arguments) {
 
 }  // namespace
 
-void tell_of_scene(const Arguments& arguments, const Scene& scene, ImageSize size) {
-  tell(arguments.scene + ": " + counted(scene.objects.size(), "object") + ": " +
-       primitives_of(scene));
-  tell(counted(scene.materials.size(), "material") + ", " +
-       counted(scene.textures.size(), "texture") + ", " + images_of(scene));
-  tell("light: " + light_of(scene));
-  tell("camera: " + camera_text(arguments, scene));
-  tell("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
-       integrator_text(arguments));
+void print_scene_summary(const Arguments& arguments, const Scene& scene, ImageSize size) {
+  print_info(arguments.scene + ": " + counted(scene.objects.size(), "object") + ": " +
+             primitives_text(scene));
+  print_info(counted(scene.materials.size(), "material") + ", " +
+             counted(scene.textures.size(), "texture") + ", " + images_text(scene));
+  print_info("light: " + lights_text(scene));
+  print_info("camera: " + camera_text(arguments, scene));
+  print_info("picture: " + std::to_string(size.width) + " x " + std::to_string(size.height) + ", " +
+             integrator_text(arguments));
 }
 
 }  // namespace microtrace::cli

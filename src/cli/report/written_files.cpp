@@ -1,4 +1,4 @@
-#include "cli/written.hpp"
+#include "cli/report/written_files.hpp"
 
 #include "base/printable.hpp"
 

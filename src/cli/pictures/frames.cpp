@@ -1,4 +1,4 @@
-#include "cli/frames.hpp"
+#include "cli/pictures/frames.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -7,8 +7,7 @@
 namespace microtrace::cli {
 namespace {
 
-/// The pattern with the number in its places, and how many there are; nothing where a % stands for
-/// something else.
+/// The pattern with the number inserted, and how often; nothing if it has another use of %.
 struct Filled {
   std::string text;
   int places = 0;

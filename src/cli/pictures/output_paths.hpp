@@ -1,0 +1,29 @@
+#pragma once
+/// Checks that no output replaces an input or another output.
+
+#include "cli/pictures/sequence.hpp"
+
+#include <microtrace/read_files.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// A file to write, and the option that names it.
+struct Output {
+  const char* option;
+  std::filesystem::path path;  ///< empty: none
+};
+
+/// Throws Error (usage) if an output would overwrite a file that was read.
+void check_no_input_is_overwritten(const ReadFiles& inputs, const std::vector<Output>& outputs);
+
+/// Throws Error (usage) if two of the outputs are the same file.
+void check_outputs_differ(const std::vector<Output>& outputs);
+
+/// Both checks for all pictures and sidecars of a sequence.
+void check_paths(const ReadFiles& inputs, const Sequence& sequence);
+
+}  // namespace microtrace::cli

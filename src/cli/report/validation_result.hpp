@@ -1,0 +1,18 @@
+#pragma once
+/// The result of --validate, on standard output.
+
+#include <microtrace/error.hpp>
+
+#include <cstddef>
+#include <string>
+
+namespace microtrace::cli {
+
+/// Of a scene that can be rendered: `scene: valid`, `scene: valid, 2 warnings` or `scene: invalid,
+/// but drawable: 1 error, 2 warnings`. Throws Error (io) if standard output can't be written.
+void print_validation_result(const std::string& scene, std::size_t errors, std::size_t warnings);
+
+/// Of a scene that was refused by an error of this kind: `scene: invalid` and the like.
+void print_refusal(const std::string& scene, ErrorKind kind);
+
+}  // namespace microtrace::cli
