@@ -1,15 +1,15 @@
 #include "accel/build/reference.hpp"
 #include "accel/build/tree.hpp"
-#include "accel/bundle.hpp"
+#include "accel/hit_resolver.hpp"
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
+#include "accel/packet_resolver.hpp"
+#include "accel/ray_packet.hpp"
 #include "accel/ray_stream.hpp"
-#include "accel/slow_path.hpp"
-#include "accel/spawn/quick_spawn.hpp"
+#include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"
-#include "accel/tile_judge.hpp"
 #include "base/memory_account.hpp"
 #include "exact/intersect.hpp"
 #include "float_environment.hpp"
@@ -42,10 +42,10 @@ struct Bvh::Impl {
   [[nodiscard]] bool occluded(const Ray& ray) const;
   [[nodiscard]] std::optional<Vec3> search_origin(const Spawn& spawn) const;
 
-  /// Traces up to kTileRays rays with a common origin. Returns false, without effect, if one of the
-  /// rays exceeds the kernels' limits.
-  [[nodiscard]] bool intersect_tile(std::span<const Ray> rays,
-                                    std::span<std::optional<Hit>> hits) const;
+  /// Traces up to kPacketRays rays with a common origin. Returns false, without effect, if one of
+  /// the rays exceeds the kernels' limits.
+  [[nodiscard]] bool intersect_packet(std::span<const Ray> rays,
+                                      std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;
   std::vector<PrimitiveId> outside;  // not in the tree; tested one by one
@@ -61,7 +61,7 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
   constexpr PrimitiveId kFew = 16;
   if (primitives.count() <= kFew) {
     build::References references = build::gather(primitives);
-    tree.twins = Twins(references, primitives);
+    tree.duplicates = Duplicates(references, primitives);
     outside = std::move(references.unbounded);
     for (const build::Reference& reference : references.bounded) outside.push_back(reference.id());
     return;
@@ -77,32 +77,32 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
 namespace {
 
 // Tests every primitive: for rays beyond the kernels' limits.
-std::optional<Hit> ask_all(const Primitives& primitives, const Ray& ray) {
+std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
-  Bundle bundle(primitives, std::span(&ray, 1));
-  primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.meet(id, shape); });
-  return bundle.hit(0);
+  RayPacket packet(primitives, std::span(&ray, 1));
+  primitives.for_each([&](PrimitiveId id, const auto& shape) { packet.test(id, shape); });
+  return packet.hit(0);
 }
 
 // The number of leading rays with a common origin, at most a packet.
 std::size_t common_origin_length(std::span<const Ray> rays) {
   const Vec3 o = rays[0].o;
-  const std::size_t limit = std::min<std::size_t>(rays.size(), kTileRays);
+  const std::size_t limit = std::min<std::size_t>(rays.size(), kPacketRays);
   std::size_t length = 1;
   while (length < limit && rays[length].o == o) ++length;
   return length;
 }
 
 // Fewer rays are traced faster one by one than as a packet or a stream.
-constexpr std::size_t kLeastTile = 8, kLeastStream = 8;
+constexpr std::size_t kLeastPacket = 8, kLeastStream = 8;
 
-// The number of leading rays, at least one, before kLeastTile rays with a common origin; at most a
-// stream.
+// The number of leading rays, at least one, before kLeastPacket rays with a common origin; at most
+// a stream.
 std::size_t unrelated_length(std::span<const Ray> rays) {
   const std::size_t limit = std::min<std::size_t>(rays.size(), kStreamRays);
-  for (std::size_t i = 1; i + kLeastTile <= limit; ++i) {
-    if (rays[i].o == rays[i + kLeastTile - 1].o &&
-        common_origin_length(rays.subspan(i)) >= kLeastTile)
+  for (std::size_t i = 1; i + kLeastPacket <= limit; ++i) {
+    if (rays[i].o == rays[i + kLeastPacket - 1].o &&
+        common_origin_length(rays.subspan(i)) >= kLeastPacket)
       return i;
   }
   return limit;
@@ -112,72 +112,72 @@ std::size_t unrelated_length(std::span<const Ray> rays) {
 
 std::optional<Hit> Bvh::Impl::intersect(const Ray& ray) const {
   const double t_scale = kernel_t_scale(ray);
-  if (t_scale == 0) return ask_all(primitives, ray);
-  Judge judge(primitives, ray, t_scale);
-  Best best = judge.no_hit();
-  for (const PrimitiveId id : outside) judge.consider(id, best);
-  if (has_tree) kernels->closest(view(), kernel_ray(ray, t_scale), judge.slow_path(), best);
+  if (t_scale == 0) return test_all(primitives, ray);
+  HitResolver resolver(primitives, ray, t_scale);
+  ClosestSoFar best = resolver.no_hit();
+  for (const PrimitiveId id : outside) resolver.consider(id, best);
+  if (has_tree) kernels->closest(view(), kernel_ray(ray, t_scale), resolver.fallback(), best);
   if (best.id == kNoPrimitive) return std::nullopt;
-  return judge.hit(best.id);
+  return resolver.hit(best.id);
 }
 
 std::optional<Hit> Bvh::Impl::next(const Ray& ray, PrimitiveId after) const {
   if (!exact::is_valid(ray) || after >= primitives.count()) return std::nullopt;
-  const KnownHit known(primitives, ray, after, tree.twins);
+  const KnownHit known(primitives, ray, after, tree.duplicates);
   if (!known.exists()) return std::nullopt;
   const double t_scale = kernel_t_scale(ray);
-  Judge judge(primitives, ray, t_scale == 0 ? 1 : t_scale, &known);
-  Best best = judge.no_hit();
+  HitResolver resolver(primitives, ray, t_scale == 0 ? 1 : t_scale, &known);
+  ClosestSoFar best = resolver.no_hit();
   if (t_scale == 0) {
-    for (PrimitiveId id = 0; id < primitives.count(); ++id) judge.consider(id, best);
+    for (PrimitiveId id = 0; id < primitives.count(); ++id) resolver.consider(id, best);
   } else {
-    for (const PrimitiveId id : outside) judge.consider(id, best);
+    for (const PrimitiveId id : outside) resolver.consider(id, best);
     if (has_tree) {
       const KernelRay from = kernel_ray_from(ray, t_scale, known.bounds());
-      kernels->closest(view(), from, judge.slow_path(), best);
+      kernels->closest(view(), from, resolver.fallback(), best);
     }
   }
   if (best.id == kNoPrimitive) return std::nullopt;
-  return judge.hit(best.id);
+  return resolver.hit(best.id);
 }
 
 std::optional<Vec3> Bvh::Impl::search_origin(const Spawn& spawn) const {
-  ++slow_stages.searched_origins;
+  ++fallback_stages.searched_origins;
   std::optional<Vec3> origin;
   if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives.count()) {
     origin = spawn_among(primitives, has_tree ? &tree : nullptr, outside, *spawn.ray, spawn.hit.id,
                          spawn.direction);
   }
-  if (!origin) ++slow_stages.missing_origins;
+  if (!origin) ++fallback_stages.missing_origins;
   return origin;
 }
 
 bool Bvh::Impl::occluded(const Ray& ray) const {
   const double t_scale = kernel_t_scale(ray);
-  if (t_scale == 0) return ask_all(primitives, ray).has_value();
-  Judge judge(primitives, ray, t_scale);
-  Best best = judge.no_hit();
+  if (t_scale == 0) return test_all(primitives, ray).has_value();
+  HitResolver resolver(primitives, ray, t_scale);
+  ClosestSoFar best = resolver.no_hit();
   for (const PrimitiveId id : outside) {
-    judge.consider(id, best);
+    resolver.consider(id, best);
     if (best.id != kNoPrimitive) return true;
   }
-  return has_tree && kernels->any(view(), kernel_ray(ray, t_scale), judge.slow_path());
+  return has_tree && kernels->any(view(), kernel_ray(ray, t_scale), resolver.fallback());
 }
 
-bool Bvh::Impl::intersect_tile(std::span<const Ray> rays,
-                               std::span<std::optional<Hit>> hits) const {
-  KernelTile tile;
-  if (!fill_tile(rays, *kernels, tile)) return false;
+bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
+                                 std::span<std::optional<Hit>> hits) const {
+  KernelPacket packet;
+  if (!fill_packet(rays, *kernels, packet)) return false;
   if (has_tree) {
-    TileJudge judge(primitives, rays);
-    judge.begin(tile, outside);
-    kernels->closest_of_tile(view(), tile, judge.slow_path());
-    round_hits(primitives, *kernels, view(), rays, tile, hits);
+    PacketResolver resolver(primitives, rays);
+    resolver.begin(packet, outside);
+    kernels->closest_of_packet(view(), packet, resolver.fallback());
+    round_hits(primitives, *kernels, view(), rays, packet, hits);
   } else {
-    Bundle bundle(primitives, rays);
+    RayPacket tested(primitives, rays);
     for (const PrimitiveId id : outside)
-      primitives.visit(id, [&](const auto& shape) { bundle.meet(id, shape); });
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = bundle.hit(i);
+      primitives.visit(id, [&](const auto& shape) { tested.test(id, shape); });
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = tested.hit(i);
   }
   return true;
 }
@@ -195,7 +195,7 @@ const Primitives& Bvh::primitives() const {
 std::size_t Bvh::memory() const {
   const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
   return bytes(impl_->tree.nodes) + bytes(impl_->tree.blocks) + bytes(impl_->tree.others) +
-         bytes(impl_->outside) + impl_->tree.twins.memory();
+         bytes(impl_->outside) + impl_->tree.duplicates.memory();
 }
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
@@ -210,8 +210,8 @@ std::optional<Hit> Bvh::next(const Ray& ray, const Hit& after) const {
 
 std::optional<Vec3> Bvh::spawn_origin(const Ray& ray, const Hit& hit, const Vec3& direction) const {
   const FloatEnvironment environment;
-  ++slow_stages.origins;
-  const Hit represented{.id = impl_->tree.twins.representative(hit.id), .t = hit.t};
+  ++fallback_stages.origins;
+  const Hit represented{.id = impl_->tree.duplicates.representative(hit.id), .t = hit.t};
   return impl_->search_origin({.ray = &ray, .hit = represented, .direction = direction});
 }
 
@@ -219,17 +219,17 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
                         std::span<std::optional<Vec3>> origins) const {
   const FloatEnvironment environment;
   assert(spawns.size() == origins.size());
-  slow_stages.origins += spawns.size();
+  fallback_stages.origins += spawns.size();
   std::vector<Spawn> represented;
-  if (const Twins& twins = impl_->tree.twins; !twins.empty()) {
+  if (const Duplicates& duplicates = impl_->tree.duplicates; !duplicates.empty()) {
     // The tree has only one of several duplicates. If the surface is another one, its
     // representative would count as a separate wall.
     represented.assign(spawns.begin(), spawns.end());
-    for (Spawn& spawn : represented) spawn.hit.id = twins.representative(spawn.hit.id);
+    for (Spawn& spawn : represented) spawn.hit.id = duplicates.representative(spawn.hit.id);
     spawns = represented;
   }
-  QuickSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
-                    impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
+  FastSpawns quick(impl_->primitives, impl_->outside, *impl_->kernels, *impl_->spawn_kernels,
+                   impl_->has_tree ? std::optional(impl_->view()) : std::nullopt);
   while (!spawns.empty()) {
     const std::size_t done = quick.origins(spawns, origins);
     for (std::size_t i = 0; i < done; ++i) {
@@ -250,17 +250,17 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
   assert(rays.size() == hits.size());
   std::unique_ptr<RayStream> stream;
   while (!rays.empty()) {
-    const auto whole = rays.first(std::min<std::size_t>(rays.size(), kTileRays));
+    const auto whole = rays.first(std::min<std::size_t>(rays.size(), kPacketRays));
     std::size_t done = whole.size();
     // For a few rays the fixed cost of a packet is too high.
-    bool is_tile = done >= kLeastTile && whole.front().o == whole.back().o &&
-                   impl_->intersect_tile(whole, hits);
-    if (!is_tile) {
+    bool is_packet = done >= kLeastPacket && whole.front().o == whole.back().o &&
+                     impl_->intersect_packet(whole, hits);
+    if (!is_packet) {
       done = common_origin_length(rays);
-      is_tile = done >= kLeastTile && done < whole.size() &&
-                impl_->intersect_tile(rays.first(done), hits);
+      is_packet = done >= kLeastPacket && done < whole.size() &&
+                  impl_->intersect_packet(rays.first(done), hits);
     }
-    if (!is_tile) {
+    if (!is_packet) {
       done = impl_->has_tree ? unrelated_length(rays) : 1;
       const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };
       if (done >= kLeastStream) {

@@ -15,11 +15,12 @@ namespace microtrace {
 class ClosestHit {
  public:
   /// Considers the filter result for primitive `id`.
-  void consider(PrimitiveId id, const Verdict& verdict, const ExactHits& exactly) {
-    if (verdict.certainty == Certainty::miss || verdict.lo > hi_) return;
+  void consider(PrimitiveId id, const FilterResult& filtered, const ExactHits& exactly) {
+    if (filtered.certainty == Certainty::miss || filtered.lo > hi_) return;
     const std::optional<exact::Enclosure> bounds =
-        verdict.certainty == Certainty::hit ? exact::Enclosure{.lo = verdict.lo, .hi = verdict.hi}
-                                            : exactly.bounds(id);
+        filtered.certainty == Certainty::hit
+            ? exact::Enclosure{.lo = filtered.lo, .hi = filtered.hi}
+            : exactly.bounds(id);
     if (!bounds || bounds->lo > hi_) return;
     if (!found_ || bounds->hi < lo_ || precedes(id, exactly)) replace(id, *bounds);
   }

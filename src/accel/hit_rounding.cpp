@@ -1,6 +1,6 @@
 #include "accel/hit_rounding.hpp"
 
-#include "accel/slow_path.hpp"
+#include "accel/hit_resolver.hpp"
 
 #include <algorithm>
 
@@ -56,7 +56,7 @@ void write_hits(const Primitives& primitives, std::span<const Ray> rays, const s
     if ((rounded.certain >> i & 1U) != 0)
       hits[i] = Hit{.id = id, .t = rounded.t[i]};
     else if (id != kNoPrimitive)
-      hits[i] = Judge(primitives, rays[i]).hit(id);
+      hits[i] = HitResolver(primitives, rays[i]).hit(id);
     else
       hits[i].reset();
   }
@@ -81,11 +81,11 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
 }
 
 void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
-                std::span<const Ray> rays, const KernelTile& tile,
+                std::span<const Ray> rays, const KernelPacket& packet,
                 std::span<std::optional<Hit>> hits) {
-  alignas(64) float t[kTileRays];
-  const std::uint64_t certain = kernels.round_t_of_tile(tree, tile, t);
-  write_hits(primitives, rays, tile.best_id, {.certain = certain, .t = t}, hits);
+  alignas(64) float t[kPacketRays];
+  const std::uint64_t certain = kernels.round_t_of_packet(tree, packet, t);
+  write_hits(primitives, rays, packet.best_id, {.certain = certain, .t = t}, hits);
 }
 
 }  // namespace microtrace

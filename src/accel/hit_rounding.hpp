@@ -25,7 +25,7 @@ void round_hits(const Primitives& primitives, const Kernels& kernels, const Foun
 
 /// The same for the nearest hits of a packet of these rays.
 void round_hits(const Primitives& primitives, const Kernels& kernels, const TreeView& tree,
-                std::span<const Ray> rays, const KernelTile& tile,
+                std::span<const Ray> rays, const KernelPacket& packet,
                 std::span<std::optional<Hit>> hits);
 
 }  // namespace microtrace

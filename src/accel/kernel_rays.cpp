@@ -1,6 +1,6 @@
 #include "accel/kernel_rays.hpp"
 
-#include "accel/slow_path.hpp"
+#include "accel/hit_resolver.hpp"
 #include "exact/intersect.hpp"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ KernelRay kernel_ray(const Ray& ray, double t_scale) {
     k.t_begin = begin_at(ray.t_min);
   } else {
     for (int axis = 0; axis < 3; ++axis) k.d[axis] = static_cast<float>(ray.d[axis] / t_scale);
-    const Best bounds = outwards(ray.t_min * t_scale, ray.t_min * t_scale, kNoPrimitive);
+    const ClosestSoFar bounds = outwards(ray.t_min * t_scale, ray.t_min * t_scale, kNoPrimitive);
     k.t_min = bounds.hi;
     k.t_begin = begin_at(bounds.lo);
   }
@@ -65,17 +65,17 @@ KernelRay kernel_ray(const Ray& ray, double t_scale) {
 
 KernelRay kernel_ray_from(const Ray& ray, double t_scale, const exact::Enclosure& begin) {
   KernelRay k = kernel_ray(ray, t_scale);
-  const Best bounds = outwards(begin.lo * t_scale, begin.hi * t_scale, kNoPrimitive);
+  const ClosestSoFar bounds = outwards(begin.lo * t_scale, begin.hi * t_scale, kNoPrimitive);
   k.t_min = std::nextafter(bounds.hi, std::numeric_limits<float>::infinity());
   k.t_begin = std::max(k.t_begin, begin_at(bounds.lo));
   return k;
 }
 
-bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile) {
+bool fill_packet(std::span<const Ray> rays, const Kernels& kernels, KernelPacket& packet) {
   // Kernels read rays as eight floats, because they can't include the type.
   static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
                 offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
-  return kernels.fill_tile(&rays[0].o.x, static_cast<int>(rays.size()), tile);
+  return kernels.fill_packet(&rays[0].o.x, static_cast<int>(rays.size()), packet);
 }
 
 }  // namespace microtrace

@@ -24,8 +24,9 @@ namespace microtrace {
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
 
-/// Fills a packet of 1 to kTileRays rays, without hits. Returns false if the rays have different
+/// Fills a packet of 1 to kPacketRays rays, without hits. Returns false if the rays have different
 /// origins or exceed the kernels' limits.
-[[nodiscard]] bool fill_tile(std::span<const Ray> rays, const Kernels& kernels, KernelTile& tile);
+[[nodiscard]] bool fill_packet(std::span<const Ray> rays, const Kernels& kernels,
+                               KernelPacket& packet);
 
 }  // namespace microtrace

@@ -1,7 +1,7 @@
 #include "accel/ray_stream.hpp"
 
+#include "accel/hit_resolver.hpp"
 #include "accel/hit_rounding.hpp"
-#include "accel/slow_path.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -32,28 +32,28 @@ void RayStream::ask_outside() {
   if (target_.outside.empty()) return;
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     if (!is_suited(i)) continue;
-    const Judge judge(target_.primitives, rays_[i]);
-    Best best = no_hit(rays_[i]);
-    for (const PrimitiveId id : target_.outside) judge.consider(id, best);
+    const HitResolver resolver(target_.primitives, rays_[i]);
+    ClosestSoFar best = no_hit(rays_[i]);
+    for (const PrimitiveId id : target_.outside) resolver.consider(id, best);
     stream_.best_lo[i] = best.lo;
     stream_.best_hi[i] = best.hi;
     stream_.best_id[i] = best.id;
   }
 }
 
-StreamSlowPath RayStream::slow_path() {
-  return {.context = this, .consider = [](void* self, int i, std::uint32_t id, Best& best) {
+StreamFallback RayStream::fallback() {
+  return {.context = this, .consider = [](void* self, int i, std::uint32_t id, ClosestSoFar& best) {
             const RayStream& stream = *static_cast<const RayStream*>(self);
             const auto ray = static_cast<std::size_t>(i);
             if (stream.is_suited(ray))
-              Judge(stream.target_.primitives, stream.rays_[ray]).consider(id, best);
+              HitResolver(stream.target_.primitives, stream.rays_[ray]).consider(id, best);
           }};
 }
 
 void RayStream::find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
   fill(rays);
   KernelStream& s = stream_;
-  target_.kernels.closest_of_stream(target_.tree, s, slow_path());
+  target_.kernels.closest_of_stream(target_.tree, s, fallback());
   for_each_unsuited([&](std::size_t i) { s.best_id[i] = kNoPrimitive; });
   for (std::size_t i = 0; i < rays.size(); i += kHitBatch) {
     const std::size_t length = std::min<std::size_t>(kHitBatch, rays.size() - i);
@@ -67,7 +67,7 @@ void RayStream::find_closest(std::span<const Ray> rays, std::span<std::optional<
 
 void RayStream::find_any(std::span<const Ray> rays, std::span<bool> results) {
   fill(rays);
-  target_.kernels.any_of_stream(target_.tree, stream_, slow_path());
+  target_.kernels.any_of_stream(target_.tree, stream_, fallback());
   for (std::size_t i = 0; i < rays.size(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
 }
 

@@ -40,7 +40,7 @@ class RayStream {
   void ask_outside();
   void find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
   void find_any(std::span<const Ray> rays, std::span<bool> results);
-  [[nodiscard]] StreamSlowPath slow_path();
+  [[nodiscard]] StreamFallback fallback();
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;
   }

@@ -1,15 +1,15 @@
 #include "accel/stage_counts.hpp"
 
 #include "accel/kernels/dispatch.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 
 namespace microtrace {
 
 StageCounts stage_counts() {
-  StageCounts counts = slow_stages;
+  StageCounts counts = fallback_stages;
   counts.edges = best_kernels().edge_tests();
-  counts.grid = exact::questions.grid;
-  counts.dyadic = exact::questions.dyadic;
+  counts.grid = exact::queries.grid;
+  counts.dyadic = exact::queries.dyadic;
   return counts;
 }
 

@@ -6,6 +6,6 @@
 namespace microtrace {
 
 /// Excludes the counters that kernels and exact arithmetic keep themselves.
-inline thread_local StageCounts slow_stages;
+inline thread_local StageCounts fallback_stages;
 
 }  // namespace microtrace

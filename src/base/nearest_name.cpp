@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-constexpr std::size_t listed = 20;  // maximum number of names
+constexpr std::size_t kMaxListed = 20;  // maximum number of names
 
 /// Levenshtein distance: the number of insertions, deletions and replacements of bytes that turn a
 /// into b (Levenshtein 1966), by the table of Wagner and Fischer.
@@ -56,12 +56,12 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
     return std::string("; did you mean ").append(in_quotes(nearest)).append("?");
 
   std::string out = "; known are ";
-  const std::size_t count = std::min(known.size(), listed);
+  const std::size_t count = std::min(known.size(), kMaxListed);
   for (std::size_t i = 0; i < count; ++i) {
     if (i > 0) out += ", ";
     out += in_quotes(known[i]);
   }
-  return known.size() > listed ? out.append(" and more") : out;
+  return known.size() > kMaxListed ? out.append(" and more") : out;
 }
 
 }  // namespace microtrace

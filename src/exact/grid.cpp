@@ -1,7 +1,7 @@
 #include "exact/grid.hpp"
 
 #include "exact/intersect.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 #include "exact/range.hpp"
 
 #include <algorithm>
@@ -110,7 +110,7 @@ auto Grid<Limbs>::operator()(const Triangle& t, const GridVector& from) const
 template <int Limbs>
 GridPlane<Limbs>::GridPlane(const Triangle& triangle)
     : grid_({triangle.a, triangle.b, triangle.c}, kSpare) {
-  ++questions.grid;
+  ++queries.grid;
   const auto corners = grid_(triangle, {});
   if (!corners) return;
   a_ = corners->a;
@@ -158,7 +158,7 @@ GridHit<Limbs>::GridHit(const Triangle& triangle, const Ray& ray)
 
 template <int Limbs>
 void GridHit<Limbs>::find(const Triangle& triangle, const Ray& ray) {
-  ++questions.grid;
+  ++queries.grid;
   const auto o = points_(ray.o), d = directions_(ray.d);
   if (!o || !d || !is_valid(ray)) return;
   o_ = *o;

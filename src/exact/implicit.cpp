@@ -1,7 +1,7 @@
 #include "exact/implicit.hpp"
 
 #include "exact/flat.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 #include "exact/range.hpp"
 
 namespace microtrace::exact {
@@ -21,7 +21,7 @@ int sign(const Root& x) {
 
 Implicit::Implicit(const Vector& normal, const Vec3& point)
     : linear_(normal), constant_(-dot(normal, vector(point))) {
-  ++questions.dyadic;
+  ++queries.dyadic;
 }
 
 Implicit::Implicit(const Triangle& triangle)
@@ -34,7 +34,7 @@ Implicit::Implicit(const Plane& plane) : Implicit(vector(plane.normal), plane.po
 Implicit::Implicit(const Disc& disc) : Implicit(vector(disc.normal), disc.center) {}
 
 Implicit::Implicit(const Sphere& sphere) : squares_{1.0F, 1.0F, 1.0F} {
-  ++questions.dyadic;
+  ++queries.dyadic;
   const Vector c = vector(sphere.center);
   linear_ = Dyadic(-2.0F) * c;
   constant_ = dot(c, c) - square(sphere.radius);
@@ -42,7 +42,7 @@ Implicit::Implicit(const Sphere& sphere) : squares_{1.0F, 1.0F, 1.0F} {
 
 Implicit::Implicit(const Quadric& q)
     : squares_{q.a, q.b, q.c}, mixed_{q.f, q.e, q.d}, linear_{q.g, q.h, q.i}, constant_(q.j) {
-  ++questions.dyadic;
+  ++queries.dyadic;
 }
 
 Dyadic Implicit::value(const Vector& p) const {
@@ -96,7 +96,7 @@ int Implicit::zeros_ahead(const Vec3& p, const Vec3& e) const {
 }
 
 bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray, const Root& t) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   const Vector from = vector(q);
   const CornersOf<Dyadic> corners{vector(triangle.a) - from, vector(triangle.b) - from,
                                   vector(triangle.c) - from};

@@ -1,6 +1,6 @@
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 #include "exact/range.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ bool is_normal(const Vec3& n) {
 }  // namespace
 
 std::optional<Root> first_hit(const Plane& plane, const Ray& ray) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   if (!is_valid(ray) || !is_finite(plane.point) || !is_normal(plane.normal)) return std::nullopt;
   const Vector n = vector(plane.normal);
   const Dyadic distance = dot(n, vector(plane.point) - vector(ray.o));
@@ -26,7 +26,7 @@ std::optional<Root> first_hit(const Plane& plane, const Ray& ray) {
 }
 
 std::optional<Root> first_hit(const Disc& disc, const Ray& ray) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   if (!is_valid(ray) || !is_finite(disc.center) || !is_normal(disc.normal) ||
       !std::isfinite(disc.radius) || disc.radius < 0) {
     return std::nullopt;

@@ -1,6 +1,6 @@
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 #include "exact/range.hpp"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ Dyadic bilinear_part(const Quadric& q, const Vector& p, const Vector& r) {
 }  // namespace
 
 std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   if (!is_valid(ray) || !is_finite(sphere.center) || !std::isfinite(sphere.radius) ||
       sphere.radius < 0) {
     return std::nullopt;
@@ -54,7 +54,7 @@ std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
 }
 
 std::optional<Root> first_hit(const Quadric& quadric, const Ray& ray) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   if (!is_valid(ray) || !is_finite(quadric)) return std::nullopt;
   const Vector o = vector(ray.o), d = vector(ray.d);
   // F(o + t d) = alpha t^2 + beta t + gamma.

@@ -1,12 +1,12 @@
 #include "exact/flat.hpp"
 #include "exact/intersect.hpp"
-#include "exact/questions.hpp"
+#include "exact/queries.hpp"
 #include "exact/range.hpp"
 
 namespace microtrace::exact {
 
 std::optional<Root> first_hit(const Triangle& triangle, const Ray& ray) {
-  ++questions.dyadic;
+  ++queries.dyadic;
   if (!is_valid(ray) || !is_finite(triangle.a) || !is_finite(triangle.b) ||
       !is_finite(triangle.c)) {
     return std::nullopt;

@@ -2,7 +2,7 @@
 
 #include "base/memory_account.hpp"
 #include "scene/mesh_memory.hpp"
-#include "scene/way_to_origin.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -46,7 +46,7 @@ std::optional<PlacedScene> recentred(const Scene& scene, const Camera& camera) {
   std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
   if (!for_each_point_of_shapes(scene, [&](const Vec3& p) { bounds.add(DVec3(p)); }))
     return std::nullopt;
-  const DVec3 way = way_to_origin(bounds);
+  const DVec3 way = translation_to_origin(bounds);
   if (way == DVec3(0)) return std::nullopt;
 
   take_memory(memory_of(scene), "the scene next to the origin");

@@ -40,33 +40,33 @@ constexpr std::array<float, 255> make_srgb_thresholds() {
   return thresholds;
 }
 
-inline constexpr std::array<float, 255> srgb_thresholds = make_srgb_thresholds();
+inline constexpr std::array<float, 255> kSrgbThresholds = make_srgb_thresholds();
 
 /// Bins, 128 per octave from 2^-13 to 1, each of which contains at most one threshold.
-inline constexpr std::uint32_t srgb_first_bin = std::bit_cast<std::uint32_t>(0x1p-13F) >> 16;
-inline constexpr std::size_t srgb_bin_count =
-    (std::bit_cast<std::uint32_t>(1.0F) >> 16) - srgb_first_bin;
+inline constexpr std::uint32_t kSrgbFirstBin = std::bit_cast<std::uint32_t>(0x1p-13F) >> 16;
+inline constexpr std::size_t kSrgbBinCount =
+    (std::bit_cast<std::uint32_t>(1.0F) >> 16) - kSrgbFirstBin;
 
 /// The code at the start of each bin.
-constexpr std::array<std::uint8_t, srgb_bin_count> make_srgb_bins() {
-  std::array<std::uint8_t, srgb_bin_count> bins{};
+constexpr std::array<std::uint8_t, kSrgbBinCount> make_srgb_bins() {
+  std::array<std::uint8_t, kSrgbBinCount> bins{};
   std::size_t code = 0;
   for (std::uint32_t bin = 0; bin < bins.size(); ++bin) {
-    const auto start = std::bit_cast<float>((srgb_first_bin + bin) << 16);
-    while (code < 255 && start >= srgb_thresholds[code]) ++code;
+    const auto start = std::bit_cast<float>((kSrgbFirstBin + bin) << 16);
+    while (code < 255 && start >= kSrgbThresholds[code]) ++code;
     bins[bin] = static_cast<std::uint8_t>(code);
   }
   return bins;
 }
 
-inline constexpr std::array<std::uint8_t, srgb_bin_count> srgb_bins = make_srgb_bins();
+inline constexpr std::array<std::uint8_t, kSrgbBinCount> kSrgbBins = make_srgb_bins();
 
 /// The 8-bit sRGB code of linear light; values are clamped to [0, 1], NaN gives 0.
 constexpr std::uint8_t encode_srgb(float v) {
-  if (!(v >= srgb_thresholds[0])) return 0;
-  if (v >= srgb_thresholds[254]) return 255;
-  const std::uint8_t code = srgb_bins[(std::bit_cast<std::uint32_t>(v) >> 16) - srgb_first_bin];
-  return static_cast<std::uint8_t>(code + (v >= srgb_thresholds[code] ? 1 : 0));
+  if (!(v >= kSrgbThresholds[0])) return 0;
+  if (v >= kSrgbThresholds[254]) return 255;
+  const std::uint8_t code = kSrgbBins[(std::bit_cast<std::uint32_t>(v) >> 16) - kSrgbFirstBin];
+  return static_cast<std::uint8_t>(code + (v >= kSrgbThresholds[code] ? 1 : 0));
 }
 
 }  // namespace microtrace

@@ -36,7 +36,7 @@ bool is_finite(float x) {
   return std::isfinite(x);
 }
 bool is_finite(double x) {
-  return std::abs(x) < float32_bound;
+  return std::abs(x) < kFloat32Bound;
 }
 bool is_finite(const Vec3& v) {
   return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
@@ -175,9 +175,9 @@ Rule check(const EnvironmentCamera& camera) {
 
 Rule check_side(const char* field, std::uint32_t side) {
   if (side == 0) return broken(field, "must be at least 1 pixel, is 0");
-  if (side <= max_image_side) return {};
+  if (side <= kMaxImageSide) return {};
   std::string message = "must be at most ";
-  message.append(std::to_string(max_image_side)).append(" pixels, is ");
+  message.append(std::to_string(kMaxImageSide)).append(" pixels, is ");
   return BrokenRule{field, message.append(std::to_string(side)), ErrorKind::limit};
 }
 
@@ -195,9 +195,9 @@ std::optional<BrokenRule> validate(ImageSize size) {
   Rule rule = first(check_side("width", size.width), check_side("height", size.height));
   if (rule) return rule;
   const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
-  if (pixels <= max_image_pixels) return {};
+  if (pixels <= kMaxImagePixels) return {};
   std::string message = "the picture must have at most ";
-  message.append(std::to_string(max_image_pixels)).append(" pixels, has ");
+  message.append(std::to_string(kMaxImagePixels)).append(" pixels, has ");
   return BrokenRule{"", message.append(std::to_string(pixels)), ErrorKind::limit};
 }
 

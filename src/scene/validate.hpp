@@ -11,11 +11,11 @@
 
 namespace microtrace {
 
-inline constexpr std::uint32_t max_image_side = 65536;  ///< pixels
-inline constexpr std::uint64_t max_image_pixels = std::uint64_t{1} << 28U;
+inline constexpr std::uint32_t kMaxImageSide = 65536;  ///< pixels
+inline constexpr std::uint64_t kMaxImagePixels = std::uint64_t{1} << 28U;
 
 /// Numbers of at least this magnitude round to infinity in float32.
-inline constexpr double float32_bound = 0x1.ffffffp127;
+inline constexpr double kFloat32Bound = 0x1.ffffffp127;
 
 /// The first broken rule of a part of a scene.
 struct BrokenRule {
@@ -33,7 +33,7 @@ struct BrokenRule {
 /// aspect_ratio positive; 0 <= near < far with near finite.
 [[nodiscard]] std::optional<BrokenRule> validate(const Camera& camera);
 
-/// At least 1 pixel per side; at most max_image_side per side and max_image_pixels in all.
+/// At least 1 pixel per side; at most kMaxImageSide per side and kMaxImagePixels in all.
 [[nodiscard]] std::optional<BrokenRule> validate(ImageSize size);
 
 /// The shortest decimal number that reads back as x.

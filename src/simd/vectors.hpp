@@ -45,7 +45,7 @@ using Double = typename DoubleVector<N>::type;
 using Lanes = std::uint32_t;
 
 template <int N>
-constexpr Lanes all_lanes = (Lanes{1} << N) - 1;
+constexpr Lanes kAllLanes = (Lanes{1} << N) - 1;
 
 template <int N>
 inline Float<N> load(const float* p) {

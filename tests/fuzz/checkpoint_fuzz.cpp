@@ -1,5 +1,5 @@
-// libFuzzer's entry for checkpoints: files whose digest is right, whatever is before it, read,
-// merged and made into pictures.
+// libFuzzer entry point for checkpoints: files with a valid digest and arbitrary content are read,
+// merged and rendered.
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/digest.hpp>
@@ -22,7 +22,7 @@ void expect(bool promise, const char* words) {
   std::abort();
 }
 
-/// A file in memory.
+/// An in-memory file.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view bytes) : descriptor_(memfd_create("checkpoint", 0)) {
@@ -52,7 +52,7 @@ std::string with_digest(std::string_view content) {
 
 }  // namespace
 
-// The name and the types are libFuzzer's.
+// Name and types are defined by libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microtrace;
   const MemoryFile file(with_digest({reinterpret_cast<const char*>(data), size}));

@@ -1,5 +1,5 @@
-// libFuzzer's entry for glTF: JSON text, GLB files as they are, and a third form that mutates well:
-// JSON text, a zero byte, then the binary chunk, of which a GLB file with fitting lengths is made.
+// libFuzzer entry point for glTF: JSON text, GLB files, and a third form that mutates well: JSON
+// text, a zero byte, then the binary chunk, which is converted to a GLB file with valid lengths.
 
 #include "read_and_draw.hpp"
 
@@ -27,7 +27,7 @@ std::string glb(std::string_view json, std::string_view binary) {
 
 }  // namespace
 
-// The name and the types are libFuzzer's.
+// Name and types are defined by libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using microtrace::fuzz::read_and_draw;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

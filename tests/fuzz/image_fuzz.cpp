@@ -1,4 +1,4 @@
-// libFuzzer's entry for images: the decoders of PNG, JPEG, WebP and KTX2 behind the module's
+// libFuzzer entry point for images: the PNG, JPEG, WebP and KTX2 decoders behind the module's
 // interface.
 
 #include "io/image/decode_image.hpp"
@@ -21,12 +21,12 @@ void expect(bool promise, const char* words) {
 
 }  // namespace
 
-// The name and the types are libFuzzer's.
+// Name and types are defined by libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microtrace;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const io::ImageHeader header = io::read_image_header(bytes);
-  // What is larger takes memory by right, and time.
+  // Larger images legitimately take much memory and time.
   constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 20;
   if (std::uint64_t{header.width} * header.height > kMostPixels) return 0;
   const io::DecodedImage decoded = io::decode_image(bytes);

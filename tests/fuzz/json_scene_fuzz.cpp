@@ -1,10 +1,10 @@
-// libFuzzer's entry for microtrace's own JSON scenes.
+// libFuzzer entry point for JSON scenes.
 
 #include "read_and_draw.hpp"
 
 #include <cstdint>
 
-// The name and the types are libFuzzer's.
+// Name and types are defined by libFuzzer.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   microtrace::fuzz::read_and_draw({reinterpret_cast<const char*>(data), size}, "fuzz.json");
   return 0;

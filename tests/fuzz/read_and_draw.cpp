@@ -21,7 +21,7 @@ void expect(bool promise, const char* words) {
   std::abort();
 }
 
-// Stays empty: files that scenes name are not there.
+// Stays empty: files named by scenes don't exist.
 const std::filesystem::path& empty_folder() {
   static const std::filesystem::path folder = [] {
     std::string pattern =
@@ -35,7 +35,7 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::optional<LoadedScene> read(std::string_view bytes, const std::string& name) {
-  // Half of the files are posed, by a number that depends on nothing but the file.
+  // Half of the files are posed, selected by a hash of the file.
   LoadOptions options;
   if (bytes.size() % 2 == 1) options = {.time = 0.5, .animation = "all"};
   try {
@@ -69,7 +69,7 @@ std::optional<Film> draw(const Scene& scene, const RenderOptions& options) {
   }
 }
 
-/// With light, and where the file has no environment under the studio or by its own lights alone.
+/// Path traced; if the file has no environment, with the studio or with its own lights only.
 void draw_lit(Scene& scene, bool studio) {
   static RenderCache cache;  // the studio's tables
   const PathIntegrator path({.max_depth = 8});

@@ -1,5 +1,5 @@
 #pragma once
-/// What every fuzz target does with a scene file.
+/// Reading and rendering of scene files, shared by all fuzz targets.
 
 #include <cstddef>
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace microtrace::fuzz {
 
-/// Reads the bytes as the scene file `name` in an empty folder and draws pictures of a few
-/// pixels, flat and with light, of what is not too large. Only an Error may leave the reader, and
-/// only with a message; anything else ends the process, as do broken promises about what was read.
+/// Reads the bytes as the scene file `name` in an empty folder, and renders pictures of a few
+/// pixels, flat and path traced, unless the scene is too large. The reader may only throw Error,
+/// and only with a message. Other exceptions and broken invariants of the result abort the process.
 void read_and_draw(std::string_view bytes, const std::string& name);
 
 }  // namespace microtrace::fuzz

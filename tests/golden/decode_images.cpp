@@ -1,10 +1,10 @@
-/// Decodes images by the codecs module and writes size and samples to standard output, for
+/// Decodes images with the codec module and writes size and samples to standard output, for
 /// comparison between machines.
 ///
 /// usage: decode_images MODULE IMAGE [--plain]
 ///
-/// --plain keeps libwebp from using vector code; for libjpeg-turbo the environment variable
-/// JSIMD_FORCENONE=1 does that.
+/// --plain disables the vector code of libwebp; for libjpeg-turbo the environment variable
+/// JSIMD_FORCENONE=1 does the same.
 
 #include "io/image/codec_abi.hpp"
 
@@ -35,7 +35,8 @@ void complain(void*, const char* text) {
   std::fprintf(stderr, "%s\n", text);
 }
 
-/// False where the library hides the variable by which it asks for the processor's features.
+/// False if the library does not export the variable with which it queries the processor's
+/// features.
 bool turn_off_vectors_of_webp() {
   void* webp = dlopen("libwebp.so.7", RTLD_NOW | RTLD_NOLOAD);
   void* variable = webp != nullptr ? dlsym(webp, "VP8GetCPUInfo") : nullptr;

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// The message of the Error(io) that saving throws.
+/// The message of the Error(io) that save_image throws.
 std::string failure(const fs::path& path, const Film& film = gradient()) {
   try {
     save_image(film, path);
@@ -33,7 +33,7 @@ std::string failure(const fs::path& path, const Film& film = gradient()) {
   return "saved";
 }
 
-/// Lets files grow to `bytes` only, so that a write falls short in the middle.
+/// Limits files to `bytes`, so that a write fails in the middle.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {

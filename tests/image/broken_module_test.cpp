@@ -27,7 +27,7 @@ class BrokenModule : public testing::Test {
   }
   void TearDown() override { ::unsetenv("MICROTRACE_MODULE_PATH"); }
 
-  /// What save_image says of it.
+  /// The error message of save_image.
   std::string complaint(const std::string& bytes) {
     write_bytes(folder_ / io::codec_module_file_name, bytes);
     try {

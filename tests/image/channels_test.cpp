@@ -1,4 +1,4 @@
-// What files hold beside three colours, read back by OpenImageIO itself.
+// Channels of files other than three colors, read back by OpenImageIO itself.
 
 #include "folder.hpp"
 #include "io/image/eight_bits.hpp"
@@ -27,7 +27,7 @@ using OIIO::TypeDesc;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A file as it is: alpha is not multiplied into the colours, nor divided out.
+/// Opens a file without any conversion of alpha.
 std::unique_ptr<ImageInput> open(const fs::path& path) {
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
@@ -71,7 +71,7 @@ TEST(Alpha, IsDividedOutOfColoursOfEightBits) {
     EXPECT_EQ(in->spec().alpha_channel, 3) << ending;
     EXPECT_EQ(pixels<std::uint8_t>(*in, TypeDesc::UINT8), expected) << ending;
   }
-  // Its colours are not kept to the bit.
+  // WebP doesn't keep the exact colors.
   save_image(film, folder / "a.webp");
   const auto webp = open(folder / "a.webp");
   const auto read = pixels<std::uint8_t>(*webp, TypeDesc::UINT8);
@@ -86,7 +86,7 @@ TEST(Alpha, OfEightBitsByHand) {
   film.at(1, 0) = {0.3F, 0.3F, 0.3F};
   film.alpha_at(1, 0) = 1;
   film.at(2, 0) = {0, 0, 0};
-  film.at(3, 0) = {9, 9, 9};  // light without cover has no place in this rule
+  film.at(3, 0) = {9, 9, 9};  // light without coverage is not representable
   std::vector<std::uint8_t> row(16);
   io::encode_row(film, 0, row.data());
   EXPECT_THAT(row, ElementsAre(255, 188, 0, 128, 149, 149, 149, 255, 0, 0, 0, 0, 0, 0, 0, 0));
@@ -129,7 +129,7 @@ TEST(Alpha, FormatsWithoutItAreUsageErrors) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-/// Numbers that only float32, and only uint32, hold to the bit.
+/// Numbers that only float32, or only uint32, represents exactly.
 Film with_channels(Film::Alpha alpha, ImageSize size = {19, 131}) {
   Film film(size, alpha);
   const std::size_t count = std::size_t{size.width} * size.height;

@@ -20,7 +20,7 @@ using tests::PngPicture;
 using Bytes = std::vector<std::uint8_t>;
 using Shorts = std::vector<std::uint16_t>;
 
-/// 4 x 3: two rows and a half of one colour, the rest of another.
+/// 4 x 3: two and a half rows of one color, the rest of another.
 const std::string kJpeg = gltf::decode_base64(
                               "/9j/4AAQSkZJRgABAQAAAQABAAD/"
                               "2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZGNywt"
@@ -74,7 +74,7 @@ TEST(DecodeImage, PngOfSixteenBits) {
 }
 
 TEST(DecodeImage, PngWithPaletteAndTransparency) {
-  // Four pixels of two bits: colours 0, 1, 2, 1.
+  // Four pixels of two bits: colors 0, 1, 2, 1.
   PngPicture picture{.width = 4, .depth = 2, .color = PngColor::palette, .rows = {"\x19"}};
   picture.before_pixels = {{"PLTE", "abcdefghi"}};
   const Image rgb = decode(tests::png_file(picture));
@@ -100,7 +100,7 @@ TEST(DecodeImage, PngGammaAndProfilesChangeNothing) {
 TEST(DecodeImage, DamagedPngGivesTheReason) {
   const std::string file = tests::png_of(1, 1, {1, 2, 3, 4});
   std::string damaged = file;
-  damaged[49] ^= 1;  // in the pixels
+  damaged[49] ^= 1;  // in the pixel data
   EXPECT_FALSE(decode_image(damaged).image);
   EXPECT_THAT(decode_image(damaged).complaint, HasSubstr("IDAT"));
   for (std::size_t size = 0; size < file.size() - 12; ++size) {
@@ -145,7 +145,7 @@ TEST(DecodeImage, WebpLosslessAndLossy) {
   EXPECT_FALSE(decode_image(kLosslessWebp.substr(0, 50)).image);
 }
 
-// libwebp would take what follows for a picture without container, of any size.
+// libwebp would decode the following bytes as a picture without container, of arbitrary size.
 TEST(DecodeImage, WebpWithoutAPictureIsRefusedBeforeMemoryIsTaken) {
   const auto made = [](std::string_view kind) {
     std::string file = kLosslessWebp;

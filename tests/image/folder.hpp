@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of pictures share: a folder of their own, files as bytes, a picture to save.
+/// Shared by image tests: a temporary folder, files as bytes, a picture to save.
 
 #include <microtrace/film.hpp>
 
@@ -13,7 +13,7 @@
 
 namespace microtrace {
 
-/// A new folder, removed with all it holds at the end.
+/// A new folder, removed with its content by the destructor.
 class Folder {
  public:
   Folder() {
@@ -49,7 +49,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A picture whose pixels differ, with values below 0, above 1 and between.
+/// A picture with different pixels, with values below 0, above 1 and between.
 inline Film gradient(ImageSize size = {19, 7}) {
   Film film(size);
   for (std::uint32_t y = 0; y < size.height; ++y) {

@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Encoded from pictures of our own by basisu 1.16.4; uastc_modes_56x56 holds random bits in each
-/// of the 19 modes and each pattern of subsets.
+/// Encoded from our own pictures by basisu 1.16.4; uastc_modes_56x56 has random bits in each of the
+/// 19 modes and each partition pattern.
 std::string file(const std::string& name) {
   const auto path = tests::source_folder() / "tests/image/ktx2" / (name + ".ktx2");
   std::ifstream in(path, std::ios::binary);
@@ -50,7 +50,7 @@ std::size_t u32_at(const std::string& bytes, std::size_t at) {
 constexpr std::size_t kVkFormat = 12, kWidth = 20, kHeight = 24, kDepth = 28, kLayers = 32,
                       kFaces = 36, kScheme = 44, kDfdOffset = 48, kMetadataOffset = 56,
                       kGlobalOffset = 64, kLevelOffset = 80, kLevelLength = 88, kLevelSize = 96;
-// And in the data format descriptor.
+// Offsets in the data format descriptor.
 constexpr std::size_t kModel = 12, kTransfer = 14, kFlags = 15, kChannel = 31;
 
 /// FNV-1a.
@@ -60,7 +60,7 @@ std::uint64_t hash(const std::vector<std::uint8_t>& bytes) {
   return result;
 }
 
-// The hashes are those of the samples that Basis Universal's transcoder gives as RGBA32.
+// The hashes are those of the RGBA32 samples of Basis Universal's transcoder.
 TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
   struct Case {
     const char* name;
@@ -87,7 +87,7 @@ TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
   }
 }
 
-// The picture was a gradient: red x * 7, green y * 5, blue 128 + x - y.
+// The picture is a gradient: red x * 7, green y * 5, blue 128 + x - y.
 TEST(DecodeKtx2, BeginsAtTheUpperLeft) {
   const Image image = decode_image(file("uastc_linear_4x4")).image.value();
   const auto& samples = std::get<std::vector<std::uint8_t>>(image.samples);
@@ -155,7 +155,7 @@ TEST(DecodeKtx2, MetadataMayNotTurnOrSwizzle) {
 }
 
 TEST(DecodeKtx2, SizesAreCheckedBeforeMemoryIsTaken) {
-  // 2^24 x 2^24 texels, whose blocks have too many bytes for any file.
+  // 2^24 x 2^24 texels, whose blocks exceed any file size.
   const DecodedImage etc1s = decode_with(
       file("etc1s_3x5"), {{kWidth, 0}, {kWidth + 3, 1}, {kHeight, 0}, {kHeight + 3, 1}});
   EXPECT_TRUE(etc1s.too_large);
@@ -179,7 +179,7 @@ TEST(DecodeKtx2, DamagedDataGivesTheReason) {
               HasSubstr("reserved pattern"));
 }
 
-// What is damaged is decoded to something, or there is a reason.
+// Damaged files either decode to some image or fail with a reason.
 TEST(DecodeKtx2, NoByteCanBreakTheDecoder) {
   for (const char* name : {"etc1s_3x5", "etc1s_alpha_mips_17x31", "etc1s_runs_100x36"}) {
     const std::string whole = file(name);

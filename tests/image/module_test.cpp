@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Runs a program of openimageio-tools, quietly. Its exit status.
+/// Runs a program of openimageio-tools without output; returns its exit status.
 int run(const std::string& command) {
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -50,7 +50,7 @@ TEST(Module, ExrHoldsTheFloatsThemselves) {
       output_of("oiiotool --info -v " + exr, folder / "info"),
       testing::AllOf(HasSubstr("3 channel, float openexr"), HasSubstr("R, G, B"),
                      testing::Not(HasSubstr("DateTime")), testing::Not(HasSubstr("Software"))));
-  // An uncompressed TIFF of floats holds them one after another.
+  // An uncompressed float TIFF stores its samples contiguously.
   ASSERT_EQ(
       run("oiiotool " + exr + " -d float --compression none -o " + (folder / "a.tif").string()), 0);
   std::string floats;
@@ -65,7 +65,7 @@ TEST(Module, TwoRunsGiveTheSameBytes) {
   const Folder folder;
   const auto names = {"png", "exr", "tif", "jpg", "webp", "hdr"};
   for (const char* ending : names) save_image(gradient(), folder / (std::string("a.") + ending));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a note of the time would differ
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a stored time would differ
   for (const char* ending : names) {
     save_image(gradient(), folder / (std::string("b.") + ending));
     EXPECT_EQ(read_bytes(folder / (std::string("a.") + ending)),
@@ -95,7 +95,7 @@ TEST(Module, FailedWritesLeaveNothing) {
   EXPECT_THROW(save_image(gradient(), folder / "file/a.exr"), Error);
   fs::create_symlink("/dev/full", folder / "full.png");
   EXPECT_THROW(save_image(gradient(), folder / "full.png"), Error);
-  // WebP holds at most 16383 pixels a side.
+  // WebP allows at most 16383 pixels per side.
   EXPECT_THROW(save_image(Film({16384, 1}), folder / "wide.webp"), Error);
   EXPECT_EQ(folder.entries(), 2U);
 }

@@ -56,7 +56,7 @@ TEST(Ppm, AsciiLinesHoldAtMost70Characters) {
 
 TEST(Ppm, SavedFileHoldsTheEncodedBytes) {
   const Folder folder;
-  const Film film = gradient({300, 200});  // more than one block of writing
+  const Film film = gradient({300, 200});  // more than one write block
   for (const PpmEncoding encoding : {PpmEncoding::binary, PpmEncoding::ascii}) {
     save_image(film, folder / "a.PPM", encoding);
     EXPECT_EQ(read_bytes(folder / "a.PPM"), encode_ppm(film, encoding));

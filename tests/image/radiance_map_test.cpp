@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Twice as wide as high, each pixel another colour with exactly representable halves.
+/// Twice as wide as high, with different colors exactly representable in half floats.
 Film panorama() {
   Film film({.width = 8, .height = 4});
   for (std::uint32_t y = 0; y < 4; ++y) {
@@ -28,7 +28,7 @@ Film panorama() {
   return film;
 }
 
-/// Runs oiiotool, quietly.
+/// Runs oiiotool without output.
 void convert(const std::string& arguments) {
   ASSERT_EQ(std::system(("oiiotool " + arguments + " >/dev/null 2>&1").c_str()), 0) << arguments;
 }

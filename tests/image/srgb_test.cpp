@@ -9,8 +9,8 @@
 namespace microtrace::io {
 namespace {
 
-/// 255 times the transfer function of IEC 61966-2-1, the other way round than the encoder's table,
-/// in a 64-bit significand.
+/// 255 times the transfer function of IEC 61966-2-1, in the direction opposite to the encoder's
+/// table, with a 64-bit significand.
 long double transfer(float v) {
   const auto x = static_cast<long double>(v);
   const long double encoded =
@@ -20,10 +20,10 @@ long double transfer(float v) {
 
 TEST(Srgb, EachThresholdIsTheLeastFloatThatRoundsUp) {
   for (std::size_t k = 0; k < 255; ++k) {
-    const float threshold = srgb_thresholds[k];
+    const float threshold = kSrgbThresholds[k];
     const float below = std::nextafter(threshold, 0.0F);
     const long double half = static_cast<long double>(k) + 0.5L;
-    // The margin shows that long double decides every case: its error here is below 1e-16.
+    // The margin proves that long double decides every case: its error here is below 1e-16.
     EXPECT_GT(transfer(threshold) - half, 1e-13L) << k;
     EXPECT_GT(half - transfer(below), 1e-13L) << k;
     EXPECT_EQ(encode_srgb(threshold), k + 1);

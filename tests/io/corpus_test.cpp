@@ -1,4 +1,4 @@
-// Every file of bad/ is refused with exactly the message beside it, every file of good/ is read.
+// Every file in bad/ is refused with exactly the message beside it, every file in good/ is read.
 
 #include "io/file.hpp"
 #include "support/source_folder.hpp"
@@ -24,7 +24,7 @@ std::set<std::filesystem::path> files(const char* name, const char* ending) {
   return out;
 }
 
-/// What the loader says of a file, its folder left out.
+/// The loader's error message, without the folder.
 std::string complaint(const std::filesystem::path& path) {
   try {
     (void)load_scene(path);

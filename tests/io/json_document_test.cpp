@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using Kind = JsonValue::Kind;
 
-/// The text of every token that the tree points at, found by the offsets alone.
+/// Collects the text of every token in the tree, found only by the offsets.
 void collect(std::string_view text, const JsonValue& value, std::string& out) {
   out.append(text.substr(value.offset, 5)).append("|");
   for (const JsonValue& item : value.items) collect(text, item, out);

@@ -57,7 +57,7 @@ TEST(JsonScene, ReadsCameras) {
   EXPECT_EQ(perspective.vertical_fov, std::numbers::pi / 2);
   EXPECT_EQ(perspective.focus, 2.5);
   const auto& orthographic = std::get<OrthographicCamera>(scene.cameras[1].camera);
-  EXPECT_EQ(orthographic.pose.position.x, 0.1);  // cameras stay in float64
+  EXPECT_EQ(orthographic.pose.position.x, 0.1);  // cameras are stored in float64
   EXPECT_EQ(orthographic.height, 7);
   EXPECT_EQ(std::get<EnvironmentCamera>(scene.cameras[2].camera).pose.position, DVec3(1, 2, 3));
   EXPECT_EQ(scene.cameras[2].name, "cameras/2");

@@ -70,7 +70,7 @@ TEST_F(LoadScene, FollowsAnEndingInCapitals) {
 }
 
 TEST_F(LoadScene, RefusesGarbageFromItsFirstBytes) {
-  // A hole of 900 MB: reading on would take memory and time that the test's limits show.
+  // A sparse file of 900 MB: reading it whole would exceed the test's limits of memory and time.
   for (const char* name : {"g.json", "g.gltf", "g.dat"}) {
     const std::filesystem::path path = write(name,
                                              "\x7F"

@@ -1,4 +1,4 @@
-// Prints `accept PATH` or `reject PATH` for each scene file that is named.
+// Prints `accept PATH` or `reject PATH` for each scene file on the command line.
 
 #include <microtrace/io.hpp>
 

@@ -23,8 +23,8 @@ Corners<Kernel> corners(const Triangle& t) {
   return {point<Kernel>(t.a), point<Kernel>(t.b), point<Kernel>(t.c)};
 }
 
-/// The hull of three corners as the CGAL object of its dimension: a collinear Triangle_3 would
-/// break preconditions.
+/// The convex hull of three vertices as the CGAL object of its dimension: a collinear Triangle_3
+/// would break preconditions.
 template <class Kernel>
 using Hull =
     std::variant<typename Kernel::Triangle_3, typename Kernel::Segment_3, typename Kernel::Point_3>;
@@ -37,8 +37,8 @@ Hull<Kernel> hull(const Corners<Kernel>& c) {
   return typename Kernel::Segment_3(*least, *greatest);
 }
 
-/// The part of the ray within its interval. The kernel's numbers are exact, so o + t d does not
-/// round.
+/// The part of the ray within its interval. The kernel's numbers are exact, so o + t d is not
+/// rounded.
 using Reach = std::variant<Ring::Ray_3, Ring::Segment_3, Ring::Point_3>;
 
 bool is_zero(const Vec3& v) {
@@ -70,7 +70,7 @@ struct Meet {
   bool operator()(const Ring::Point_3& p, const Ring::Point_3& q) const { return p == q; }
 };
 
-/// The least parameter on the line of a point or segment; line o + t d.
+/// The least parameter of a point or segment on the line o + t d.
 class LeastParameter {
  public:
   explicit LeastParameter(const Ray& ray) : o_(point<Field>(ray.o)), d_(vector<Field>(ray.d)) {}
@@ -101,7 +101,7 @@ bool hits(const Plane& plane, const Ray& ray) {
 }
 
 Rational first_parameter(const Triangle& triangle, const Ray& ray) {
-  // With the line, not the ray: CGAL 5.5 gives a wrong segment for a coplanar ray that points away
+  // Uses the line, not the ray: CGAL 5.5 gives a wrong segment for a coplanar ray that points away
   // from the triangle.
   const LeastParameter least(ray);
   const auto of_set = [&](const auto& set) -> Rational {

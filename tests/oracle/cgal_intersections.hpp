@@ -1,5 +1,5 @@
 #pragma once
-/// Intersections of triangles and planes decided by CGAL with exact number types: the judge of
+/// Intersections of triangles and planes decided by CGAL with exact number types: the reference for
 /// src/exact/.
 
 #include "oracle/exact_numbers.hpp"
@@ -14,7 +14,7 @@ namespace microtrace::oracle {
 [[nodiscard]] bool hits(const Triangle& triangle, const Ray& ray);
 [[nodiscard]] bool hits(const Plane& plane, const Ray& ray);
 
-/// The parameter of the first hit, over Gmpq; for a ray that hits.
+/// The parameter of the first hit, over Gmpq; the ray must hit.
 [[nodiscard]] Rational first_parameter(const Triangle& triangle, const Ray& ray);
 
 }  // namespace microtrace::oracle

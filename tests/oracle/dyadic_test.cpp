@@ -14,7 +14,7 @@ using adversarial::Random;
 using exact::Dyadic;
 using exact::Root;
 
-/// A number and the same one as CGAL sees it.
+/// A Dyadic and the equal CGAL number.
 struct Twin {
   Dyadic dyadic;
   Rational rational;
@@ -24,7 +24,7 @@ Twin twin(float x) {
   return {x, Rational(double{x})};
 }
 
-/// The value of a random expression of the given degree in float32s.
+/// The value of a random expression of the given degree in float32 numbers.
 Twin expression(Random& random, int degree, int lo, int hi) {
   if (degree == 1) return twin(random.any_float(lo, hi));
   const int left = random.between(1, degree - 1);
@@ -72,14 +72,14 @@ Dyadic integer(Random& random, int lo, int hi) {
   return static_cast<float>(random.between(lo, hi));
 }
 
-/// A root of small integers, so that equal ones of different form are frequent: sqrt(8) / 2 =
+/// A root of small integers, so that equal numbers of different form are frequent: sqrt(8) / 2 =
 /// sqrt(2).
 Root small_root(Random& random) {
   return {integer(random, -8, 8), integer(random, 0, 50), integer(random, 1, 6),
           random.between(-1, 1)};
 }
 
-/// A root with the degrees and magnitudes that a quadric's has.
+/// A root with the degrees and magnitudes of a quadric's root.
 Root large_root(Random& random, int lo, int hi) {
   const Dyadic p = expression(random, 3, lo, hi).dyadic;
   Dyadic q = expression(random, 6, lo, hi).dyadic;
@@ -120,7 +120,7 @@ TEST(RootOracle, OrderOfLargeRootsAndOfNearlyEqualOnes) {
     const int lo = full_range ? -149 : -9, hi = full_range ? 127 : 9;
     const Root x = large_root(random, lo, hi), y = large_root(random, lo, hi);
     check(x, y);
-    // The same number in another form, then one that differs from it far behind the point.
+    // The same number in another form, then one that differs from it in a very low bit.
     const Dyadic k = 3.0f;
     Root z{x.p * k, x.q * k * k, x.r * k, x.sign};
     check(x, z);
@@ -138,7 +138,7 @@ TEST(RootOracle, RoundingOfNumbersAtTheMiddleOfFloats) {
     const Dyadic nudge = static_cast<float>(random.between(-1, 1)) * Dyadic(0x1p-140f) * Dyadic(f);
     const Root rational{middle * r + nudge, {}, r, 0};
     check(rational, exact::rational(f));
-    // The same middle as a root: (0 + sqrt(middle^2)) / 1.
+    // The same midpoint as a root: (0 + sqrt(middle^2)) / 1.
     const Root irrational{{}, square(middle * r + nudge), r, middle.sign()};
     check(irrational, rational);
   }

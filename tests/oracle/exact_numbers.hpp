@@ -1,5 +1,5 @@
 #pragma once
-/// The bridge from float32s and Dyadics to CGAL's number types. Included by the oracle alone.
+/// Conversion of float32 and Dyadic to CGAL's number types. Only included by the oracle.
 
 #include "exact/numbers/dyadic.hpp"
 

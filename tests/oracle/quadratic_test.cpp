@@ -1,5 +1,5 @@
-/// first_hit of planes, discs, spheres and quadrics against real roots by CGAL, and the order of
-/// hits of different shapes.
+/// Compares first_hit of planes, discs, spheres and quadrics with CGAL's real roots, and the order
+/// of hits of different shapes.
 
 #include "exact/intersect.hpp"
 #include "oracle/real_roots.hpp"
@@ -19,7 +19,7 @@ namespace {
 using adversarial::ShapeKind;
 using exact::first_hit;
 
-/// A hit's parameter, as found and as the oracle says.
+/// A hit's parameter, as computed and according to the oracle.
 struct Parameter {
   exact::Root found;
   Real expected;
@@ -29,8 +29,8 @@ int sign(std::strong_ordering order) {
   return order < 0 ? -1 : order > 0;
 }
 
-/// Compares everything said about a ray and a shape with the oracle.
-class Judge {
+/// Compares all results for a ray and a shape with the oracle.
+class OracleComparison {
  public:
   template <class Shape>
   ::testing::AssertionResult agrees(const Shape& shape, const Ray& ray) {
@@ -59,7 +59,7 @@ class Judge {
   [[nodiscard]] int hit_count() const { return hit_count_; }
 
  private:
-  /// Compares a hit's t with those of the last few hits, whatever their shapes.
+  /// Compares a hit's t with those of the last few hits, of any shape.
   ::testing::AssertionResult orders(const Parameter& t) {
     for (const Parameter& other : recent_) {
       if (sign(t.found <=> other.found) != CGAL::compare(t.expected, other.expected)) {
@@ -80,15 +80,15 @@ class ShapeKinds : public ::testing::TestWithParam<ShapeKind> {
  protected:
   template <class Shape>
   void check(const adversarial::Case<Shape>& c) {
-    ASSERT_TRUE(judge_.agrees(c.shape, c.ray)) << adversarial::reproduction(c.ray, c.shape);
+    ASSERT_TRUE(comparison_.agrees(c.shape, c.ray)) << adversarial::reproduction(c.ray, c.shape);
     const auto hit = first_hit(c.shape, c.ray);
     if (!hit) return;
     const Ray near = adversarial::with_range_near(random_, c.ray, round_to_float(*hit));
-    ASSERT_TRUE(judge_.agrees(c.shape, near)) << adversarial::reproduction(near, c.shape);
+    ASSERT_TRUE(comparison_.agrees(c.shape, near)) << adversarial::reproduction(near, c.shape);
   }
 
   adversarial::Random random_ = announced_random(200 + static_cast<std::uint64_t>(GetParam()));
-  Judge judge_;
+  OracleComparison comparison_;
 };
 
 TEST_P(ShapeKinds, AgreesOnHitParameterAndOrder) {
@@ -99,8 +99,8 @@ TEST_P(ShapeKinds, AgreesOnHitParameterAndOrder) {
     check(adversarial::sphere_case(random_, GetParam()));
     check(adversarial::quadric_case(random_, GetParam()));
   }
-  EXPECT_GT(judge_.hit_count(), count / 10) << "too few hits to mean anything";
-  announce(judge_.ray_count(), judge_.hit_count());
+  EXPECT_GT(comparison_.hit_count(), count / 10) << "too few hits to mean anything";
+  announce(comparison_.ray_count(), comparison_.hit_count());
 }
 
 INSTANTIATE_TEST_SUITE_P(ShapeOracle, ShapeKinds, ::testing::ValuesIn(adversarial::shape_kinds),

@@ -35,7 +35,7 @@ struct Zeros {
   std::vector<Real> roots;  ///< ascending
 };
 
-/// The zeros of f(o + t d), whose coefficients three values determine.
+/// The zeros of f(o + t d), a polynomial determined by three values.
 template <class Function>
 Zeros zeros(const Ray& ray, Function f) {
   const Rational before = f(at(ray, -1)), c = f(at(ray, 0)), after = f(at(ray, 1));
@@ -113,7 +113,7 @@ std::optional<Real> first_parameter(const Quadric& q, const Ray& ray) {
 Real to_real(const exact::Root& t) {
   const Rational r = to_rational(t.r);
   const Rational rational_part = to_rational(t.p) / r;
-  // CGAL wants the number below the root to be positive.
+  // CGAL requires a positive number below the root.
   if (t.sign == 0 || t.q.sign() == 0) return Real(rational_part);
   return Real(rational_part, t.sign / r, to_rational(t.q));
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// First hits on planes, discs, spheres and quadrics by CGAL's rationals and their square-root
-/// extensions. Apart from src/exact/ on purpose: polynomials come from values of the shape's
+/// extensions. Deliberately independent of src/exact/: polynomials come from values of the shape's
 /// equation, roots from CGAL::make_root_of_2.
 
 #include "exact/numbers/root.hpp"

@@ -1,5 +1,5 @@
-/// first_hit(Triangle) and first_hit(Plane) against CGAL: every hit or miss, the parameter and its
-/// order on a share of the hits.
+/// Compares first_hit(Triangle) and first_hit(Plane) with CGAL: every hit or miss, and for some
+/// hits the parameter and its order.
 
 #include "exact/grid.hpp"
 #include "exact/intersect.hpp"
@@ -22,7 +22,7 @@ using adversarial::TriangleKind;
 using exact::first_hit;
 using exact::round_to_float;
 
-/// A hit's parameter, as found and as the oracle says.
+/// A hit's parameter, as computed and according to the oracle.
 struct Parameter {
   exact::Root found;
   Rational expected;
@@ -51,7 +51,7 @@ int sign(std::strong_ordering order) {
   return order < 0 ? -1 : order > 0;
 }
 
-/// Whether integers of fixed width, where they hold the numbers, say what the oracle says.
+/// Whether fixed-width integers, if they can represent the numbers, agree with the oracle.
 template <int Limbs>
 ::testing::AssertionResult is_right(const exact::GridHit<Limbs>& hit, bool is_hit) {
   using exact::Found;

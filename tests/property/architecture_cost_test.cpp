@@ -1,5 +1,5 @@
-// Walls along the axes that touch and share planes are decided as soon as any: counted by the
-// questions that reach exact arithmetic in pictures with light.
+// Axis-aligned walls that touch and share planes are as fast as others: counts the queries that
+// reach exact arithmetic in path-traced pictures.
 
 #include "support/architecture.hpp"
 
@@ -44,7 +44,7 @@ TEST_P(ArchitectureCost, FewQuestionsNeedExactArithmetic) {
       ASSERT_GT(questions, 10'000U);
       EXPECT_GT(stages.origins, 0U);
       EXPECT_LE(stages.dyadic * 10'000, questions);
-      // Along an axis rays go through edges: pixels' centres lie on them.
+      // Rays along an axis hit edges exactly, because pixel centers lie on edges.
       const std::uint64_t most = view == 0 ? 1'000 : 30;
       EXPECT_LE(stages.grid * most, questions);
       EXPECT_LE(stages.searched_origins * most, stages.origins);

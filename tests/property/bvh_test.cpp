@@ -1,5 +1,5 @@
-// The bvh equals the definition: the least (t, PrimitiveId) over all primitives, each
-// decided exactly.
+// The Bvh returns the hit defined as the least (t, PrimitiveId) over all primitives, each decided
+// exactly.
 
 #include "exact/intersect.hpp"
 #include "support/adversarial_rays.hpp"
@@ -35,7 +35,7 @@ void add(Scene& scene, Shape shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-// Small integers make coincidences: shared edges, equal t, tangents, rays within planes.
+// Small integers cause coincidences: shared edges, equal t, tangents, rays within planes.
 Vec3 grid_point(Random& random) {
   return random.on_grid(3);
 }
@@ -63,7 +63,7 @@ Scene coincident_scene(Random& random) {
                        .j = c.x * c.x + c.y * c.y + c.z * c.z - sphere.radius * sphere.radius});
   }
   add(scene, mesh);
-  add(scene, mesh);  // every hit of it is a tie
+  add(scene, mesh);  // every hit is a tie
   add(scene, Triangle{Vec3(NAN, 0, 0), Vec3(1), Vec3(2)});
   add(scene, Sphere{Vec3(0), -1});
   add(scene, Sphere{Vec3(0x1p70F, 0, 0), 0x1p70F});
@@ -117,7 +117,7 @@ TEST(Bvh, ManyRaysAtOnceGetTheAnswersOfEach) {
   }
 }
 
-// A tree without a block of triangles.
+// A tree without triangle blocks.
 TEST(Bvh, SpheresAloneAreHitByATile) {
   Scene scene;
   for (int i = 0; i < 100; ++i) add(scene, Sphere{Vec3(i % 10, i / 10, -5), 0.5F});

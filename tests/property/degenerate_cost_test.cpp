@@ -1,5 +1,5 @@
-// Triangles without area and copies of triangles cost next to nothing: counted by the questions
-// that reach exact arithmetic. ctest runs this for every instruction set that the machine has.
+// Triangles without area and duplicate triangles take almost no time: counts the queries that reach
+// exact arithmetic. ctest runs this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
 #include "support/adversarial_rays.hpp"
@@ -38,7 +38,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-// Tiles of 64 from common origins and as many unrelated rays, at and from anywhere in a cube.
+// Packets of 64 rays with common origins, and as many incoherent rays, within a cube.
 std::vector<Ray> rays_in_cube(float half_width) {
   Random random(31);
   std::vector<Ray> rays;
@@ -51,7 +51,7 @@ std::vector<Ray> rays_in_cube(float half_width) {
   return rays;
 }
 
-// Questions that float64 did not answer.
+// Queries that float64 did not decide.
 std::uint64_t exact(const StageCounts& counts) {
   return counts.grid + counts.dyadic;
 }
@@ -61,7 +61,7 @@ struct Asked {
   std::size_t hits = 0;
 };
 
-// In every way, a ray's origins too.
+// Uses every function, including ray origins.
 Asked ask(const Scene& scene, const std::vector<Ray>& rays) {
   const Bvh bvh(scene);
   const StageCounts before = stage_counts();
@@ -91,7 +91,7 @@ void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-// Each with its corners in another order.
+// Each copy has its vertices in another order.
 Mesh copies_of(const Mesh& once, int count) {
   Mesh copies = once;
   for (int copy = 1; copy < count; ++copy) {
@@ -132,7 +132,8 @@ TEST_P(DegenerateCost, OfCopiesOfAFewTrianglesIsThatOfOne) {
   }
 }
 
-// The next hit is that of the copy, at the same t; rays leave it from where they leave the first.
+// The next hit is that of the copy, at the same t; rays that leave the copy have the origins of
+// rays that leave the first.
 TEST_P(DegenerateCost, OfHitsOfACopyIsThatOfTheFirst) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
@@ -171,7 +172,8 @@ TEST_P(DegenerateCost, OfHitsOfACopyIsThatOfTheFirst) {
   }
 }
 
-// Alone, fewer and more than a tree is made of, and among others, on their corners and beside them.
+// Single points, fewer and more than a tree needs, among other triangles, on their vertices and
+// beside them.
 TEST_P(DegenerateCost, OfPointsIsNone) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
@@ -194,7 +196,7 @@ TEST_P(DegenerateCost, OfPointsIsNone) {
   }
 }
 
-// Short and long, with two corners at one end or one within.
+// Short and long segments, with two vertices at one end or one in the interior.
 TEST_P(DegenerateCost, OfSegmentsIsNone) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
@@ -220,8 +222,8 @@ TEST_P(DegenerateCost, OfSegmentsIsNone) {
   }
 }
 
-// Rays in the plane of segments and triangles, and origins on a segment's line: what they pass by
-// is missed for certain.
+// Rays in the plane of segments and triangles, and origins on a segment's line: the filters must be
+// certain that these miss.
 TEST_P(DegenerateCost, OfRaysInThePlaneIsSmall) {
   Random random(34);
   for (const std::size_t count : {4U, 40U}) {
@@ -237,7 +239,7 @@ TEST_P(DegenerateCost, OfRaysInThePlaneIsSmall) {
     std::vector<Ray> rays;
     for (int i = 0; i < 512; ++i) rays.push_back({.o = in_plane(2), .d = in_plane(2)});
     const Asked asked = ask(scene_of(mesh), rays);
-    // Those that do meet an edge in the plane are decided exactly, in each way of asking.
+    // Rays that do hit an edge in the plane are decided exactly, by every function.
     EXPECT_LT(exact(asked.counts), 32 * asked.hits + 64) << count;
     EXPECT_LT(asked.hits, rays.size() / 2);
   }

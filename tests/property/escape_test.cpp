@@ -1,6 +1,6 @@
-// No path leaves a closed mesh but through a surface on purpose: meshes of few triangles, from tiny
-// to huge, far away and few ulps thick, alone and with other shapes in them, whatever the way of
-// asking.
+// No path leaves a closed mesh except through a surface on purpose: meshes with few triangles, from
+// tiny to huge, far away and a few ulps thick, alone and with other shapes inside, with every
+// function.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -53,7 +53,7 @@ bool is_closed(const Mesh& mesh) {
   return std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
-/// One body, and what is in its way.
+/// A closed body, and obstacles in it.
 class World {
  public:
   World(Random& random, BodyKind kind) : random_(random) {
@@ -69,7 +69,7 @@ class World {
     for (PrimitiveId id = 0; id < triangles_; ++id)
       has_area_.push_back(exact::TrianglePlane(triangle_of(mesh(), id)).has_area());
     if (random.one_in(3)) add_others();
-    // So many triangles are no leaf.
+    // Too many triangles for a single leaf.
     if (random.one_in(3)) {
       const Vec3 away = center_ + Vec3(64 * size_, 0, 0);
       scene_.objects.push_back(
@@ -85,7 +85,7 @@ class World {
   [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene_.objects[0].shape); }
   [[nodiscard]] float size() const { return size_; }
 
-  /// Whether q is within the mesh.
+  /// Whether q is inside the mesh.
   [[nodiscard]] bool is_inside(const Vec3& q) const {
     int inside = 0;
     for (int i = 0; i < 5; ++i) {
@@ -95,8 +95,8 @@ class World {
     return inside > 0;
   }
 
-  /// Whether a ray is within the mesh just behind a hit; nothing where hits behind it, at one t,
-  /// may be of an edge or a corner.
+  /// Whether a ray is inside the mesh just behind a hit; nothing if further hits at the same t may
+  /// be on an edge or a vertex.
   [[nodiscard]] std::optional<bool> is_inside_behind(const Ray& ray, const Hit& hit) const {
     bool odd = false;
     float t = hit.t;
@@ -108,7 +108,7 @@ class World {
     return odd;
   }
 
-  /// A point within and on no surface, if there is one between random points of the mesh.
+  /// A point inside and on no surface, if there is one between random points of the mesh.
   [[nodiscard]] std::optional<Vec3> start() const {
     for (int i = 0; i < 8; ++i) {
       const float s = random_.one_in(2) ? 0.5F : static_cast<float>(random_.unit());
@@ -118,7 +118,7 @@ class World {
     return std::nullopt;
   }
 
-  /// A corner or a point of an edge or of a face.
+  /// A vertex, or a point of an edge or of a face.
   [[nodiscard]] Vec3 point_of_mesh() const {
     const Triangle t = triangle_of(mesh(), random_.bits() % triangles_);
     if (random_.one_in(3)) return t.a;
@@ -126,7 +126,7 @@ class World {
     return random_.one_in(2) ? ab : ab + (t.c - ab) * static_cast<float>(random_.unit());
   }
 
-  /// On which side of each surface without edges q lies.
+  /// The side of q for each surface without edges.
   [[nodiscard]] std::vector<int> sides(const Vec3& q) const {
     std::vector<int> result;
     for (const Object& object : scene_.objects) {
@@ -156,7 +156,7 @@ class World {
           shape = Disc{.center = at, .normal = normal, .radius = r};
           break;
         case 2: {
-          // An ellipsoid about `at` as nearly as its coefficients allow.
+          // An ellipsoid around `at`, as precisely as its coefficients allow.
           const Vec3 linear = Vec3(-2, -4, -2) * at, squares = Vec3(1, 2, 1) * at * at;
           shape = Quadric{.a = 1,
                           .b = 2,
@@ -178,7 +178,7 @@ class World {
     return bvh_->occluded({.o = q, .t_min = 0, .d = {0, 0, 1}, .t_max = 0});
   }
 
-  // Whether a ray crosses the mesh an odd number of times. Triangles without area have no sides.
+  // Whether a ray crosses the mesh an odd number of times. Triangles without area don't count.
   [[nodiscard]] bool is_odd(const Ray& ray) const {
     bool odd = false;
     for (auto hit = bvh_->intersect(ray); hit; hit = bvh_->next(ray, *hit))
@@ -199,7 +199,7 @@ struct Path {
   Ray ray;
   bool inside = true;
   std::vector<int> sides;
-  bool reflects = true;  ///< only
+  bool reflects = true;  ///< reflections only
 };
 
 class Escape : public testing::TestWithParam<BodyKind> {
@@ -211,7 +211,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     while (paths_.size() < 32) {
       const auto o = world.start();
       if (!o) return;
-      // Some begin together, as tiles do.
+      // Some have a common origin, as in packets.
       const int together = random_.one_in(2) ? 1 : 16;
       for (int i = 0; i < together; ++i)
         paths_.push_back(
@@ -236,7 +236,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     } else if (random_.one_in(2)) {
       bvh.intersect(rays, hits);
     } else {
-      // Each as one of a tile.
+      // Each ray as one of a packet.
       for (std::size_t i = 0; i < rays.size(); ++i) {
         std::array<Ray, 8> tile;
         for (Ray& ray : tile) ray = {.o = rays[i].o, .t_min = 0, .d = random_.jitter(rays[i].d, 9)};
@@ -260,7 +260,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     }
   }
 
-  // Together; now and then one by one too, which must be the same.
+  // In a batch; now and then also one by one, with the same results.
   std::vector<std::optional<Vec3>> ask_origins(const Bvh& bvh,
                                                const std::vector<Bvh::Spawn>& spawns) {
     std::vector<std::optional<Vec3>> origins(spawns.size());

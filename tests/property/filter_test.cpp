@@ -1,5 +1,5 @@
-// Every verdict of a filter that claims to be certain must equal the exact answer, and every
-// enclosure must hold it.
+// Every certain filter result must equal the exact answer, and every interval must contain the
+// exact t.
 
 #include "accel/filters/shape_filter.hpp"
 #include "exact/intersect.hpp"
@@ -31,26 +31,26 @@ void check(const Ray& ray, const S& shape, Count& count) {
   if (!exact::is_valid(ray) || !is_filterable(ray.o) || !is_filterable(ray.d) ||
       !is_filterable(shape))
     return;
-  const Verdict verdict =
+  const FilterResult filtered =
       seen_from(ray.o, shape)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
   const auto root = exact::first_hit(shape, ray);
   ++count.asked;
-  if (verdict.certainty != Certainty::unsure) {
+  if (filtered.certainty != Certainty::unsure) {
     ++count.certain;
-    ASSERT_EQ(verdict.certainty == Certainty::hit, root.has_value()) << reproduction(ray, shape);
+    ASSERT_EQ(filtered.certainty == Certainty::hit, root.has_value()) << reproduction(ray, shape);
   }
   if (!root) return;
-  if (std::isfinite(verdict.lo)) {
-    ASSERT_LE(number(verdict.lo), *root) << reproduction(ray, shape);
+  if (std::isfinite(filtered.lo)) {
+    ASSERT_LE(number(filtered.lo), *root) << reproduction(ray, shape);
   }
-  if (verdict.certainty == Certainty::hit) {
-    ASSERT_GE(number(verdict.hi), *root) << reproduction(ray, shape);
-    // Narrow enough to round t at once, nearly always.
-    ASSERT_TRUE(std::isfinite(verdict.hi)) << reproduction(ray, shape);
+  if (filtered.certainty == Certainty::hit) {
+    ASSERT_GE(number(filtered.hi), *root) << reproduction(ray, shape);
+    // Narrow enough to round t immediately, nearly always.
+    ASSERT_TRUE(std::isfinite(filtered.hi)) << reproduction(ray, shape);
   }
 }
 
-// As they come, and with the range's ends placed at the hit or an ulp beside it.
+// Cases unchanged, and with the ends of the ray's interval at the hit or an ulp beside it.
 template <class MakeCase>
 Count check_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
@@ -76,7 +76,7 @@ TEST(Filter, Triangle) {
   }
 }
 
-// Points and ends of segments that rays meet exactly although a - o has more bits than float64.
+// Points and ends of segments that rays hit exactly although a - o has more bits than float64.
 TEST(Filter, TriangleWithoutAreaWhereTheWayRounds) {
   Random random(3);
   Count count;

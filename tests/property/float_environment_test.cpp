@@ -1,5 +1,5 @@
-// A host's rounding mode, precision, traps and flushing of subnormal numbers change no answer, and
-// are the host's again afterwards.
+// A host program's rounding mode, precision, traps and flushing of subnormals change no result, and
+// are restored afterwards.
 
 #include "float_environment.hpp"
 
@@ -34,7 +34,7 @@ bool is_flushing() {
 }
 
 #if defined(__x86_64__)
-/// Of the x87: how long double is rounded, and to how many bits.
+/// The x87 control word: rounding and precision of long double.
 std::uint16_t x87_control() {
   std::uint16_t control = 0;
   __asm__ volatile("fnstcw %0" : "=m"(control));
@@ -105,8 +105,8 @@ TEST_P(HostRules, ChangeNoPicture) {
   }
 }
 
-// Decimals that no binary number equals, lights and materials of many kinds, and no camera: all
-// steps from the text to the picture's bytes compute.
+// Decimals without exact binary value, lights and materials of many kinds, and no camera: all steps
+// from text to picture bytes compute something.
 constexpr const char* kLit = R"({
   "version": 1,
   "image": {"width": 24, "height": 18},
@@ -143,8 +143,8 @@ std::string lit_ppm(const Scene& scene) {
   return encode_ppm(film);
 }
 
-/// Made once: the standard library computes the capacities of paths by floating-point numbers,
-/// which a host's traps would end.
+/// Created once: the standard library computes path capacities in floating point, which the host's
+/// traps would abort.
 const std::filesystem::path& scenes_folder() {
   static const std::filesystem::path folder = tests::source_folder() / "scenes";
   return folder;
@@ -169,7 +169,7 @@ TEST_P(HostRules, ChangeNoPictureWithLight) {
   }
 }
 
-// Steps that a program may take on its own.
+// Steps that a program may call separately.
 TEST_P(HostRules, ChangeNoStep) {
   const auto steps = [] {
     const Scene scene = parse_scene(kLit, "lit.json", scenes_folder()).scene;
@@ -200,7 +200,7 @@ TEST_P(HostRules, ChangeNoStep) {
   EXPECT_EQ(actual, expected);
 }
 
-// The C library's strtod rounds as the x87 does.
+// The C library's strtod uses the x87 rounding mode.
 TEST_P(HostRules, ChangeNoNumberOfAssets) {
   const auto camera = [] {
     const Scene scene =
@@ -221,7 +221,7 @@ TEST_P(HostRules, ChangeNoNumberOfAssets) {
   EXPECT_EQ(actual.pose.position, expected.pose.position);
 }
 
-// A host that stops at its own divisions by zero is not stopped at the library's.
+// A host that traps its own divisions by zero must not be stopped by the library's.
 TEST_P(HostRules, TrapsOfTheHostAreItsOwn) {
   const std::string expected = lit_json_ppm();
   set();
@@ -240,7 +240,7 @@ TEST_P(HostRules, TrapsOfTheHostAreItsOwn) {
   EXPECT_TRUE(actual == expected);
 }
 
-// A triangle smaller than the least normal number: flushed, it would be a point.
+// A triangle smaller than the least normal number: flushed to zero, it would be a point.
 TEST_P(HostRules, ChangeNoHit) {
   constexpr float kLeast = std::numeric_limits<float>::denorm_min();
   Scene scene;
@@ -275,7 +275,7 @@ TEST_P(HostRules, ChangeNoParameter) {
   adversarial::Random random(5);
   std::vector<Ray> rays(1000);
   for (Ray& ray : rays) ray = {.o = random.in_cube(3), .d = random.in_cube(1)};
-  for (std::size_t i = 500; i < 564; ++i) rays[i].o = rays[500].o;  // a tile
+  for (std::size_t i = 500; i < 564; ++i) rays[i].o = rays[500].o;  // a packet
   std::vector<std::optional<Hit>> expected(rays.size()), together(rays.size()), singly;
   bvh.intersect(rays, expected);
   set();

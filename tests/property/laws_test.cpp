@@ -24,7 +24,7 @@ using namespace adversarial;
 using Answers = std::vector<std::optional<Hit>>;
 using Move = std::function<Vec3(Vec3)>;
 
-/// The scene with its points and its normals moved, its lengths scaled.
+/// The scene with its points and normals mapped, and its lengths scaled.
 Scene moved(Scene scene, const Move& point, const Move& normal, float length) {
   for (Object& object : scene.objects) {
     if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
@@ -67,14 +67,14 @@ void expect_equal(const Answers& a, const Answers& b, float scale = 1) {
     ASSERT_EQ(a[i]->id, b[i]->id) << "ray " << i;
     const float t = a[i]->t * scale;
     const auto has_all_bits = [](float x) { return std::isnormal(x) || x == 0; };
-    if (!has_all_bits(t) || !has_all_bits(a[i]->t)) continue;  // rounded by its size
+    if (!has_all_bits(t) || !has_all_bits(a[i]->t)) continue;  // rounded at different magnitudes
     ASSERT_EQ(t, b[i]->t) << "ray " << i;
   }
 }
 
 class Laws : public testing::TestWithParam<SceneKind> {
  protected:
-  /// f(random, case) for some scenes of the kind.
+  /// Calls f(random, case) for some scenes of the kind.
   void for_each_case(std::uint64_t test, const std::function<void(Random&, Case)>& f) {
     Random random = traversal::announced_random(50 + test);
     const std::size_t rounds = traversal::ray_count(0.02) / 200;
@@ -91,7 +91,7 @@ std::string kind_name(const testing::TestParamInfo<SceneKind>& kind) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Laws, testing::ValuesIn(scene_kinds), kind_name);
 
-// Kinds that leave room at the ends of float32's range.
+// Kinds that leave room at the ends of the float32 range.
 using LawsOfSize = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfSize,
                          testing::Values(SceneKind::soup, SceneKind::lattice,
@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfSize,
                                          SceneKind::slivers, SceneKind::walls),
                          kind_name);
 
-// Kinds whose numbers are short.
+// Kinds whose coordinates have few bits.
 using LawsOfPlace = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfPlace, testing::Values(SceneKind::lattice, SceneKind::walls),
                          kind_name);
@@ -119,11 +119,12 @@ TEST_P(Laws, TheOrderOfCornersIsIndifferent) {
   });
 }
 
-// Of equal t another primitive may win; t itself may not change.
+// Among equal t another primitive may be first, but t may not change.
 TEST_P(Laws, TheOrderOfPrimitivesDecidesTiesAlone) {
   for_each_case(2, [](Random& random, const Case& c) {
     Scene shuffled = c.scene;
-    std::vector<std::size_t> old_place(shuffled.objects.size());  // of the object now at a place
+    std::vector<std::size_t> old_place(
+        shuffled.objects.size());  // previous index of the object now at an index
     std::iota(old_place.begin(), old_place.end(), 0U);
     for (std::size_t i = old_place.size() - 1; i > 0; --i)
       std::swap(old_place[i],
@@ -180,7 +181,7 @@ TEST_P(Laws, MirroredAndExchangedAxesAreIndifferent) {
   });
 }
 
-// Where nothing over- or underflows.
+// If nothing over- or underflows.
 TEST_P(LawsOfSize, SizesOfPowersOfTwoAreIndifferent) {
   for_each_case(4, [](Random& random, Case c) {
     const bool exact =
@@ -192,9 +193,9 @@ TEST_P(LawsOfSize, SizesOfPowersOfTwoAreIndifferent) {
                    return there * 0x1p-40F == p && (p * 0x1p-40F) * 0x1p40F == p;
                  });
         });
-    if (!exact) return;  // the second mesh may be of any size
+    if (!exact) return;  // the second mesh may have any size
     const float size = random.power_of_two(-40, 40);
-    // Half of the time t grows with the scene, half of the time directions do.
+    // Half of the time t scales with the scene, half of the time the directions do.
     const bool scales_t = random.one_in(2);
     const float t_scale = scales_t ? size : 1, d_scale = scales_t ? 1 : size;
     std::vector<Ray> rays;

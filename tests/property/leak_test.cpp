@@ -1,4 +1,4 @@
-// No ray leaves a closed mesh from within, not even through a corner or along an edge.
+// No ray leaves a closed mesh from inside, not even through a vertex or along an edge.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -28,8 +28,8 @@ class Leak : public testing::TestWithParam<std::size_t> {
 INSTANTIATE_TEST_SUITE_P(Meshes, Leak, testing::Range<std::size_t>(0, 5),
                          [](const auto& i) { return std::string(closed_meshes()[i.param].name); });
 
-// A fifth of the rays for each mesh; each ray alone, in a tile and in a stream, the kernels taking
-// turns.
+// A fifth of the rays for each mesh; each ray alone, in a packet and in a stream, with alternating
+// kernels.
 TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
   Scene scene;
@@ -73,7 +73,7 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
       stream.occluded(apart, std::span(occluded.get(), kBatch));
       ASSERT_TRUE(std::all_of(occluded.get(), occluded.get() + kBatch, [](bool b) { return b; }));
     }
-    ++turn;  // so that each kernel takes each call
+    ++turn;  // so that each kernel is used for each function
   }
 }
 
@@ -83,8 +83,8 @@ std::size_t count_hits(const Bvh& bvh, const Ray& ray) {
   return count;
 }
 
-// Paths of many reflections, each begun at a corner, an edge or next to one: what is spawned is
-// within again.
+// Paths of many reflections, each starting at a vertex, an edge or next to one: spawned origins are
+// inside again.
 TEST_P(Leak, NoPathFromWithinLeaves) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
   Scene scene;
@@ -102,15 +102,15 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       const auto hit = bvh.intersect(ray);
       ASSERT_TRUE(hit.has_value()) << "path " << path << ", bounce " << bounce;
       const exact::Implicit face(triangle_of(closed.mesh, hit->id));
-      const exact::Root t = exact::rational(0.0F);  // of no influence on a plane's slope
-      // Into the side that the ray came from; at times along a neighbouring edge or the face.
+      const exact::Root t = exact::rational(0.0F);  // without effect on the slope of a plane
+      // To the side of the incoming ray; sometimes along a neighboring edge or the face.
       Vec3 d = random.in_cube(1);
       if (random.one_in(3)) d = aimed_exactly(random, closed, o).d;
       const int side = face.sign_behind(ray, t, -ray.d), there = face.sign_behind(ray, t, d);
       if (side * there < 0) d = -d;
       if (d == Vec3(0)) break;
       const auto q = bvh.spawn_origin(ray, *hit, d);
-      // Asked together they are answered by other means, with the same origins.
+      // A batch is computed by other means, with the same origins.
       const std::array<Bvh::Spawn, 3> spawns{{{.ray = &ray, .hit = *hit, .direction = d},
                                               {.ray = &ray, .hit = *hit, .direction = -d},
                                               {.ray = &ray, .hit = *hit, .direction = ray.d}}};
@@ -126,7 +126,7 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
         ASSERT_TRUE(bvh.occluded({.o = *q, .t_min = 0, .d = random.in_cube(1)}))
             << "path " << path << ", bounce " << bounce;
       }
-      // And through the face: outside, where a ray that meets no edge crosses an even number of
+      // And through the face: outside, where a ray that hits no edge crosses an even number of
       // faces.
       if (bounce > 0 && side * there != 0) {
         const auto outside = bvh.spawn_origin(ray, *hit, -d);

@@ -1,5 +1,5 @@
-// All hits of a ray, one after another by Bvh::next, against all exact roots sorted. ctest runs
-// this for every instruction set that the machine has.
+// All hits of a ray, enumerated by Bvh::next, compared with all exact roots in order. ctest runs
+// this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/intersect.hpp"
@@ -25,7 +25,7 @@ std::vector<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   primitives.for_each([&](PrimitiveId id, const auto& shape) {
     if (const auto root = exact::first_hit(shape, ray)) roots.emplace_back(*root, id);
   });
-  // By number already.
+  // Already sorted by id.
   std::stable_sort(roots.begin(), roots.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Hit> hits;
@@ -88,7 +88,7 @@ TEST_P(Next, EnumeratesAllHitsInExactOrder) {
   EXPECT_GT(ties, 1000U);
 }
 
-// Sixty coplanar copies, and sixty an ulp apart in depth.
+// Sixty coplanar copies, and sixty at distances of an ulp.
 TEST_P(Next, TellsLayersApartThatFloatsDoNot) {
   Scene scene;
   const auto add = [&](float z) {
@@ -108,10 +108,11 @@ TEST_P(Next, TellsLayersApartThatFloatsDoNot) {
   }
 }
 
-// Triangles that begin at another corner, turn the other way, and stand among others of one t.
+// Triangles that start at another vertex, have the opposite winding, and are among others with the
+// same t.
 TEST_P(Next, FindsTrianglesThatAreTheSame) {
   Random random(23);
-  std::size_t twins = 0;
+  std::size_t ties = 0;
   for (int round = 0; round < 8; ++round) {
     Scene scene = random_scene(random);
     const auto place = [&] {
@@ -132,10 +133,10 @@ TEST_P(Next, FindsTrianglesThatAreTheSame) {
       ASSERT_TRUE(same(one_after_another(bvh, ray), expected))
           << "scene " << round << ", ray " << i;
       for (std::size_t k = 1; k < expected.size(); ++k)
-        twins += expected[k].t == expected[k - 1].t ? 1 : 0;
+        ties += expected[k].t == expected[k - 1].t ? 1 : 0;
     }
   }
-  EXPECT_GT(twins, 1000U);
+  EXPECT_GT(ties, 1000U);
 }
 
 TEST_P(Next, FollowsNothingThatIsNotHit) {

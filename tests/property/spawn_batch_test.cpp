@@ -1,4 +1,4 @@
-// Bvh::spawn_origins gives the bits of Bvh::spawn_origin, whatever is asked together.
+// Bvh::spawn_origins gives the same bits as Bvh::spawn_origin for any batch.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/intersect.hpp"
@@ -52,7 +52,7 @@ float signed_zero(Random& random) {
   return random.one_in(2) ? 0.0F : -0.0F;
 }
 
-/// Some coordinates zero with either sign, tiny, or next to a power of two.
+/// Makes some coordinates zero with either sign, tiny, or close to a power of two.
 Vec3 with_odd_coordinates(Random& random, Vec3 v) {
   for (int k = 0; k < 3; ++k) {
     switch (random.between(0, 11)) {
@@ -91,8 +91,8 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Asks for each hit's origins into some directions one by one, together, and in another order; of
-/// trees that are built in either way.
+/// Computes the origins of each hit for some directions one by one, in a batch, and in another
+/// order, with both kinds of trees.
 std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& hits) {
   std::vector<Bvh::Spawn> spawns;
   for (const Known& known : hits) {
@@ -127,14 +127,15 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
   return found;
 }
 
-/// How many shapes are asked about: a share of MICROTRACE_TRAVERSAL_RAYS, the most in one scene.
+/// The number of shapes to test: a fraction of MICROTRACE_TRAVERSAL_RAYS, and the maximum per
+/// scene.
 struct Effort {
   double share;
   int most;
 };
 
-/// Rays with a shape of their own each, in scenes of one to some of them. Returns the share of the
-/// questions that have an answer.
+/// Rays with one shape each, in scenes of one or several shapes. Returns the fraction of queries
+/// that have an answer.
 template <class MakeCase>
 double check_cases(std::uint64_t seed, const Effort& effort, MakeCase make_case) {
   Random random = traversal::announced_random(seed);
@@ -194,7 +195,7 @@ TEST(SpawnBatch, Quadrics) {
   check_all_kinds(84, {.share = 0.00003, .most = 4}, quadric_case);
 }
 
-/// Shapes of all kinds on a grid of any size, so that many touch.
+/// Shapes of all kinds on a grid of any spacing, so that many touch.
 Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
   Scene scene;
   for (int i = random.one_in(2) ? random.between(2, 16) : random.between(17, 80); i > 0; --i) {
@@ -222,7 +223,8 @@ Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
   return scene;
 }
 
-// All hits of rays, the hidden ones too, many of them at corners, on edges and where shapes touch.
+// All hits of rays, including hidden ones, many of them at vertices, on edges and where shapes
+// touch.
 TEST(SpawnBatch, TouchingShapes) {
   Random random = traversal::announced_random(85);
   std::size_t answers = 0;

@@ -1,8 +1,8 @@
-// The float64 bounds of points where rays hit flat surfaces, against exact arithmetic: most of all
-// on planes next to an axis, whose points have coordinates next to 0.
+// Compares the float64 bounds of hit points on flat surfaces with exact arithmetic, mostly on
+// planes near coordinate planes, whose points have coordinates near 0.
 
 #include "accel/kernels/dispatch.hpp"
-#include "accel/spawn/departure.hpp"
+#include "accel/spawn/origin_search.hpp"
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/range.hpp"
@@ -22,7 +22,7 @@ namespace {
 using namespace adversarial;
 using exact::Dyadic;
 
-/// A triangle on a wall or floor, off it by ulps or by a small slope, maybe next to 0.
+/// A triangle on a wall or floor, tilted or offset by ulps or slightly more, sometimes near 0.
 Triangle wall(Random& random) {
   const int axis = random.between(0, 2);
   const float at = random.one_in(3) ? 0 : random.in_cube(1).x * random.power_of_two(-40, 4);
@@ -41,9 +41,9 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
-/// The lanes' answer: the point where they are sure of it.
+/// The kernel's answer: the point if it is certain.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
-  DepartureLanes lanes{};
+  HitPointLanes lanes{};
   for (std::size_t i = 0; i < kSpawnLanes; ++i) {
     for (int k = 0; k < 3; ++k) {
       lanes.a[k][i] = t.a[k];
@@ -55,7 +55,7 @@ std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const 
     lanes.t_min[i] = ray.t_min;
     lanes.t_max[i] = ray.t_max;
   }
-  kernels.find_departures(lanes);
+  kernels.find_hit_points(lanes);
   if (lanes.is_sure[1] == 0) return std::nullopt;
   return Vec3(lanes.p[0][1], lanes.p[1][1], lanes.p[2][1]);
 }
@@ -68,12 +68,12 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   if (!is_filterable(ray.o) || !is_filterable(ray.d) || !is_filterable(t)) return;
   const auto exact_t = exact::first_hit(t, ray);
   if (!exact_t) return;
-  const Verdict verdict =
+  const FilterResult filtered =
       TrianglePlaneFilter(t, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
-  if (verdict.certainty != Certainty::hit) return;
+  if (filtered.certainty != Certainty::hit) return;
   ++count.hits;
   const CrossProduct normal(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
-  const PointOnRay point(ray, {verdict.lo, verdict.hi});
+  const PointOnRay point(ray, {filtered.lo, filtered.hi});
   for (int k = 0; k < 3; ++k) {
     const exact::Root x =
         exact::rational(Dyadic(ray.o[k]) * exact_t->r + Dyadic(ray.d[k]) * exact_t->p, exact_t->r);
@@ -96,13 +96,14 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   count.sure_in_lanes += q ? 1 : 0;
 }
 
-// With the other coordinates known exactly, all of the bound is for its own roundings.
+// If the other coordinates are known exactly, the whole bound is for its own roundings.
 TEST(SpawnPoint, BoundOfACoordinateInAPlaneHolds) {
   Random random = traversal::announced_random(97);
   std::size_t bounded = 0;
   for (std::size_t i = 0; i < traversal::ray_count(0.2) && !HasFatalFailure(); ++i) {
     const int k = random.between(0, 2);
-    // Edges next to parallel, so that the normal cancels, and points next to a corner or far off.
+    // Nearly parallel edges, so that the normal has cancellation, and points near a vertex or far
+    // away.
     Triangle t{random.in_cube(1), random.in_cube(1), random.in_cube(1)};
     if (random.one_in(2))
       t.c = random.jitter(t.a + (t.b - t.a) * random.symmetric(), 1 << random.between(0, 20));

@@ -1,4 +1,5 @@
-// What spawn.hpp promises, asked of exact arithmetic: side, no hit of its own, nearness.
+// Checks the guarantees of spawn.hpp with exact arithmetic: side, no spurious hit of the same
+// surface, distance.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -31,7 +32,7 @@ template <class S>
 constexpr bool is_flat =
     std::is_same_v<S, Triangle> || std::is_same_v<S, Plane> || std::is_same_v<S, Disc>;
 
-// Any direction; grazing ones, tangents, and into the surface too.
+// Any direction, including grazing ones, tangents, and directions into the surface.
 Vec3 any_direction(Random& random, const Ray& ray, const Vec3& towards) {
   switch (random.between(0, 6)) {
     case 0:
@@ -70,7 +71,7 @@ Vec3 within(const Quadric& q) {
   return {q.a, q.h, q.c};
 }
 
-// How many representable numbers lie between.
+// The number of float32 numbers between a and b.
 std::int64_t steps(float a, float b) {
   const auto place = [](float x) {
     const std::int64_t bits = std::bit_cast<std::int32_t>(std::abs(x));
@@ -113,7 +114,7 @@ void check(Random& random, const Ray& ray, const S& shape, Count& count) {
   if (!q) return;
   ++count.spawned;
   const exact::Implicit f(shape);
-  // The side on which the rays from the exact point run, or came from.
+  // The side of the outgoing or incoming rays at the exact point.
   int side = f.sign_behind(ray, *t, direction);
   if (side == 0) side = f.sign_behind(ray, *t, -ray.d);
   if (side == 0) side = 1;
@@ -150,8 +151,8 @@ TEST(Spawn, Triangle) {
   }
 }
 
-// All flat surfaces with an area are left, however far, thin or large, but at the end of the
-// numbers.
+// Rays leave all flat surfaces with an area, however far away, thin or large, except at the ends of
+// the float32 range.
 TEST(Spawn, EveryTriangleWithAreaIsLeft) {
   Random random(32);
   for (int i = 0; i < 5 * kCasesPerKind; ++i) {
@@ -163,16 +164,15 @@ TEST(Spawn, EveryTriangleWithAreaIsLeft) {
   }
 }
 
-// Flat ones always, but where the hit point is beyond the largest float32; curved ones unless they
-// are about as small as the spacing of numbers.
+// Flat surfaces always, unless the hit point exceeds the largest float32; curved ones unless they
+// are about as small as the spacing of float32 numbers.
 template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : shape_kinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
-    // Of the discs across the full range of numbers about one in 25 is hit, one fewer or more by
-    // chance.
+    // About one in 25 of the discs across the full float32 range is hit, with random variation.
     EXPECT_GT(count.hits, kCasesPerKind / 40);
   }
 }
@@ -190,12 +190,12 @@ TEST(Spawn, Quadric) {
   check_all_kinds(0.8, quadric_case);
 }
 
-// What leaves a convex body's outside meets nothing of it: neither face, edge nor corner.
+// A ray that leaves a convex body outwards hits none of its faces, edges or vertices.
 TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
   Random random(34);
   int leaves = 0;
   for (int round = 0; round < kCasesPerKind; ++round) {
-    // Tetrahedra are convex as they stand.
+    // Tetrahedra are always convex.
     const float size = random.power_of_two(-30, 30);
     const Vec3 centre = random.in_cube(1) * (size * random.power_of_two(0, 22));
     std::array<Vec3, 4> p;
@@ -230,8 +230,8 @@ TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
   EXPECT_GT(leaves, kCasesPerKind / 2);
 }
 
-// Asked together rays are answered by other means, with the same origins: among shapes of all
-// kinds, touching ones too, with a tree and without.
+// A batch is computed by other means, with the same origins: among shapes of all kinds, also
+// touching ones, with a tree and without.
 TEST(Spawn, ManyAtOnceAreAnsweredAlike) {
   Random random = traversal::announced_random(77);
   std::size_t answers = 0;

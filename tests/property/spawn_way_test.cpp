@@ -1,5 +1,5 @@
-// What bvh.hpp promises of the way to a spawned origin, where everything coincides: surfaces in
-// whose plane the ray runs, triangles without area, hits on corners and edges.
+// Checks the guarantees of bvh.hpp for the segment to a spawned origin in degenerate cases: rays
+// within surfaces, triangles without area, hits on vertices and edges.
 
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
@@ -47,26 +47,26 @@ Scene touching_scene(Random& random) {
         add(Plane{.point = at, .normal = normal});
         break;
       default:
-        add(Quadric{.a = 1, .b = -1, .j = float(random.between(-1, 1))});  // has lines
+        add(Quadric{.a = 1, .b = -1, .j = float(random.between(-1, 1))});  // contains lines
         break;
     }
   }
   return scene;
 }
 
-/// A rational point: `point` / `weight`, weight > 0.
+/// The rational point `point` / `weight`, weight > 0.
 struct Rational {
   Vector point;
   Dyadic weight;
 };
 
-/// The ray's point a little before or behind t, which is rational.
+/// The ray's point slightly before or behind t, which is rational.
 Rational beside(const Ray& ray, const exact::Root& t, bool before) {
   const Dyadic little = before ? Dyadic(-0x1p-200) : Dyadic(0x1p-200);
   return {t.r * exact::vector(ray.o) + (t.p + little * t.r) * exact::vector(ray.d), t.r};
 }
 
-/// Whether the way from w to q, without w, meets a triangle.
+/// Whether the segment from w to q, without w, meets a triangle.
 bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
   const Vector from = exact::vector(q), to_w = w.point - w.weight * from;
   const Vector a = exact::vector(triangle.a) - from, b = exact::vector(triangle.b) - from,
@@ -80,8 +80,8 @@ bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
               s = dot(to_w, cross(a, b)).sign();
     return u * v >= 0 && v * s >= 0 && s * u >= 0;
   }
-  // In the plane: apart if some line through two of the five points has the triangle on one side,
-  // the way on the other.
+  // In the plane: disjoint if some line through two of the five points separates the triangle from
+  // the segment.
   const auto side = [&](const Vector& x, const Vector& y) { return dot(n, cross(x, y)).sign(); };
   const std::array<Vector, 3> corners{a, b, c};
   for (std::size_t k = 0; k < 3; ++k) {

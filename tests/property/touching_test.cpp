@@ -1,4 +1,4 @@
-// What kernels find near a place: all triangles with a point there, few others.
+// Checks which triangles the kernels find near a box: all with a point in it, and few others.
 
 #include "accel/build/tree.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -37,9 +37,9 @@ class Places {
     tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
   }
 
-  /// Nothing where there are too many.
+  /// Nothing if there are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi) const {
-    PlaceQuery query{};
+    BoxQuery query{};
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
@@ -49,7 +49,7 @@ class Places {
     if (query.count < 0) return std::nullopt;
     std::set<PrimitiveId> found;
     for (int i = 0; i < query.count; ++i)
-      found.insert(tree_.blocks[query.places[i] / kWidth].id[query.places[i] % kWidth]);
+      found.insert(tree_.blocks[query.slots[i] / kWidth].id[query.slots[i] % kWidth]);
     return found;
   }
 
@@ -59,7 +59,7 @@ class Places {
   Tree tree_;
 };
 
-// Edges exactly through a point whose distances from the corners round.
+// Edges exactly through a point whose distances from the vertices are rounded.
 TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
   Random random(51);
   for (int round = 0; round < 2000; ++round) {
@@ -81,7 +81,7 @@ TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
   }
 }
 
-// Long segments and slivers, of which hundreds have the place in their own boxes.
+// Long segments and slivers, hundreds of which have the box in their bounding boxes.
 TEST_P(Touching, LeavesOutLongThinTrianglesThatPass) {
   Random random(52);
   int answered = 0, met = 0;
@@ -92,13 +92,13 @@ TEST_P(Touching, LeavesOutLongThinTrianglesThatPass) {
       const Vec3 c = random.one_in(2) ? a : a + random.on_grid(1, 0x1p-8F);
       add_triangle(mesh, a, b, c);
     }
-    const Places places(mesh, *GetParam());
+    const Places slots(mesh, *GetParam());
     for (int i = 0; i < 50; ++i) {
       const Triangle own = triangle_of(mesh, static_cast<std::size_t>(random.between(0, 399)));
       const float reach = random.power_of_two(-10, -1);
       const Vec3 p = own.a + (own.b - own.a) * (0.125F * static_cast<float>(random.between(0, 8))) +
                      random.on_grid(2, 0.75F * reach);
-      const auto found = places.near(p - reach, p + reach);
+      const auto found = slots.near(p - reach, p + reach);
       if (!found) continue;
       ++answered;
       for (PrimitiveId id = 0; id < 400; ++id) {

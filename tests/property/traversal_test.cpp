@@ -1,8 +1,9 @@
-// The tree and its kernels against every primitive asked: each kernel of the machine, each way of
-// asking, over scenes and rays that are made to defeat them. MICROTRACE_TRAVERSAL_RAYS scales it.
+// Compares the tree and its kernels with a test of every primitive: each kernel of the machine,
+// each function, with adversarial scenes and rays. MICROTRACE_TRAVERSAL_RAYS scales the number of
+// rays.
 
-#include "accel/bundle.hpp"
 #include "accel/kernels/dispatch.hpp"
+#include "accel/ray_packet.hpp"
 #include "exact/intersect.hpp"
 #include "support/adversarial_scenes.hpp"
 #include "support/effort.hpp"
@@ -29,7 +30,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Answers = std::vector<std::optional<Hit>>;
 
-// By the definition and exact arithmetic alone.
+// By definition, with exact arithmetic only.
 std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   std::optional<exact::Root> nearest;
   std::optional<Hit> best;
@@ -42,11 +43,12 @@ std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   return best;
 }
 
-// By the float64 filters, which filter_test.cpp holds to exact arithmetic, and that behind them.
+// With the float64 filters, which filter_test.cpp compares with exact arithmetic, and exact
+// arithmetic behind them.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
-  Bundle bundle(primitives, std::span(&ray, 1));
-  primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.meet(id, shape); });
+  RayPacket bundle(primitives, std::span(&ray, 1));
+  primitives.for_each([&](PrimitiveId id, const auto& shape) { bundle.test(id, shape); });
   return bundle.hit(0);
 }
 
@@ -70,7 +72,7 @@ bool is_without_area(const Primitives& primitives, PrimitiveId id) {
   });
 }
 
-// Rays with one origin, often nearly parallel: what becomes a tile.
+// Rays with a common origin, often nearly parallel, which form a packet.
 void add_tile(Random& random, const Scene& scene, std::vector<Ray>& rays) {
   const Vec3 o = origin(random, scene);
   const bool coherent = random.one_in(2);
@@ -81,7 +83,7 @@ void add_tile(Random& random, const Scene& scene, std::vector<Ray>& rays) {
   }
 }
 
-// Tiles and unrelated rays in turn, now and then more than one batch of a stream.
+// Packets and incoherent rays in turn, now and then more than one batch of a stream.
 std::vector<Ray> rays_for(Random& random, const Scene& scene) {
   std::vector<Ray> rays;
   for (int part = random.between(1, 6); part > 0; --part) {
@@ -93,7 +95,7 @@ std::vector<Ray> rays_for(Random& random, const Scene& scene) {
   return rays;
 }
 
-// Every call, with the kernels that the environment names.
+// Every function, with the kernels selected by the environment.
 void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& expected) {
   Answers together(rays.size(), Hit{});
   bvh.intersect(rays, together);
@@ -107,7 +109,7 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
   }
 }
 
-/// f with each of the machine's kernels, which trees made meanwhile take.
+/// Calls f with each of the machine's kernels, which trees built meanwhile use.
 template <class F>
 void with_each_kernel(const F& f) {
   for (const Kernels* kernels : available_kernels()) {
@@ -153,7 +155,7 @@ TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
   }
 }
 
-// Kernels scale rays of long directions; what lies as far away as float32 goes is met all the same.
+// Kernels scale rays with long directions; shapes anywhere in the float32 range are still hit.
 TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
   Random random = traversal::announced_random(29);
   std::size_t hits = 0;
@@ -184,8 +186,8 @@ TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
   EXPECT_GT(hits, 2000U);
 }
 
-// Rays that begin next to a triangle's corner and run along its plane, so that rounding may take
-// the far side of it for the near one: what they meet on the other side lies ahead all the same.
+// Rays that start next to a triangle's vertex and run along its plane, so that rounding may put the
+// triangle behind them; they still hit it.
 TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
   Random random = traversal::announced_random(28);
   std::size_t hits_of_own = 0;
@@ -203,7 +205,7 @@ TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
       const Vec3 opposite = t.b + (t.c - t.b) * static_cast<float>(random.unit());
       const Vec3 d = (opposite - t.a) * random.power_of_two(-6, 6);
       rays.push_back({.o = random.jitter(t.a, 3), .t_min = 0, .d = random.jitter(d, 1)});
-      // Eight from one place, as in a tile.
+      // Eight rays with a common origin, as in a packet.
       for (int k = 0; k < 7; ++k)
         rays.push_back({.o = rays.back().o, .t_min = 0, .d = random.jitter(d, 1)});
       owns.insert(owns.end(), 8, own);

@@ -1,5 +1,5 @@
-// The tree that build_tree makes: everything that can be hit is in it, every box holds what is
-// below it, and it is the same for any number of threads.
+// Checks the result of build_tree: it has every primitive that can be hit, every box contains its
+// subtree, and it is the same for any number of threads.
 
 #include "accel/build/tree.hpp"
 
@@ -52,8 +52,8 @@ Mesh soup(std::size_t triangles, float size) {
   return mesh;
 }
 
-// Builds, walks the tree, and expects each primitive in the place `expected(id)`, but for those
-// that another stands for, and points, which are kept out of blocks.
+// Builds and walks the tree, and expects each primitive in the place `expected(id)`, except
+// duplicates, and points, which are not in blocks.
 template <class Expected>
 Tree check(const Scene& scene, Expected expected) {
   const Primitives primitives(scene);
@@ -61,10 +61,10 @@ Tree check(const Scene& scene, Expected expected) {
   const TreeWalk walk(tree, primitives);
   EXPECT_EQ(walk.fault(), "");
   EXPECT_LE(walk.depth(), kMaxDepth);
-  std::vector<bool> is_twin(primitives.count());
-  for (const PrimitiveId id : tree.twins.ids()) is_twin[id] = true;
+  std::vector<bool> is_duplicate(primitives.count());
+  for (const PrimitiveId id : tree.duplicates.ids()) is_duplicate[id] = true;
   primitives.for_each([&](PrimitiveId id, const auto& shape) {
-    Place place = is_twin[id] ? Place::nowhere : expected(id);
+    Place place = is_duplicate[id] ? Place::nowhere : expected(id);
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
       if (place == Place::blocks && shape.a == shape.b && shape.b == shape.c) place = Place::others;
     }
@@ -117,7 +117,7 @@ TEST(Tree, SplitsSlantingTriangles) {
     return static_cast<double>(
         TreeWalk(build_tree(primitives, {}), primitives).triangle_references());
   };
-  // Many needles across a cube, and a heap of crumbs.
+  // Many needles across a cube, and a cluster of tiny triangles.
   Mesh needles = soup(20000, 0.001F);
   Random random;
   for (std::size_t i = 0; i < 3000; i += 3) needles.positions[i] = random.in_cube();
@@ -145,7 +145,7 @@ TEST(Tree, CutsHoldBothParts) {
     const auto parts = build::cut(t, whole, axis, plane);
     EXPECT_LE(parts[0].hi[axis], plane);
     EXPECT_GE(parts[1].lo[axis], plane);
-    // Points of the edges beside the plane, each in the part on its side.
+    // Points of the edges on either side of the plane must be in the part on their side.
     const std::array<DVec3, 4> corners{t.a, t.b, t.c, t.a};
     for (std::size_t edge = 0; edge < 3; ++edge) {
       for (const double beside : {-0.1, -1e-7, 1e-7, 0.1}) {
@@ -224,7 +224,7 @@ TEST(Tree, BoxesOfCurvedShapesAreTight) {
   EXPECT_FLOAT_EQ(flat.hi.y, 1);
 }
 
-// Two or three copies, in any order of the triangles and of their corners.
+// Two or three copies, in any order of the triangles and of their vertices.
 TEST(Tree, HoldsCopiesOnce) {
   const Mesh once = soup(20001, 0.01F);
   const auto copies = [&](int count, auto change) {
@@ -237,32 +237,32 @@ TEST(Tree, HoldsCopiesOnce) {
     }
     return mesh;
   };
-  const auto twins = [&](const Mesh& mesh) {
+  const auto duplicates = [&](const Mesh& mesh) {
     const Tree tree = check(scene_of({mesh}), Place::blocks);
-    return tree.twins.ids().size();
+    return tree.duplicates.ids().size();
   };
   using Corners = std::array<std::uint32_t, 3>;
-  EXPECT_EQ(twins(once), 0U);
-  EXPECT_EQ(twins(copies(2, [](Corners&) {})), 20001U);
-  EXPECT_EQ(twins(copies(3, [](Corners& t) { std::swap(t[0], t[2]); })), 40002U);
+  EXPECT_EQ(duplicates(once), 0U);
+  EXPECT_EQ(duplicates(copies(2, [](Corners&) {})), 20001U);
+  EXPECT_EQ(duplicates(copies(3, [](Corners& t) { std::swap(t[0], t[2]); })), 40002U);
   Mesh shuffled = copies(2, [](Corners& t) { t = {t[1], t[2], t[0]}; });
   std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::minstd_rand(1));
-  EXPECT_EQ(twins(shuffled), 20001U);
+  EXPECT_EQ(duplicates(shuffled), 20001U);
 
   // One copy of a few triangles among many, and zeros of both signs.
   Mesh few = soup(30000, 0.01F);
   few.triangles.push_back(few.triangles[7]);
-  EXPECT_EQ(twins(few), 1U);
+  EXPECT_EQ(duplicates(few), 1U);
   few.positions.insert(few.positions.end(), {{0.0F, 1, 0}, {1, -0.0F, 0}, {-0.0F, 0, 1}});
   few.positions.insert(few.positions.end(), {{-0.0F, 1, 0}, {1, 0.0F, -0.0F}, {0.0F, 0, 1}});
   few.triangles.push_back({90000, 90001, 90002});
   few.triangles.push_back({90003, 90004, 90005});
-  EXPECT_EQ(twins(few), 2U);
+  EXPECT_EQ(duplicates(few), 2U);
 
-  // Too large for blocks, beside spheres in one place.
+  // Too large for blocks, with coincident spheres.
   const Triangle large{{0, 0x1p40F, 0}, {1, 0, 0}, {0, 0, 1}};
   const Tree tree = check(scene_of({large, Sphere{}, Sphere{}, large}), Place::others);
-  EXPECT_EQ(tree.twins.ids(), std::vector<PrimitiveId>{3});
+  EXPECT_EQ(tree.duplicates.ids(), std::vector<PrimitiveId>{3});
 }
 
 TEST(Tree, KeepsTrianglesWithoutAreaApart) {
@@ -273,7 +273,7 @@ TEST(Tree, KeepsTrianglesWithoutAreaApart) {
     mesh.triangles.push_back({i + 1, i, i + 1});
   }
   const Tree tree = check(scene_of({mesh}), Place::blocks);
-  EXPECT_EQ(tree.twins.ids().size(), 500U);
+  EXPECT_EQ(tree.duplicates.ids().size(), 500U);
   EXPECT_EQ(tree.others.size(), 500U);
 }
 
@@ -284,16 +284,16 @@ TEST(Tree, EndsWhereNoPlaneSeparates) {
   duplicates.triangles.assign(100000, {3, 3, 3});
   EXPECT_EQ(check(scene_of({duplicates}), Place::blocks).others.size(), 1U);
 
-  // Equal boxes of triangles that are not equal.
+  // Different triangles with equal boxes.
   Mesh boxed;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const float t = static_cast<float>(i) * 0x1p-15F;
     boxed.positions.insert(boxed.positions.end(), {{0, t, 0}, {1, 0, 0}, {0.5F, 1, 1}});
     boxed.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
-  EXPECT_TRUE(check(scene_of({boxed}), Place::blocks).twins.ids().empty());
+  EXPECT_TRUE(check(scene_of({boxed}), Place::blocks).duplicates.ids().empty());
 
-  // One centre, all sizes.
+  // Common center, different sizes.
   Mesh nested;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const auto r = static_cast<float>(i);
@@ -304,7 +304,7 @@ TEST(Tree, EndsWhereNoPlaneSeparates) {
   check(scene_of(std::vector<Shape>(1000, Sphere{})), Place::others);
 }
 
-// Centres at 2^-i: every plane between bins cuts off a few only.
+// Centers at 2^-i: every plane between bins splits off only a few.
 TEST(Tree, HasBoundedDepth) {
   std::vector<Shape> shapes;
   for (int i = -148; i < 126; ++i) {
@@ -323,7 +323,7 @@ TEST(Tree, BearsAnyScale) {
     Mesh mesh = soup(3000, 0.1F);
     for (Vec3& p : mesh.positions) p *= scale;
     check(scene_of({mesh}), Place::blocks);
-    // Beside it one triangle of the largest size.
+    // With one triangle of maximum size.
     Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
     check(scene, Place::blocks);
   }

@@ -1,12 +1,12 @@
-// Tables of what facets and fibres return, against integrals by another rule than they were made
-// by: over the directions of light, not over visible normals.
+// Compares tables of albedos with integrals by another method: over directions of light, not over
+// visible normals.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
-#include "render/bsdf/cover.hpp"
+#include "render/bsdf/coating.hpp"
 #include "render/bsdf/general.hpp"
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
-#include "support/direction_density.hpp"
+#include "support/direction_pdf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -53,10 +53,10 @@ TEST(AlbedoTables, AnisotropicReflectors) {
           const double white = returned([](double) { return 1; });
           const double edge = returned([](double x) { return x * x * x * x * x; });
           const Albedo got = albedo.at(wo);
-          EXPECT_NEAR(got.white, white, 0.012) << roughness << ' ' << strength << ' ' << theta;
-          EXPECT_NEAR(got.edge, edge, 0.03) << roughness << ' ' << strength << ' ' << theta;
-          rms += (got.white - white) * (got.white - white);
-          edge_rms += (got.edge - edge) * (got.edge - edge);
+          EXPECT_NEAR(got.f1, white, 0.012) << roughness << ' ' << strength << ' ' << theta;
+          EXPECT_NEAR(got.schlick, edge, 0.03) << roughness << ' ' << strength << ' ' << theta;
+          rms += (got.f1 - white) * (got.f1 - white);
+          edge_rms += (got.schlick - edge) * (got.schlick - edge);
           ++count;
         }
       }
@@ -73,23 +73,24 @@ TEST(AlbedoTables, MeansOfAnisotropicReflectors) {
       const auto mean = [&](auto part) {
         return integral(200, [&](const Vec3& w) { return part(albedo.at(w)) * w.z; }) / kPi;
       };
-      EXPECT_NEAR(albedo.mean().white, mean([](const Albedo& a) { return a.white; }), 0.002);
-      EXPECT_NEAR(albedo.mean().edge, mean([](const Albedo& a) { return a.edge; }), 0.002);
+      EXPECT_NEAR(albedo.mean().f1, mean([](const Albedo& a) { return a.f1; }), 0.002);
+      EXPECT_NEAR(albedo.mean().schlick, mean([](const Albedo& a) { return a.schlick; }), 0.002);
     }
   }
 }
 
-TEST(AlbedoTables, WhatFacetsMissUnderACoat) {
+TEST(AlbedoTables, EnergyDeficitUnderACoat) {
   for (const float roughness : {0.3F, 0.55F, 0.8F, 1.0F}) {
     for (const float coat_roughness : {0.0F, 0.4F}) {
-      const Cover cover({.coat = 1, .coat_roughness = coat_roughness}, {.roughness = roughness});
+      const Coating coating({.coat = 1, .coat_roughness = coat_roughness},
+                            {.roughness = roughness});
       const Ggx ggx(roughness);
       for (const double theta : {0.1, 0.6, 1.0, 1.3, 1.5}) {
         const Vec3 wo = direction(theta);
         double white = 0, edge = 0;
         integral(300, [&](const Vec3& wi) {
           const Vec3 h = unit(wo + wi);
-          const double less = std::max(cover.passed(wo) - cover.passed(wi), 0.0F);
+          const double less = std::max(coating.transmittance(wo) - coating.transmittance(wi), 0.0F);
           const double root = std::sqrt(wi.z), x = 1 - glm::dot(wo, h);
           const double f = ggx.distribution(h) * ggx.visibility(wo, wi) * wi.z * less * 2 * root *
                            2 * kPi / (300 * 300);
@@ -97,25 +98,25 @@ TEST(AlbedoTables, WhatFacetsMissUnderACoat) {
           edge += f * x * x * x * x * x;
           return 0;
         });
-        EXPECT_NEAR(cover.missed(wo.z).white, white, 0.0015) << roughness << ' ' << theta;
-        EXPECT_NEAR(cover.missed(wo.z).edge, edge, 0.0015) << roughness << ' ' << theta;
+        EXPECT_NEAR(coating.deficit(wo.z).f1, white, 0.0015) << roughness << ' ' << theta;
+        EXPECT_NEAR(coating.deficit(wo.z).schlick, edge, 0.0015) << roughness << ' ' << theta;
       }
     }
   }
 }
 
-TEST(AlbedoTables, NodesOfTheCoverIntegrate) {
+TEST(AlbedoTables, NodesOfTheCoatingIntegrate) {
   for (int power = 0; power < 12; ++power) {
     double sum = 0;
-    for (std::size_t k = 0; k < kCoverNodes; ++k)
-      sum += kCoverWeight[k] * std::pow(double(kCoverNode[k]), power);
+    for (std::size_t k = 0; k < kCoatingNodes; ++k)
+      sum += kCoatingWeight[k] * std::pow(double(kCoatingNode[k]), power);
     EXPECT_NEAR(sum, 2.0 / (power + 2), 1e-5) << power;
   }
 }
 
-// Where everything is transmitted but for what the index reflects, all that does not come back at
-// once is lost.
-TEST(AlbedoTables, WhatRoughGlassLoses) {
+// If everything except the Fresnel reflection is transmitted, all energy not returned by single
+// scattering is lost.
+TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
   double rms = 0, most = 0;
   int count = 0;
   for (const float ior : {1.2F, 1.5F, 2.0F}) {
@@ -127,7 +128,7 @@ TEST(AlbedoTables, WhatRoughGlassLoses) {
         const Ggx ggx(roughness);
         for (const double theta : {0.1, 0.6, 1.0, 1.3}) {
           const Vec3 wo = direction(theta);
-          // Over the normals that wo sees.
+          // Over the normals visible from wo.
           double sum = 0;
           constexpr int steps = 150;
           for (int i = 0; i < steps * steps; ++i) {
@@ -161,7 +162,7 @@ TEST(AlbedoTables, WhatRoughGlassLoses) {
   EXPECT_LT(std::sqrt(rms / count), 0.006);
 }
 
-TEST(AlbedoTables, MeansOfWhatRoughGlassLoses) {
+TEST(AlbedoTables, MeanDeficitOfRoughGlass) {
   const RefractionLoss loss(0.7F, 1.5F, {.f0 = 0.04F, .f90 = 1});
   const double above = integral(200, [&](const Vec3& w) { return loss.above(w.z) * w.z; }) / kPi;
   const double below = integral(200, [&](const Vec3& w) { return loss.below(w.z) * w.z; }) / kPi;

@@ -33,7 +33,7 @@ Mesh box(const Vec3& center, const Vec3& half, bool faces_inwards) {
   return mesh;
 }
 
-/// A matt box of half width 1, of which the camera sees the top, one-sided as its hull.
+/// A diffuse box of half width 1, one-sided like its hull, whose top the camera sees.
 struct Model {
   Model() {
     scene.materials = {{.base_color = {0.6F, 0.6F, 0.6F, 1}, .double_sided = false, .roughness = 1},
@@ -63,7 +63,7 @@ struct Model {
       .height = 0.5};
 };
 
-/// Models without a hull, each in a light of another kind.
+/// Models without a hull, each with another kind of light.
 std::array<std::pair<std::string, Model>, 8> lit_models() {
   std::array<std::pair<std::string, Model>, 8> models;
   std::size_t i = 0;
@@ -86,20 +86,22 @@ std::array<std::pair<std::string, Model>, 8> lit_models() {
   return models;
 }
 
-// What the camera looks through, light passes: by shadow rays and by paths, which weigh each other.
+// Light passes where the camera looks through: shadow rays and paths, combined by multiple
+// importance sampling.
 TEST(Backfaces, HullsKeepNoLightAway) {
   for (auto& [name, model] : lit_models()) {
     const Estimate bare = model.seen(Backfaces::pass);
     EXPECT_GT(bare.mean, 0.05) << name;
     model.add_hull();
-    const Estimate passed = model.seen(Backfaces::pass);
-    EXPECT_NEAR(passed.mean, bare.mean, 5 * (bare.deviation + passed.deviation) + 0.002 * bare.mean)
+    const Estimate transmittance = model.seen(Backfaces::pass);
+    EXPECT_NEAR(transmittance.mean, bare.mean,
+                5 * (bare.deviation + transmittance.deviation) + 0.002 * bare.mean)
         << name;
     EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0) << name;
   }
 }
 
-// Two hulls, one in the other, and one that is cut out.
+// Two nested hulls, and one with an alpha mask.
 TEST(Backfaces, HullsOfHulls) {
   Model model;
   model.scene.environment = Environment{.content = Studio{}};
@@ -110,23 +112,23 @@ TEST(Backfaces, HullsOfHulls) {
                                    .double_sided = false,
                                    .unlit = true});
   model.add(box({0, 0, 0}, Vec3(1.5F), true), 3);
-  const Estimate passed = model.seen(Backfaces::pass);
-  EXPECT_NEAR(passed.mean, bare.mean, 5 * (bare.deviation + passed.deviation));
+  const Estimate transmittance = model.seen(Backfaces::pass);
+  EXPECT_NEAR(transmittance.mean, bare.mean, 5 * (bare.deviation + transmittance.deviation));
 }
 
-// Seen from within, whose walls face inwards.
+// Seen from inside; the walls face inwards.
 TEST(Backfaces, RoomUnderASun) {
   Model model;
   model.scene.objects.clear();
   model.add(box({0, 1, 0}, Vec3(2), true), kMatt);
   model.add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 10});
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
-  // A dielectric's diffuse part, by its f0 of 0.04, and little more.
+  // The diffuse part of a dielectric with f0 = 0.04, plus a small specular part.
   EXPECT_NEAR(model.seen(Backfaces::pass).mean, 0.6 * 0.96 * 8 / 3.1416, 0.1);
 }
 
-// Light that comes through takes the place of what the wall sends: no room is brighter than what is
-// around it.
+// Light that passes a wall replaces the wall's reflection: no room is brighter than the
+// environment.
 TEST(Backfaces, WhiteRoomInWhiteLight) {
   Model model;
   model.scene.objects.clear();
@@ -138,7 +140,7 @@ TEST(Backfaces, WhiteRoomInWhiteLight) {
   EXPECT_NEAR(model.seen(Backfaces::pass, 32).mean, 1, 0.01);
 }
 
-// A sheet over the box: in the shadow of its front lies what the light meets there.
+// A sheet over the box: the shadow of its front falls on the box.
 TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   Model model;
   model.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
@@ -155,7 +157,7 @@ TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
 }
 
-/// The same picture both ways, and as many rays.
+/// The same picture for both values, and the same number of rays.
 void expect_same(const Scene& scene, const Camera& camera) {
   std::array<std::vector<DVec3>, 2> pixels;
   std::array<RayCounts, 2> rays;
@@ -173,7 +175,8 @@ void expect_same(const Scene& scene, const Camera& camera) {
   EXPECT_EQ(rays[0].beyond, rays[1].beyond);
 }
 
-// What encloses a medium has a back whatever its sides; thin panes are open at theirs both ways.
+// Surfaces that enclose a medium always have a back; thin panes transmit through their backs for
+// both values.
 TEST(Backfaces, GlassIsTheSame) {
   for (const bool is_body : {true, false}) {
     Model model;

@@ -2,7 +2,7 @@
 
 #include "render/bsdf/scattering.hpp"
 #include "render/sampling/sobol.hpp"
-#include "support/direction_density.hpp"
+#include "support/direction_pdf.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The share of white light from all around that goes to wo, by the sampler's weights.
+/// The directional albedo for wo, by sampling.
 template <class Model>
 DVec3 reflected(const Model& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
@@ -29,7 +29,7 @@ DVec3 reflected(const Model& bsdf, std::uint32_t samples) {
   return sum / double(samples);
 }
 
-/// The same by the midpoint rule, without the sampler.
+/// The same by the midpoint rule, without sampling.
 DVec3 integrated(const Bsdf& bsdf, int steps) {
   DVec3 sum(0);
   for (int i = 0; i < steps; ++i) {
@@ -41,7 +41,7 @@ DVec3 integrated(const Bsdf& bsdf, int steps) {
   return sum * (kPi / 2 / steps) * (kPi / steps);
 }
 
-TEST(Bsdf, WhiteMetalReturnsAllLight) {
+TEST(Bsdf, WhiteMetalConservesEnergy) {
   for (const float roughness : {0.05F, 0.2F, 0.35F, 0.5F, 0.7F, 0.85F, 1.0F}) {
     for (const double theta : {0.0, 0.4, 0.8, 1.1, 1.4}) {
       const Bsdf bsdf({.base_color = Vec3(1), .metallic = 1, .roughness = roughness},
@@ -66,7 +66,7 @@ TEST(Bsdf, SamplerAndQuadratureAgree) {
   }
 }
 
-TEST(Bsdf, WhiteDielectricReturnsAllLight) {
+TEST(Bsdf, WhiteDielectricConservesEnergy) {
   for (const float roughness : {0.1F, 0.4F, 0.7F, 1.0F}) {
     for (const double theta : {0.0, 0.6, 1.2, 1.5}) {
       const Bsdf bsdf({.base_color = Vec3(1), .metallic = 0, .roughness = roughness},
@@ -76,7 +76,7 @@ TEST(Bsdf, WhiteDielectricReturnsAllLight) {
   }
 }
 
-TEST(Bsdf, NeverReturnsMoreThanComes) {
+TEST(Bsdf, NeverGainsEnergy) {
   for (const float roughness : {0.0F, 0.1F, 0.4F, 0.7F, 1.0F}) {
     for (const float metallic : {0.0F, 0.3F, 1.0F}) {
       for (const double theta : {0.0, 0.6, 1.2, 1.5}) {
@@ -104,8 +104,8 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
-// Snell: what is refracted by a smooth surface goes on at sin(theta) / eta.
-TEST(Bsdf, SmoothGlassBendsLight) {
+// Snell's law: a smooth surface refracts to sin(theta) / eta.
+TEST(Bsdf, SmoothGlassRefracts) {
   const Scattering bsdf({.roughness = 0, .transmission = 1, .eta = 1.5F}, {}, direction(0.8, 0));
   int below = 0;
   for (std::uint32_t k = 0; k < 200; ++k) {
@@ -118,8 +118,8 @@ TEST(Bsdf, SmoothGlassBendsLight) {
   EXPECT_GT(below, 150);
 }
 
-// A body that is half paint: light within comes out at last, and on its way none is added.
-TEST(Bsdf, HalfGlassReturnsNoMoreThanComes) {
+// A body that is half opaque: light from inside leaves eventually, without gain.
+TEST(Bsdf, HalfGlassGainsNoEnergy) {
   for (const float roughness : {0.05F, 0.3F, 0.8F}) {
     for (const float eta : {1.5F, 1 / 1.5F, 1 / 2.0F}) {
       const float f0 = (1 - eta) * (1 - eta) / ((1 + eta) * (1 + eta));
@@ -137,7 +137,7 @@ TEST(Bsdf, HalfGlassReturnsNoMoreThanComes) {
   }
 }
 
-// Through both walls of a body white light takes on its base colour once.
+// White light through both walls of a body is multiplied by the base color once.
 TEST(Bsdf, GlassTintsInAndOutTogether) {
   const Parameters in{.base_color = {0.25F, 1, 1}, .roughness = 0, .transmission = 1, .eta = 1.5F};
   Parameters out = in;
@@ -166,15 +166,14 @@ TEST(Bsdf, SpecularWeighsTheReflection) {
   EXPECT_LT(red.y, 0.01F * red.x);
 }
 
-void check_density(const Scattering& bsdf, const std::string& what) {
+void check_pdf(const Scattering& bsdf, const std::string& what) {
   std::mt19937 random(3);
-  EXPECT_LT(test_density(bsdf, {.rows = 24, .columns = 16, .fine = 48, .samples = 200'000}, random)
-                .excess,
-            5)
+  EXPECT_LT(
+      test_pdf(bsdf, {.rows = 24, .columns = 16, .fine = 48, .samples = 200'000}, random).excess, 5)
       << what;
 }
 
-TEST(Bsdf, SamplesHaveTheirDensity) {
+TEST(Bsdf, SamplesHaveTheirPdf) {
   for (const float roughness : {0.3F, 0.6F, 1.0F}) {
     for (const double theta : {0.6, 1.2}) {
       const std::string place =
@@ -182,7 +181,7 @@ TEST(Bsdf, SamplesHaveTheirDensity) {
       const auto check = [&](Parameters p, const std::string& what) {
         p.base_color = Vec3(0.6F);
         p.roughness = roughness;
-        check_density(Scattering(p, {}, direction(theta)), what + place);
+        check_pdf(Scattering(p, {}, direction(theta)), what + place);
       };
       check({}, "plastic");
       check({.metallic = 1}, "metal");

@@ -1,4 +1,4 @@
-/// How fast pictures become right, and that short ones are right on average.
+/// Rate of convergence, and unbiasedness of pictures with few samples.
 #include "support/effort.hpp"
 #include "support/pictures.hpp"
 
@@ -12,7 +12,7 @@
 namespace microtrace {
 namespace {
 
-/// Matt and shiny things on a floor under a lamp and a sky.
+/// Diffuse and specular objects on a floor under an area light and a sky.
 Scene still_life() {
   Scene scene;
   scene.materials = {
@@ -42,7 +42,7 @@ double error(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
   return std::sqrt(sum / double(a.size()));
 }
 
-/// The slope of log(error) over log(samples), against a long picture.
+/// The slope of log(error) over log(samples), relative to a reference picture with many samples.
 double slope(const Scene& scene, const Camera& camera, Shot shot, std::uint32_t most) {
   Shot reference = shot;
   reference.samples = 8 * most;
@@ -58,7 +58,8 @@ double slope(const Scene& scene, const Camera& camera, Shot shot, std::uint32_t 
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-// Direct light of a lamp without an edge in sight is a smooth function of the lamp's points.
+// Direct light of an area light without visible edges is a smooth function of the points on the
+// light.
 TEST(Convergence, SmoothLightBecomesRightAsFastAsSobolAllows) {
   Scene scene;
   scene.materials = {{.base_color = {0.7F, 0.7F, 0.7F, 1}},
@@ -80,9 +81,9 @@ TEST(Convergence, NoPictureIsSlowerThanByChance) {
   EXPECT_LT(slope(still_life(), kCamera, shot, 64), -0.5);
 }
 
-// Short pictures of several seeds against a long one: each pixel's mean is off by Student's t, so
-// that its square has the mean n / (n - 2) with n degrees of freedom, and one in 270 is beyond 3.6
-// (16 seeds).
+// Compares pictures with few samples and several seeds with a reference: the deviation of each
+// pixel's mean follows Student's t distribution, so its square has the mean n / (n - 2) with n
+// degrees of freedom, and one in 270 exceeds 3.6 (16 seeds).
 TEST(Convergence, ShortPicturesAreRightOnAverage) {
   const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
   constexpr std::uint32_t seeds = 16;
@@ -102,7 +103,7 @@ TEST(Convergence, ShortPicturesAreRightOnAverage) {
       continue;
     }
     ++n;
-    // The long picture has an error too: that of 512 samples beside 16 times 4, at most.
+    // The reference also has an error: at most that of 512 samples, compared with 16 times 4.
     const double t = (pixel.mean - right[i].y) / (pixel.deviation * std::sqrt(1 + 64.0 / 512));
     far += std::abs(t) > 3.6 ? 1 : 0;
     sum += t;
@@ -114,7 +115,7 @@ TEST(Convergence, ShortPicturesAreRightOnAverage) {
   EXPECT_LT(far / n, 0.02);
 }
 
-// Whether a surface that is half there stops a path, over all layers of many.
+// Whether alpha stops a path, over many layers.
 TEST(Convergence, LayersOfGlassLetTheirSharesThrough) {
   Scene scene;
   scene.materials = {{.base_color = {0, 0, 0, 0.25F}, .alpha_mode = AlphaMode::blend},
@@ -137,7 +138,8 @@ TEST(Convergence, LayersOfGlassLetTheirSharesThrough) {
   }
   const auto n = double(pixels.size());
   EXPECT_NEAR(sum / n, share, 5 * std::sqrt(expected_squares / n));
-  EXPECT_LT(squares / n, expected_squares);  // Sobol's numbers are better spread than chance
+  EXPECT_LT(squares / n,
+            expected_squares);  // Sobol points have a smaller variance than independent samples
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Light from maps, against quadrature by a float64 lookup of its own.
+// Compares light from maps with quadrature by an independent float64 lookup.
 
 #include "render/bsdf/bsdf.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A sky that is bluer above, a ground, and a sun of a few pixels.
+/// A sky that is bluer at the top, a ground, and a sun of a few pixels.
 std::shared_ptr<const RadianceMap> sky() {
   RadianceMap map{.width = 48, .height = 24};
   for (std::uint32_t y = 0; y < map.height; ++y) {
@@ -32,7 +32,7 @@ std::shared_ptr<const RadianceMap> sky() {
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// The map as its header defines it.
+/// The map as defined in its header.
 DVec3 lookup(const RadianceMap& map, const DVec3& d) {
   const double u = std::atan2(d.z, d.x) / (2 * kPi) + 0.5, v = std::acos(d.y) / kPi;
   const double x = u * map.width - 0.5, y = v * map.height - 0.5;
@@ -48,7 +48,8 @@ DVec3 lookup(const RadianceMap& map, const DVec3& d) {
          fy * ((1 - fx) * pixel(left, above + 1) + fx * pixel(left + 1, above + 1));
 }
 
-/// What a wall of normal n sends back along n: the integral of radiance, cosine and reflectance.
+/// The reflected radiance of a wall with normal n, seen along n: the integral of radiance, cosine
+/// and reflectance.
 DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float albedo) {
   const bsdf::Bsdf bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   constexpr int kRows = 512;
@@ -62,7 +63,7 @@ DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float a
       if (cosine <= 0) continue;
       const double c = std::cos(rotation), s = std::sin(rotation);
       const DVec3 in_map(c * d.x - s * d.z, d.y, s * d.x + c * d.z);
-      // The value has the cosine in it.
+      // The BSDF value includes the cosine.
       const Vec3 local(DVec3(std::sqrt(std::max(1 - cosine * cosine, 0.0)), 0, cosine));
       sum += lookup(map, in_map) * double{bsdf.evaluate(local).value.x};
     }
@@ -70,7 +71,7 @@ DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float a
   return sum * (2 * kPi / kRows / kRows);
 }
 
-/// The mean of what the camera sees of a wall of that normal.
+/// The mean picture of a wall with this normal.
 DVec3 seen(const std::shared_ptr<const RadianceMap>& map, double rotation, const DVec3& n,
            float albedo) {
   Scene scene;
@@ -121,7 +122,7 @@ TEST(EnvironmentBackground, IsTheMap) {
       render(scene, camera, {.width = 48, .height = 24}, {.integrator = &path, .samples = 256});
   for (std::uint32_t y = 0; y < 11; ++y) {
     for (std::uint32_t x = 0; x < 48; ++x) {
-      if (x >= 28 && x < 35 && y >= 3 && y < 9) continue;  // steep about the sun
+      if (x >= 28 && x < 35 && y >= 3 && y < 9) continue;  // steep near the sun
       EXPECT_NEAR(film.row(y)[x].z, map->pixels[y * 48 + x].z, 0.02) << x << ' ' << y;
     }
   }

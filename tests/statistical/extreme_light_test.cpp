@@ -1,4 +1,4 @@
-/// Lights of any numbers that float32 has: as small, as large, as near and as far as can be.
+/// Lights with extreme float32 parameters: minimum and maximum sizes, intensities and distances.
 #include "render/lights/light_tree.hpp"
 #include "render/lights/lighting.hpp"
 #include "support/pictures.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 constexpr float kMax = std::numeric_limits<float>::max();
 
-/// Numbers of all magnitudes, often several alike and the ends of float32.
+/// Numbers of all magnitudes, often equal ones and the ends of the float32 range.
 struct Extremes {
   explicit Extremes(unsigned seed) : bits(seed) {}
 
@@ -45,7 +45,7 @@ struct Extremes {
     if (below(4) == 0) return Vec3(any());
     return {any(), any(), any()};
   }
-  /// Near others: their differences are the least that there are.
+  /// Near another point: at the smallest possible differences.
   Vec3 place_near(const Vec3& p) {
     Vec3 result = p;
     for (int i = 0; i < 3; ++i)
@@ -89,15 +89,15 @@ std::vector<LightBounds> lights(Extremes& random, std::size_t count) {
   return result;
 }
 
-/// The importance but for cosines.
+/// The importance without cosines.
 double head_on(const LightBounds& light, const Vec3& p) {
   const DVec3 low(light.low), high(light.high), way = DVec3(p) - (low + high) / 2.0;
   const double square = std::max(glm::dot(way, way), glm::dot(high - low, high - low) / 4);
   return square > 0 ? light.power / square : 0;
 }
 
-// But for lights that graze the surface by less than rounding.
-TEST(ExtremeLights, SharesAddUpToOne) {
+// Except for lights at grazing angles below rounding.
+TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
   for (unsigned seed = 0; seed < 3000; ++seed) {
     Extremes random(seed);
     const std::size_t count = 1 + random.below(seed % 10 == 0 ? 200 : 12);
@@ -109,12 +109,12 @@ TEST(ExtremeLights, SharesAddUpToOne) {
       ASSERT_TRUE(std::isfinite(importance) && importance >= 0) << seed;
       double sum = 0;
       for (std::size_t light = 0; light < count; ++light) {
-        const double share = tree.share(light, p, n);
-        ASSERT_TRUE(share >= 0 && share <= 1) << seed;
+        const double probability = tree.probability(light, p, n);
+        ASSERT_TRUE(probability >= 0 && probability <= 1) << seed;
         if (all[light].importance(p, n) > 1e-6 * head_on(all[light], p)) {
-          EXPECT_GT(share, 0) << seed << " " << i << " " << light;
+          EXPECT_GT(probability, 0) << seed << " " << i << " " << light;
         }
-        sum += share;
+        sum += probability;
       }
       EXPECT_LE(sum, 1 + 1e-5) << seed;
       double chosen = 0;
@@ -122,8 +122,8 @@ TEST(ExtremeLights, SharesAddUpToOne) {
         const auto choice = tree.choose(p, n, (static_cast<float>(k) + 0.5F) / 100);
         if (!choice) continue;
         ASSERT_LT(choice->light, count);
-        ASSERT_EQ(choice->share, tree.share(choice->light, p, n)) << seed;
-        ASSERT_GT(choice->share, 0) << seed;
+        ASSERT_EQ(choice->probability, tree.probability(choice->light, p, n)) << seed;
+        ASSERT_GT(choice->probability, 0) << seed;
         chosen += 0.01;
       }
       EXPECT_NEAR(sum, chosen, 0.03) << seed;
@@ -131,7 +131,7 @@ TEST(ExtremeLights, SharesAddUpToOne) {
   }
 }
 
-/// Lamps, meshes and shapes that shine, and an environment, of any sizes at any places.
+/// Punctual lights, emissive meshes and shapes, and an environment, of any size at any position.
 Scene scene_of(Extremes& random) {
   Scene scene;
   for (int i = 0; i < 3; ++i) {
@@ -203,17 +203,17 @@ TEST(ExtremeLights, SamplesAreFinite) {
     const Shading shading(scene, bvh.primitives(), pyramids);
     const Lighting lighting(scene, shading);
     for (int i = 0; i < 30; ++i) {
-      const Receiver receiver{.p = random.place(), .n = random.direction()};
-      const auto light = lighting.sample(receiver, {random.unit(), random.unit()}, random.unit());
+      const LightSampleContext context{.p = random.place(), .n = random.direction()};
+      const auto light = lighting.sample(context, {random.unit(), random.unit()}, random.unit());
       if (!light) continue;
       ASSERT_TRUE(is_light(light->light)) << seed;
       ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-4) << seed;
-      ASSERT_TRUE(is_finite(light->way) && light->way != Vec3(0)) << seed;
-      ASSERT_TRUE(std::isfinite(light->density * light->density)) << seed;
+      ASSERT_TRUE(is_finite(light->to_light) && light->to_light != Vec3(0)) << seed;
+      ASSERT_TRUE(std::isfinite(light->pdf * light->pdf)) << seed;
       if (!light->target) continue;
-      ASSERT_GT(light->density * light->density, 0) << seed;
-      const float other = lighting.emitter_density(*light->target, receiver, random.positive(),
-                                                   std::max(random.unit(), 0x1p-24F));
+      ASSERT_GT(light->pdf * light->pdf, 0) << seed;
+      const float other = lighting.emitter_pdf(*light->target, context, random.positive(),
+                                               std::max(random.unit(), 0x1p-24F));
       ASSERT_TRUE(std::isfinite(other * other)) << seed;
       ASSERT_GT(other * other, 0) << seed;
     }

@@ -1,9 +1,9 @@
-// In a room that shines white from everywhere, what absorbs nothing shows no different from the
-// room, and nothing shows brighter.
+// White furnace test: under uniform white light, non-absorbing objects are as bright as the light,
+// and no object is brighter.
 
 #include "render/bsdf/scattering.hpp"
 #include "render/sampling/sobol.hpp"
-#include "support/direction_density.hpp"
+#include "support/direction_pdf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 namespace microtrace::bsdf {
 namespace {
 
-/// The share of white light from all around that goes to wo.
+/// The directional albedo for wo.
 DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Vec3& wo,
               std::uint32_t samples) {
   const Scattering bsdf(p, layers, wo);
@@ -28,16 +28,16 @@ DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Ve
   return sum / double(samples);
 }
 
-/// With what is left of the samples' noise.
+/// Includes the remaining noise of the samples.
 constexpr double kMost = 1.003;
 
-/// All but `loss` of the light comes back at any angle and roughness.
+/// At most `loss` of the light is lost at any angle and roughness.
 void expect_white(const char* what, Parameters p, const std::optional<Layers>& layers, double loss,
                   double azimuth = 0.3, double most = kMost) {
   for (const float roughness : {0.05F, 0.25F, 0.45F, 0.7F, 1.0F}) {
     p.roughness = roughness;
     for (const double theta : {0.05, 0.5, 0.9, 1.2, 1.4, 1.5}) {
-      // Of few samples, first.
+      // Few samples first.
       const Vec3 wo = direction(theta, azimuth);
       double white = furnace(p, layers, wo, 1U << 14U).x;
       if (white < 1 - loss || white > 1.001) white = furnace(p, layers, wo, 1U << 17U).x;
@@ -116,7 +116,7 @@ TEST(Furnace, Anisotropic) {
   }
 }
 
-/// Any material, and more often than not at a corner of what is allowed.
+/// Any material, usually with some parameters at the ends of their ranges.
 class AnyMaterial {
  public:
   explicit AnyMaterial(unsigned seed) : random_(seed) {}
@@ -163,7 +163,7 @@ class AnyMaterial {
   std::mt19937 random_;
 };
 
-TEST(Furnace, NothingReturnsMoreThanComes) {
+TEST(Furnace, NothingGainsEnergy) {
   AnyMaterial any(1);
   for (int i = 0; i < 1500; ++i) {
     const Parameters p = any.parameters();
@@ -172,7 +172,7 @@ TEST(Furnace, NothingReturnsMoreThanComes) {
     if (layers && !(glm::dot(layers->coat_normal, wo) > 0.01F)) layers->coat_normal = {0, 0, 1};
     DVec3 sum = furnace(p, layers, wo, 1U << 11U);
     if (std::max({sum.x, sum.y, sum.z}) > kMost) sum = furnace(p, layers, wo, 1U << 17U);
-    // Of facets that are longer one way and of films, bounds are not strict.
+    // The bounds for anisotropic facets and films are not strict.
     const double bound = p.anisotropy > 0 || p.film ? 1.01 : kMost;
     for (int c = 0; c < 3; ++c)
       EXPECT_LT(sum[c], bound) << i << ": " << p.roughness << ' ' << p.metallic << ' '
@@ -181,21 +181,21 @@ TEST(Furnace, NothingReturnsMoreThanComes) {
   }
 }
 
-// Densities of random materials integrate to one at most.
-TEST(Furnace, DensitiesAreThoseOfTheSamples) {
+// The pdfs of random materials integrate to at most one.
+TEST(Furnace, PdfsAreThoseOfTheSamples) {
   AnyMaterial any(2);
   std::mt19937 random(3);
   for (int i = 0; i < 40; ++i) {
     Parameters p = any.parameters();
     p.roughness = 0.35F + 0.65F * p.roughness;
-    // Where nothing is bent, cells are too wide.
+    // Without refraction the lobes are narrower than the cells.
     if (p.eta) p.eta = *p.eta > 1 ? std::max(*p.eta, 1.2F) : std::min(*p.eta, 0.8F);
     auto layers = any.layers(p);
     if (layers) layers->coat_roughness = 0.35F + 0.65F * layers->coat_roughness;
     const Vec3 wo = direction(0.9F * any.number());
-    const DensityTest test =
-        test_density(Scattering(p, layers, wo),
-                     {.rows = 16, .columns = 12, .fine = 32, .samples = 50'000}, random);
+    const PdfTest test =
+        test_pdf(Scattering(p, layers, wo),
+                 {.rows = 16, .columns = 12, .fine = 32, .samples = 50'000}, random);
     EXPECT_LT(test.mass, 1.003) << i;
     EXPECT_LT(test.excess, 5) << i;
   }

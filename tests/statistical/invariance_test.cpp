@@ -1,4 +1,4 @@
-/// What must not change a picture with light.
+/// Changes that must not affect path-traced pictures.
 #include "support/closed_meshes.hpp"
 #include "support/effort.hpp"
 #include "support/pictures.hpp"
@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-// Within a closed surface no light from outside is ever seen, however thin and creased it is and
-// wherever it lies. Materials absorb nothing, so that any leak would stay.
+// Inside a closed surface no outside light is ever visible, however thin and creased the surface is
+// and wherever it is. The materials don't absorb, so any leak would remain visible.
 TEST(Invariance, ClosedSurfacesLetNoLightIn) {
   const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
   for (const auto& closed : adversarial::closed_meshes()) {
@@ -34,7 +34,7 @@ TEST(Invariance, ClosedSurfacesLetNoLightIn) {
   }
 }
 
-/// A square of edge 64 in y = 0, of 2 n^2 triangles with corners on a grid.
+/// A square with edges of 64 in the plane y = 0, of 2 n^2 triangles with vertices on a grid.
 Mesh tiled_floor(std::uint32_t n) {
   Mesh mesh;
   for (std::uint32_t j = 0; j <= n; ++j) {
@@ -52,8 +52,8 @@ Mesh tiled_floor(std::uint32_t n) {
   return mesh;
 }
 
-// Under light that grazes it, a floor of many triangles looks like one of two: none of them throws
-// a shadow on its neighbours.
+// Under grazing light, a floor of many triangles looks like one of two: no triangle shadows its
+// neighbors.
 TEST(Invariance, FlatTrianglesThrowNoShadows) {
   Scene scene;
   scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .metallic = 0.5F, .roughness = 0.6F}};
@@ -77,7 +77,7 @@ TEST(Invariance, FlatTrianglesThrowNoShadows) {
   }
 }
 
-/// A mirror-like and a matt block on a floor under a lamp, corners on a grid of 1/8.
+/// A specular and a diffuse block on a floor under an area light, with vertices on a grid of 1/8.
 Scene blocks(const Vec3& shift) {
   Scene scene;
   scene.materials = {{.base_color = {0.7F, 0.6F, 0.5F, 1}},
@@ -100,7 +100,7 @@ Scene blocks(const Vec3& shift) {
   return scene;
 }
 
-// The same numbers far away: no coarser than here.
+// The same numbers far away: as precise as here.
 TEST(Invariance, FarFromTheOriginItLooksTheSame) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Shot shot{.size = {.width = 64, .height = 48}, .samples = 16};
@@ -119,7 +119,7 @@ TEST(Invariance, FarFromTheOriginItLooksTheSame) {
   EXPECT_LT(difference / light, 1e-5);
 }
 
-// What is exact beside a picture with light is told of the scene where it is.
+// Exact quantities of a path-traced picture refer to the original coordinates.
 TEST(Invariance, FarFromTheOriginExactQuantitiesStay) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Scene scene = blocks(shift);
@@ -142,7 +142,7 @@ TEST(Invariance, FarFromTheOriginExactQuantitiesStay) {
   }
 }
 
-// An integrator that has drawn lamps draws a scene without any as if it had not.
+// An integrator that has rendered lights renders a scene without lights correctly.
 TEST(Invariance, LightOfAnotherSceneIsForgotten) {
   Scene lit = blocks(Vec3(0)), unlit = lit;
   lit.lights.push_back(
@@ -160,7 +160,7 @@ TEST(Invariance, LightOfAnotherSceneIsForgotten) {
   EXPECT_EQ(pixels(unlit, used), pixels(unlit, fresh));
 }
 
-// Lamps, a map, blending, smooth and rough surfaces: any number of threads and any window.
+// Area lights, a map, blending, smooth and rough surfaces: any number of threads and any window.
 TEST(Invariance, ThreadsAndCropsKeepAllBytes) {
   Scene scene = blocks(Vec3(0));
   RadianceMap map{.width = 8, .height = 4};

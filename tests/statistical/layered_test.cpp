@@ -1,7 +1,7 @@
 #include "render/bsdf/scattering.hpp"
 #include "render/bsdf/thin_film.hpp"
 #include "render/sampling/sobol.hpp"
-#include "support/direction_density.hpp"
+#include "support/direction_pdf.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -24,7 +24,8 @@ struct Surface {
   std::optional<Layers> layers{};
 };
 
-/// At least one of each kind; none absorbs, but for tints of what is reflected head on.
+/// At least one material of each kind, without absorption except for colored reflection at normal
+/// incidence.
 std::vector<Surface> surfaces() {
   std::vector<Surface> result;
   for (const float roughness : {0.3F, 0.8F}) {
@@ -76,7 +77,7 @@ std::vector<Surface> surfaces() {
   return result;
 }
 
-/// Where wo is on the other side of the surface, upside down about x.
+/// For wo on the other side of the surface: rotated upside down about x.
 Surface turned(Surface s) {
   if (s.base.eta) s.base.eta = 1 / *s.base.eta;
   s.base.along.y = -s.base.along.y;
@@ -98,7 +99,7 @@ std::string text(const Surface& s, double theta) {
   return std::string(s.name) + " " + std::to_string(s.base.roughness) + " " + std::to_string(theta);
 }
 
-/// The share of white light from all around that goes to wo, by the sampler's weights.
+/// The directional albedo for wo, by sampling.
 DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
@@ -108,7 +109,7 @@ DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
   return sum / double(samples);
 }
 
-/// The same by the midpoint rule, without the sampler.
+/// The same by the midpoint rule, without sampling.
 DVec3 integrated(const Scattering& bsdf, int steps) {
   DVec3 sum(0);
   for (int i = 0; i < 2 * steps; ++i) {
@@ -120,7 +121,7 @@ DVec3 integrated(const Scattering& bsdf, int steps) {
   return sum * (kPi / 2 / steps) * (kPi / steps);
 }
 
-TEST(Layered, NeverReturnsMoreThanComes) {
+TEST(Layered, NeverGainsEnergy) {
   for (const Surface& s : surfaces()) {
     for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
       const DVec3 sum = scattered(scattering(s, direction(theta)), 1U << 16U);
@@ -139,7 +140,7 @@ TEST(Layered, WithoutLayersIsTheBase) {
       const Evaluation layered = LayeredBsdf(p, {}, wo).evaluate(wi);
       const Evaluation bare = Bsdf(p, wo).evaluate(wi);
       for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(layered.value[c], bare.value[c]);
-      EXPECT_FLOAT_EQ(layered.density, bare.density);
+      EXPECT_FLOAT_EQ(layered.pdf, bare.pdf);
     }
   }
 }
@@ -192,12 +193,12 @@ TEST(Layered, IsReciprocal) {
   }
 }
 
-TEST(Layered, SamplesHaveTheirDensity) {
+TEST(Layered, SamplesHaveTheirPdf) {
   std::mt19937 random(3);
   for (const Surface& s : surfaces()) {
-    const DensityTest test =
-        test_density(scattering(s, direction(0.6)),
-                     {.rows = 20, .columns = 14, .fine = 16, .samples = 100'000}, random);
+    const PdfTest test =
+        test_pdf(scattering(s, direction(0.6)),
+                 {.rows = 20, .columns = 14, .fine = 16, .samples = 100'000}, random);
     EXPECT_LT(test.mass, 1.003) << s.name;
     EXPECT_LT(test.excess, 5) << text(s, 0.6);
   }

@@ -41,15 +41,15 @@ std::vector<LightBounds> lights(Random& random, int count) {
   return result;
 }
 
-// But for halves of which neither brings anything, though both together seemed to.
-TEST(LightTree, SharesAddUpToOne) {
+// Except for nodes neither of whose children contributes, although their union seems to.
+TEST(LightTree, ProbabilitiesAddUpToOne) {
   Random random;
   for (const int count : {1, 2, 3, 17, 300}) {
     const LightTree tree(lights(random, count));
     for (int i = 0; i < 50; ++i) {
       const Vec3 p = random.in_cube(15), n = random.direction();
       double sum = 0, chosen = 0;
-      for (int light = 0; light < count; ++light) sum += tree.share(std::size_t(light), p, n);
+      for (int light = 0; light < count; ++light) sum += tree.probability(std::size_t(light), p, n);
       for (int k = 0; k < 1000; ++k)
         chosen += tree.choose(p, n, (float(k) + 0.5F) / 1000) ? 1e-3 : 0;
       EXPECT_LE(sum, 1 + 1e-4) << count;
@@ -58,7 +58,7 @@ TEST(LightTree, SharesAddUpToOne) {
   }
 }
 
-TEST(LightTree, ChoosesEachByItsShare) {
+TEST(LightTree, ChoosesEachByItsProbability) {
   Random random;
   constexpr int count = 40, samples = 100000;
   const LightTree tree(lights(random, count));
@@ -68,15 +68,15 @@ TEST(LightTree, ChoosesEachByItsShare) {
     for (int k = 0; k < samples; ++k) {
       const auto choice = tree.choose(p, n, (float(k) + 0.5F) / samples);
       ASSERT_TRUE(choice);
-      EXPECT_EQ(choice->share, tree.share(choice->light, p, n));
+      EXPECT_EQ(choice->probability, tree.probability(choice->light, p, n));
       ++chosen[choice->light];
     }
     for (std::size_t light = 0; light < count; ++light)
-      EXPECT_NEAR(chosen[light], tree.share(light, p, n) * samples, 2 + 1e-4 * samples);
+      EXPECT_NEAR(chosen[light], tree.probability(light, p, n) * samples, 2 + 1e-4 * samples);
   }
 }
 
-// What can bring light is not left out: bounds of a whole tree are above nothing where a light is.
+// No contributing light is left out: a tree's bounds are nonzero wherever a light's are.
 TEST(LightTree, BoundsHoldWhatTheyUnite) {
   Random random;
   for (int i = 0; i < 20000; ++i) {
@@ -89,7 +89,7 @@ TEST(LightTree, BoundsHoldWhatTheyUnite) {
   }
 }
 
-// A floor under many lamps, against the sum over all of them.
+// A floor under many lights, compared with the sum over all lights.
 TEST(LightTree, ManyLampsOverAFloor) {
   Scene scene;
   scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .metallic = 1, .roughness = 1}};
@@ -115,7 +115,7 @@ TEST(LightTree, ManyLampsOverAFloor) {
   }
   scene.lights = all;
   EXPECT_NEAR(brightness(16384), sum, 0.01 * sum);
-  // And soon: by power alone 256 samples would be off by half.
+  // And with few samples: selection by power alone would have an error of half with 256 samples.
   EXPECT_NEAR(brightness(256), sum, 0.1 * sum);
 }
 

@@ -1,4 +1,4 @@
-/// Directions in which light is sought against the density that they are said to have.
+/// Compares directions from light sampling with their pdf.
 #include "render/lights/lighting.hpp"
 
 #include "support/chi_square.hpp"
@@ -29,8 +29,8 @@ std::size_t cell_of(const Vec3& d) {
   return std::size_t(row * kColumns + std::min(int(u * kColumns), kColumns - 1));
 }
 
-/// Lamps on all sides of the origin: one-sided and two-sided, facing it or not, a large one close
-/// by, shapes of their own; a map with a bright spot.
+/// Area lights on all sides of the origin: one-sided and two-sided, facing it or not, a large one
+/// close by, and shapes; a map with a bright spot.
 Scene lamps(bool with_map) {
   Scene scene;
   scene.materials = {{.double_sided = false, .emissive = Vec3(3)}, {.emissive = Vec3(1)}};
@@ -38,11 +38,12 @@ Scene lamps(bool with_map) {
   std::uniform_real_distribution<float> u(-1, 1);
   const auto vector = [&] { return Vec3(u(random), u(random), u(random)); };
   for (std::uint32_t i = 0; i < 12; ++i) {
-    const Vec3 way = vector();
-    scene.objects.push_back({.name = "lamp",
-                             .shape = parallelogram(way * (4 / std::sqrt(glm::dot(way, way))),
-                                                    vector() * 1.5F, vector() * 1.5F),
-                             .material = i % 2});
+    const Vec3 to_light = vector();
+    scene.objects.push_back(
+        {.name = "lamp",
+         .shape = parallelogram(to_light * (4 / std::sqrt(glm::dot(to_light, to_light))),
+                                vector() * 1.5F, vector() * 1.5F),
+         .material = i % 2});
   }
   scene.objects.push_back(
       {.name = "close", .shape = parallelogram({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}), .material = 1});
@@ -58,30 +59,31 @@ Scene lamps(bool with_map) {
   return scene;
 }
 
-/// The density of all that lies in a direction, the one behind the other.
-double density(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
-               const Receiver& receiver, const Vec3& d) {
-  double sum = double{lighting.environment(receiver, d).pdf};
-  const Ray ray{.o = receiver.p, .t_min = 0, .d = d};
+/// The pdf of all lights in a direction, one behind the other.
+double pdf(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
+           const LightSampleContext& context, const Vec3& d) {
+  double sum = double{lighting.environment(context, d).pdf};
+  const Ray ray{.o = context.p, .t_min = 0, .d = d};
   for (std::optional<Hit> hit = bvh.intersect(ray); hit; hit = bvh.next(ray, *hit)) {
     const ShadingPoint point = shading.point(ray, *hit);
     if (shading.emission(point) == Vec3(0) || shading.coverage(point, false) == 0) continue;
     const float cosine = std::abs(glm::dot(d, point.at.n));
-    sum += double{lighting.emitter_density(hit->id, receiver, point.at.distance, cosine)};
+    sum += double{lighting.emitter_pdf(hit->id, context, point.at.distance, cosine)};
   }
   return sum;
 }
 
 class Lamps : public testing::TestWithParam<bool> {};
 
-TEST_P(Lamps, SamplesHaveTheirDensity) {
+TEST_P(Lamps, SamplesHaveTheirPdf) {
   const Scene scene = lamps(GetParam());
   const Bvh bvh(scene, {.threads = 1});
   TexturePyramids pyramids(scene);
   const Shading shading(scene, bvh.primitives(), pyramids);
   const Lighting lighting(scene, shading);
-  for (const Receiver& receiver : {Receiver{.p = {0, 0, 0}, .n = {0, 1, 0}},
-                                   Receiver{.p = {0.5F, -0.9F, 0.25F}, .n = {0.6F, 0.8F, 0}}}) {
+  for (const LightSampleContext& context :
+       {LightSampleContext{.p = {0, 0, 0}, .n = {0, 1, 0}},
+        LightSampleContext{.p = {0.5F, -0.9F, 0.25F}, .n = {0.6F, 0.8F, 0}}}) {
     constexpr int samples = 200000, fine = 48;
     std::vector<double> counts(kRows * kColumns + 1), expected(kRows * kColumns + 1);
     std::mt19937 random(4);
@@ -89,25 +91,24 @@ TEST_P(Lamps, SamplesHaveTheirDensity) {
     int differ = 0;
     for (int i = 0; i < samples; ++i) {
       const Vec2 place(u(random), u(random));
-      const auto light = lighting.sample(receiver, place, u(random));
+      const auto light = lighting.sample(context, place, u(random));
       ++counts[light ? cell_of(light->wi) : counts.size() - 1];
       if (!light || i >= 2000) continue;
-      // What the sample says itself, without what lies before or behind it.
+      // The sample's own values, without other lights in the same direction.
       ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-5);
-      differ += double{light->density} >
-                        1.01 * density(lighting, shading, bvh, receiver, light->wi) + 1e-6
+      differ += double{light->pdf} > 1.01 * pdf(lighting, shading, bvh, context, light->wi) + 1e-6
                     ? 1
                     : 0;
     }
-    EXPECT_LE(differ, 10);  // at edges of lamps and of the map's pixels
+    EXPECT_LE(differ, 10);  // at edges of lights and of the map's pixels
     double within = 0;
     for (int row = 0; row < kRows * fine; ++row) {
       const double y = 2 * (row + 0.5) / (kRows * fine) - 1, r = std::sqrt(1 - y * y);
       for (int column = 0; column < kColumns * fine; ++column) {
         const double phi = ((column + 0.5) / (kColumns * fine) - 0.5) * 2 * kPi;
         const Vec3 d(DVec3(r * std::cos(phi), y, r * std::sin(phi)));
-        const double mass = density(lighting, shading, bvh, receiver, d) * 4 * kPi /
-                            (kRows * kColumns * fine * fine);
+        const double mass =
+            pdf(lighting, shading, bvh, context, d) * 4 * kPi / (kRows * kColumns * fine * fine);
         expected[cell_of(d)] += mass * samples;
         within += mass;
       }
@@ -120,7 +121,7 @@ TEST_P(Lamps, SamplesHaveTheirDensity) {
 
 INSTANTIATE_TEST_SUITE_P(Environment, Lamps, testing::Bool());
 
-// Samples of a lamp lie evenly over its triangles.
+// Samples of a light are uniform over its triangles.
 TEST(Lighting, PointsOfALampAreSpreadEvenly) {
   Scene scene;
   scene.materials = {{.emissive = Vec3(1)}};
@@ -131,23 +132,23 @@ TEST(Lighting, PointsOfALampAreSpreadEvenly) {
   TexturePyramids pyramids(scene);
   const Shading shading(scene, bvh.primitives(), pyramids);
   const Lighting lighting(scene, shading);
-  const Receiver receiver{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
+  const LightSampleContext context{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
   constexpr int samples = 100000, side = 10, half = side / 2;
-  // The triangle is chosen by its light at the receiver, so each is counted alone: two cells of
-  // equal area for each square of the grid over the parallelogram.
+  // The triangle is selected by its contribution at the context, so each is counted separately:
+  // two cells of equal area for each square of the grid over the parallelogram.
   std::array<std::vector<double>, 2> counts{std::vector<double>(side * half),
                                             std::vector<double>(side * half)};
   std::array<double, 2> all{};
   for (int i = 0; i < samples; ++i) {
     const Vec2 place(u(random), u(random));
-    const auto light = lighting.sample(receiver, place, u(random));
+    const auto light = lighting.sample(context, place, u(random));
     ASSERT_TRUE(light && light->target);
-    const DVec3 p = DVec3(receiver.p) + DVec3(light->way);
+    const DVec3 p = DVec3(context.p) + DVec3(light->to_light);
     const double b = p.z / 3, a = (p.x - b) / 2;  // along, up
     const auto triangle = std::size_t(*light->target);
-    // Barycentric coordinates: s for how far from the diagonal, t along what is left.
+    // Barycentric coordinates: s is the distance from the diagonal, t the position along the rest.
     const double low = triangle == 0 ? b : a, high = triangle == 0 ? a : b;
     const double s = std::clamp(high * high, 0.0, 1 - 1e-9),
                  t = std::clamp(low / high, 0.0, 1 - 1e-9);

@@ -30,7 +30,7 @@ Mesh quad(const Vec3& corner, const Vec3& along, const Vec3& up) {
           .triangles = {{{0, 1, 2}}, {{0, 2, 3}}}};
 }
 
-/// A floor at y = 0 that faces upwards, seen from straight above in a small window about (0, 0, 0).
+/// A floor at y = 0 facing up, seen from straight above through a small window around (0, 0, 0).
 struct Floor {
   explicit Floor(const Material& material) {
     scene.materials = {material};
@@ -81,7 +81,7 @@ TEST(Path, DirectionalAndSpotLightOverFloor) {
   EXPECT_EQ(shine(0.7), 0);
 }
 
-// A square lamp over the floor, by the midpoint rule over the lamp.
+// A square area light over the floor, by the midpoint rule over the light.
 TEST(Path, ShiningSquareOverFloor) {
   Floor floor({.base_color = {0.5F, 0.5F, 0.5F, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = {2, 3, 4}});
@@ -101,7 +101,7 @@ TEST(Path, ShiningSquareOverFloor) {
   EXPECT_NEAR(got.z / got.x, 2, 1e-5);
 }
 
-// In a uniform environment what absorbs nothing can't be told from it.
+// In a uniform environment a non-absorbing object is invisible.
 TEST(Path, WhiteMetalVanishesInTheFurnace) {
   Scene scene;
   scene.materials = {{.metallic = 1, .roughness = 0.6F}, {.metallic = 1, .roughness = 0.1F}};
@@ -120,7 +120,7 @@ TEST(Path, DepthOneShowsOnlyWhatShines) {
   EXPECT_GT(mean(floor.scene, floor.camera, 2, {.max_depth = 2}).x, 1);
 }
 
-// Glass panes that let half of the light pass: by blending, over what shines behind.
+// Panes with half opacity: blended over an emitter behind them.
 TEST(Path, BlendedSurfacesLetTheirShareThrough) {
   Floor floor({.emissive = {1, 1, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 0.5F}, .alpha_mode = AlphaMode::blend});

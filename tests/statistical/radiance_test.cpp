@@ -1,4 +1,4 @@
-/// Radiance that closed forms or quadrature tell, within the deviation of the estimates.
+/// Compares radiance with closed forms or quadrature, within the deviation of the estimates.
 #include "render/bsdf/bsdf.hpp"
 #include "support/pictures.hpp"
 
@@ -16,14 +16,15 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr ImageSize kSize{.width = 8, .height = 8};
 constexpr std::uint32_t kSeeds = 12;
-/// A mean of kSeeds is further off once in 10 000 times (Student's t, 11 degrees of freedom).
+/// A mean of kSeeds exceeds this deviation once in 10 000 times (Student's t, 11 degrees of
+/// freedom).
 constexpr double kFar = 5.8;
 
 void expect_mean(const Estimate& got, double expected) {
   EXPECT_NEAR(got.mean, expected, kFar * got.deviation + 1e-5 * expected) << got.deviation;
 }
 
-/// A floor at y = 0, seen from straight above in a small window.
+/// A floor at y = 0, seen from straight above through a small window.
 struct Floor {
   explicit Floor(const Material& material) {
     scene.materials = {material};
@@ -37,7 +38,7 @@ struct Floor {
       .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.001};
 };
 
-/// f |cos| of the floor's material towards its camera.
+/// f |cos| of the floor's material toward its camera.
 double scattered(const Material& m, double cosine) {
   const bsdf::Bsdf bsdf(
       {.base_color = Vec3(m.base_color), .metallic = m.metallic, .roughness = m.roughness},
@@ -45,7 +46,7 @@ double scattered(const Material& m, double cosine) {
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.y;
 }
 
-/// What the floor sends up under light that depends on the angle from the zenith alone.
+/// The radiance that the floor reflects up, for light that depends only on the zenith angle.
 template <class Radiance>
 double lit_by(const Material& material, Radiance&& radiance) {
   double sum = 0;
@@ -60,7 +61,7 @@ double lit_by(const Material& material, Radiance&& radiance) {
 const Material kMatt{.base_color = {0.6F, 0.6F, 0.6F, 1}, .roughness = 1};
 const Material kShiny{.base_color = {0.9F, 0.9F, 0.9F, 1}, .metallic = 1, .roughness = 0.4F};
 
-/// Of triangles whose corners lie on the sphere.
+/// Triangles whose vertices are on the sphere.
 Mesh ball(const DVec3& centre, double radius) {
   constexpr std::uint32_t rows = 40, columns = 80;
   Mesh mesh;
@@ -82,7 +83,7 @@ Mesh ball(const DVec3& centre, double radius) {
   return mesh;
 }
 
-// Straight above: the light within the cone that touches the ball.
+// Straight above: the light within the cone tangent to the ball.
 TEST(Radiance, ShiningBallOverFloor) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
@@ -90,18 +91,18 @@ TEST(Radiance, ShiningBallOverFloor) {
     const double expected = lit_by(material, [&](double c) { return c > edge ? 5.0 : 0.0; });
     Floor floor(material);
     floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(5)});
-    // The sphere's own shape is met by paths alone, its mesh is sampled too.
+    // The single sphere is found by paths only, its mesh is also sampled.
     floor.scene.objects.push_back({.name = "ball", .shape = Sphere{{0, 3, 0}, 1}, .material = 1});
     expect_mean(estimate(floor.scene, floor.camera, shot, kSeeds), expected);
     floor.scene.objects.back().shape = ball({0, 3, 0}, 1);
     const Estimate mesh = estimate(floor.scene, floor.camera, shot, kSeeds);
-    // The mesh lies within the sphere, by up to 1 - cos(pi / 40).
+    // The mesh is inside the sphere, by up to 1 - cos(pi / 40).
     EXPECT_NEAR(mesh.mean, expected, kFar * mesh.deviation + 0.008 * expected);
   }
 }
 
-// The back of what is one-sided is not there for the camera. What is closed casts its shadow, on
-// whatever side its back is.
+// The camera doesn't see the back of one-sided surfaces. Closed objects cast their shadows
+// regardless of which side is the back.
 TEST(Radiance, OneSidedWalls) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   Floor floor(kMatt);
@@ -115,7 +116,7 @@ TEST(Radiance, OneSidedWalls) {
   const double expected = lit_by(kMatt, [&](double c) { return c > edge ? 0.0 : 1.0; });
   EXPECT_NEAR(shaded.mean, expected, kFar * shaded.deviation + 0.004 * expected);
 
-  // Faces the floor, between it and the camera.
+  // Faces the floor, between the floor and the camera.
   floor.scene.objects.back().shape = parallelogram({-50, 0.5, -50}, {100, 0, 0}, {0, 0, 100});
   floor.scene.materials[0].emissive = Vec3(2);
   const Shot seen{.size = kSize, .samples = 4, .max_depth = 1};
@@ -124,7 +125,7 @@ TEST(Radiance, OneSidedWalls) {
   EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 0, 1e-5);
 }
 
-// A map that grows linearly from the horizon to the zenith; bilinear between its rows.
+// A map that increases linearly from the horizon to the zenith; bilinear between its rows.
 TEST(Radiance, EnvironmentOverFloor) {
   constexpr std::uint32_t width = 64, height = 256;
   RadianceMap map{.width = width, .height = height};
@@ -147,8 +148,8 @@ TEST(Radiance, EnvironmentOverFloor) {
   }
 }
 
-// In a closed room whose walls all shine and absorb nothing, each straight part of a path brings as
-// much as the first. Unseen corners would make it darker, lights counted twice brighter.
+// In a closed room of emissive, non-absorbing walls each path segment contributes as much as the
+// first. Missed light would make it darker, light counted twice brighter.
 TEST(Radiance, RoomOfShiningWhiteWalls) {
   for (const float metallic : {0.0F, 1.0F}) {
     for (const float roughness : {0.3F, 1.0F}) {
@@ -159,7 +160,7 @@ TEST(Radiance, RoomOfShiningWhiteWalls) {
            {parallelogram(low, x, y), parallelogram(low, y, z), parallelogram(low, z, x),
             parallelogram(high, -y, -x), parallelogram(high, -z, -y), parallelogram(high, -x, -z)})
         scene.objects.push_back({.name = "wall", .shape = wall, .material = 0});
-      scene.environment = Environment{.content = Vec3(1e6F)};  // must not come in
+      scene.environment = Environment{.content = Vec3(1e6F)};  // must not enter
       const Shot shot{.size = kSize, .samples = 32, .max_depth = 6};
       const Estimate room = estimate(scene, EnvironmentCamera{}, shot, kSeeds);
       EXPECT_NEAR(room.mean, 3, kFar * room.deviation + 0.01) << metallic << ' ' << roughness;
@@ -167,8 +168,8 @@ TEST(Radiance, RoomOfShiningWhiteWalls) {
   }
 }
 
-// A ball as a quadric, which paths must meet, and as shapes that are sampled: light sampling with
-// its weights against the material's samples alone.
+// A ball as a quadric, which only paths can find, and as sampled shapes: multiple importance
+// sampling compared with BSDF sampling alone.
 TEST(Radiance, LampsThatAreSampledAndLampsThatAreMet) {
   const Shot shot{.size = kSize, .samples = 64};
   for (const Material& material : {kMatt, kShiny}) {
@@ -190,7 +191,7 @@ TEST(Radiance, LampsThatAreSampledAndLampsThatAreMet) {
   }
 }
 
-/// A lamp of a shape of its own above the floor, where it is seen up to that angle from the zenith.
+/// An emissive shape above the floor, where it subtends up to this zenith angle.
 struct Lamp {
   Shape shape;
   double cosine;
@@ -198,8 +199,8 @@ struct Lamp {
 
 class LampShapes : public testing::TestWithParam<Lamp> {};
 
-// One sample of each pixel is nearly enough: found by chance, lamps of this size would leave it off
-// by more than its mean.
+// One sample per pixel is nearly sufficient; with BSDF sampling alone, the error of lights of this
+// size would exceed the mean.
 TEST_P(LampShapes, OfShapesOfTheirOwnSendWhatTheyShould) {
   for (const Material& material : {kMatt, kShiny}) {
     Floor floor(material);
@@ -233,7 +234,7 @@ TEST(Radiance, OfASphereAtASlant) {
       expected);
 }
 
-// A triangle is the same lamp as in a mesh.
+// A single triangle emits the same light as one in a mesh.
 TEST(Radiance, OfATriangleOutsideAMesh) {
   const Vec3 a(-1, 2, -1), b(1, 2, -1), c(0.5F, 2.5F, 1);
   std::vector<double> means;
@@ -249,7 +250,7 @@ TEST(Radiance, OfATriangleOutsideAMesh) {
   EXPECT_NEAR(means[0], means[1], 1e-4 * means[1]);
 }
 
-// A lamp that is half there shines half as much, however it is found.
+// A light with half opacity emits half as much, however it is found.
 TEST(Radiance, OfALampThatIsHalfThere) {
   const auto lit = [](float alpha, const Shape& shape) {
     Floor floor(kShiny);

@@ -5,7 +5,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// A quadric of ten numbers drawn by `draw`, each left out now and then.
+/// A quadric with ten coefficients drawn by `draw`, some of them omitted.
 template <class Draw>
 Quadric drawn(Random& random, Draw draw) {
   Quadric q;

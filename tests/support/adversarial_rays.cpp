@@ -25,7 +25,7 @@ DVec3 point_at(const Triangle& t, const Barycentric& at) {
   return (1 - at.u - at.v) * DVec3(t.a) + at.u * DVec3(t.b) + at.v * DVec3(t.c);
 }
 
-/// From o to a point of a triangle, rounded, then off by up to `error` ulp.
+/// A ray from o to a point of a triangle, rounded, with an offset of up to `error` ulps.
 struct Aim {
   Vec3 o;
   Barycentric at;
@@ -63,7 +63,7 @@ Case<Triangle> grid(Random& random) {
   return {ray({random.on_grid(n, s), random.on_grid(random.between(1, 4))}), t};
 }
 
-/// A triangle of one size at a distance of up to 2^12 sizes, and an origin as far.
+/// A triangle at a distance of up to 2^12 times its size, and an origin equally far away.
 struct Placed {
   Triangle triangle;
   Vec3 o;
@@ -93,7 +93,7 @@ Vec3 snapped(const Vec3& v, float spacing) {
 Case<Triangle> edge(Random& random) {
   const Placed p = placed(random);
   if (random.one_in(2)) {
-    // Short mantissas make the point of the edge and the way to it representable.
+    // Numbers with few bits make the point on the edge and the direction to it representable.
     const float spacing = p.distance * 0x1p-10f;
     const Triangle t{snapped(p.triangle.a, spacing), snapped(p.triangle.b, spacing),
                      snapped(p.triangle.c, spacing)};
@@ -130,7 +130,7 @@ Vec3 scaled(const DVec3& v, int k) {
 }
 
 Case<Triangle> full_range(Random& random) {
-  if (random.one_in(3)) {  // one size, any magnitude, and a direction of another
+  if (random.one_in(3)) {  // one size, any magnitude, and a direction of another magnitude
     const int k = random.between(-140, 110);
     const Triangle t{random.any_vector(k, k + 10), random.any_vector(k, k + 10),
                      random.any_vector(k, k + 10)};
@@ -174,7 +174,7 @@ Case<Triangle> degenerate(Random& random) {
   const Triangle t{on_line(), on_line(), on_line()};
   const Vec3 o = random.on_grid(6, s);
   switch (random.between(0, 3)) {
-    case 0:  // through a corner
+    case 0:  // through a vertex
       return {ray({o, corner(random, t) - o}), t};
     case 1:  // through some point of the line
       return {ray({o, on_line() - o}), t};

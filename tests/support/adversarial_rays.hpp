@@ -1,7 +1,7 @@
 #pragma once
-/// Rays and shapes made to defeat rounded arithmetic: rays through corners and along edges, origins
-/// on surfaces, tangents, degenerate shapes, all magnitudes of float32. A seed gives the same cases
-/// on every machine.
+/// Rays and shapes that are adversarial for rounded arithmetic: rays through vertices and along
+/// edges, origins on surfaces, tangents, degenerate shapes, all magnitudes of float32. A seed gives
+/// the same cases on every machine.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -27,7 +27,7 @@ class Random {
   float symmetric() { return static_cast<float>(2 * unit() - 1); }
   /// 2^k with k in [lo, hi].
   float power_of_two(int lo, int hi);
-  /// A number of random sign, exponent in [lo, hi] and mantissa, which is a short one now and then.
+  /// A number with random sign, exponent in [lo, hi] and random mantissa, sometimes with few bits.
   float any_float(int lo, int hi);
   Vec3 any_vector(int lo, int hi);
   /// A point of the cube [-half_width, half_width]^3.
@@ -41,17 +41,17 @@ class Random {
   std::uint64_t state_;
 };
 
-/// x moved by n units in the last place; x itself next to zero and to the largest number.
+/// x moved by n units in the last place; x itself if it is near zero or the largest number.
 [[nodiscard]] float moved(float x, int n);
 
-/// An origin and a direction. A list evaluates its parts from left to right, a function its
-/// arguments in any order: what draws several random numbers goes into a list, so that every
-/// compiler draws the same.
+/// An origin and a direction. Initializer lists are evaluated from left to right, function
+/// arguments in any order. Expressions that draw several random numbers are therefore in lists, so
+/// that every compiler draws the same.
 struct Line {
   Vec3 o, d;
 };
 
-/// The ray along the line with the range [0, infinity].
+/// The ray along the line with the interval [0, infinity].
 [[nodiscard]] Ray ray(const Line& line);
 
 template <class S>
@@ -61,16 +61,16 @@ struct Case {
 };
 
 enum class TriangleKind {
-  unit,             ///< corners in a unit cube, half of the rays aimed at a point inside
+  unit,             ///< vertices in a unit cube, half of the rays aimed at a point inside
   grid,             ///< small integers times a power of two
-  vertex,           ///< aimed at a corner, up to 3 ulp beside it
+  vertex,           ///< aimed at a vertex, up to 3 ulps beside it
   edge,             ///< aimed at a point of an edge, half of them exactly
-  origin_on_plane,  ///< origin at a corner or within 2 ulp of the plane
+  origin_on_plane,  ///< origin at a vertex or within 2 ulps of the plane
   far_from_zero,    ///< up to 2^24 triangle sizes away from (0, 0, 0)
   full_range,       ///< every exponent of float32
   subnormal,
   coplanar,      ///< the ray in the triangle's plane or an ulp beside it
-  degenerate,    ///< collinear or equal corners
+  degenerate,    ///< collinear or equal vertices
   sliver,        ///< heights down to 2^-26 of the length
   axis_aligned,  ///< integer coordinates, d along an axis
 };
@@ -94,9 +94,9 @@ inline constexpr std::array triangle_kinds = {TriangleKind::unit,
 /// Kinds of plane, disc, sphere and quadric cases.
 enum class ShapeKind {
   random,
-  grid,          ///< small integers times a power of two
-  tangent,       ///< touches the surface; planes: parallel but for an ulp; discs: through the rim
-  on_surface,    ///< origin exactly on the surface
+  grid,        ///< small integers times a power of two
+  tangent,     ///< touches the surface; planes: parallel except for an ulp; discs: through the rim
+  on_surface,  ///< origin exactly on the surface
   axis_aligned,  ///< integer coordinates, d along an axis
   full_range,    ///< every exponent of float32
   subnormal,

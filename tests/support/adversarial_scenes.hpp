@@ -1,6 +1,7 @@
 #pragma once
-/// Scenes and rays made to defeat a tree and its kernels: shared corners, duplicates, coplanar
-/// walls, slivers, huge beside tiny, far from the origin, beyond what kernels take, not finite.
+/// Scenes and rays that are adversarial for a tree and its kernels: shared vertices, duplicates,
+/// coplanar walls, slivers, huge triangles beside tiny ones, scenes far from the origin, numbers
+/// beyond the kernels' limits or not finite.
 
 #include "support/adversarial_rays.hpp"
 
@@ -13,7 +14,7 @@ namespace microtrace::adversarial {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Triangles that share no corners, each from make_corners().
+/// Triangles without shared vertices, each from make_corners().
 [[nodiscard]] Mesh mesh_of(int triangles, auto&& make_corners) {
   Mesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -26,13 +27,13 @@ using Corners = std::array<Vec3, 3>;
 
 enum class SceneKind {
   soup,           ///< small triangles anywhere
-  lattice,        ///< integer corners: shared ones, coplanar walls, duplicates, no area
+  lattice,        ///< integer coordinates: shared vertices, coplanar walls, duplicates, no area
   huge_and_tiny,  ///< sizes from 2^-20 to 2^6
   far_from_zero,  ///< 2^20 triangle sizes away from (0, 0, 0)
   slivers,        ///< heights down to 2^-26 of the length
   walls,          ///< in planes x, y or z = an integer: rays along edges and within planes
-  degenerate,     ///< points and segments, some many times, among small triangles
-  any_size,       ///< 2^-140 to 2^60, beyond what kernels take; some not finite
+  degenerate,     ///< points and segments, some repeated, among small triangles
+  any_size,       ///< 2^-140 to 2^60, beyond the kernels' limits; some not finite
 };
 
 inline constexpr std::array scene_kinds = {
@@ -41,21 +42,21 @@ inline constexpr std::array scene_kinds = {
 
 [[nodiscard]] const char* name(SceneKind kind);
 
-/// A mesh of up to 400 triangles, often a second one, of any kind, or the first again, and some
+/// A mesh of up to 400 triangles, often a second one of any kind or a copy of the first, and some
 /// other shapes.
 [[nodiscard]] Scene random_scene(Random& random, SceneKind kind);
 /// Of any kind.
 [[nodiscard]] Scene random_scene(Random& random);
 
-/// A point from which rays are likely to meet such a scene, often one of its surfaces.
+/// A point from which rays are likely to hit such a scene, often on one of its surfaces.
 [[nodiscard]] Vec3 origin(Random& random, const Scene& scene);
 
-/// A ray from o, often at a corner or at a point of an edge; some have a short range, directions
-/// along axes, or of a size that kernels don't take.
+/// A ray from o, often toward a vertex or a point of an edge; some have a short interval,
+/// axis-aligned directions, or a length beyond the kernels' limits.
 [[nodiscard]] Ray random_ray(Random& random, const Scene& scene, const Vec3& o);
 
-/// Rays without a common origin; among them some that are not valid, too large for the
-/// kernels, or share an origin with their neighbours.
+/// Rays without a common origin; some are invalid, exceed the kernels' limits, or share an origin
+/// with their neighbors.
 [[nodiscard]] std::vector<Ray> unrelated_rays(Random& random, const Scene& scene, int count);
 
 }  // namespace microtrace::adversarial

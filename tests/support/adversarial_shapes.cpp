@@ -129,7 +129,7 @@ Case<Plane> plane_case(Random& random, ShapeKind kind) {
 }
 
 Case<Disc> disc_case(Random& random, ShapeKind kind) {
-  // The point center + rim lies on the rim: rim is perpendicular to n and as long as the radius.
+  // The point center + rim is on the rim: rim is perpendicular to n and as long as the radius.
   const auto [rim, radius] = random_offset(random);
   const Vec3 n = glm::cross(rim, nonzero_on_grid(random, 3));
   const Vec3 center = random.on_grid(9);

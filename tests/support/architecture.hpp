@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes as architecture and CAD make them: walls along the axes, faces that touch, share edges or
-/// lie in one plane. Filters are least sure there. The same bits on every machine.
+/// Scenes typical of architecture and CAD: axis-aligned walls, faces that touch, share edges or lie
+/// in one plane. Filters are least certain there. The same bits on every machine.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
@@ -14,10 +14,10 @@ namespace microtrace::generated {
 
 struct ArchitectureScene {
   std::string name;
-  Mesh mesh;                ///< of surfaces without light
-  Mesh lamp;                ///< of two emissive triangles
-  DVec3 light{0};           ///< a point just off the lamp, on its lit side
-  std::vector<Pose> views;  ///< the first in an odd direction, the second along an axis
+  Mesh mesh;                ///< surfaces that don't emit light
+  Mesh lamp;                ///< two emissive triangles
+  DVec3 light{0};           ///< a point just off the emitter, on its front
+  std::vector<Pose> views;  ///< the first in an oblique direction, the second along an axis
 };
 
 /// room: 14 boxes on each other, on the floor and against the walls, on a grid of 0.1;
@@ -32,10 +32,10 @@ struct ArchitectureScene {
 /// Throws std::invalid_argument for another name.
 [[nodiscard]] ArchitectureScene architecture(const std::string& name);
 
-/// Turned by an odd angle in float64 and rounded once, with its lamp and its views.
+/// Rotated by an odd angle in float64 and rounded once, with its emitter and its views.
 [[nodiscard]] ArchitectureScene turned(ArchitectureScene scene);
 
-/// The mesh and the lamp, numbered in this order, of diffuse materials.
+/// The mesh and the emitter, numbered in this order, with diffuse materials.
 [[nodiscard]] Scene as_scene(const ArchitectureScene& architecture);
 
 }  // namespace microtrace::generated

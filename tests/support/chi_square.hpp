@@ -1,5 +1,5 @@
 #pragma once
-/// Pearson's test of counts against expectations.
+/// Pearson's chi-square test of counts against expectations.
 
 #include <cmath>
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace microtrace {
 
-/// The number of standard deviations by which the statistic exceeds its mean, by E. Wilson and
-/// M. Hilferty's cube root (The distribution of chi-square, 1931). Cells with fewer than 5 expected
+/// The number of standard deviations by which the statistic exceeds its mean, by E. Wilson and M.
+/// Hilferty's cube root (The distribution of chi-square, 1931). Cells with an expectation below 5
 /// are pooled.
 inline double chi_square_excess(std::span<const double> counts, std::span<const double> expected) {
   double statistic = 0, pooled_count = 0, pooled = 0, cells = 0;

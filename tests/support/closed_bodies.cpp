@@ -18,7 +18,7 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Three orthogonal directions, at times the axes.
+/// Three orthogonal directions, sometimes the axes.
 std::array<DVec3, 3> random_frame(Random& random) {
   if (random.one_in(3)) return {DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
   const DVec3 z = glm::normalize(DVec3(random.in_cube(1)) + DVec3(1e-3, 0, 0));
@@ -26,7 +26,7 @@ std::array<DVec3, 3> random_frame(Random& random) {
   return {x, glm::cross(z, x), z};
 }
 
-/// Points of a unit circle, radii alternating between 1 and `inner`.
+/// Points of a unit circle, with radii alternating between 1 and `inner`.
 std::vector<DVec3> rim(Random& random, int count, double inner) {
   const std::array<DVec3, 3> frame = random_frame(random);
   std::vector<DVec3> points;
@@ -34,7 +34,7 @@ std::vector<DVec3> rim(Random& random, int count, double inner) {
     const double angle = 2 * 3.14159265358979 * i / count, r = i % 2 == 0 ? 1 : inner;
     points.push_back(r * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]));
   }
-  points.push_back(frame[2]);  // the axis goes last
+  points.push_back(frame[2]);  // the axis is the last point
   return points;
 }
 
@@ -91,7 +91,7 @@ Solid icosahedron(Random& random) {
         solid.positions.push_back((s * frame[(axis + 1) % 3] + t * frame[(axis + 2) % 3]) / golden);
     }
   }
-  // Three corners form a face if their distances are the shortest ones.
+  // Three vertices form a face if their distances are the shortest ones.
   const auto is_edge = [&](std::uint32_t i, std::uint32_t j) {
     return glm::distance(solid.positions[i], solid.positions[j]) < 2.1 / golden;
   };
@@ -105,7 +105,7 @@ Solid icosahedron(Random& random) {
   return solid;
 }
 
-/// By adding points one by one, each joined to the edges around the faces that it sees.
+/// Convex hull: adds points one by one, and joins each to the edges around the faces that it sees.
 Mesh hull(std::vector<Vec3> points) {
   Mesh mesh{.positions = std::move(points),
             .triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
@@ -117,8 +117,8 @@ Mesh hull(std::vector<Vec3> points) {
     for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
-    // By their corners, with the direction in which one face runs along each. Where rounding has
-    // made faces that overlap, several may share an edge: an even number of them leaves none.
+    // Edges by their vertices, with the direction of one face along each. If rounding makes faces
+    // overlap, several may share an edge; an even number of them cancels.
     std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles, [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;
@@ -146,7 +146,7 @@ float ulp(float x) {
   return std::nextafter(std::abs(x), std::numeric_limits<float>::infinity()) - std::abs(x);
 }
 
-/// The distance between neighboring numbers where a body lies.
+/// The float32 spacing at the body's position.
 float greatest_ulp(const Vec3& center, float size) {
   return std::max({ulp(center.x), ulp(center.y), ulp(center.z), ulp(size)});
 }

@@ -12,7 +12,7 @@ namespace microtrace::adversarial {
 enum class BodyKind {
   hull,         ///< the convex hull of random points
   prism,        ///< of three to fifteen sides
-  icosahedron,  ///< turned at random
+  icosahedron,  ///< randomly rotated
   double_cone,  ///< two apexes over a polygon
   star,         ///< a double cone whose rim alternates between two radii
   box,          ///< axis-aligned
@@ -27,8 +27,8 @@ inline constexpr std::array body_kinds = {
 [[nodiscard]] const char* name(BodyKind kind);
 
 /// 4 to 64 triangles, or twice that for a shell. Each edge has an even number of triangles, so a
-/// point is inside if a ray from it crosses an odd number. Rounding may make triangles without area
-/// or lay one onto another.
+/// point is inside if a ray from it crosses an odd number. Rounding may cause triangles without
+/// area or overlapping triangles.
 [[nodiscard]] Mesh closed_body(Random& random, BodyKind kind, const Vec3& center, float size);
 
 }  // namespace microtrace::adversarial

@@ -20,8 +20,8 @@ Mesh scaled(Mesh mesh, const Vec3& scale, const Vec3& offset) {
   return mesh;
 }
 
-// A cube whose faces have n x n cells of two triangles, all corners on whole numbers: walls within
-// one plane, and every ray along an axis meets corners or edges.
+// A cube whose faces have n x n cells of two triangles, with all vertices at integers: walls in one
+// plane, and every ray along an axis hits vertices or edges.
 Mesh cube(int n) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -71,7 +71,7 @@ std::vector<ClosedMesh> closed_meshes() {
        .centre = Vec3(0),
        .radius = 0.5F,
        .spacing = 0x1p-10F},
-      // The grid is the spacing of float32s there.
+      // The grid is the float32 spacing there.
       {.name = "far",
        .mesh = scaled(on_grid(displaced_sphere(5000), 0x1p-8F), Vec3(64),
                       Vec3(0x1p21F, -0x1p20F, 0x1p21F)),

@@ -1,5 +1,5 @@
 #pragma once
-/// Closed meshes, and rays aimed exactly at their corners and edges.
+/// Closed meshes, and rays aimed exactly at their vertices and edges.
 
 #include "support/adversarial_rays.hpp"
 
@@ -13,17 +13,16 @@ namespace microtrace::adversarial {
 struct ClosedMesh {
   const char* name;
   Mesh mesh;
-  Vec3 centre;    ///< within
-  float radius;   ///< of a ball within, about it
-  float spacing;  ///< of the grid on which all corners are
+  Vec3 centre;    ///< inside
+  float radius;   ///< of a ball inside around it
+  float spacing;  ///< of the grid of all vertices
 };
 
-/// A few triangles and many, walls within one plane, long thin ones, and a mesh far from the
-/// origin.
+/// Few triangles and many, walls in one plane, long thin triangles, and a mesh far from the origin.
 [[nodiscard]] std::vector<ClosedMesh> closed_meshes();
 
-/// A ray from o exactly at a corner, or at one of the fifteen points that cut an edge into sixteen
-/// parts; o on the grid.
+/// A ray from o exactly at a vertex, or at one of the fifteen points that divide an edge into
+/// sixteen parts; o must be on the grid.
 [[nodiscard]] Ray aimed_exactly(Random& random, const ClosedMesh& closed, const Vec3& o);
 
 }  // namespace microtrace::adversarial

@@ -1,5 +1,5 @@
 #pragma once
-/// Small rays and triangles for which well-known float32 tests give the wrong answer.
+/// Rays and triangles for which well-known float32 tests give the wrong answer.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// How many cases the long tests run, and from which seed.
+/// Number of cases and random seed of the long tests.
 
 #include "support/adversarial_rays.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// A number from the environment, or the fallback.
+/// A number from the environment, or the default.
 [[nodiscard]] inline std::uint64_t from_environment(const char* variable, std::uint64_t fallback) {
   const char* text = std::getenv(variable);
   return text == nullptr ? fallback : std::stoull(text);
@@ -18,7 +18,7 @@ namespace microtrace {
 
 namespace oracle {
 
-/// The share of MICROTRACE_ORACLE_CASES, 1000000 by default, that one test runs.
+/// The fraction of MICROTRACE_ORACLE_CASES, 1000000 by default, for one test.
 [[nodiscard]] inline int case_count(double share) {
   return static_cast<int>(
       share * static_cast<double>(from_environment("MICROTRACE_ORACLE_CASES", 1'000'000)));
@@ -32,7 +32,7 @@ namespace oracle {
   return adversarial::Random(seed * 1000 + test);
 }
 
-/// Prints what a test has compared with the oracle.
+/// Prints the numbers of compared rays and hits.
 inline void announce(int rays, int hits) {
   std::cout << rays << " rays agree, " << hits << " of them hit\n";
 }
@@ -41,14 +41,14 @@ inline void announce(int rays, int hits) {
 
 namespace traversal {
 
-// Sanitizers slow these tests down by a factor of about ten.
+// Sanitizers make these tests about ten times slower.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr std::uint64_t kUsualRays = 100'000;
 #else
 inline constexpr std::uint64_t kUsualRays = 1'000'000;
 #endif
 
-/// The share of MICROTRACE_TRAVERSAL_RAYS, 1000000 by default, that one test casts.
+/// The fraction of MICROTRACE_TRAVERSAL_RAYS, 1000000 by default, for one test.
 [[nodiscard]] inline std::size_t ray_count(double share) {
   return static_cast<std::size_t>(
       share * static_cast<double>(from_environment("MICROTRACE_TRAVERSAL_RAYS", kUsualRays)));

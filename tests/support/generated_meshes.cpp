@@ -16,7 +16,7 @@ std::uint32_t root(double x) {
   return static_cast<std::uint32_t>(std::max(1.0, std::floor(std::sqrt(x) + 0.5)));
 }
 
-/// Waves in several directions, about within -1 and 1.
+/// Waves in several directions, approximately within -1 and 1.
 double bumps(const DVec3& p) {
   double sum = 0, size = 0.5, frequency = 3;
   for (int octave = 0; octave < 5; ++octave) {
@@ -46,7 +46,7 @@ void add_grid(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Point point
   }
 }
 
-/// The parallelogram at a corner.
+/// The parallelogram with this corner and the edges u and v.
 void add_panel(Mesh& mesh, const DVec3& corner, const DVec3& u, const DVec3& v) {
   add_grid(mesh, 1, 1, [&](double s, double t) { return Vec3(corner + s * u + t * v); });
 }
@@ -60,7 +60,8 @@ void add_box(Mesh& mesh, const DVec3& corner, const DVec3& u, const DVec3& v, co
   add_panel(mesh, corner + v, w, u);
 }
 
-/// A surface of revolution about a vertical axis through base; profile(t) gives radius and height.
+/// A surface of revolution around a vertical axis through base; profile(t) returns radius and
+/// height.
 template <class Profile>
 void add_lathe(Mesh& mesh, const DVec3& base, std::uint32_t around, std::uint32_t rows,
                Profile profile) {
@@ -84,7 +85,7 @@ struct RadiusHeight {
 
 }  // namespace
 
-// An octahedron, each face cut into k x k triangles, its points pushed onto the sphere.
+// An octahedron, with each face divided into k x k triangles, projected to the sphere.
 Mesh displaced_sphere(std::size_t triangles) {
   const std::uint32_t k = root(static_cast<double>(triangles) / 8);
   Mesh mesh;
@@ -140,7 +141,7 @@ Mesh hall(std::size_t triangles) {
   Mesh mesh;
   add_box(mesh, {-20, 0, -10}, {40, 0, 0}, {0, 10, 0}, {0, 0, 20});
   constexpr int kColumns = 9;
-  const double share = static_cast<double>(triangles) / (2 * kColumns);  // of a column
+  const double share = static_cast<double>(triangles) / (2 * kColumns);  // triangles per column
   const std::uint32_t around = std::clamp(root(share / 12), 6U, 96U);
   const std::uint32_t rows = std::max(1U, static_cast<std::uint32_t>(0.45 * share / (2 * around)));
   const Mesh bust = displaced_sphere(static_cast<std::size_t>(0.45 * share));
@@ -153,7 +154,7 @@ Mesh hall(std::size_t triangles) {
       });
       add_moved(mesh, bust, base + DVec3(2, 1.3, 0), 0.3);
       add_box(mesh, base + DVec3(1.7, 0, -0.3), {0.6, 0, 0}, {0, 1, 0}, {0, 0, 0.6});
-      // A beam that rises across the hall, and a cloth that hangs askew.
+      // A beam across the hall, and an oblique cloth.
       add_box(mesh, base + DVec3(0, 7.8, 0), {0.2, 0, 0.1}, {0, 0.3, 0.1}, {2, 1.9, -4.5 * row});
       add_panel(mesh, base + DVec3(0.5, 6.5, 0), {2.9, -1.5, 0.4}, {-0.8, -2.6, 0.5});
     }

@@ -1,5 +1,5 @@
 #pragma once
-/// A JSON value that tests build and change.
+/// A JSON value for building and editing test input.
 
 #include <cstddef>
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace microtrace::tests {
 
-/// Behaves like nlohmann::json where tests need it. Its templates cost seconds in every file that
-/// includes them; this class has none and is compiled once.
+/// Behaves like nlohmann::json as far as tests need it, but has no templates, which would take
+/// seconds of compile time in every file.
 class Json {
  public:
   Json();  // null
@@ -40,8 +40,8 @@ class Json {
   /// Throws nlohmann's exceptions.
   [[nodiscard]] static Json parse(std::string_view text);
 
-  /// The element at the index or of the key, made as null if it is not there. References to an
-  /// object's elements stay valid when it gets others.
+  /// The element with this index or key, created as null if absent. References to an object's
+  /// elements stay valid when elements are added.
   Json& operator[](std::size_t index);
   Json& operator[](std::string_view key);
   void push_back(const Json& value);

@@ -1,5 +1,5 @@
 #pragma once
-/// Small pictures with light, and statistics of them.
+/// Small path-traced pictures, and their statistics.
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// What is asked of a picture by path tracing.
+/// Parameters of a path-traced picture.
 struct Shot {
   ImageSize size{.width = 16, .height = 16};
   std::uint32_t samples = 16;
@@ -44,7 +44,7 @@ struct Shot {
   return sum / static_cast<double>(pixels.size());
 }
 
-/// Of independent numbers: their mean, and the standard deviation of that mean.
+/// The mean of independent numbers, and its standard deviation.
 struct Estimate {
   double mean = 0, deviation = 0;
 
@@ -56,7 +56,7 @@ struct Estimate {
   }
 };
 
-/// The picture's mean green, over `count` pictures of other seeds.
+/// The picture's mean green, over `count` pictures with different seeds.
 [[nodiscard]] inline Estimate estimate(const Scene& scene, const Camera& camera, Shot shot,
                                        std::uint32_t count) {
   std::vector<double> means;
@@ -67,7 +67,7 @@ struct Estimate {
   return Estimate(means);
 }
 
-/// A parallelogram, seen from the front where `along` turns anticlockwise to `up`.
+/// A parallelogram, seen from the front if the rotation from `along` to `up` is counterclockwise.
 [[nodiscard]] inline Mesh parallelogram(const Vec3& corner, const Vec3& along, const Vec3& up) {
   return {.positions = {corner, corner + along, corner + along + up, corner + up},
           .triangles = {{{0, 1, 2}}, {{0, 2, 3}}}};

@@ -1,5 +1,5 @@
 #pragma once
-/// PNG files made in memory, uncompressed, so that tests know every pixel.
+/// Uncompressed PNG files created in memory, so that tests know every pixel.
 
 #include <cstdint>
 #include <string>
@@ -21,10 +21,10 @@ struct PngChunk {
 
 struct PngPicture {
   std::uint32_t width = 1, height = 1;
-  std::uint8_t depth = 8;  ///< bits of a sample
+  std::uint8_t depth = 8;  ///< bits per sample
   PngColor color = PngColor::rgb_alpha;
   std::vector<std::string> rows{};        ///< the bytes of each, samples of 16 bits big-endian
-  std::vector<PngChunk> before_pixels{};  ///< PLTE, tRNS, gAMA and their like
+  std::vector<PngChunk> before_pixels{};  ///< PLTE, tRNS, gAMA and other chunks
 };
 
 [[nodiscard]] std::string png_file(const PngPicture& picture);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a failing exactness test prints, so that anyone can repeat the case.
+/// Output of failing exactness tests for reproducing the case.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -9,7 +9,7 @@
 
 namespace microtrace::adversarial {
 
-/// The shapes of which src/exact/ finds the first hit.
+/// The shapes for which src/exact/ finds first hits.
 using FirstHitShape = std::variant<Sphere, Plane, Disc, Triangle, Quadric>;
 
 /// The ray's numbers in hexadecimal, and a scene whose only pixel looks along the ray at the shape.

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the sources are, for tests that read scenes and cases from there.
+/// The source folder, for tests that read scenes and cases from it.
 
 #include <filesystem>
 

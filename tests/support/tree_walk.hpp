@@ -1,5 +1,5 @@
 #pragma once
-/// Looks at a tree from outside.
+/// Checks the invariants of a tree.
 
 #include "accel/build/tree.hpp"
 
@@ -12,17 +12,17 @@ namespace microtrace {
 
 enum class Place { nowhere, blocks, others, unbounded };
 
-/// Visits all of a tree and notes the first thing that is wrong with it: a box that does not hold
-/// its children's or its primitives' corners, a node, block or entry reached twice or never, a
-/// block that is not what its triangles make it, a primitive in two kinds of leaf. A triangle may
-/// be in several leaves: then a lattice of its points must lie in their boxes.
+/// Visits a whole tree and records the first error: a box that does not contain its children's or
+/// its primitives' vertices, a node, block or entry visited twice or never, a block that does not
+/// match its triangles, a primitive in two kinds of leaf. A triangle may be in several leaves; then
+/// a lattice of its points must be in their boxes.
 class TreeWalk {
  public:
   TreeWalk(const Tree& tree, const Primitives& primitives);
 
   [[nodiscard]] const std::string& fault() const { return fault_; }
   [[nodiscard]] int depth() const { return depth_; }  ///< nodes on the longest path
-  /// Of triangles in blocks, counted once for each leaf.
+  /// Triangles in blocks, counted once per leaf.
   [[nodiscard]] std::size_t triangle_references() const { return triangle_references_; }
   [[nodiscard]] Place place(PrimitiveId id) const {
     return id < places_.size() ? places_[id] : Place::nowhere;
@@ -46,15 +46,15 @@ class TreeWalk {
   std::vector<bool> nodes_, blocks_, others_;          // visited
 };
 
-/// Expected visits of a long random ray that meets the root's box: the surface area heuristic.
+/// Expected visits of a long random ray that hits the root's box, by the surface area heuristic.
 struct TreeCost {
   double nodes = 0, blocks = 0;
   [[nodiscard]] double total() const { return 0.6 * nodes + blocks; }
 };
 [[nodiscard]] TreeCost cost_of(const Tree& tree);
 
-/// Of the plainest good tree: halves by count across the longest axis of the centroids, nodes of
-/// three levels of that, leaves of eight.
+/// The cost of a simple good tree: halves by count along the longest axis of the centroids, nodes
+/// of three such levels, leaves of eight.
 [[nodiscard]] TreeCost cost_of_object_medians(const Mesh& mesh);
 
 }  // namespace microtrace

@@ -68,7 +68,7 @@ TEST(Aov, NamesLeadBack) {
   EXPECT_EQ(aov_named("colour"), std::nullopt);
 }
 
-// A wall at z = -4, seen by a camera 1 behind the origin: depth is 5 everywhere.
+// A wall at z = -4, seen by a camera at distance 1 behind the origin: depth is 5 everywhere.
 TEST(Aov, DepthOfAWallIsItsDistanceAlongTheView) {
   const PerspectiveCamera camera{.pose = {.position = {0, 0, 1}}};
   for (const Shape& wall :
@@ -105,7 +105,7 @@ TEST(Aov, DepthOfOtherCameras) {
   const Film flat = drawn(scene_of({Plane{{0, 0, -4}, {0, 0, -1}}}), parallel);
   EXPECT_EQ(floats(flat, "depth.Z")[7], 5.0F);
   EXPECT_EQ(floats(flat, "distance.T")[7], 5.0F);
-  EXPECT_EQ(triple(flat, "normal", 7), DVec3(0, 0, 1));  // the side that is seen
+  EXPECT_EQ(triple(flat, "normal", 7), DVec3(0, 0, 1));  // facing the viewer
 
   const EnvironmentCamera all_around{.pose = {.position = {3, 4, 1}}};
   const Film around = drawn(scene_of({Sphere{{3, 4, 1}, 2}}), all_around);
@@ -131,7 +131,7 @@ TEST(Aov, NormalsOfASphere) {
     EXPECT_NEAR(glm::distance(p, center), 1.5, 1e-6);
     EXPECT_LT(glm::distance(normal, (p - center) / 1.5), 1e-6);
     EXPECT_LT(glm::dot(normal, direction_to(i, camera)), 0);
-    // The point lies on the pixel's ray.
+    // The point is on the pixel's ray.
     const DVec3 way = p - camera.pose.position;
     EXPECT_LT(glm::length(glm::cross(way, direction_to(i, camera))), 1e-5);
   }
@@ -158,7 +158,7 @@ TEST(Aov, BarycentricsWeighTheCorners) {
   EXPECT_GT(seen, 100);
 }
 
-/// Two triangles side by side as one mesh with texture coordinates, behind it a floor.
+/// Two adjacent triangles as one mesh with texture coordinates, and a floor behind it.
 Scene patchwork() {
   Mesh mesh{.positions = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}},
             .triangles = {{0, 1, 2}, {0, 2, 3}}};
@@ -200,7 +200,7 @@ TEST(Aov, WhatIsNotThereIsSeenThrough) {
   Scene scene = scene_of({Disc{{0, 0, -2}, {0, 0, 1}, 9}, Disc{{0, 0, -3}, {0, 0, 1}, 9},
                           Disc{{0, 0, -4}, {0, 0, 1}, 9}});
   scene.materials.push_back(
-      {.base_color = {1, 1, 1, 0.4F}, .alpha_mode = AlphaMode::mask});  // under the cutoff
+      {.base_color = {1, 1, 1, 0.4F}, .alpha_mode = AlphaMode::mask});  // below the cutoff
   scene.materials.push_back({.base_color = {1, 0, 0, 0.1F}, .alpha_mode = AlphaMode::blend});
   scene.objects[0].material = 0;
   scene.objects[1].material = 1;
@@ -237,8 +237,8 @@ TEST(Aov, NeitherSamplesNorThreadsNorCropChangeThem) {
   }
 }
 
-// Samples shrink the part of an image that each sees, and so move the edges of what a mask cuts
-// out; not for exact quantities.
+// More samples reduce each sample's texture footprint, which moves the edges of alpha masks; exact
+// quantities must not change.
 TEST(Aov, SamplesDoNotChangeCutOuts) {
   Image image{.width = 64, .height = 64, .channels = 4};
   std::vector<std::uint8_t> pixels;
@@ -263,7 +263,7 @@ TEST(Aov, SamplesDoNotChangeCutOuts) {
 
 TEST(AovIntegrator, DrawsTheSameNumbers) {
   Scene scene = patchwork();
-  scene.background = {0.5F, 0.5F, 0.5F};  // has no place in a picture of numbers
+  scene.background = {0.5F, 0.5F, 0.5F};  // must not appear in a picture of quantities
   const Film film = drawn(scene, PerspectiveCamera{});
   for (const Aov aov : kAovs) {
     if (aov == Aov::id) continue;
@@ -284,7 +284,7 @@ TEST(AovIntegrator, DrawsTheSameNumbers) {
   }
 }
 
-/// A number as 8-bit formats show it, before it is rounded.
+/// A number as shown in 8-bit formats, before rounding.
 float shown(const Display& display, float value) {
   return display.scale.x * value + display.offset.x;
 }

@@ -40,7 +40,8 @@ TEST(PerspectiveCamera, MiddleOfThePictureIsTheViewingDirection) {
 }
 
 TEST(PerspectiveCamera, FractionalCoordinatesFollowTheDerivation) {
-  // d ~ f + x (2 px / W - 1) (W / H) tan + u (1 - 2 py / H) tan, by hand for the first camera.
+  // d ~ f + x (2 px / W - 1) (W / H) tan + u (1 - 2 py / H) tan, computed by hand for the first
+  // camera.
   const double tangent = 1 / std::numbers::sqrt3;
   const DVec3 expected = glm::normalize(
       DVec3((2 * 128.5 / 640 - 1) * (640.0 / 480) * tangent, (1 - 2 * 5.5 / 480) * tangent, -1));
@@ -77,7 +78,7 @@ TEST(PerspectiveCamera, WindowOfItsOwnAspectIsSeenWhole) {
   PerspectiveCamera camera = first_camera();
   camera.aspect_ratio = 2;
   const double half = std::tan(std::numbers::pi / 6);
-  // Wider than the window: the height fits. Narrower: the width does.
+  // If the picture is wider than the window, the height fits; if narrower, the width.
   const DVec3 wide = RayGenerator(camera, {.width = 400, .height = 100})(200, 0).d;
   EXPECT_NEAR(wide.y / -wide.z, half, 1e-6);
   const DVec3 narrow = RayGenerator(camera, {.width = 100, .height = 100})(0, 50).d;
@@ -123,7 +124,8 @@ TEST(RayGenerator, DifferentialsAreTheStepsToNeighbouringPixels) {
     const RayGenerator ray(camera, kSize);
     const Ray here = ray(100, 400);
     const RayDifferential step = ray.differential(here);
-    // Float32 rays: a step of ten pixels each way, compared to a part in a thousand.
+    // Float32 rays: a step of ten pixels in each direction, compared with a relative tolerance of
+    // 1/1000.
     const Ray left = ray(90, 400), right = ray(110, 400), above = ray(100, 390),
               below = ray(100, 410);
     const auto compare = [&](const DVec3& a, const DVec3& b) {

@@ -36,7 +36,7 @@ std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t 
   });
 }
 
-/// Directions and their weights, the sum of which is 4 pi: the midpoints of a fine grid.
+/// Directions and weights whose sum is 4 pi: the midpoints of a fine grid.
 template <class F>
 void for_sphere(std::uint32_t rows, F&& f) {
   for (std::uint32_t j = 0; j < rows; ++j) {
@@ -68,7 +68,7 @@ TEST(EnvironmentLight, AUniformOneIsTheSameFromEverywhere) {
   EXPECT_NEAR(glm::length(sum), 0, 1e-3);
 }
 
-// The mapping as the header states it, for directions through the centres of pixels.
+// The mapping documented in the header, for directions through the centers of pixels.
 TEST(EnvironmentLight, LooksUpByTheStatedMapping) {
   const std::uint32_t width = 64, height = 32;
   const auto map = map_of(width, height, [](std::uint32_t x, std::uint32_t y) {
@@ -95,7 +95,7 @@ TEST(EnvironmentLight, IsBilinearAcrossTheSeam) {
   const EnvironmentLight light({.content = map});
   EXPECT_NEAR(light.radiance({-1, 0, 0}).x, 2, 1e-5);
   EXPECT_NEAR(light.radiance({-1, 0, -1e-6F}).x, 2, 1e-5);
-  EXPECT_NEAR(light.radiance({0, 1, 0}).x, 0, 1e-5);  // atan2(0, 0) = 0: the map's middle
+  EXPECT_NEAR(light.radiance({0, 1, 0}).x, 0, 1e-5);  // atan2(0, 0) = 0: the middle of the map
   EXPECT_NEAR(light.radiance({-1, 0, -1}).x, 1, 1e-5);
 }
 
@@ -109,7 +109,8 @@ TEST(EnvironmentLight, TurnsAnticlockwiseAsSeenFromAbove) {
         DVec3(c * double{d.x} + s * double{d.z}, d.y, c * double{d.z} - s * double{d.x}));
     const Vec3 a = still.radiance(d), b = turned.radiance(image);
     ASSERT_NEAR(a.x, b.x, 1e-2 + 1e-3 * double{a.x});
-    ASSERT_NEAR(still.look(d).pdf, turned.look(image).pdf, 1e-3 * double{still.look(d).pdf} + 2e-2);
+    ASSERT_NEAR(still.lookup(d).pdf, turned.lookup(image).pdf,
+                1e-3 * double{still.lookup(d).pdf} + 2e-2);
   });
 }
 
@@ -118,7 +119,7 @@ TEST(EnvironmentLight, SurvivesDirectionsThatAreNone) {
   for (const float x : {0.0F, NAN, HUGE_VALF, -HUGE_VALF, 1e-45F, 3e38F}) {
     for (const float y : {0.0F, NAN, HUGE_VALF, 1e-45F}) {
       EXPECT_TRUE(std::isfinite(light.radiance({x, y, x}).x));
-      EXPECT_TRUE(std::isfinite(light.look({x, y, x}).pdf));
+      EXPECT_TRUE(std::isfinite(light.lookup({x, y, x}).pdf));
     }
   }
 }
@@ -149,10 +150,10 @@ class Maps : public testing::TestWithParam<int> {
   const EnvironmentLight light{{.content = map, .rotation = kRotation, .intensity = 1.5F}};
 };
 
-// The density is bilinear between pixels' centres, over longitude and the angle to the axis and but
-// for the solid angle; at the poles it does not depend on that angle. So these midpoints of
-// quarters of pixels give the integral exactly.
-TEST_P(Maps, DensityIntegratesToOne) {
+// The pdf is bilinear between pixel centers in longitude and angle to the axis, except for the
+// solid angle; at the poles it does not depend on the angle. These midpoints of quarter pixels
+// therefore give the integral exactly.
+TEST_P(Maps, PdfIntegratesToOne) {
   double integral = 0;
   const std::uint32_t rows = 2 * map->height, columns = 2 * map->width;
   for (std::uint32_t y = 0; y < rows; ++y) {
@@ -162,8 +163,8 @@ TEST_P(Maps, DensityIntegratesToOne) {
     for (std::uint32_t x = 0; x < columns; ++x) {
       const double phi = ((x + 0.5) / columns - 0.5) * 2 * kPi - kRotation;
       const double pdf = light
-                             .look(DVec3(std::sin(theta) * std::cos(phi), std::cos(theta),
-                                         std::sin(theta) * std::sin(phi)))
+                             .lookup(DVec3(std::sin(theta) * std::cos(phi), std::cos(theta),
+                                           std::sin(theta) * std::sin(phi)))
                              .pdf;
       ASSERT_GT(pdf, 0);
       integral += pdf * high * 2 * kPi / columns;
@@ -172,7 +173,7 @@ TEST_P(Maps, DensityIntegratesToOne) {
   EXPECT_NEAR(integral, 1, 2e-5);
 }
 
-// But for the rounding of the direction, where the map is steep.
+// Except for the rounding of the direction, where the map is steep.
 TEST_P(Maps, SamplesSayWhatTheirDirectionSays) {
   constexpr std::uint32_t kSamples = 20000;
   float brightest = 0;
@@ -182,15 +183,15 @@ TEST_P(Maps, SamplesSayWhatTheirDirectionSays) {
     const EnvironmentLight::Sample sample = light.sample(sobol(i));
     ASSERT_NEAR(glm::length(sample.wi), 1, 2e-6);
     ASSERT_GT(sample.pdf, 0);
-    const EnvironmentLight::Look look = light.look(sample.wi);
+    const EnvironmentLight::Lookup look = light.lookup(sample.wi);
     ASSERT_NEAR(sample.radiance.x, look.radiance.x, 5e-5F * brightest);
     moved += std::abs(sample.pdf - look.pdf) > 2e-3F * sample.pdf ? 1 : 0;
   }
   EXPECT_LE(moved, kSamples / 200);
 }
 
-// Radiance over density changes little within a sun and about it, so that no direction brings much
-// more light than others: the least and the most of those that come from the sun.
+// Radiance / pdf changes little within a sun and around it, so no direction has much more weight
+// than others: compares the minimum and the maximum of samples in the sun.
 TEST(EnvironmentLight, SamplesOfASunBringAllTheSame) {
   const EnvironmentLight light({.content = sunny_map(64, 32)});
   float least = HUGE_VALF, most = 0;
@@ -204,9 +205,9 @@ TEST(EnvironmentLight, SamplesOfASunBringAllTheSame) {
   EXPECT_LT(most, 1.2F * least);
 }
 
-// Pearson's test: how often directions fall into cells of equal solid angle, against the integral
-// of the density over them.
-TEST_P(Maps, SamplesFollowTheDensity) {
+// Pearson's chi-square test of the counts in cells of equal solid angle against the integral of the
+// pdf.
+TEST_P(Maps, SamplesFollowThePdf) {
   constexpr std::size_t kRows = 8, kColumns = 16, kSamples = 100000;
   const auto cell = [](const Vec3& d) {
     const double h = std::clamp((1 - double{d.y}) / 2, 0.0, 1 - 1e-9);
@@ -215,8 +216,9 @@ TEST_P(Maps, SamplesFollowTheDensity) {
            static_cast<std::size_t>(std::min(u, 1 - 1e-9) * kColumns);
   };
   std::vector<double> expected(kRows * kColumns), seen(kRows * kColumns);
-  for_sphere(
-      2048, [&](const Vec3& d, double weight) { expected[cell(d)] += light.look(d).pdf * weight; });
+  for_sphere(2048, [&](const Vec3& d, double weight) {
+    expected[cell(d)] += light.lookup(d).pdf * weight;
+  });
   std::mt19937 random(5);
   std::uniform_int_distribution<std::uint32_t> number(0, (1U << 24U) - 1);
   for (std::uint32_t i = 0; i < kSamples; ++i) {
@@ -264,7 +266,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
 
 INSTANTIATE_TEST_SUITE_P(All, Maps, testing::Range(0, 6));
 
-// With one pixel that has nearly all light, one number in 2^24 must not miss what the rest gives.
+// If one pixel has nearly all light, one number in 2^24 must not lose the light of the others.
 TEST(EnvironmentLight, KeepsDimLightBesideASun) {
   const std::uint32_t width = 512, height = 256;
   const auto map = map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
@@ -307,7 +309,7 @@ TEST(Studio, IsGreyAndTheSameOnBothSides) {
   });
 }
 
-// What docs/light.md says of white surfaces.
+// The values for white surfaces in docs/light.md.
 TEST(Studio, ExposesWhite) {
   const EnvironmentLight light({.content = Studio{}});
   const auto shown = [&](const Vec3& n) {

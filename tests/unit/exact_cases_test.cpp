@@ -7,7 +7,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// The FNV-1a hash of numbers' bits.
+/// FNV-1a hash of the numbers' bits.
 class Hash {
  public:
   void add(float x) { state_ = (state_ ^ std::bit_cast<std::uint32_t>(x)) * 0x100000001b3u; }

@@ -1,4 +1,5 @@
-// Whatever Grid says must be what Dyadic says; and where coordinates are a scene's it says it.
+// Every answer of Grid must equal that of Dyadic, and Grid must have an answer for coordinates of a
+// scene.
 
 #include "exact/grid.hpp"
 #include "exact/implicit.hpp"
@@ -69,7 +70,7 @@ TEST_P(GridKinds, FindsTheHitsOfDyadic) {
     if (const auto root = first_hit(triangle, ray))
       check(triangle, with_range_near(random_, ray, round_to_float(*root)));
   }
-  // Rays in the plane of what they meet may begin within it.
+  // Rays in the plane of the triangle may start inside it.
   if (is_of_a_scene()) {
     EXPECT_GT(known, asked * 2 / 3);
   }
@@ -111,7 +112,7 @@ TEST_P(GridKinds, SeesOtherTrianglesAsDyadicDoes) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
     const auto root = first_hit(triangle, ray);
     if (!root) continue;
-    // Of the same kind, or with corners of the first, so that planes and edges meet the point.
+    // Of the same kind, or with vertices of the first, so that planes and edges contain the point.
     Triangle other = triangle_case(random_, GetParam()).shape;
     if (random_.one_in(2)) other.a = triangle.b;
     if (random_.one_in(3)) other.b = triangle.a;
@@ -125,7 +126,7 @@ TEST_P(GridKinds, SeesOtherTrianglesAsDyadicDoes) {
   }
 }
 
-// What puts the stages together answers always, and the same.
+// The combination of all stages always has an answer, and always the same.
 TEST_P(GridKinds, HitsArePutTogetherFromAllStages) {
   for (int i = 0; i < kCases; ++i) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
@@ -156,10 +157,10 @@ TEST(Grid, LeavesToOthersWhatItCannotHold) {
   EXPECT_EQ(GridHit<2>(held, ray).found(), Found::hit);
 }
 
-// A point in the middle between two numbers, and t there: ties go to even.
+// A midpoint between two float32 numbers, also as t: ties go to even.
 TEST(Grid, RoundsMiddlesToEven) {
   const Triangle wall{{-8, -8, 3}, {8, -8, 3}, {0, 8, 3}};
-  // x = 1 + 2^-24 (3 - 2^-24): just below the middle between 1 + 2^-23 and 1 + 2^-22.
+  // x = 1 + 2^-24 (3 - 2^-24): just below the midpoint of 1 + 2^-23 and 1 + 2^-22.
   const Ray ray = adversarial::ray({.o = {1, 0, 0x1p-24F}, .d = {0x1p-24F, 0, 1}});
   const GridHit<2> hit(wall, ray);
   ASSERT_EQ(hit.found(), Found::hit);
@@ -167,7 +168,7 @@ TEST(Grid, RoundsMiddlesToEven) {
   EXPECT_EQ(*hit.t(), round_to_float(*root));
   EXPECT_EQ(*hit.point(), round_point(ray, *root));
   EXPECT_EQ(*hit.point(), Vec3(1 + 0x1p-23F, 0, 3));
-  // t = 3 - 3 2^-23 is in the middle between 3 - 2^-22 and 3 - 2^-21.
+  // t = 3 - 3 2^-23 is the midpoint of 3 - 2^-22 and 3 - 2^-21.
   const Ray tie = adversarial::ray({.o = {0, 0, 3 * 0x1p-23F}, .d = {0, 0, 1}});
   const GridHit<2> at_tie(wall, tie);
   EXPECT_EQ(*at_tie.t(), round_to_float(*first_hit(wall, tie)));

@@ -24,7 +24,7 @@ Dyadic dyadic(const Integer<Limbs>& x) {
   return x.is_negative() ? -sum : sum;
 }
 
-/// Up to 2^120 in magnitude, with runs of ones and of zeros, where carries go far.
+/// Up to 2^120 in magnitude, with runs of ones and zeros, which cause long carries.
 class Numbers {
  public:
   Integer<2> operator()() {
@@ -72,7 +72,7 @@ TEST(Integer, SumsAndProductsAreThoseOfDyadic) {
   }
 }
 
-// The largest forms that Grid asks for, of numbers as large as may be: none wraps around.
+// The largest forms of Grid, for maximum coordinates: none wraps around.
 TEST(Integer, HoldsTheLargestForms) {
   const auto most = Integer<2>::shifted(false, (std::uint64_t{1} << 56U) - 1, 64);  // < 2^120
   const auto difference = most - -most;

@@ -1,4 +1,4 @@
-/// The rules of docs/exactness.md, one by one, on numbers that a reader can check.
+/// The rules of docs/exactness.md, one by one, for numbers that are easy to check by hand.
 
 #include "exact/intersect.hpp"
 #include "support/counterexamples.hpp"
@@ -64,7 +64,7 @@ TEST(Exact, CoplanarRayHitsTriangleWhereItEnters) {
   EXPECT_TRUE(hits_at(0, triangle, ray({1, 1, 0}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(0.5f, triangle, ray({1, 1, 0}, {1, 0, 0}, 0.5f)));
   EXPECT_TRUE(hits_at(1, triangle, ray({-1, 0, 0}, {1, 0, 0})));       // along an edge
-  EXPECT_TRUE(hits_at(4, triangle, ray({8, -4, 0}, {-1, 1, 0})));      // through one corner
+  EXPECT_TRUE(hits_at(4, triangle, ray({8, -4, 0}, {-1, 1, 0})));      // through one vertex
   EXPECT_TRUE(misses(triangle, ray({-2, -1, 0}, {1, 0, 0})));          // beside
   EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {-1, 0, 0})));          // pointing away
   EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {1, 0, 0}, 0, 1.5f)));  // too short
@@ -101,7 +101,7 @@ TEST(Exact, Disc) {
   EXPECT_TRUE(hits_at(7, disc, ray({-7, 1, 5}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(0, disc, ray({0, 1, 0}, {1, 0, 0})));
   EXPECT_TRUE(misses(disc, ray({6, 1, 0}, {1, 0, 0})));
-  EXPECT_TRUE(misses(disc, ray({-7, 2, 0}, {1, 0, 0})));  // parallel, beside the plane
+  EXPECT_TRUE(misses(disc, ray({-7, 2, 0}, {1, 0, 0})));  // parallel to the plane, not in it
   EXPECT_TRUE(misses(disc, ray({-7, 1, 0x1.400002p2f}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(1, Disc{{0, 1, 0}, {0, 1, 0}, 0}, ray({0, 2, 0}, {0, -1, 0})));
   EXPECT_TRUE(misses(Disc{{0, 1, 0}, {0, 1, 0}, -1}, ray({0, 2, 0}, {0, -1, 0})));
@@ -145,7 +145,8 @@ TEST(Exact, QuadricWithVanishingCoefficients) {
   EXPECT_TRUE(misses(cylinder, ray({0, 2, 0}, {0, 0, 1})));
   EXPECT_TRUE(hits_at(1, Quadric{}, ray({0, 2, 0}, {0, 0, 1}, 1)));
   EXPECT_TRUE(misses(Quadric{.j = 1}, ray({0, 2, 0}, {0, 0, 1}, 1)));
-  const Quadric inside_out{.a = -1, .b = -1, .c = -1, .j = 9};  // a sphere by negative numbers
+  const Quadric inside_out{
+      .a = -1, .b = -1, .c = -1, .j = 9};  // a sphere with negative coefficients
   EXPECT_TRUE(hits_at(2, inside_out, ray({-5, 0, 0}, {1, 0, 0})));
 }
 

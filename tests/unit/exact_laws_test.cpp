@@ -1,4 +1,4 @@
-/// What holds for every ray and shape, whatever the numbers.
+/// Laws that hold for all rays and shapes.
 
 #include "exact/intersect.hpp"
 #include "support/adversarial_rays.hpp"
@@ -115,13 +115,14 @@ TEST(ExactLaws, SphereIsItsQuadric) {
     for (int i = 0; i < 4000; ++i) {
       const auto [ray, s] = adversarial::sphere_case(random, kind);
       const Vec3 c = s.center;
-      const Quadric q{.a = 1,
-                      .b = 1,
-                      .c = 1,
-                      .g = -2 * c.x,
-                      .h = -2 * c.y,
-                      .i = -2 * c.z,
-                      .j = glm::dot(c, c) - s.radius * s.radius};  // exact: short mantissas
+      const Quadric q{
+          .a = 1,
+          .b = 1,
+          .c = 1,
+          .g = -2 * c.x,
+          .h = -2 * c.y,
+          .i = -2 * c.z,
+          .j = glm::dot(c, c) - s.radius * s.radius};  // exact for numbers with few bits
       const auto hit = first_hit(s, ray);
       ASSERT_TRUE(same(hit, first_hit(q, ray))) << adversarial::reproduction(ray, s);
       hits += hit.has_value();

@@ -35,14 +35,15 @@ TEST(Root, OrdersIrrationals) {
   EXPECT_GT(sqrt2, number(1.41421356237309492));
   EXPECT_LT(sqrt2, number(1.41421356237309515));
   EXPECT_LT(root(3, -1, 2, 1), root(3, 1, 2, 1));
-  // sqrt(2) + sqrt(3) against sqrt(10) as 3 - sqrt(2) against 3 - sqrt(10) + sqrt(3), and the like.
+  // Compares sqrt(2) + sqrt(3) with sqrt(10) in the form 3 - sqrt(2) and 3 - sqrt(10) + sqrt(3),
+  // and similar cases.
   EXPECT_LT(root(-1, 1, 3, 1), root(0, 1, 2, 1));
   EXPECT_GT(root(-1, -1, 2, 1), root(-1, -1, 3, 1));
   EXPECT_LT(root(1, -1, 3, 2), root(5, -1, 17, 2));
 }
 
 TEST(Root, TellsNumbersApartFarBehindThePoint) {
-  // sqrt(n^2 + 1) - n is about 1 / (2 n).
+  // sqrt(n^2 + 1) - n is approximately 1 / (2 n).
   const float n = 0x1p100f;
   const Root small{Dyadic(-n), square(n) + Dyadic(1.0f), 1.0f, 1};
   EXPECT_GT(small, rational(0.0f));

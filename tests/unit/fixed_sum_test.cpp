@@ -48,7 +48,7 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
   EXPECT_EQ(wide.value(), 0x1p100);
 }
 
-// Near to 1 and far from it, where terms are added in two ways.
+// Near 1 and far from it, where terms are added in two ways.
 TEST(FixedSum, TermsAreCutOffMultiplesOfTheUnit) {
   __extension__ using Wide = __int128;
   std::mt19937_64 random(2);
@@ -68,7 +68,7 @@ TEST(FixedSum, TermsAreCutOffMultiplesOfTheUnit) {
   }
 }
 
-// 65536 equal terms of 24 bits give 65536 times their value, exactly.
+// 65536 equal terms of 24 bits must sum to exactly 65536 times their value.
 TEST(FixedSum, EqualTermsAddUpExactly) {
   for (const float x : {0.1F, 3e-6F, 1e9F, 0.7F}) {
     Sum sum;
@@ -94,7 +94,7 @@ TEST(FixedSum, OrderAndGroupingDontMatter) {
     left += right;
     EXPECT_EQ(left, sum);
   }
-  // A double sum of these does depend on it, else this test would say nothing.
+  // The sum in double must depend on the order, otherwise the test would be meaningless.
   double forth = 0, back = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     forth += terms[i];

@@ -7,8 +7,8 @@ namespace {
 
 constexpr Vec3 kBackground{0.5F, 0.25F, 1};
 
-/// Squares at z = -1, -2, ... in front of the only pixel, in the order of their making. Corners go
-/// anticlockwise as it sees them.
+/// Squares at z = -1, -2, ... in front of the only pixel, in order of creation, with vertices
+/// counterclockwise as seen from the camera.
 struct Stack {
   Scene scene;
   float z = 0;
@@ -84,7 +84,8 @@ TEST(Flat, BlendedSurfacesInOnePlaneAllCount) {
 }
 
 TEST(Flat, TheWayThroughTwoTrianglesOfACornerIsOneSurface) {
-  // The pixel's ray goes through the diagonal of each square. A wedge's two sides stay two.
+  // The pixel's ray passes through the diagonal of each square. The two sides of a wedge count as
+  // two layers.
   Stack stack;
   Mesh& mesh = stack.add(blend({1, 0, 0, 0.5F}));
   EXPECT_EQ(stack.pixel(), Vec3(0.5F, 0, 0) + 0.5F * kBackground);

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kEdge = 0.96;
 
-/// Of points, in a picture whose edges are at -1 and 1; by the standard library's trigonometry.
+/// Extent of projected points, in a picture with edges at -1 and 1; uses the standard library's
+/// trigonometry.
 struct Extent {
   double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
   double nearest = 1e300;  ///< depth
@@ -40,7 +41,7 @@ Extent seen(const std::vector<DVec3>& points, const PerspectiveCamera& camera, I
   return extent;
 }
 
-/// All inside, and one axis filled from edge to edge.
+/// All points are inside, and one axis is filled from edge to edge.
 void expect_tight(const Extent& e, double tolerance = 1e-6) {
   const double limit = kEdge + tolerance;
   EXPECT_GT(e.nearest, 0);
@@ -85,7 +86,7 @@ TEST(Framing, RandomPointsFillOneAxis) {
     const View view{.azimuth = 400 * angle(random), .elevation = 90 * angle(random)};
     const PerspectiveCamera camera = frame(cloud(points), view, picture);
     const Extent extent = seen(widened(points), camera, picture);
-    // Deep and narrow clouds keep the camera's distance instead.
+    // For deep and narrow clouds the camera's minimum distance applies instead.
     DVec3 low(1e300), high(-1e300);
     for (const Vec3& p : points) {
       low = glm::min(low, DVec3(p));
@@ -105,7 +106,7 @@ TEST(Framing, AnyAngleIsFilled) {
     const PerspectiveCamera camera = frame(cloud(points), {.vertical_fov = degrees}, size);
     EXPECT_NEAR(camera.vertical_fov, degrees * std::numbers::pi / 180, 1e-14);
     const Extent extent = seen(widened(points), camera, size);
-    // A wide angle's camera keeps its distance instead.
+    // For wide angles the camera's minimum distance applies instead.
     if (degrees < 100) expect_tight(extent);
     EXPECT_GT(extent.nearest, 0);
   }
@@ -134,7 +135,7 @@ TEST(Framing, RoundShapesTouchWithTheirOutlines) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   const DVec3 center(3, -2, 5);
-  // The same ball three ways, and points all over it.
+  // The same ball as three shapes, and as points on its surface.
   const Sphere sphere{.center = center, .radius = 2};
   const Quadric quadric{.a = 1, .b = 1, .c = 1, .g = -6, .h = 4, .i = -10, .j = 9 + 4 + 25 - 4};
   const Quadric negative{.a = -2, .b = -2, .c = -2, .g = 12, .h = -8, .i = 20, .j = -68};
@@ -147,11 +148,11 @@ TEST(Framing, RoundShapesTouchWithTheirOutlines) {
   for (const Shape& shape : {Shape(sphere), Shape(quadric), Shape(negative)}) {
     const PerspectiveCamera camera = frame(scene_of({shape}), View{}, size);
     expect_tight(seen(ball, camera, size), 1e-3);
-    // The ball fills the height: sin of half the angle under which it is seen.
+    // The ball fills the height: sine of half the subtended angle.
     const double half = std::atan(kEdge * std::tan(std::numbers::pi / 8));
     EXPECT_NEAR(glm::distance(camera.pose.position, center), 2 / std::sin(half), 1e-6);
   }
-  // x^2 + xy + y^2 + 4 z^2 = 1 moved to the center; points p with p^T A p = 1.
+  // x^2 + xy + y^2 + 4 z^2 = 1 translated to the center; points p with p^T A p = 1.
   const Quadric tilted{.a = 1, .b = 1, .c = 4, .d = 1, .g = -4, .h = 1, .i = -40, .j = 105.5F};
   const glm::dmat3 matrix(1, 0.5, 0, 0.5, 1, 0, 0, 0, 4);
   const DVec3 middle(3, -2, 5);
@@ -214,7 +215,7 @@ TEST(Framing, WhatHasNoBoundsOrIsNotFiniteDoesNotCount) {
                              Shape(Sphere{{NAN, 0, 0}, 1}), Shape(Disc{{50, 0, 0}, {0, 0, 0}, 1}),
                              Shape(Quadric{.a = 1, .b = 1, .j = -100}),          // a cylinder
                              Shape(Quadric{.a = 1, .b = 1, .c = -1, .j = -9}),   // a hyperboloid
-                             Shape(Quadric{.a = 1, .b = 1, .c = 1, .j = 9})}) {  // no point
+                             Shape(Quadric{.a = 1, .b = 1, .c = 1, .j = 9})}) {  // empty
     scene.objects.push_back({.name = "", .shape = shape});
   }
   EXPECT_EQ(frame(scene, View{}, size).pose.position, expected);

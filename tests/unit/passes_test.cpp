@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// Answers by the sample's name alone, with numbers of very different size: a sum of them in
-/// floating-point numbers would depend on its order.
+/// Returns values that depend only on the sample's id, of very different magnitudes: their
+/// floating-point sum would depend on the order.
 class NoiseIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
@@ -35,7 +35,7 @@ class NoiseIntegrator final : public Integrator {
   [[nodiscard]] bool is_random() const override { return true; }
 };
 
-constexpr ImageSize kSize{.width = 21, .height = 18};  // tiles that are cut on both sides
+constexpr ImageSize kSize{.width = 21, .height = 18};  // tiles are clipped on both sides
 
 Film drawn(RenderOptions options) {
   const NoiseIntegrator integrator;
@@ -66,7 +66,7 @@ TEST(Passes, SeedGivesOtherNoise) {
   EXPECT_NE(one.row(0)[0], other.row(0)[0]);
 }
 
-// Machines that take parts, in any order, and one that goes on from theirs.
+// Machines that compute shards, in any order, and one that resumes from their checkpoints.
 TEST(Passes, PartsAddUpToTheWhole) {
   const Film whole = drawn({.samples = 50, .transparent = true});
   std::vector<SampleSums> parts;

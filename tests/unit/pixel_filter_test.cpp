@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The four-term Blackman-Harris window, 3 pixels wide, t pixels from its middle; its integral is
-/// 1.
+/// The four-term Blackman-Harris window, 3 pixels wide, at t pixels from its center; its integral
+/// is 1.
 double density(double t) {
   if (std::abs(t) > 1.5) return 0;
   const double x = 2 * kPi * t / 3;
@@ -36,7 +36,7 @@ TEST(PixelFilter, BlackmanHarrisGoesFromItsEdgeOverTheCentreToTheOther) {
   }
 }
 
-// Between the places of u and u + 1/n lies 1/n of the weight, by Simpson's rule.
+// Between the positions of u and u + 1/n is 1/n of the weight, by Simpson's rule.
 TEST(PixelFilter, EqualSharesHoldEqualWeight) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 64;
@@ -53,8 +53,8 @@ TEST(PixelFilter, EqualSharesHoldEqualWeight) {
   }
 }
 
-// The window's second moment in closed form: 1/12 + (-a1 + a2/4 - a3/9) / (2 pi^2 a0) of its width
-// squared.
+// The second moment of the window in closed form: 1/12 + (-a1 + a2/4 - a3/9) / (2 pi^2 a0) times
+// its width squared.
 TEST(PixelFilter, VarianceIsThatOfTheWindow) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 100000;

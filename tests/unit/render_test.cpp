@@ -11,7 +11,7 @@ namespace {
 
 constexpr Vec3 kNear{1, 0, 0}, kFar{0, 0, 1}, kBackground{0, 1, 0};
 
-// The only pixel looks along -z at a disc at distance 4 and one at distance 6.
+// The only pixel looks along -z at discs at distances 4 and 6.
 Vec3 pixel(float epsilon, const PerspectiveCamera& camera = {}) {
   Scene scene;
   scene.background = kBackground;

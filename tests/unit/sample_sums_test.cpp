@@ -27,7 +27,7 @@ TEST(PixelSum, NothingIsBlackAndTransparent) {
   EXPECT_EQ(sum.variance(kBlack), 0);
 }
 
-// The mean of n coins of 0 and v has the estimated variance v^2 p (1 - p) / (n - 1).
+// The mean of n values that are 0 or v has the estimated variance v^2 p (1 - p) / (n - 1).
 TEST(PixelSum, VarianceIsThatOfTheMean) {
   for (const float v : {1e-6F, 1.0F, 1e9F}) {
     PixelSum sum;

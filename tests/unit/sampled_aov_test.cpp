@@ -12,7 +12,7 @@
 namespace microtrace {
 namespace {
 
-/// 0, 2, 0, 2, ... sample by sample.
+/// Returns 0, 2, 0, 2, ... by sample.
 class AlternatingIntegrator final : public Integrator {
  public:
   void trace(const World& /*world*/, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
@@ -25,8 +25,8 @@ class AlternatingIntegrator final : public Integrator {
 
 constexpr ImageSize kSize{.width = 20, .height = 20};
 
-/// The half plane x < 0.33, seen by a parallel camera whose picture is [-1, 1] x [-1, 1]: it ends
-/// within the pixels of column 13, of which it covers 0.3.
+/// The half plane x < 0.33, seen by an orthographic camera whose picture is [-1, 1] x [-1, 1]: its
+/// edge is within the pixels of column 13, of which it covers 0.3.
 Film drawn(RenderOptions options) {
   Scene scene;
   scene.background = Vec3(1);

@@ -31,7 +31,7 @@ TEST(SamplePattern, EachRowAndColumnHoldsOneSampleInItsMiddle) {
   }
 }
 
-// Any elementary interval of area 1/16 holds one of 16 points (a (0, 4, 2)-net in base 2).
+// Any elementary interval of area 1/16 contains one of 16 points (a (0, 4, 2)-net in base 2).
 TEST(SamplePattern, PowersOfTwoMakeNets) {
   const auto pattern = sample_pattern(16);
   for (int columns = 1; columns <= 16; columns *= 2) {
@@ -47,7 +47,8 @@ TEST(SamplePattern, PowersOfTwoMakeNets) {
 
 constexpr Vec3 kWhite{1}, kBlue{0, 0, 1};
 
-/// The half plane x < edge, white, seen by a parallel camera whose picture is [-1, 1] x [-1, 1].
+/// The half plane x < edge, white, seen by an orthographic camera whose picture is [-1, 1] x [-1,
+/// 1].
 Scene half_plane(float edge) {
   Scene scene;
   scene.background = kBlue;
@@ -64,11 +65,11 @@ Film drawn(const Scene& scene, const RenderOptions& options, ImageSize size = kS
 
 TEST(Antialiasing, AnEdgeCoversItsShareOfAPixel) {
   for (const std::uint32_t n : {1U, 2U, 4U, 9U, 16U, 50U, 256U, 1000U}) {
-    // The edge runs through the third tenth of the pixels of column 13.
+    // The edge is in the third tenth of the pixels of column 13.
     Film film = drawn(half_plane(0.3F + 0.03F), {.threads = 2, .samples = n});
     const double share = (film.at(13, 5).x + film.at(13, 14).x) / 2;
     EXPECT_NEAR(share, 0.3, 0.5 / n + 1e-3) << n;
-    EXPECT_EQ(film.at(12, 7), kWhite) << n;  // equal samples give their colour, to the bit
+    EXPECT_EQ(film.at(12, 7), kWhite) << n;  // equal samples give exactly their color
     EXPECT_EQ(film.at(14, 7), kBlue) << n;
     EXPECT_EQ(film.at(13, 7).z, 1) << n;
   }
@@ -143,7 +144,7 @@ TEST(RenderOptions, OutOfRangeAreUsageErrors) {
   }
 }
 
-/// Answers by the ray alone, with half coverage.
+/// Returns values that depend only on the ray, with half coverage.
 class DirectionIntegrator final : public Integrator {
  public:
   void trace(const World&, std::span<const Ray> rays, std::span<const SampleId>,

@@ -20,7 +20,7 @@ using Segment = std::array<std::uint32_t, 2>;
 
 constexpr ImageSize kSize{.width = 60, .height = 40};
 
-/// World units are pixels, (0, 0) is the picture's lower left corner.
+/// World units are pixels; (0, 0) is the picture's lower left corner.
 const Camera kPixels = OrthographicCamera{.pose = {.position = {30, 20, 100}}, .height = 40};
 const Camera kPerspective =
     PerspectiveCamera{.pose = {.position = {0, 0, 5}}, .vertical_fov = 1, .depth = {.near = 0.1}};
@@ -34,7 +34,7 @@ Scene scene_of(std::vector<Vec3> positions, std::vector<Segment> segments) {
   return scene;
 }
 
-/// Columns from the left and rows from below of the pixels drawn.
+/// Column (from the left) and row (from below) of the covered pixels.
 std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize size = kSize) {
   Film film = render(scene, camera, size, {.threads = 1});
   std::vector<Pixel> result;
@@ -50,7 +50,7 @@ std::vector<Pixel> line(const Vec3& a, const Vec3& b, const Camera& camera = kPi
   return drawn(scene_of({a, b}, {{0, 1}}), camera);
 }
 
-/// Whether one can go from any of the pixels to any other by steps to one of eight neighbours.
+/// Whether the pixels are 8-connected.
 bool is_connected(const std::vector<Pixel>& pixels) {
   if (pixels.empty()) return false;
   std::vector<bool> reached(pixels.size());
@@ -74,7 +74,7 @@ TEST(Segments, PointsCoverTheirPixel) {
   for (const float x : {7.0F, 7.25F, 7.5F, 7.75F}) {
     for (const float y : {9.0F, 9.25F, 9.5F, 9.75F}) {
       const Scene scene = scene_of({Vec3(x, y, 0)}, {{0, 0}});
-      // On a pixel's edge the right and the lower one is taken.
+      // On the border between pixels the right and the lower one is covered.
       const Pixel expected(7, y == 9 ? 8 : 9);
       EXPECT_THAT(drawn(scene, kPixels), ElementsAre(expected)) << x << " " << y;
     }
@@ -131,7 +131,7 @@ TEST(Segments, PerspectiveLinesAreConnectedNearAndFar) {
 }
 
 TEST(Segments, LinesAcrossTheCamerasPlaneAreCut) {
-  // From the picture's middle to the right edge, on behind the camera.
+  // From the picture's center to the right edge, and on to behind the camera.
   const std::vector<Pixel> pixels = line(Vec3(0, 0, 0), Vec3(6, 0, 10), kPerspective);
   EXPECT_TRUE(is_connected(pixels));
   EXPECT_EQ(pixels.front().first, 30);
@@ -153,7 +153,7 @@ TEST(Segments, EnvironmentCamerasSeeThemAllAround) {
     const Vec3 b = anywhere();
     EXPECT_GE(line(a, b, kEnvironment).size(), 1U) << i;
   }
-  // A quarter of the horizon, in front and a little to its right.
+  // A quarter of the horizon, in front and slightly to the right.
   const std::vector<Pixel> quarter =
       drawn(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
             {.width = 60, .height = 30});
@@ -196,7 +196,7 @@ TEST(Segments, EachTakesTwoTrianglesSeenOrNot) {
   EXPECT_TRUE(std::isnan(mesh.positions[4].x));  // behind the camera
   EXPECT_EQ(mesh.uv_sets[0][8], Vec2(0));
   EXPECT_EQ(mesh.uv_sets[0][10], Vec2(1));
-  // The last is cut at the camera's near plane, 4.9 of 9 along it.
+  // The last line is clipped at the camera's near plane, 4.9 of 9 along it.
   EXPECT_NEAR(mesh.uv_sets[0][15].x, 4 * 4.9 / 9, 1e-5);
   EXPECT_NEAR(mesh.colors[15].w, 4.9 / 9, 1e-5);
 }

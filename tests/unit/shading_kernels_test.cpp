@@ -1,5 +1,5 @@
-// What shading kernels do for many paths, against what the code for one path does: bit by bit, for
-// every instruction set that this machine has.
+// Compares shading kernels with the scalar code, bit by bit, for every instruction set of this
+// machine.
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/frame.hpp"
 #include "render/integrators/path_state.hpp"
@@ -32,7 +32,7 @@ class Random {
   Vec3 vector() { return {signed_unit(), signed_unit(), signed_unit()}; }
   Vec3 color() { return {unit(), unit(), unit()}; }
   Vec3 direction() { return bsdf::unit(vector() + Vec3(0, 0, 1e-3F)); }
-  /// Above a plane of that normal.
+  /// A direction above the plane with this normal.
   Vec3 above(const Vec3& n) {
     const Vec3 w = direction();
     return glm::dot(w, n) < 0 ? -w : w;
@@ -42,7 +42,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-/// Equal also where both are not numbers.
+/// Equal bits; NaN equals NaN.
 void expect_bits(float a, float b, const char* what) {
   if (std::isnan(a) && std::isnan(b)) return;
   ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b))
@@ -65,7 +65,7 @@ TEST_P(ShadingKernelsTest, PointsAreThoseOfOneRay) {
       const float size = std::exp2(20 * random.signed_unit());
       for (int k = 0; k < 3; ++k) {
         mesh.positions.push_back(size * random.vector());
-        // Also such as have no direction.
+        // Some normals are zero.
         mesh.normals.push_back(random.unit() < 0.1F ? Vec3(0) : random.direction());
         mesh.uv_sets[0].push_back({random.signed_unit(), random.signed_unit()});
       }
@@ -176,10 +176,10 @@ TEST_P(ShadingKernelsTest, NormalsAreThoseOfOneRay) {
 
 struct Scattered {
   Vec3 shadow{0}, wi{0}, throughput{0};
-  float density = 0;
+  float pdf = 0;
 };
 
-/// By the code for one path.
+/// The result of the scalar code.
 Scattered scattered(const ScatterLanes& lanes, int i, const WaveStep& step) {
   Scattered result;
   const bsdf::Frame frame = bsdf::Frame::about(got(lanes.frame_n, i));
@@ -194,8 +194,7 @@ Scattered scattered(const ScatterLanes& lanes, int i, const WaveStep& step) {
   const Vec3 to_light = got(lanes.light_wi, i), light_wi = frame.to_local(to_light);
   if (light_wi.z > 0 && glm::dot(to_light, outwards) > 0) {
     const bsdf::Evaluation f = bsdf.evaluate(light_wi);
-    const float weight =
-        lanes.light_density[i] > 0 ? power_heuristic(lanes.light_density[i], f.density) : 1;
+    const float weight = lanes.light_pdf[i] > 0 ? power_heuristic(lanes.light_pdf[i], f.pdf) : 1;
     result.shadow = throughput * f.value * got(lanes.light, i) * weight;
   }
   const sampling::Sobol sobol(lanes.key[i], lanes.index[i]);
@@ -211,7 +210,7 @@ Scattered scattered(const ScatterLanes& lanes, int i, const WaveStep& step) {
     if (!(chances.y < survival)) return result;
     result.throughput /= survival;
   }
-  result.density = sample->density;
+  result.pdf = sample->pdf;
   return result;
 }
 
@@ -234,7 +233,7 @@ TEST_P(ShadingKernelsTest, LightScattersAsForOnePath) {
       put(lanes.throughput, i, 1.5F * random.color());
       put(lanes.light_wi, i, random.direction());
       put(lanes.light, i, 5.0F * random.color());
-      lanes.light_density[i] = random.unit() < 0.2F ? 0 : random.unit();
+      lanes.light_pdf[i] = random.unit() < 0.2F ? 0 : random.unit();
       lanes.key[i] = random.bits();
       lanes.index[i] = random.bits() >> (random.bits() & 31U);
     }
@@ -242,9 +241,9 @@ TEST_P(ShadingKernelsTest, LightScattersAsForOnePath) {
     for (int i = 0; i < kShadingLanes; ++i) {
       const Scattered expected = scattered(lanes, i, step);
       expect_bits(got(lanes.shadow, i), expected.shadow, "shadow");
-      expect_bits(lanes.density[i], expected.density, "density");
+      expect_bits(lanes.pdf[i], expected.pdf, "pdf");
       lit += expected.shadow == Vec3(0) ? 0 : 1;
-      if (expected.density == 0) continue;
+      if (expected.pdf == 0) continue;
       ++alive;
       expect_bits(got(lanes.wi, i), expected.wi, "wi");
       expect_bits(got(lanes.next_throughput, i), expected.throughput, "throughput");

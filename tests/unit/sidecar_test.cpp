@@ -54,7 +54,7 @@ TEST(Sidecar, TellsOfObjectsAndWhereTheyAreSeen) {
   EXPECT_TRUE(objects[1]["world_box"].is_null());
   EXPECT_EQ(objects[2]["name"], "Größe/網");
   EXPECT_EQ(objects[2]["box"], json({10, 21, 11, 22}));
-  // Stored float32 numbers, exactly.
+  // Exactly the stored float32 numbers.
   EXPECT_EQ(objects[2]["world_box"]["max"], json({0.0, static_cast<double>(0.1F), 2.0}));
   EXPECT_EQ(sidecar["materials"], json::array({{{"id", 1}, {"name", "\tgold"}}}));
 }
@@ -101,7 +101,7 @@ TEST(Sidecar, CamerasByHand) {
       .vertical_fov = 2 * std::atan(0.5),
       .depth = {.near = 0.5, .far = std::numeric_limits<double>::infinity()}};
   const json c = json::parse(describe_picture(Scene{}, camera, film, ""))["camera"];
-  // Looks along -x: right is -z, up is y, backward is x.
+  // The camera looks along -x: right is -z, up is y, backward is x.
   const double expected[4][4] = {{0, 0, 1, 1}, {0, 1, 0, 2}, {-1, 0, 0, 3}, {0, 0, 0, 1}};
   for (std::size_t row = 0; row < 4; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {

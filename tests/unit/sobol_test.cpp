@@ -17,7 +17,8 @@ std::vector<Vec2> points(std::uint32_t count, std::uint32_t pair, std::uint32_t 
   return result;
 }
 
-// I. Sobol's definition of a (0, m, 2)-net: every elementary interval of area 2^-m holds one point.
+// I. Sobol's definition of a (0, m, 2)-net: every elementary interval of area 2^-m contains one
+// point.
 TEST(Sobol, EveryPairIsANetInBaseTwo) {
   constexpr std::uint32_t bits = 8, count = 1U << bits;
   for (std::uint32_t pair = 0; pair < 20; ++pair) {
@@ -42,8 +43,8 @@ TEST(Sobol, NumbersLieInTheHalfOpenUnitInterval) {
   }
 }
 
-// The means of products of two pairs' numbers: 1/4 if they have nothing to do with each other. The
-// standard deviation of one product is sqrt(7) / 12.
+// The means of products of two pairs' numbers: 1/4 if they are independent. The standard deviation
+// of one product is sqrt(7) / 12.
 TEST(Sobol, PairsAreIndependent) {
   constexpr std::uint32_t count = 1024, pixels = 64;
   for (std::uint32_t other = 1; other < 8; ++other) {

@@ -20,13 +20,13 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Whatever has a position, a normal and texture coordinates at each (x, y) of [0, 1]^2.
+/// Position, normal and texture coordinates at each (x, y) of [0, 1]^2.
 struct Sheet {
   std::function<Vec3(double, double)> position, normal;
   std::function<Vec2(double, double)> uv;
 };
 
-/// A grid of 2 * columns * rows triangles whose fronts are where x to the right and y up.
+/// A grid of 2 * columns * rows triangles whose fronts have x to the right and y up.
 Mesh grid(const Sheet& sheet, std::uint32_t columns, std::uint32_t rows) {
   Mesh mesh;
   mesh.uv_sets.resize(1);
@@ -57,7 +57,7 @@ Sheet with_uv(Sheet sheet, std::function<Vec2(double, double)> uv) {
   return sheet;
 }
 
-/// The tangents of the mesh's vertices, made.
+/// The generated tangents of the mesh's vertices.
 std::vector<Vec4> tangents_of(Mesh mesh) {
   make_tangents(mesh, 0);
   return mesh.tangents;
@@ -85,7 +85,7 @@ TEST(Tangents, MirroredCoordinatesTurnTheHandedness) {
 }
 
 TEST(Tangents, ShearedCoordinatesGiveTheDerivativeByU) {
-  // u = x + y / 2, v = -2 y: with v fixed, u grows along x alone.
+  // u = x + y / 2, v = -2 y: for fixed v, u increases along x.
   const auto sheared = [](double x, double y) { return Vec2(x + y / 2, -2 * y); };
   for (const Vec4& t : tangents_of(grid(with_uv(kPlane, sheared), 3, 3))) {
     expect_near(t, {1, 0, 0, 1});
@@ -108,26 +108,28 @@ TEST(Tangents, OfASphereGoEast) {
   const std::vector<Vec4> tangents = tangents_of(grid(sphere, columns, 32));
   for (std::uint32_t i = 0; i < tangents.size(); ++i) {
     const std::uint32_t column = i % (columns + 1);
-    if (column == 0 || column == columns) continue;  // the seam has neighbours on one side alone
+    if (column == 0 || column == columns) continue;  // the seam has neighbors only on one side
     const double longitude = 2 * kPi * column / columns;
     expect_near(tangents[i], {-std::sin(longitude), 0, -std::cos(longitude), 1}, 2e-3F);
   }
 }
 
 TEST(Tangents, WeighTrianglesByTheirAngle) {
-  // A ridge along y: at its middle the left slope takes a right angle, as does the right one cut
-  // in two; the normal points up, so that both tangents are level and cancel nothing.
+  // A ridge along y: at its middle the left slope has a right angle, and so has the right slope,
+  // which is divided in two. The normal points up, so both tangents are horizontal and do not
+  // cancel.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
   mesh.normals.assign(4, {0, 0, 1});
-  // The first triangle's u goes along x, the second one's turned by 90 degrees at the same corners.
+  // The u of the first triangle increases along x, that of the second is rotated by 90 degrees at
+  // the shared vertices.
   mesh.uv_sets = {{{0, 0}, {1, 0}, {0, -1}, {1, -1}}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   const std::vector<Vec4> corners = corner_tangents({.positions = mesh.positions,
                                                      .normals = mesh.normals,
                                                      .uv = mesh.uv_sets[0],
                                                      .triangles = mesh.triangles});
-  // The second is mirrored: each keeps its own.
+  // The second is mirrored, so they don't share tangents.
   expect_near(corners[0], {1, 0, 0, 1});
   expect_near(corners[3], {-1, 0, 0, -1});
   mesh.uv_sets = {{{0, 0}, {1, 0}, {0, -1}, {-1, -2}}};
@@ -176,7 +178,8 @@ TEST(Tangents, SplitVerticesWhereMirroredTrianglesMeet) {
 
 TEST(Tangents, TrianglesWithoutTextureAreaTakeTheirNeighbours) {
   Mesh mesh = grid(kPlane, 2, 1);
-  // The right half has one point of the image, so its left corners keep what the left half says.
+  // The right half maps to one point of the image, so its left vertices have the tangents of the
+  // left half.
   for (const std::size_t i : {1U, 2U, 4U, 5U}) mesh.uv_sets[0][i].x = 0.5F;
   const std::vector<Vec4> tangents = tangents_of(mesh);
   ASSERT_EQ(tangents.size(), 6U);
@@ -210,7 +213,7 @@ TEST(Tangents, TrianglesWithoutAreaTakeThoseOfTheirVertices) {
 }
 
 TEST(Tangents, OppositeDirectionsAroundAVertexDoNotCancel) {
-  // Four triangles around a vertex of one v, whose u runs round it.
+  // Four triangles around a vertex with the same v, whose u increases around the vertex.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}};
   mesh.normals.assign(6, {0, 0, 1});
@@ -239,7 +242,7 @@ TEST(Tangents, WithoutNormalsTrianglesAreFlat) {
   }
 }
 
-/// A bumpy sheet with a fold, as seen by the number of its triangle's corner.
+/// The tangents of a bumpy sheet with a fold, by corner of the unshuffled triangles.
 std::vector<Vec4> shuffled_corners(std::uint32_t seed) {
   const Sheet sheet{
       .position = [](double x, double y) { return Vec3(x, y, 0.1 * std::sin(9 * x) * y); },

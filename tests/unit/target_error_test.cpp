@@ -13,7 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// 1 left of pixel 16; a coin of 0 and 2 from there to 31; a hundredth of that from 32 on.
+/// 1 left of pixel 16; a coin flip of 0 or 2 from there to pixel 31; a hundredth of that from pixel
+/// 32 on.
 class CoinIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
@@ -37,14 +38,15 @@ Film drawn(RenderOptions options) {
   return render(Scene{}, PerspectiveCamera{}, kSize, options);
 }
 
-/// With so many samples at most. Goes on from the sums, if there are some.
+/// With at most this many samples. Continues from the sums, if there are any.
 Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
   return drawn({.threads = threads,
                 .samples = samples,
                 .passes = Passes{.sums = &sums, .target_error = target}});
 }
 
-// A coin of 0 and 2 has the standard deviation 1, its mean of n the error 1 / sqrt(n - 1) at most.
+// A coin flip of 0 or 2 has the standard deviation 1; the mean of n has at most the error 1 /
+// sqrt(n - 1).
 TEST(TileErrors, AreRelativeToThePixelsLightAndThePictures) {
   SampleSums sums;
   (void)drawn_to(0, sums, 4096);
@@ -78,7 +80,8 @@ TEST(TileErrors, GoodTilesHaveGoodNeighbours) {
   EXPECT_EQ(good_tiles(errors, window, 0.1), expected);
 }
 
-// Between the halves tiles wait for each other; the coin needs some 800 samples, so 1024.
+// At the border between the halves, tiles wait for each other; the coin needs some 800 samples, so
+// 1024.
 TEST(TargetError, StopsWhereThePictureIsGood) {
   SampleSums sums;
   RenderCounts counts;
@@ -94,7 +97,7 @@ TEST(TargetError, StopsWhereThePictureIsGood) {
   EXPECT_EQ(samples, counts.samples);
   for (std::uint32_t y = 0; y < kSize.height; ++y) {
     EXPECT_EQ(sums.at(0, y).count, 32U);
-    EXPECT_EQ(sums.at(8, y).count, 1024U);  // beside the coin
+    EXPECT_EQ(sums.at(8, y).count, 1024U);  // next to the coin
     EXPECT_EQ(sums.at(20, y).count, 1024U);
     EXPECT_EQ(sums.at(47, y).count, 32U);
   }

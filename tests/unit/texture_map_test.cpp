@@ -8,9 +8,9 @@
 namespace microtrace {
 namespace {
 
-constexpr TextureFootprint kNear{};  // closer than the pixels
+constexpr TextureFootprint kNear{};  // footprint below a pixel
 
-/// Greys from left to right.
+/// Gray levels from left to right.
 Image strip(std::vector<std::uint8_t> greys) {
   return {.width = static_cast<std::uint32_t>(greys.size()),
           .height = 1,
@@ -101,7 +101,7 @@ TEST(TextureMap, SixteenBitsAreKept) {
   EXPECT_NEAR(color.w, 1 / 65535.0, 1e-10);
 }
 
-/// 8 x 8 pixels, black and white by turns.
+/// 8 x 8 pixels, alternating black and white.
 Image checker() {
   std::vector<std::uint8_t> samples;
   for (int y = 0; y < 8; ++y) {
@@ -130,7 +130,7 @@ TEST(TextureMap, WithoutMipMapsTheImageItselfIsTaken) {
 }
 
 TEST(TextureMap, SlantedSurfacesAreBlurredAlongTheSlantOnly) {
-  // Columns of two pixels: sharp where the footprint is long along them.
+  // Columns of two pixels: sharp if the footprint is elongated along them.
   std::vector<std::uint8_t> samples;
   for (int i = 0; i < 16 * 16; ++i) samples.push_back(i % 4 < 2 ? 255 : 0);
   const Image image{.width = 16, .height = 16, .channels = 1, .samples = samples};

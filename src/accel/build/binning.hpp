@@ -24,8 +24,8 @@ class BinMapping {
 
   [[nodiscard]] int bins() const { return bins_; }
   [[nodiscard]] Int4 operator()(const Reference& r) const {
-    const Float4 place = min((centroid(r.box) - origin_) * scale_, splat(last_));
-    return __builtin_convertvector(place, Int4);
+    const Float4 slot = min((centroid(r.box) - origin_) * scale_, splat(last_));
+    return __builtin_convertvector(slot, Int4);
   }
   /// Whether all references are in one bin along every axis.
   [[nodiscard]] bool is_degenerate() const {

@@ -80,7 +80,7 @@ class Grid {
 };
 
 struct Candidate {
-  std::size_t place;
+  std::size_t slot;
   float priority;
 };
 
@@ -98,8 +98,8 @@ class Splitter {
     const float most = kCutsAtLeast / fourth_root(least_), scale = within_budget(most);
     references_.reserve(references_.size() + pieces(scale));
     for (const Candidate& c : candidates_) {
-      const Triangle t = triangle(references_[c.place].id());
-      split(t, c.place, static_cast<std::size_t>(scale * c.priority));
+      const Triangle t = triangle(references_[c.slot].id());
+      split(t, c.slot, static_cast<std::size_t>(scale * c.priority));
     }
   }
 
@@ -113,8 +113,8 @@ class Splitter {
     return triangle;
   }
 
-  void consider(std::size_t place) {
-    const Reference& r = references_[place];
+  void consider(std::size_t slot) {
+    const Reference& r = references_[slot];
     if (r.weight() != kTriangleWeight) return;
     const float importance = std::ldexp(1.0F, -grid_.level(r.box));
     const float size = area_(r.box);
@@ -122,7 +122,7 @@ class Splitter {
     const Triangle t = triangle(r.id());
     const float waste = size - kUseful * area_.of_triangle(t.a, t.b, t.c);
     if (waste * importance >= least_)
-      candidates_.push_back({.place = place, .priority = fourth_root(waste * importance)});
+      candidates_.push_back({.slot = slot, .priority = fourth_root(waste * importance)});
   }
 
   std::size_t pieces(float scale) const {
@@ -145,21 +145,21 @@ class Splitter {
   }
 
   // Splits `times` times; the larger part gets more of the remaining splits.
-  void split(const Triangle& t, std::size_t place, std::size_t times) {
+  void split(const Triangle& t, std::size_t slot, std::size_t times) {
     if (times == 0) return;
-    const Reference whole = references_[place];
+    const Reference whole = references_[slot];
     const int axis = longest_axis(whole.box);
     const float plane = grid_.plane(whole.box, axis);
     if (!(plane > whole.box.lo[axis] && plane < whole.box.hi[axis])) return;
     const auto [left, right] = cut(t, whole.box, axis, plane);
-    references_[place] = Reference(left, whole.id(), whole.weight());
+    references_[slot] = Reference(left, whole.id(), whole.weight());
     const std::size_t added = references_.size();
     references_.push_back(Reference(right, whole.id(), whole.weight()));
     const float a = half_extent(left)[longest_axis(left)],
                 b = half_extent(right)[longest_axis(right)];
     const auto to_left =
         static_cast<std::size_t>(std::floor(static_cast<float>(times - 1) * (a / (a + b)) + 0.5F));
-    split(t, place, to_left);
+    split(t, slot, to_left);
     split(t, added, times - 1 - to_left);
   }
 

@@ -30,7 +30,7 @@ void plan(BinaryTree& binary, WorkerPool& pool) {
 Tree build_tree(const Primitives& primitives, const BuildOptions& options) {
   References references = gather(primitives);
   Tree tree;
-  tree.twins = Twins(references, primitives);
+  tree.duplicates = Duplicates(references, primitives);
   references.hashes = {};
   set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);

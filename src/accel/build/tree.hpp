@@ -2,8 +2,8 @@
 /// The bounding volume hierarchy over a scene's primitives: eight children per node, built by the
 /// surface area heuristic.
 
+#include "accel/build/duplicates.hpp"
 #include "accel/build/page_allocator.hpp"
-#include "accel/build/twins.hpp"
 #include "accel/layout.hpp"
 
 #include <microtrace/primitives.hpp>
@@ -33,9 +33,9 @@ struct Tree {
   PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
   std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
   std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and what leaves the float32 range
-  Twins twins;        ///< primitives represented by another one with the same points
-  ChildRef root = 0;  ///< a node without children if there are no leaves
-  Bounds bounds;      ///< bounds of all leaves
+  Duplicates duplicates;  ///< primitives represented by another one with the same points
+  ChildRef root = 0;      ///< a node without children if there are no leaves
+  Bounds bounds;          ///< bounds of all leaves
 };
 
 /// The scene of the primitives must outlive only this call. Throws Error (limit) if the tree would

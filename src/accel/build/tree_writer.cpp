@@ -128,7 +128,7 @@ class Writer {
     write_node(root, 0, next);
     pool.run(jobs_.size(), [&](std::size_t i) {
       Places begin = jobs_[i].begin;
-      write_node(*jobs_[i].node, jobs_[i].place, begin);
+      write_node(*jobs_[i].node, jobs_[i].slot, begin);
     });
   }
 
@@ -137,7 +137,7 @@ class Writer {
   struct Job {
     const BinaryNode* node;
     Places size, begin;
-    std::size_t place = 0;
+    std::size_t slot = 0;
   };
 
   static bool is_job(const BinaryNode& parent, const BinaryNode& child) {
@@ -169,10 +169,10 @@ class Writer {
   }
 
   // `next`: the first unused positions.
-  void write_node(const BinaryNode& node, std::size_t place, Places& next) {
+  void write_node(const BinaryNode& node, std::size_t slot, Places& next) {
     const WideChildren children(node);
-    std::array<std::size_t, kWidth> places{};
-    WideNode& wide = tree_.nodes[place];
+    std::array<std::size_t, kWidth> slots{};
+    WideNode& wide = tree_.nodes[slot];
     wide = empty_node();
     for (std::size_t i = 0; i < children.size(); ++i) {
       const BinaryNode& child = children[i];
@@ -180,8 +180,8 @@ class Writer {
       if (child.plan.is_leaf) {
         wide.child[i] = write_leaf(child, next);
       } else {
-        places[i] = next.nodes++;
-        wide.child[i] = static_cast<ChildRef>(places[i]);
+        slots[i] = next.nodes++;
+        wide.child[i] = static_cast<ChildRef>(slots[i]);
       }
     }
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -190,10 +190,10 @@ class Writer {
       if (is_job(node, child)) {
         Job& job = jobs_[job_++];
         job.begin = next;
-        job.place = places[i];
+        job.slot = slots[i];
         next += job.size;
       } else {
-        write_node(child, places[i], next);
+        write_node(child, slots[i], next);
       }
     }
   }
@@ -222,10 +222,10 @@ class Writer {
     return first << 3U | (count - 1);
   }
 
-  void put(TriangleBlock& block, std::size_t place, PrimitiveId id) {
+  void put(TriangleBlock& block, std::size_t slot, PrimitiveId id) {
     primitives_.visit(id, [&](const auto& shape) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Triangle>)
-        build::put(block, place, id, shape);
+        build::put(block, slot, id, shape);
     });
   }
 

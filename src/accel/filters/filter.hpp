@@ -32,7 +32,7 @@ enum class Certainty { miss, hit, unsure };
 
 /// The result of a filter. Unless it is a miss, lo is below the exact t of a hit; if the hit is
 /// certain, hi is above it.
-struct Verdict {
+struct FilterResult {
   Certainty certainty = Certainty::miss;
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -71,8 +71,9 @@ struct Approximate {
 /// parts satisfies |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound itself has
 /// eight roundings of second order, for which 1 + gamma(8) would suffice. Any |d| above its error
 /// would be valid; four times the error keeps lo and hi close.
-[[nodiscard]] inline Verdict quotient_verdict(const Approximate& numerator,
-                                              const Approximate& denominator, const Range& range) {
+[[nodiscard]] inline FilterResult quotient_result(const Approximate& numerator,
+                                                  const Approximate& denominator,
+                                                  const Range& range) {
   const double size = std::abs(denominator.value);
   if (!(size > 4 * denominator.error)) return {.certainty = Certainty::unsure};
   const double t = numerator.value / denominator.value;

@@ -12,9 +12,9 @@ class PlaneFilter {
       : normal_(normal), height_(dot_product(normal, DVec3(point) - DVec3(o), 4)) {}
   PlaneFilter(const Plane& plane, const Vec3& o) : PlaneFilter(plane.point, plane.normal, o) {}
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
     // Two roundings would suffice, because products of two float32 are exact; four cost nothing.
-    return quotient_verdict(height_, dot_product(normal_, d, 4), range);
+    return quotient_result(height_, dot_product(normal_, d, 4), range);
   }
 
  private:
@@ -30,8 +30,8 @@ class DiscFilter {
         from_center_(DVec3(o) - DVec3(disc.center)),
         radius2_(double{disc.radius} * disc.radius) {}
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    Verdict crossing = plane_(d, range);
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
+    FilterResult crossing = plane_(d, range);
     if (crossing.certainty == Certainty::miss) return crossing;
     // If the ray is nearly in the plane, t is unbounded, and so is the distance.
     if (!std::isfinite(crossing.lo)) return crossing;

@@ -10,12 +10,13 @@ namespace microtrace {
 /// The two roots (-b -+ s) / a in order, with error bounds of the numerators; a > 0 is certain, and
 /// s is the root of the discriminant. The first root that is certainly in range is the hit; a root
 /// that may be in range makes the result unsure.
-[[nodiscard]] inline Verdict first_root_verdict(const Approximate& a, const Approximate& b,
-                                                const Approximate& s, const Range& range) {
+[[nodiscard]] inline FilterResult first_root_result(const Approximate& a, const Approximate& b,
+                                                    const Approximate& s, const Range& range) {
   const double error = b.error + s.error + gamma(1) * (std::abs(b.value) + s.value);
-  const Verdict near = quotient_verdict({.value = -b.value - s.value, .error = error}, a, range);
+  const FilterResult near =
+      quotient_result({.value = -b.value - s.value, .error = error}, a, range);
   if (near.certainty != Certainty::miss) return near;
-  return quotient_verdict({.value = -b.value + s.value, .error = error}, a, range);
+  return quotient_result({.value = -b.value + s.value, .error = error}, a, range);
 }
 
 /// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x)
@@ -38,7 +39,7 @@ class SphereFilter {
     outside_ = {.value = m2 - radius2_, .error = gamma(5) * m2 + kUnderflow};
   }
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
     // v = d x m has the roundings of m, of the products and of the difference: |v - v*| <= u (2 p +
     // |v|) for the permanent p of a component, so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p +
     // |v|)^2. v^2 has three more roundings, d^2 r^2 three and the difference one: in all u (4 |v| p
@@ -57,8 +58,8 @@ class SphereFilter {
     if (b.is_positive() && outside_.is_positive()) return {.certainty = Certainty::miss};
     if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
     // The squares are exact.
-    return first_root_verdict({.value = d2, .error = gamma(2) * d2 + kUnderflow}, b,
-                              square_root(discriminant), range);
+    return first_root_result({.value = d2, .error = gamma(2) * d2 + kUnderflow}, b,
+                             square_root(discriminant), range);
   }
 
  private:
@@ -89,7 +90,7 @@ class QuadricFilter {
                        kUnderflow};
   }
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
     const DVec3 size = glm::abs(d);
     Approximate alpha = {
         .value = form(squares_, mixed_, d),
@@ -115,7 +116,7 @@ class QuadricFilter {
       alpha.value = -alpha.value;
       beta.value = -beta.value;
     }
-    return first_root_verdict(alpha, beta, square_root(discriminant), range);
+    return first_root_result(alpha, beta, square_root(discriminant), range);
   }
 
  private:

@@ -45,8 +45,8 @@ class TrianglePlaneFilter {
                         kUnderflow};
   }
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
-    return quotient_verdict(height_, normal_.along(d), range);
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
+    return quotient_result(height_, normal_.along(d), range);
   }
 
  private:
@@ -55,7 +55,7 @@ class TrianglePlaneFilter {
 };
 
 /// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of w_a = d.(B x C), w_b =
-/// d.(C x A), w_c = d.(A x B) tell the side on which the ray passes each edge. Two strictly
+/// d.(C x A), w_c = d.(A x B) tell the side on which the ray clears_box each edge. Two strictly
 /// opposite signs are a miss; three equal signs are an intersection of the triangle's plane inside
 /// the triangle.
 class TriangleFilter {
@@ -64,7 +64,7 @@ class TriangleFilter {
       : TriangleFilter(triangle, o, DVec3(triangle.a) - DVec3(o), DVec3(triangle.b) - DVec3(o),
                        DVec3(triangle.c) - DVec3(o)) {}
 
-  [[nodiscard]] Verdict operator()(const DVec3& d, const Range& range) const {
+  [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
     bool inside_positive = true, inside_negative = true, any_positive = false, any_negative = false;
     for (const CrossProduct& edge : edges_) {
       const Approximate w = edge.along(d);
@@ -74,10 +74,10 @@ class TriangleFilter {
       inside_negative &= w.is_negative();
     }
     if (any_positive && any_negative) return {.certainty = Certainty::miss};
-    Verdict crossing = plane_(d, range);
+    FilterResult crossing = plane_(d, range);
     if (crossing.certainty == Certainty::hit && !inside_positive && !inside_negative)
       crossing.certainty = Certainty::unsure;
-    if (crossing.certainty == Certainty::unsure && passes_by(d))
+    if (crossing.certainty == Certainty::unsure && misses_projected(d))
       return {.certainty = Certainty::miss};
     return crossing;
   }
@@ -86,7 +86,7 @@ class TriangleFilter {
   /// Whether some component of d x A, d x B and d x C certainly has the same sign for all three
   /// vertices. Projected along d, the ray is then outside the triangle, even if the triangle has no
   /// area or contains the ray in its plane.
-  [[nodiscard]] bool passes_by(const DVec3& d) const {
+  [[nodiscard]] bool misses_projected(const DVec3& d) const {
     std::array<bool, 3> all_positive{true, true, true}, all_negative = all_positive;
     for (const DVec3& corner : corners_) {
       // A has one rounding, the product one; the rounding of the difference doesn't change its

@@ -1,20 +1,20 @@
+#include "accel/kernels/packet.hpp"
+#include "accel/kernels/packet_rays.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
-#include "accel/kernels/tile.hpp"
-#include "accel/kernels/tile_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kAvx2Kernels{"avx2",
                            closest<8>,
                            any<8>,
-                           fill_tile<8>,
-                           closest_of_tile<8>,
+                           fill_packet<8>,
+                           closest_of_packet<8>,
                            prepare_stream<8>,
                            closest_of_stream<8>,
                            any_of_stream<8, 8>,
                            round_t<4>,
-                           round_t_of_tile<4>,
+                           round_t_of_packet<4>,
                            touching<8>,
                            edge_tests};
 }

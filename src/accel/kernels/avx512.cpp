@@ -1,20 +1,20 @@
+#include "accel/kernels/packet.hpp"
+#include "accel/kernels/packet_rays.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
-#include "accel/kernels/tile.hpp"
-#include "accel/kernels/tile_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
 const Kernels kAvx512Kernels{"avx512",
                              closest<8>,
                              any<8>,
-                             fill_tile<16>,
-                             closest_of_tile<16>,
+                             fill_packet<16>,
+                             closest_of_packet<16>,
                              prepare_stream<16>,
                              closest_of_stream<8>,
                              any_of_stream<8, 16>,
                              round_t<8>,
-                             round_t_of_tile<8>,
+                             round_t_of_packet<8>,
                              touching<8>,
                              edge_tests};
 }

@@ -142,10 +142,10 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
 }
 
 /// Updates best to the nearest hit among the lanes that a block's test has not rejected. With kAny
-/// it stops at the first hit. slowly(id, best) is the fallback.
+/// it stops at the first hit. fallback(id, best) is the fallback.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
-                       Best& best, const Slowly& slowly) {
+                       ClosestSoFar& best, const Slowly& fallback) {
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
@@ -161,23 +161,23 @@ inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, con
     if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
       best = {t.lo, t.hi, id};
     else if (!(t.lo <= ray.t_min && is_left_behind(block, lane, ray.o, ray.d)))
-      slowly(id, best);
+      fallback(id, best);
     if (kAny && best.id != kNoPrimitive) return;
   }
 }
 
 /// The same for a leaf and a ray.
 template <int N, bool kAny, class Slowly>
-inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf, Best& best,
-                      const Slowly& slowly) {
+inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf, ClosestSoFar& best,
+                      const Slowly& fallback) {
   const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
   for_each_entry(leaf, [&](std::uint32_t i) {
     if (has_triangles) {
       BlockTest<N> test;
       test.run(tree.blocks[i], ray, best.hi);
-      meet_lanes<N, kAny>(tree.blocks[i], test, ray, best, slowly);
+      meet_lanes<N, kAny>(tree.blocks[i], test, ray, best, fallback);
     } else {
-      slowly(tree.others[i], best);
+      fallback(tree.others[i], best);
     }
     return kAny && best.id != kNoPrimitive;
   });

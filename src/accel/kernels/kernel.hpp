@@ -17,7 +17,7 @@ struct TreeView {
 
 /// The nearest hit so far: its exact t is within [lo, hi]. Initially lo = hi = t_max and id is
 /// kNoPrimitive.
-struct Best {
+struct ClosestSoFar {
   float lo, hi;
   std::uint32_t id;
 };
@@ -25,9 +25,9 @@ inline constexpr std::uint32_t kNoPrimitive = ~0U;
 
 /// Decides hits that float32 can't: whether primitive id is hit, and before the nearest hit so far.
 /// Updates best.
-struct SlowPath {
+struct Fallback {
   void* context;
-  void (*consider)(void* context, std::uint32_t id, Best& best);
+  void (*consider)(void* context, std::uint32_t id, ClosestSoFar& best);
 };
 
 /// Limits of the rays and triangles in kernels. Within them no float32 result overflows, and
@@ -52,32 +52,32 @@ struct KernelRay {
   std::uint32_t near_plane[3], far_plane[3];
 };
 
-inline constexpr int kTileRays = 64;
+inline constexpr int kPacketRays = 64;
 /// Rays of a packet that are culled together: two rows of eight pixels.
-inline constexpr int kGroupRays = 16, kGroups = kTileRays / kGroupRays;
+inline constexpr int kGroupRays = 16, kGroups = kPacketRays / kGroupRays;
 
-/// Directions within centre +- radius on each axis.
+/// Directions within center +- radius on each axis.
 struct Beam {
-  float centre[3], radius[3];
+  float center[3], radius[3];
 };
 
 /// The slot of a triangle in the tree: its block's index times kWidth, plus its lane.
-inline constexpr std::uint32_t kNoPlace = ~0U;
+inline constexpr std::uint32_t kNoSlot = ~0U;
 
 /// Rays with a common origin, preferably nearly parallel; one array per component. Within the
 /// limits of KernelRay. Slots after the last ray repeat it and hit nothing.
-struct alignas(64) KernelTile {
-  float d[3][kTileRays];
-  float t_min[kTileRays];
-  float best_lo[kTileRays], best_hi[kTileRays];  ///< as in Best
-  std::uint32_t best_id[kTileRays];
-  std::uint32_t best_place[kTileRays];  ///< slot of the nearest hit if it is a mesh triangle
+struct alignas(64) KernelPacket {
+  float d[3][kPacketRays];
+  float t_min[kPacketRays];
+  float best_lo[kPacketRays], best_hi[kPacketRays];  ///< as in ClosestSoFar
+  std::uint32_t best_id[kPacketRays];
+  std::uint32_t best_slot[kPacketRays];  ///< slot of the nearest hit if it is a mesh triangle
   float o[3];
-  int count;                                    ///< number of rays
-  float near[3][kTileRays], far[3][kTileRays];  ///< near_factor and far_factor of each ray
-  float t_begin[kTileRays];                     ///< t_min, or 0 if it is tiny
-  float least_t_begin;                          ///< least t_begin of all rays
-  Beam beam, group_beam[kGroups];               ///< beams of all rays and of each group
+  int count;                                        ///< number of rays
+  float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
+  float t_begin[kPacketRays];                       ///< t_min, or 0 if it is tiny
+  float least_t_begin;                              ///< least t_begin of all rays
+  Beam beam, group_beam[kGroups];                   ///< beams of all rays and of each group
   float d_sum;          ///< upper bound of |d_x| + |d_y| + |d_z| for all directions of the beam
   bool negative[3];     ///< sign of d_i, for axes where it is common to all rays
   bool common_sign[3];  ///< whether the sign is common, and no d_i is so small that 1 / d_i
@@ -86,44 +86,44 @@ struct alignas(64) KernelTile {
   float least_far[3], greatest_far[3];
 };
 
-/// SlowPath for a packet.
-struct TileSlowPath {
+/// Fallback for a packet.
+struct PacketFallback {
   void* context;
   /// Considers primitive id for one ray.
-  void (*consider)(void* context, int ray, std::uint32_t id, Best& best);
+  void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
   /// Considers primitive id for all rays.
-  void (*consider_all)(void* context, std::uint32_t id, KernelTile& tile);
+  void (*consider_all)(void* context, std::uint32_t id, KernelPacket& packet);
 };
 
 /// A multiple of the packet size, but no power of two, so that the components of a ray are not in
 /// the same cache set.
-inline constexpr int kStreamRays = 31 * kTileRays;
+inline constexpr int kStreamRays = 31 * kPacketRays;
 
 /// Incoherent rays, one array per component. The caller fills the members above the line for
 /// `count` rays, and best_hi with t_max.
 struct alignas(64) KernelStream {
   float o[3][kStreamRays], d[3][kStreamRays];
   float t_min[kStreamRays];
-  float best_hi[kStreamRays];  ///< as in Best
+  float best_hi[kStreamRays];  ///< as in ClosestSoFar
   int count;
   // ---- set by prepare_stream:
   /// One bit per ray that is valid and within KernelRay's limits. Other rays are replaced by some
   /// valid ray, and their results are meaningless.
   std::uint64_t suited[kStreamRays / 64];
-  float best_lo[kStreamRays];  ///< as in Best
+  float best_lo[kStreamRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kStreamRays];
   float near[3][kStreamRays], far[3][kStreamRays];  ///< near_factor and far_factor of each ray
   float t_begin[kStreamRays];                       ///< t_min, or 0 if it is tiny
   float d_sum[kStreamRays];                         ///< as in KernelRay
 };
 
-/// SlowPath for a stream.
-struct StreamSlowPath {
+/// Fallback for a stream.
+struct StreamFallback {
   void* context;
-  void (*consider)(void* context, int ray, std::uint32_t id, Best& best);
+  void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
 };
 
-inline constexpr int kHitBatch = kTileRays;
+inline constexpr int kHitBatch = kPacketRays;
 
 /// Hits of triangles, one array per coordinate. Slots without a hit may have any values.
 struct alignas(64) HitBatch {
@@ -133,45 +133,45 @@ struct alignas(64) HitBatch {
 };
 
 /// A query for the primitives near a small closed box, and its results.
-struct PlaceQuery {
+struct BoxQuery {
   static constexpr int kMost = 32;
 
   float lo[3], hi[3];
-  int count;                    ///< number of places; -1: more than kMost
-  std::uint32_t places[kMost];  ///< slots as in KernelTile::best_place; kOtherPlace + index for
-                                ///< other primitives
+  int count;                   ///< number of slots; -1: more than kMost
+  std::uint32_t slots[kMost];  ///< slots as in KernelPacket::best_slot; kOtherSlot + index for
+                               ///< other primitives
 };
-inline constexpr std::uint32_t kOtherPlace = 1U << 31U;
-inline constexpr int kPlaceQueries = 16;
+inline constexpr std::uint32_t kOtherSlot = 1U << 31U;
+inline constexpr int kBoxQueries = 16;
 
 /// The functions of one instruction set.
 struct Kernels {
   const char* name;
   /// Updates best if the tree has a nearer hit.
-  void (*closest)(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best);
+  void (*closest)(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best);
   /// Whether there is any hit within the ray's interval.
-  bool (*any)(const TreeView& tree, KernelRay ray, const SlowPath& slow);
-  /// Fills a packet, without hits, with up to kTileRays rays of eight numbers each: o, t_min, d,
+  bool (*any)(const TreeView& tree, KernelRay ray, const Fallback& slow);
+  /// Fills a packet, without hits, with up to kPacketRays rays of eight numbers each: o, t_min, d,
   /// t_max. Returns false if their origins differ or a ray is invalid or beyond the limits; the
   /// packet is then unusable.
-  bool (*fill_tile)(const float* rays, int count, KernelTile& tile);
+  bool (*fill_packet)(const float* rays, int count, KernelPacket& packet);
   /// As closest, for all rays of a prepared packet.
-  void (*closest_of_tile)(const TreeView& tree, KernelTile& tile, const TileSlowPath& slow);
+  void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
   /// Fills the lower part of a stream, without hits.
   void (*prepare_stream)(KernelStream& stream);
   /// As closest, for all rays of a prepared stream.
-  void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);
+  void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Finds some hit within the interval, if there is one, for every ray that has none.
-  void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow);
+  void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Fills t with the exact parameters rounded to nearest; returns the set of hits for which the
   /// result is certain.
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a packet that have a slot.
-  std::uint64_t (*round_t_of_tile)(const TreeView& tree, const KernelTile& tile, float* t);
+  std::uint64_t (*round_t_of_packet)(const TreeView& tree, const KernelPacket& packet, float* t);
   /// Finds all primitives with a point in each query's box, possibly some of them twice, and
   /// possibly others: triangles whose bounding boxes overlap it, and all primitives in a visited
-  /// leaf of other primitives. Up to kPlaceQueries at a time, whose memory accesses overlap.
-  void (*touching)(const TreeView& tree, PlaceQuery* queries, int count);
+  /// leaf of other primitives. Up to kBoxQueries at a time, whose memory accesses overlap.
+  void (*touching)(const TreeView& tree, BoxQuery* queries, int count);
   /// The number of triangle edge tests in float64 by this thread.
   std::uint64_t (*edge_tests)();
 };

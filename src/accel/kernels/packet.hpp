@@ -1,236 +1,263 @@
 #pragma once
-/// Any-hit queries of rays with nearby origins. 64 rays traverse the tree with a set of the rays
-/// that enter each subtree; boxes and triangles are tested against N rays at a time. If few rays
-/// are left, the remaining work is passed to stream.hpp.
+/// Traverses the tree with 64 rays that have a common origin. A node's eight boxes are first tested
+/// against the beam around all rays; each remaining box is then tested against the rays until one
+/// enters it. Terms that depend only on the origin are computed once per triangle, so each ray
+/// takes three dot products.
 
-#include "accel/kernels/block_test.hpp"
-#include "accel/kernels/node_test.hpp"
-#include "accel/kernels/slabs.hpp"
+#include "accel/kernels/edge_test.hpp"
+#include "accel/kernels/kernel.hpp"
+#include "accel/kernels/packet_view.hpp"
+#include "accel/kernels/simd.hpp"
+#include "accel/kernels/single_ray.hpp"
 
 namespace microtrace {
 namespace {
 
-/// Remaining work: a ray that must visit a subtree.
-struct StreamItem {
-  int ray;
-  ChildRef child;
-};
-
-/// The remaining work of all packets. If this array is full, the packets do the work themselves.
-struct StreamItems {
-  static constexpr int kCapacity = 4 * kStreamRays;
-  int size = 0;
-  StreamItem item[kCapacity];
-};
-
 template <int N>
 class PacketWalk {
  public:
-  static constexpr int kRays = kTileRays;
+  PacketWalk(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow)
+      : tree_(tree), packet_(packet), slow_(slow) {
+    update_limit();
+  }
 
-  PacketWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow,
-             StreamItems& items)
-      : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
-
-  /// Traces the rays from `first` on, a multiple of kRays.
-  void run(int first) {
-    first_ = first;
-    open_ = 0;
-    for (int i = 0; i < kRays && first + i < stream_.count; ++i)
-      open_ |= std::uint64_t{stream_.best_id[first + i] == kNoPrimitive} << i;
-    bound_segments();
+  void run() {
+    StackEntry stack[kStackSize];
     int top = 0;
-    stack_[top++] = {tree_.root, open_};
+    stack[top++] = {tree_.root, packet_.least_t_begin};
     while (top > 0) {
-      const Entry entry = stack_[--top];
-      const std::uint64_t rays = entry.rays & open_;
-      const int count = __builtin_popcountll(rays);
-      if (count < kFew && items_.size + count <= StreamItems::kCapacity)
-        leave_over(entry.child, rays);
-      else if ((entry.child & child_ref::kKind) == 0)
-        top = push_children(tree_.nodes[entry.child], rays, top);
-      else
-        meet_leaf(entry.child, rays);
+      const StackEntry entry = stack[--top];
+      if (entry.near > limit_) continue;
+      if ((entry.child & child_ref::kKind) == 0) {
+        top = push_children(tree_.nodes[entry.child], stack, top);
+      } else {
+        meet_leaf(entry.child);
+        update_limit();
+      }
     }
   }
 
  private:
   using F = Float<N>;
-  static constexpr int kFew = 10;  // up to this many rays are faster one by one
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
   using B = Float<kNodeLanes>;
 
-  struct Entry {
-    ChildRef child;
-    std::uint64_t rays;
+  void update_limit() {
+    F limit = load<N>(packet_.best_hi);
+    for (int i = N; i < kPacketRays; i += N) limit = greater(limit, load<N>(packet_.best_hi + i));
+    limit_ = greatest_of<N>(limit);
+  }
+
+  // The planes of the children through which rays enter and leave along an axis.
+  struct Slab {
+    const float *enter, *leave;
   };
-
-  // Computes a box around all rays from o to o + t_max d. The rounded end has an error of at most u
-  // |t_max d| + u |o + t_max d|. Half of the margin would suffice: a plane that the exact end
-  // reaches is a float32, so the sum is rounded past it by no more than the product was, and the
-  // margin's own rounding doesn't undo this. Infinity times 0 is NaN, which leaves the other
-  // argument of a comparison.
-  void bound_segments() {
-    const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
-    for (int axis = 0; axis < 3; ++axis) {
-      F lo = infinity, hi = -infinity;
-      for (int i = 0; i < kRays; i += N) {
-        const F o = load<N>(stream_.o[axis] + first_ + i);
-        const F way = load<N>(stream_.best_hi + first_ + i) * load<N>(stream_.d[axis] + first_ + i);
-        const F margin = unit * (magnitude(o) + magnitude(way)) + kTiny, end = o + way;
-        lo = lesser(lesser(end - margin, o), lo);
-        hi = greater(greater(end + margin, o), hi);
-      }
-      lo_[axis] = least_of<N>(lo);
-      hi_[axis] = greatest_of<N>(hi);
-    }
+  [[nodiscard]] Slab slab(const WideNode& node, int axis) const {
+    const float* lo = axis == 0 ? node.lo_x : axis == 1 ? node.lo_y : node.lo_z;
+    const float* hi = axis == 0 ? node.hi_x : axis == 1 ? node.hi_y : node.hi_z;
+    return packet_.negative[axis] ? Slab{hi, lo} : Slab{lo, hi};
   }
 
-  // Children that overlap the box around all rays.
-  [[nodiscard]] Lanes touched(const WideNode& node) const {
-    Lanes lanes = 0;
+  int push_children(const WideNode& node, StackEntry* stack, int top) const {
+    alignas(64) float near[kWidth];
+    Lanes entered = 0;
     for (int i = 0; i < kWidth; i += kNodeLanes) {
-      constexpr int M = kNodeLanes;
-      const auto touches = [&](const float* lo, const float* hi, int axis) {
-        return less_equal<M>(load<M>(lo + i), all<M>(hi_[axis])) &
-               less_equal<M>(all<M>(lo_[axis]), load<M>(hi + i));
-      };
-      lanes |= (touches(node.lo_x, node.hi_x, 0) & touches(node.lo_y, node.hi_y, 1) &
-                touches(node.lo_z, node.hi_z, 2))
-               << i;
-    }
-    return lanes;
-  }
-
-  // Calls f(i, lanes) for every N rays starting at i of which some, `lanes`, are in the set.
-  template <class Visit>
-  void for_each_lanes(std::uint64_t rays, const Visit& f) const {
-    for (int i = 0; i < kRays; i += N) {
-      const Lanes lanes = static_cast<Lanes>(rays >> i) & all_lanes<N>;
-      if (lanes != 0) f(i, lanes);
-    }
-  }
-
-  int push_children(const WideNode& node, std::uint64_t rays, int top) {
-    const Lanes candidates = touched(node);
-    std::uint64_t entering[kWidth] = {};
-    for_each_lanes(rays, [&](int i, Lanes lanes) {
-      const int at = first_ + i;
-      F o[3], near[3], far[3];
+      B enter = all<kNodeLanes>(packet_.least_t_begin), leave = all<kNodeLanes>(limit_);
       for (int axis = 0; axis < 3; ++axis) {
-        o[axis] = load<N>(stream_.o[axis] + at);
-        near[axis] = load<N>(stream_.near[axis] + at);
-        far[axis] = load<N>(stream_.far[axis] + at);
+        if (!packet_.common_sign[axis]) continue;
+        const Slab planes = slab(node, axis);
+        const B in = load<kNodeLanes>(planes.enter + i) - packet_.o[axis];
+        const B out = load<kNodeLanes>(planes.leave + i) - packet_.o[axis];
+        enter =
+            greater(lesser(in * packet_.least_near[axis], in * packet_.greatest_near[axis]), enter);
+        leave =
+            lesser(greater(out * packet_.least_far[axis], out * packet_.greatest_far[axis]), leave);
       }
-      const F begin = load<N>(stream_.t_begin + at), end = load<N>(stream_.best_hi + at);
-      for (Lanes rest = candidates; rest != 0; rest &= rest - 1) {
-        const int k = first_lane(rest);
-        const float lo[3] = {node.lo_x[k], node.lo_y[k], node.lo_z[k]};
-        const float hi[3] = {node.hi_x[k], node.hi_y[k], node.hi_z[k]};
-        F enter = begin, leave = end;
-        for (int axis = 0; axis < 3; ++axis) {
-          const F zero{}, l = all<N>(lo[axis]), h = all<N>(hi[axis]);
-          const F near_plane = near[axis] < zero ? h : l, far_plane = near[axis] < zero ? l : h;
-          // A NaN in the first argument is dropped, as in NodeTest.
-          enter = greater((near_plane - o[axis]) * near[axis], enter);
-          leave = lesser((far_plane - o[axis]) * far[axis], leave);
-        }
-        entering[k] |= std::uint64_t{less_equal<N>(enter, leave) & lanes} << i;
-      }
-    });
-    for (Lanes rest = candidates; rest != 0; rest &= rest - 1) {
-      const int k = first_lane(rest);
-      stack_[top] = {node.child[k], entering[k]};
-      top += entering[k] != 0;
+      entered |= less_equal<kNodeLanes>(enter, leave) << i;
+      store<kNodeLanes>(near + i, enter);
+    }
+    const int first = top;
+    for (; entered != 0; entered &= entered - 1) {
+      const int lane = first_lane(entered);
+      if (!some_ray_enters(node, lane)) continue;
+      const StackEntry entry{node.child[lane], near[lane]};
+      fetch(entry.child);
+      int slot = top++;
+      for (; slot > first && stack[slot - 1].near < entry.near; --slot)
+        stack[slot] = stack[slot - 1];
+      stack[slot] = entry;
     }
     return top;
   }
 
-  void leave_over(ChildRef child, std::uint64_t rays) {
-    for (; rays != 0; rays &= rays - 1)
-      items_.item[items_.size++] = {first_ + first_lane(rays), child};
+  // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
+  __attribute__((always_inline)) void fetch(ChildRef child) const {
+    const bool is_node = (child & child_ref::kKind) == 0;
+    // As integers: if there are only other primitives, blocks is null.
+    const auto p = is_node
+                       ? reinterpret_cast<std::uintptr_t>(tree_.nodes) + child * sizeof(WideNode)
+                       : reinterpret_cast<std::uintptr_t>(tree_.blocks) +
+                             first_entry(child) * sizeof(TriangleBlock);
+    const std::uintptr_t lines = is_node ? 4 : 5;
+    for (std::uintptr_t i = 0; i < lines; ++i)
+      __builtin_prefetch(reinterpret_cast<const void*>(p + 64 * i));
   }
 
-  void meet_leaf(ChildRef leaf, std::uint64_t rays) {
-    const bool has_triangles = (leaf & child_ref::kKind) == child_ref::kTriangles;
-    for_each_entry(leaf, [&](std::uint32_t entry) {
-      if (has_triangles)
-        meet_block(tree_.blocks[entry], rays & open_);
-      else
-        decide_slowly(tree_.others[entry], rays & open_);
-      return false;
-    });
-  }
-
-  void meet_block(const TriangleBlock& block, std::uint64_t rays) {
-    for_each_lanes(rays, [&](int i, Lanes lanes) {
-      const int at = first_ + i;
-      F o[3], d[3];
+  [[nodiscard]] bool some_ray_enters(const WideNode& node, int lane) const {
+    const float lo[3] = {node.lo_x[lane] - packet_.o[0], node.lo_y[lane] - packet_.o[1],
+                         node.lo_z[lane] - packet_.o[2]};
+    const float hi[3] = {node.hi_x[lane] - packet_.o[0], node.hi_y[lane] - packet_.o[1],
+                         node.hi_z[lane] - packet_.o[2]};
+    for (int i = 0; i < kPacketRays; i += N) {
+      F enter = load<N>(packet_.t_begin + i), leave = load<N>(packet_.best_hi + i);
       for (int axis = 0; axis < 3; ++axis) {
-        o[axis] = load<N>(stream_.o[axis] + at);
-        d[axis] = load<N>(stream_.d[axis] + at);
+        const F near_factor = load<N>(packet_.near[axis] + i),
+                far_factor = load<N>(packet_.far[axis] + i);
+        if (packet_.common_sign[axis]) {
+          const bool negative = packet_.negative[axis];
+          enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
+          leave = lesser(far_factor * (negative ? lo[axis] : hi[axis]), leave);
+        } else {
+          // The order of the planes depends on the ray: on the sign of the factors.
+          const F zero{};
+          const F l = all<N>(lo[axis]), h = all<N>(hi[axis]);
+          enter = greater(near_factor * (near_factor < zero ? h : l), enter);
+          leave = lesser(far_factor * (far_factor < zero ? l : h), leave);
+        }
       }
-      const F begin = load<N>(stream_.t_begin + at), t_max = load<N>(stream_.best_hi + at);
-      const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
-      for (int k = 0; k < kWidth; ++k) {
-        const float x = block.a_x[k], y = block.a_y[k], z = block.a_z[k];
-        if (!(x == x)) break;  // NaN: the block's unused slots
-        const F a[3] = {x - o[0], y - o[1], z - o[2]};
-        const float e1[3] = {block.b_x[k] - x, block.b_y[k] - y, block.b_z[k] - z};
-        const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
-        const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
-                                    begin, limit);
-        const Lanes maybe = test.maybe & lanes;
-        if (maybe == 0) continue;
-        const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
-        const Lanes before = less<N>(t.hi, t_max), after = less<N>(t_max, t.lo);
-        const Lanes begun = less_equal<N>(load<N>(stream_.t_min + at), t.lo);
-        const Lanes hit = maybe & test.certain & before & begun;
-        close(block.id[k], std::uint64_t{hit} << i);
-        const Lanes open = maybe & ~hit & ~(test.certain & after);
-        if (open != 0) decide(block, k, std::uint64_t{open} << i);
-        lanes &= static_cast<Lanes>(open_ >> i);
-        if (lanes == 0) break;
+      if (less_equal<N>(enter, leave) != 0) return true;
+    }
+    return false;
+  }
+
+  void meet_leaf(ChildRef leaf) {
+    if ((leaf & child_ref::kKind) == child_ref::kTriangles) {
+      for_each_entry(leaf, [&](std::uint32_t i) {
+        meet_block(i);
+        return false;
+      });
+    } else {
+      for_each_entry(leaf, [&](std::uint32_t i) {
+        slow_.consider_all(slow_.context, tree_.others[i], packet_);
+        return false;
+      });
+    }
+  }
+
+  void meet_block(std::uint32_t index) {
+    const TriangleBlock& block = tree_.blocks[index];
+    const PacketView<kNodeLanes> view(block, packet_);
+    for (int group = 0; group < kGroups; ++group) {
+      if (view.seen[group] == 0) continue;
+      const int first = group * kGroupRays;
+      for (int i = first; i < first + kGroupRays; i += N)
+        meet_triangles(view, group, i, block, index);
+    }
+  }
+
+  // Tests the triangles that are not culled for `group` against the rays [i, i + N).
+  void meet_triangles(const PacketView<kNodeLanes>& view, int group, int i,
+                      const TriangleBlock& block, std::uint32_t index) {
+    const F dx = load<N>(packet_.d[0] + i), dy = load<N>(packet_.d[1] + i),
+            dz = load<N>(packet_.d[2] + i);
+    for (Lanes lanes = view.seen[group]; lanes != 0; lanes &= lanes - 1) {
+      const int k = first_lane(lanes);
+      F size = dx * view.n[0][k] + dy * view.n[1][k] + dz * view.n[2][k];
+      F u = dx * view.u[0][k] + dy * view.u[1][k] + dz * view.u[2][k];
+      F v = dx * view.v[0][k] + dy * view.v[1][k] + dz * view.v[2][k];
+      F height = all<N>(view.height[k]);
+      if ((view.two_sided >> k & 1U) != 0) {
+        u = with_sign_of<N>(u, size);
+        v = with_sign_of<N>(v, size);
+        height = with_sign_of<N>(height, size);
+        size = magnitude(size);
       }
-    });
-  }
-
-  // Decides cases that float32 leaves undecided, mostly triangles that rays have just left.
-  void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
-    std::uint64_t rest = 0;
-    for (; rays != 0; rays &= rays - 1) {
-      const int at = first_ + first_lane(rays);
-      const float o[3] = {stream_.o[0][at], stream_.o[1][at], stream_.o[2][at]};
-      const float d[3] = {stream_.d[0][at], stream_.d[1][at], stream_.d[2][at]};
-      if (!is_left_behind(block, k, o, d) && within_edges(block, k, o, d) != Within::no)
-        rest |= rays & -rays;
+      const F within = lesser(lesser(u, v), size - (u + v));
+      const Lanes maybe = less_equal<N>(all<N>(-view.error[k]), within);
+      if (maybe != 0) {
+        const Lanes certain = less<N>(all<N>(view.error[k]), within);
+        meet_hits({.height = height,
+                   .size = size,
+                   .height_error = view.height_error[k],
+                   .size_error = view.size_error[k]},
+                  maybe, certain, i, {block, k, index * kWidth + static_cast<std::uint32_t>(k)});
+      }
     }
-    decide_slowly(block.id[k], rest);
   }
 
-  void close(std::uint32_t id, std::uint64_t rays) {
-    open_ &= ~rays;
-    for (; rays != 0; rays &= rays - 1) stream_.best_id[first_ + first_lane(rays)] = id;
-  }
+  struct Quotient {
+    F height, size;  // t = height / size
+    float height_error, size_error;
+  };
+  struct Candidate {
+    const TriangleBlock& block;
+    int lane;
+    std::uint32_t slot;
+  };
 
-  void decide_slowly(std::uint32_t id, std::uint64_t rays) {
-    for (; rays != 0; rays &= rays - 1) {
-      const int ray = first_lane(rays), at = first_ + ray;
-      Best best{stream_.best_lo[at], stream_.best_hi[at], kNoPrimitive};
-      slow_.consider(slow_.context, at, id, best);
-      if (best.id != kNoPrimitive) close(id, std::uint64_t{1} << ray);
+  // Processes the rays [i, i + N): those in `maybe` may hit a triangle, those in `certain`
+  // certainly do.
+  void meet_hits(const Quotient& q, Lanes maybe, Lanes certain, int i, const Candidate& triangle) {
+    const F best_lo = load<N>(packet_.best_lo + i), best_hi = load<N>(packet_.best_hi + i);
+    const F t_begin = load<N>(packet_.t_begin + i);
+    const F limit = lesser(best_hi, all<N>(kFarthestHit));
+    maybe &= less_equal<N>(q.height - q.size * limit, limit * q.size_error + q.height_error);
+    maybe &= less_equal<N>(q.size * t_begin - q.height, t_begin * q.size_error + q.height_error) |
+             less_equal<N>(q.size, all<N>(q.size_error));
+    if (maybe == 0) return;
+
+    certain &= maybe;
+    if (certain != maybe) look_at_edges(maybe, certain, i, triangle);
+    const auto [lo, hi] = interval(q.height, q.size, q.height_error, q.size_error);
+    certain &= less<N>(all<N>(16 * q.size_error), q.size);
+    const Lanes nearer =
+        certain & less<N>(hi, best_lo) & less_equal<N>(load<N>(packet_.t_min + i), lo);
+    const Lanes farther = certain & less<N>(best_hi, lo);
+    const std::uint32_t id = triangle.block.id[triangle.lane];
+    if (nearer != 0) {
+      store<N>(packet_.best_lo + i, select<N>(nearer, lo, best_lo));
+      store<N>(packet_.best_hi + i, select<N>(nearer, hi, best_hi));
+      store_where<N>(nearer, id, packet_.best_id + i);
+      store_where<N>(nearer, triangle.slot, packet_.best_slot + i);
     }
+    for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
+      const int ray = i + first_lane(lanes);
+      // A triangle that was split among leaves is tested more than once.
+      if (packet_.best_id[ray] != id) decide_by_fallback(ray, id, triangle.slot);
+    }
+  }
+
+  // Moves lanes that float64 can decide from `maybe` to `certain`, or removes them.
+  void look_at_edges(Lanes& maybe, Lanes& certain, int i, const Candidate& triangle) const {
+    for (Lanes lanes = maybe & ~certain; lanes != 0; lanes &= lanes - 1) {
+      const int lane = first_lane(lanes), ray = i + lane;
+      const float d[3] = {packet_.d[0][ray], packet_.d[1][ray], packet_.d[2][ray]};
+      const Within within = within_edges(triangle.block, triangle.lane, packet_.o, d);
+      if (within == Within::no) maybe &= ~(Lanes{1} << lane);
+      if (within == Within::yes) certain |= Lanes{1} << lane;
+    }
+  }
+
+  void decide_by_fallback(int ray, std::uint32_t id, std::uint32_t slot) {
+    ClosestSoFar best{packet_.best_lo[ray], packet_.best_hi[ray], packet_.best_id[ray]};
+    slow_.consider(slow_.context, ray, id, best);
+    packet_.best_lo[ray] = best.lo;
+    packet_.best_hi[ray] = best.hi;
+    if (best.id != id) return;
+    packet_.best_id[ray] = id;
+    packet_.best_slot[ray] = slot;
   }
 
   const TreeView& tree_;
-  KernelStream& stream_;
-  const StreamSlowPath& slow_;
-  StreamItems& items_;
-  int first_ = 0;
-  std::uint64_t open_ = 0;  // rays without a hit
-  float lo_[3], hi_[3];
-  Entry stack_[kStackSize + kWidth];
+  KernelPacket& packet_;
+  const PacketFallback& slow_;
+  float limit_ = 0;  // no hit beyond this can be the nearest of any ray
 };
+
+template <int N>
+void closest_of_packet(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow) {
+  PacketWalk<N>(tree, packet, slow).run();
+}
 
 }  // namespace
 }  // namespace microtrace

@@ -1,12 +1,12 @@
+#include "accel/kernels/packet.hpp"
+#include "accel/kernels/packet_rays.hpp"
 #include "accel/kernels/round_t.hpp"
 #include "accel/kernels/stream.hpp"
-#include "accel/kernels/tile.hpp"
-#include "accel/kernels/tile_rays.hpp"
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kPortableKernels{"portable",           closest<4>,          any<4>,
-                               fill_tile<4>,         closest_of_tile<4>,  prepare_stream<4>,
-                               closest_of_stream<4>, any_of_stream<4, 4>, round_t<4>,
-                               round_t_of_tile<4>,   touching<4>,         edge_tests};
+const Kernels kPortableKernels{"portable",           closest<4>,           any<4>,
+                               fill_packet<4>,       closest_of_packet<4>, prepare_stream<4>,
+                               closest_of_stream<4>, any_of_stream<4, 4>,  round_t<4>,
+                               round_t_of_packet<4>, touching<4>,          edge_tests};
 }

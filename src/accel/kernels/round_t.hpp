@@ -52,7 +52,7 @@ inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, con
                      float* t) {
   using V = Double<N>;
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
-  // As quotient_verdict, with one division. t and its ends have three more roundings than the
+  // As quotient_result, with one division. t and its ends have three more roundings than the
   // quotient, so half of the eight would suffice. If size exceeds 64 times its error, 1 / (size -
   // error) is at most 64/63 / size, and a factor of 32 would suffice; smaller sizes are too
   // imprecise to round t.
@@ -97,21 +97,21 @@ std::uint64_t round_t(HitBatch& hits) {
 
 /// Processes the triangles that a packet's rays hit, one after another.
 template <int N>
-class TileRounding {
+class PacketRounding {
  public:
-  TileRounding(const TreeView& tree, const KernelTile& tile, float* t)
-      : tree_(tree), tile_(tile), t_(t), o_{tile.o[0], tile.o[1], tile.o[2]} {}
+  PacketRounding(const TreeView& tree, const KernelPacket& packet, float* t)
+      : tree_(tree), packet_(packet), t_(t), o_{packet.o[0], packet.o[1], packet.o[2]} {}
 
   std::uint64_t run() {
     std::uint64_t certain = 0;
-    for (int i = 0; i < kTileRays; i += kWidth) {
-      const std::uint32_t* places = tile_.best_place + i;
-      const Lanes hits = ~lanes_within(places, kNoPlace, kNoPlace) & all_lanes<kWidth>;
+    for (int i = 0; i < kPacketRays; i += kWidth) {
+      const std::uint32_t* slots = packet_.best_slot + i;
+      const Lanes hits = ~lanes_within(slots, kNoSlot, kNoSlot) & kAllLanes<kWidth>;
       if (hits == 0) continue;
-      const std::uint32_t place = places[first_lane(hits)];
-      const bool is_one = (hits & ~lanes_within(places, place, place)) == 0;
+      const std::uint32_t slot = slots[first_lane(hits)];
+      const bool is_one = (hits & ~lanes_within(slots, slot, slot)) == 0;
       for (int k = 0; k < kWidth; k += N)
-        certain |= std::uint64_t{(is_one ? round_one(place, i + k) : round_several(place, i + k)) &
+        certain |= std::uint64_t{(is_one ? round_one(slot, i + k) : round_several(slot, i + k)) &
                                  (hits >> k)}
                    << (i + k);
     }
@@ -120,17 +120,17 @@ class TileRounding {
 
  private:
   // For rays that hit the same triangle, which is often the triangle of the preceding rays.
-  Lanes round_one(std::uint32_t place, int i) {
-    if (place != place_) {
-      place_ = place;
-      const TriangleBlock& block = tree_.blocks[place / kWidth];
-      const std::uint32_t k = place % kWidth;
+  Lanes round_one(std::uint32_t slot, int i) {
+    if (slot != place_) {
+      place_ = slot;
+      const TriangleBlock& block = tree_.blocks[slot / kWidth];
+      const std::uint32_t k = slot % kWidth;
       plane_ = {o_,
                 {block.a_x[k], block.a_y[k], block.a_z[k]},
                 {block.b_x[k], block.b_y[k], block.b_z[k]},
                 {block.c_x[k], block.c_y[k], block.c_z[k]}};
       const double sum = greater(greater(plane_.sum.x, plane_.sum.y), plane_.sum.z);
-      size_error_ = kSlopeRoundings * kRounding * (sum * double{tile_.d_sum}) + kUnderflow;
+      size_error_ = kSlopeRoundings * kRounding * (sum * double{packet_.d_sum}) + kUnderflow;
     }
     return round_t<N>(plane_, d(i), size_error_, t_ + i);
   }
@@ -139,8 +139,8 @@ class TileRounding {
   Lanes round_several(std::uint32_t other, int i) const {
     float corner[9][N];
     for (int lane = 0; lane < N; ++lane) {
-      const std::uint32_t at = tile_.best_place[i + lane], place = at == kNoPlace ? other : at;
-      const float* p = tree_.blocks[place / kWidth].a_x + place % kWidth;
+      const std::uint32_t at = packet_.best_slot[i + lane], slot = at == kNoSlot ? other : at;
+      const float* p = tree_.blocks[slot / kWidth].a_x + slot % kWidth;
       for (int k = 0; k < 9; ++k) corner[k][lane] = p[k * kWidth];
     }
     const auto vertex = [&](int k) {
@@ -154,21 +154,22 @@ class TileRounding {
   }
 
   [[nodiscard]] Double3<Double<N>> d(int i) const {
-    return {widened<N>(tile_.d[0] + i), widened<N>(tile_.d[1] + i), widened<N>(tile_.d[2] + i)};
+    return {widened<N>(packet_.d[0] + i), widened<N>(packet_.d[1] + i),
+            widened<N>(packet_.d[2] + i)};
   }
 
   const TreeView& tree_;
-  const KernelTile& tile_;
+  const KernelPacket& packet_;
   float* t_;
   Double3<double> o_;
-  std::uint32_t place_ = kNoPlace;
+  std::uint32_t place_ = kNoSlot;
   SeenPlane<double> plane_{{}, {}, {}, {}};
   double size_error_ = 0;
 };
 
 template <int N>
-std::uint64_t round_t_of_tile(const TreeView& tree, const KernelTile& tile, float* t) {
-  return TileRounding<N>(tree, tile, t).run();
+std::uint64_t round_t_of_packet(const TreeView& tree, const KernelPacket& packet, float* t) {
+  return PacketRounding<N>(tree, packet, t).run();
 }
 
 }  // namespace

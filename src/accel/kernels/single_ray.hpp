@@ -15,16 +15,18 @@ struct StackEntry {
 };
 
 template <int N, bool kAny>
-inline void walk(const TreeView& tree, KernelRay& ray, const SlowPath& slow, Best& best) {
+inline void walk(const TreeView& tree, KernelRay& ray, const Fallback& slow, ClosestSoFar& best) {
   prepare_ray(ray);
-  const auto slowly = [&](std::uint32_t id, Best& b) { slow.consider(slow.context, id, b); };
+  const auto fallback = [&](std::uint32_t id, ClosestSoFar& b) {
+    slow.consider(slow.context, id, b);
+  };
   RayStack stack;
   stack.clear();
   for (ChildRef next = tree.root; next != kFinished;) {
     if ((next & child_ref::kKind) == 0) {
       next = step_into<N, kAny>(tree.nodes[next], ray, best.hi, stack);
     } else {
-      meet_leaf<N, kAny>(tree, ray, next, best, slowly);
+      meet_leaf<N, kAny>(tree, ray, next, best, fallback);
       if (kAny && best.id != kNoPrimitive) return;
       next = pop<kAny>(stack, best.hi);
     }
@@ -32,13 +34,13 @@ inline void walk(const TreeView& tree, KernelRay& ray, const SlowPath& slow, Bes
 }
 
 template <int N>
-void closest(const TreeView& tree, KernelRay ray, const SlowPath& slow, Best& best) {
+void closest(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best) {
   walk<N, false>(tree, ray, slow, best);
 }
 
 template <int N>
-bool any(const TreeView& tree, KernelRay ray, const SlowPath& slow) {
-  Best best{ray.t_max, ray.t_max, kNoPrimitive};
+bool any(const TreeView& tree, KernelRay ray, const Fallback& slow) {
+  ClosestSoFar best{ray.t_max, ray.t_max, kNoPrimitive};
   walk<N, true>(tree, ray, slow, best);
   return best.id != kNoPrimitive;
 }

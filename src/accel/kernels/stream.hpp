@@ -5,7 +5,7 @@
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
-#include "accel/kernels/packet.hpp"
+#include "accel/kernels/occlusion_packet.hpp"
 #include "accel/kernels/slabs.hpp"
 
 namespace microtrace {
@@ -29,7 +29,7 @@ void prepare_stream(KernelStream& stream) {
     F sum{};
     for (int axis = 0; axis < 3; ++axis) {
       F d = load<N>(stream.d[axis] + i), near, far;
-      if (suited != all_lanes<N>) {
+      if (suited != kAllLanes<N>) {
         d = select<N>(suited, d, one);
         store<N>(stream.d[axis] + i, d);
         store<N>(stream.o[axis] + i, select<N>(suited, load<N>(stream.o[axis] + i), zero));
@@ -51,7 +51,7 @@ void prepare_stream(KernelStream& stream) {
     set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
   }
   // Packets need full groups: the last ray is repeated.
-  for (int i = stream.count; i % kTileRays != 0; ++i) {
+  for (int i = stream.count; i % kPacketRays != 0; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       stream.o[axis][i] = stream.o[axis][i - 1];
       stream.d[axis][i] = stream.d[axis][i - 1];
@@ -66,22 +66,22 @@ template <int N, bool kAny>
 class StreamWalk {
  public:
   /// Without items all rays traverse the whole tree.
-  StreamWalk(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow,
+  StreamWalk(const TreeView& tree, KernelStream& stream, const StreamFallback& slow,
              const StreamItems* items)
       : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
 
   void run() {
-    for (std::uint32_t place = 0; place < kInFlight; ++place) start(place);
+    for (std::uint32_t slot = 0; slot < kInFlight; ++slot) start(slot);
     while (sort_places() > 0) {
       for_each(nodes_, [&](Flight& flight, ChildRef& next) {
         next = step_into<N, kAny>(tree_.nodes[next], flight.ray, flight.best.hi, flight.stack);
       });
       meet_blocks();
       for_each(others_, [&](Flight& flight, ChildRef& next) {
-        meet_leaf<N, kAny>(tree_, flight.ray, next, flight.best, slow_path(flight));
+        meet_leaf<N, kAny>(tree_, flight.ray, next, flight.best, fallback(flight));
         next = next_after_leaf(flight);
       });
-      for (int k = 0; k < finished_.size; ++k) finish(finished_.place[k]);
+      for (int k = 0; k < finished_.size; ++k) finish(finished_.slot[k]);
     }
   }
 
@@ -91,7 +91,7 @@ class StreamWalk {
 
   struct alignas(64) Flight {
     KernelRay ray;
-    Best best;
+    ClosestSoFar best;
     int number;
     RayStack stack;
     BlockTest<N> test;
@@ -99,7 +99,7 @@ class StreamWalk {
 
   struct List {
     int size = 0;
-    std::uint32_t place[kInFlight + 8];  // with room for stores of eight elements
+    std::uint32_t slot[kInFlight + 8];  // with room for stores of eight elements
   };
 
   struct MaybeHit {
@@ -108,7 +108,7 @@ class StreamWalk {
   };
 
   // Starts the next ray in a slot, if there is one.
-  void start(std::uint32_t place) {
+  void start(std::uint32_t slot) {
     const int last = items_ != nullptr ? items_->size : stream_.count;
     const auto item = [&](int i) {
       return items_ != nullptr ? items_->item[i] : StreamItem{i, tree_.root};
@@ -116,11 +116,11 @@ class StreamWalk {
     while (kAny && started_ < last && stream_.best_id[item(started_).ray] != kNoPrimitive)
       ++started_;
     if (started_ == last) {
-      next_[place] = kEmpty;
+      next_[slot] = kEmpty;
       return;
     }
     const auto [i, child] = item(started_++);
-    Flight& flight = flights_[place];
+    Flight& flight = flights_[slot];
     for (int axis = 0; axis < 3; ++axis) {
       flight.ray.o[axis] = stream_.o[axis][i];
       flight.ray.d[axis] = stream_.d[axis][i];
@@ -134,27 +134,27 @@ class StreamWalk {
     flight.best = {stream_.best_lo[i], stream_.best_hi[i], stream_.best_id[i]};
     flight.number = i;
     flight.stack.clear();
-    next_[place] = child;
+    next_[slot] = child;
   }
 
-  void finish(std::uint32_t place) {
-    const Flight& flight = flights_[place];
+  void finish(std::uint32_t slot) {
+    const Flight& flight = flights_[slot];
     if (kAny && flight.best.id == kNoPrimitive) {
-      start(place);
+      start(slot);
       return;
     }
     stream_.best_lo[flight.number] = flight.best.lo;
     stream_.best_hi[flight.number] = flight.best.hi;
     stream_.best_id[flight.number] = flight.best.id;
-    start(place);
+    start(slot);
   }
 
   template <class Visit>
   void for_each(const List& list, const Visit& visit) {
     for (int k = 0; k < list.size; ++k) {
-      const std::uint32_t place = list.place[k];
-      visit(flights_[place], next_[place]);
-      fetch(next_[place]);
+      const std::uint32_t slot = list.slot[k];
+      visit(flights_[slot], next_[slot]);
+      fetch(next_[slot]);
     }
   }
 
@@ -176,7 +176,7 @@ class StreamWalk {
     });
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
-      meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, slow_path(*flight));
+      meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, fallback(*flight));
       ++flight->stack.size;  // the popped entry may be beyond the new hit
       next_[flight - flights_] = next_after_leaf(*flight);
     }
@@ -187,8 +187,8 @@ class StreamWalk {
                                                   : pop<kAny>(flight.stack, flight.best.hi);
   }
 
-  auto slow_path(const Flight& flight) const {
-    return [this, &flight](std::uint32_t id, Best& best) {
+  auto fallback(const Flight& flight) const {
+    return [this, &flight](std::uint32_t id, ClosestSoFar& best) {
       slow_.consider(slow_.context, flight.number, id, best);
     };
   }
@@ -200,9 +200,9 @@ class StreamWalk {
     for (std::uint32_t first = 0; first < kInFlight; first += 8) {
       const auto list = [&](List& to, ChildRef least, ChildRef greatest) {
         const Lanes lanes = lanes_within(next_ + first, least, greatest);
-        std::uint32_t places[8];
-        for (std::uint32_t i = 0; i < 8; ++i) places[i] = first + i;
-        store_lanes(lanes, places, to.place + to.size);
+        std::uint32_t slots[8];
+        for (std::uint32_t i = 0; i < 8; ++i) slots[i] = first + i;
+        store_lanes(lanes, slots, to.slot + to.size);
         to.size += __builtin_popcount(lanes);
       };
       list(nodes_, 0, child_ref::kTriangles - 1);
@@ -222,24 +222,24 @@ class StreamWalk {
 
   // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
-    const Place& place = places_[child >> 30U];
-    const char* p = place.begin + (child & place.mask) * place.scale;
+    const Place& slot = slots_[child >> 30U];
+    const char* p = slot.begin + (child & slot.mask) * slot.scale;
     __builtin_prefetch(p);
     __builtin_prefetch(p + 64);
     __builtin_prefetch(p + 128);
     __builtin_prefetch(p + 192);
-    __builtin_prefetch(p + place.last);
+    __builtin_prefetch(p + slot.last);
   }
 
   const TreeView& tree_;
   KernelStream& stream_;
-  const StreamSlowPath& slow_;
+  const StreamFallback& slow_;
   const StreamItems* items_;
   int started_ = 0;  // rays, or items, started so far
   List nodes_, leaves_, others_, finished_;
   ChildRef next_[kInFlight];  // the next subtree of the ray in each slot
   static_assert(sizeof(TriangleBlock) % 8 == 0);
-  const Place places_[4] = {
+  const Place slots_[4] = {
       {reinterpret_cast<const char*>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
       {reinterpret_cast<const char*>(tree_.blocks), ~child_ref::kKind & ~7U,
        sizeof(TriangleBlock) / 8, 256},
@@ -250,16 +250,17 @@ class StreamWalk {
 };
 
 template <int N>
-void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow) {
+void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
   StreamWalk<N, false>(tree, stream, slow, nullptr).run();
 }
 
 /// M: number of rays that packets test at a time.
 template <int N, int M>
-void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamSlowPath& slow) {
+void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
   StreamItems items;
-  PacketWalk<M> packets(tree, stream, slow, items);
-  for (int first = 0; first < stream.count; first += PacketWalk<M>::kRays) packets.run(first);
+  OcclusionPacketWalk<M> packets(tree, stream, slow, items);
+  for (int first = 0; first < stream.count; first += OcclusionPacketWalk<M>::kRays)
+    packets.run(first);
   StreamWalk<N, true>(tree, stream, slow, &items).run();
 }
 

@@ -9,17 +9,17 @@
 namespace microtrace {
 namespace {
 
-/// A query with this many results also applies passing_triangles.
-constexpr int kFewPlaces = 8;
+/// A query with this many results also applies clear_triangles.
+constexpr int kFewSlots = 8;
 
 /// The lanes in which [lo, hi] overlaps the box along an axis.
 template <int N>
-inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const PlaceQuery& box, int axis) {
+inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
   return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
 }
 
 template <int N>
-inline Lanes touched_children(const WideNode& node, const PlaceQuery& box) {
+inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     lanes |= (overlapping<N>(load<N>(node.lo_x + i), load<N>(node.hi_x + i), box, 0) &
@@ -33,10 +33,10 @@ inline Lanes touched_children(const WideNode& node, const PlaceQuery& box) {
 /// The triangles whose bounding boxes overlap the box. Unused slots are NaN, which overlaps
 /// nothing.
 template <int N>
-inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box) {
+inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
-    Lanes touched = all_lanes<N>;
+    Lanes touched = kAllLanes<N>;
     const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
     for (int axis = 0; axis < 3; ++axis) {
       // The arrays of the vertices are consecutive.
@@ -53,7 +53,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const PlaceQuery& box
 struct CenteredBox {
   float center[3], reach[3];
 
-  explicit CenteredBox(const PlaceQuery& box) {
+  explicit CenteredBox(const BoxQuery& box) {
     for (int k = 0; k < 3; ++k) {
       center[k] = 0.5F * box.lo[k] + 0.5F * box.hi[k];
       reach[k] = greater(box.hi[k] - center[k], center[k] - box.lo[k]) * (1 + 0x1p-20F);
@@ -68,7 +68,7 @@ struct CenteredBox {
 /// the rounding of the difference does not change its sign. Half of these bounds would suffice,
 /// both of the eight units and of the margin of the reach for second-order roundings.
 template <int N>
-inline Lanes passing_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
+inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;
   F corners[3][3];
   const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
@@ -96,14 +96,14 @@ inline Lanes passing_triangles(const TriangleBlock& block, int i, const Centered
 }
 
 /// The state of a query's traversal.
-struct PlaceSearch {
+struct BoxSearch {
   int size;
   ChildRef stack[kStackSize + kWidth];
 };
 
 /// Visits one node or leaf.
 template <int N>
-inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
+inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const ChildRef next = search.stack[--search.size];
   if ((next & child_ref::kKind) == 0) {
     const WideNode& node = tree.nodes[next];
@@ -115,21 +115,21 @@ inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
   const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
   bool overflows = false;
-  const auto add = [&](std::uint32_t place) {
-    overflows = query.count == PlaceQuery::kMost;
-    if (!overflows) query.places[query.count++] = place;
+  const auto add = [&](std::uint32_t slot) {
+    overflows = query.count == BoxQuery::kMost;
+    if (!overflows) query.slots[query.count++] = slot;
   };
   for (std::uint32_t i = first; i < end && !overflows; ++i) {
     if (!are_triangles) {
-      add(kOtherPlace + i);
+      add(kOtherSlot + i);
       continue;
     }
     Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
     // Most queries find few triangles, which are cheaper to test later.
-    if (query.count >= kFewPlaces && lanes != 0) {
+    if (query.count >= kFewSlots && lanes != 0) {
       const CenteredBox box(query);
       for (int k = 0; k < kWidth; k += N)
-        lanes &= ~(passing_triangles<N>(tree.blocks[i], k, box) << k);
+        lanes &= ~(clear_triangles<N>(tree.blocks[i], k, box) << k);
     }
     for (; lanes != 0 && !overflows; lanes &= lanes - 1)
       add(i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
@@ -142,9 +142,9 @@ inline void step(const TreeView& tree, PlaceSearch& search, PlaceQuery& query) {
 
 /// See Kernels::touching.
 template <int N>
-void touching(const TreeView& tree, PlaceQuery* queries, int count) {
-  PlaceSearch searches[kPlaceQueries];
-  int going[kPlaceQueries];
+void touching(const TreeView& tree, BoxQuery* queries, int count) {
+  BoxSearch searches[kBoxQueries];
+  int going[kBoxQueries];
   for (int i = 0; i < count; ++i) {
     searches[i].size = 1;
     searches[i].stack[0] = tree.root;

@@ -1,5 +1,5 @@
-#include "accel/spawn/departure.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
+#include "accel/spawn/origin_search.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/spawn.hpp>
@@ -13,12 +13,12 @@ constexpr int kCurvedSteps = 64;
 template <class Surface>
 std::optional<Vec3> spawn(Surface surface, const Ray& ray, const Vec3& direction, int most_steps) {
   const FloatEnvironment environment;
-  const std::optional<Departure> start = departure(surface, ray, direction);
+  const std::optional<OriginSearch> start = origin_search(surface, ray, direction);
   if (!start) return std::nullopt;
   Vec3 p = start->p;
   for (int step = 0; step <= most_steps && exact::is_finite(p); ++step) {
     if (surface.is_clear(p, direction, start->side)) return p;
-    start->nudge.apply(p);
+    start->step.apply(p);
   }
   return std::nullopt;
 }

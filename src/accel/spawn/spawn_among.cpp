@@ -1,8 +1,8 @@
 #include "accel/spawn/spawn_among.hpp"
 
 #include "accel/build/shape_box.hpp"
-#include "accel/slow_path.hpp"
-#include "accel/spawn/departure.hpp"
+#include "accel/hit_resolver.hpp"
+#include "accel/spawn/origin_search.hpp"
 #include "accel/spawn/touching.hpp"
 
 #include <vector>
@@ -22,17 +22,17 @@ bool overlap(const Bounds& a, const Bounds& b) {
 /// The other surfaces near a hit, and the side of each on which the origin of the new ray must be:
 /// the side of the point just before the hit if the new ray returns there, else of the point just
 /// behind the hit.
-class Neighbours {
+class Neighbors {
  public:
   /// p is the hit point, rounded.
-  Neighbours(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
-             bool goes_back)
+  Neighbors(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
+            bool goes_back)
       : primitives_(primitives),
         ray_(ray),
         id_(id),
         p_(p),
         witness_(goes_back ? -ray.d : ray.d),
-        point_(ray, KnownHit(primitives, ray, id, Twins()).bounds()) {}
+        point_(ray, KnownHit(primitives, ray, id, Duplicates()).bounds()) {}
 
   /// Considers primitive id if it has a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
@@ -47,8 +47,8 @@ class Neighbours {
   }
 
   /// Whether the segment from the hit to q meets none of the surfaces: q is strictly on the
-  /// required side, or the segment passes beside the surface. A surface that contains the ray has
-  /// no required side.
+  /// required side, or the segment clears_box beside the surface. A surface that contains the ray
+  /// has no required side.
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       const int sign = primitives_.visit(side.id, [&](const auto& shape) {
@@ -89,8 +89,8 @@ class Neighbours {
     const build::Box box = build::box_of(disc);
     Bounds way{.lo = q, .hi = q};
     for (int k = 0; k < 3; ++k) {
-      way.lo[k] = std::min(q[k], neighbour(p_[k], false));
-      way.hi[k] = std::max(q[k], neighbour(p_[k], true));
+      way.lo[k] = std::min(q[k], neighbor(p_[k], false));
+      way.hi[k] = std::max(q[k], neighbor(p_[k], true));
     }
     return overlap(
         way, {.lo = {box.lo[0], box.lo[1], box.lo[2]}, .hi = {box.hi[0], box.hi[1], box.hi[2]}});
@@ -154,24 +154,24 @@ template <class Surface>
 std::optional<Vec3> search(Surface surface, const Primitives& primitives, const Tree* tree,
                            std::span<const PrimitiveId> outside, const Ray& ray, PrimitiveId id,
                            const Vec3& direction) {
-  const std::optional<Departure> start = departure(surface, ray, direction);
+  const std::optional<OriginSearch> start = origin_search(surface, ray, direction);
   if (!start) return std::nullopt;
   constexpr int kSteps = 8, kLevels = 6;
   const DVec3 along = start->goes_back ? -DVec3(ray.d) : DVec3(ray.d);
   const double length = std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)});
   const double unit = std::max({spacing(start->p.x), spacing(start->p.y), spacing(start->p.z)});
-  Neighbours neighbours(primitives, ray, id, start->p, start->goes_back);
+  Neighbors neighbors(primitives, ray, id, start->p, start->goes_back);
 
   double reach = 0;
   for (int level = 0; level < kLevels; ++level) {
     Vec3 q = unsigned_zeros(DVec3(start->p) + along * (reach / length));
     const Bounds box = around(start->p, q, 4 * kSteps * unit);
-    const auto add = [&](PrimitiveId other) { neighbours.add(other, box); };
+    const auto add = [&](PrimitiveId other) { neighbors.add(other, box); };
     std::for_each(outside.begin(), outside.end(), add);
     if (tree != nullptr) for_each_touching(*tree, box, add);
     for (int step = 0; step <= kSteps && exact::is_finite(q); ++step) {
-      if (surface.is_clear(q, direction, start->side) && neighbours.allow(q)) return q;
-      start->nudge.apply(q);
+      if (surface.is_clear(q, direction, start->side) && neighbors.allow(q)) return q;
+      start->step.apply(q);
     }
     reach = reach == 0 ? 4 * unit : 4 * reach;
   }

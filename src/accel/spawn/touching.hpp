@@ -1,5 +1,5 @@
 #pragma once
-/// The primitives of a tree near a place.
+/// The primitives of a tree near a slot.
 
 #include "accel/build/tree.hpp"
 #include "accel/layout.hpp"

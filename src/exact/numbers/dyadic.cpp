@@ -7,13 +7,13 @@
 namespace microtrace::exact {
 namespace {
 
-constexpr int limb_bits = 64;
+constexpr int kLimbBits = 64;
 
 std::uint64_t low(Wide x) {
   return static_cast<std::uint64_t>(x);
 }
 std::uint64_t high(Wide x) {
-  return static_cast<std::uint64_t>(x >> limb_bits);
+  return static_cast<std::uint64_t>(x >> kLimbBits);
 }
 
 }  // namespace
@@ -30,8 +30,8 @@ Dyadic::Dyadic(const Decoded& value)
     : Dyadic(value.negative ? -1 : 1, value.mantissa, value.exponent) {}
 
 Dyadic::Dyadic(int sign, std::uint64_t mantissa, int exponent) : sign_(sign) {
-  const int shift = exponent & (limb_bits - 1);
-  exponent_ = (exponent - shift) / limb_bits;
+  const int shift = exponent & (kLimbBits - 1);
+  exponent_ = (exponent - shift) / kLimbBits;
   const Wide shifted = Wide{mantissa} << shift;
   limbs_[0] = low(shifted);
   limbs_[1] = high(shifted);
@@ -87,7 +87,7 @@ int compare(const Dyadic& x, const Dyadic& y) {
 void Dyadic::add_magnitudes(const Dyadic& x, const Dyadic& y) {
   exponent_ = std::min(x.exponent_, y.exponent_);
   const int length = std::max(x.top(), y.top()) - exponent_;
-  assert(length < capacity);
+  assert(length < kCapacity);
   std::uint64_t carry = 0;
   for (int i = 0; i < length; ++i) {
     const Wide digit = Wide{x.at(exponent_ + i)} + y.at(exponent_ + i) + carry;
@@ -102,7 +102,7 @@ void Dyadic::add_magnitudes(const Dyadic& x, const Dyadic& y) {
 void Dyadic::subtract_magnitudes(const Dyadic& x, const Dyadic& y) {
   exponent_ = std::min(x.exponent_, y.exponent_);
   size_ = x.top() - exponent_;
-  assert(size_ <= capacity);
+  assert(size_ <= kCapacity);
   std::uint64_t borrow = 0;
   for (int i = 0; i < size_; ++i) {
     const Wide digit = Wide{x.at(exponent_ + i)} - y.at(exponent_ + i) - borrow;
@@ -141,7 +141,7 @@ Dyadic operator*(const Dyadic& x, const Dyadic& y) {
   result.sign_ = x.sign_ * y.sign_;
   result.exponent_ = x.exponent_ + y.exponent_;
   result.size_ = x.size_ + y.size_;
-  assert(result.size_ <= Dyadic::capacity);
+  assert(result.size_ <= Dyadic::kCapacity);
   std::fill_n(result.limbs_.begin(), result.size_, 0);
   for (unsigned i = 0; i < static_cast<unsigned>(x.size_); ++i) {
     std::uint64_t carry = 0;
@@ -159,7 +159,7 @@ Dyadic operator*(const Dyadic& x, const Dyadic& y) {
 
 Leading Dyadic::leading() const {
   assert(sign_ != 0);
-  return leading_of(at(top() - 1), at(top() - 2), limb_bits * top());
+  return leading_of(at(top() - 1), at(top() - 2), kLimbBits * top());
 }
 
 }  // namespace microtrace::exact

@@ -22,7 +22,7 @@ namespace microtrace::exact {
 /// product is trimmed it has two more limbs, which are zero.
 class Dyadic {
  public:
-  static constexpr int capacity = 112;  ///< limbs
+  static constexpr int kCapacity = 112;  ///< limbs
 
   Dyadic() {}            // NOLINT: not "= default": the limbs stay uninitialised even in Dyadic{}
   Dyadic(float value);   ///< exact; value is finite
@@ -75,7 +75,7 @@ class Dyadic {
   int sign_ = 0;
   int exponent_ = 0;  // in limbs
   int size_ = 0;      // limbs in use; the highest and the lowest are nonzero
-  std::array<std::uint64_t, capacity> limbs_;
+  std::array<std::uint64_t, kCapacity> limbs_;
 };
 
 [[nodiscard]] inline Dyadic twice(const Dyadic& x) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers as bytes, the lowest first.
+/// Little-endian encoding of numbers.
 
 #include <bit>
 #include <concepts>
@@ -17,12 +17,12 @@ void append(std::string& bytes, Number value) {
     bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
 }
 
-/// Takes numbers off the front of bytes.
+/// Reads numbers from the front of a byte string.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
-  /// Nothing where bytes run out.
+  /// Nothing if fewer bytes are left.
   [[nodiscard]] std::optional<std::string_view> take(std::size_t size) {
     if (bytes_.size() < size) return std::nullopt;
     const std::string_view taken = bytes_.substr(0, size);
@@ -30,7 +30,7 @@ class ByteReader {
     return taken;
   }
 
-  /// Sets is_short() and gives 0 where bytes run out.
+  /// If too few bytes are left, sets is_short() and returns 0.
   template <std::unsigned_integral Number>
   [[nodiscard]] Number number() {
     const auto taken = take(sizeof(Number));

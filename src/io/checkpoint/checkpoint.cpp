@@ -12,8 +12,9 @@
 #include <string>
 #include <string_view>
 
-// The file: magic, version, the members in the order below, the pixels, and the digest of all that
-// is before it. All numbers are unsigned, the lowest byte first; float32 as their bits.
+// File format: magic, version, the members in the order below, the pixels, and a digest of
+// everything before it. All numbers are unsigned and little-endian; float32 are stored as their
+// bits.
 
 namespace microtrace {
 namespace {
@@ -22,10 +23,10 @@ constexpr std::string_view kMagic = "microtrace samples\n";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPixelBytes = 10 * 8 + 4;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
-constexpr std::uint32_t kMostSamples = 65536;  // of a pixel, and so most ranges of samples
+constexpr std::uint32_t kMostSamples = 65536;  // per pixel; also limits ranges of samples
 constexpr std::uint32_t kMaxIdentity = 1U << 20U;
 
-/// f(number) for each number of a pixel, in the file's order.
+/// Calls f(number) for each number of a pixel, in file order.
 template <class Pixel, class F>
 void for_each_number(Pixel& pixel, const F& f) {
   for (auto& channel : pixel.color) {
@@ -68,7 +69,8 @@ std::string encode_head(const Checkpoint& checkpoint) {
   fail(path, "is damaged or was cut off; remove it and render its samples again");
 }
 
-/// What stands between the version and the pixels; their number is then the window's.
+/// Decodes the members between the version and the pixels; the number of pixels is then that of the
+/// window.
 Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path) {
   const auto word = [&] { return reader.number<std::uint32_t>(); };
   Checkpoint checkpoint;

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
 }
 
-/// The number N of "-", /dev/fd/N or /proc/self/fd/N, to which /dev/stdout is a link.
+/// The file descriptor N of "-", /dev/fd/N or /proc/self/fd/N, to which /dev/stdout is a link.
 std::optional<int> descriptor_number(const fs::path& path) {
   if (path == "-") return STDOUT_FILENO;
   const fs::path folder = path.parent_path();
@@ -41,9 +41,10 @@ std::optional<int> descriptor_number(const fs::path& path) {
   return number;
 }
 
-/// Where the name leads: links in its last part are followed, also to a file that is not there yet.
+/// Follows symbolic links in the last component of the path, even if the final file does not exist
+/// yet.
 fs::path follow_links(fs::path path) {
-  constexpr int most_links = 40;  // as the kernel's own limit
+  constexpr int most_links = 40;  // as the kernel's limit
   std::error_code ignored;
   for (int links = 0; links < most_links; ++links) {
     if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
@@ -70,7 +71,7 @@ bool is_stream_resolved(const fs::path& target) {
                                        !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
-/// The permissions of the file that will be replaced, if there is one.
+/// The permissions of the file that will be replaced, if it exists.
 std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& target) {
   if (!target.has_filename()) fail_to_write(named, EISDIR, "name a file");
   struct stat status {};
@@ -137,7 +138,7 @@ void AtomicFile::open_temporary() {
     temporary_.clear();
     fail(error, "name a file in a folder that may be written to");
   }
-  // Some file systems hold no permissions; that is no reason to lose a picture.
+  // Some file systems have no permissions; this must not make the write fail.
   if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
 }
 
@@ -156,7 +157,7 @@ void AtomicFile::close() {
   if (descriptor_ < 0) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  // After EINTR Linux has closed the descriptor, and the data is with the kernel.
+  // After EINTR Linux has closed the descriptor, and the kernel has the data.
   if (closed != 0 && errno != EINTR) fail(errno, "make room, or name another file");
 }
 

@@ -6,11 +6,11 @@
 
 namespace microtrace::io {
 
-/// A file being written. It is a temporary in the target's folder until commit() renames it; the
-/// destructor removes what was not committed. A target behind a symbolic link is replaced where it
-/// lies, and keeps its permissions. Devices, pipes, "-" and the names of open descriptors
-/// (/dev/stdout, /dev/fd/N) can't be replaced: they are written straight.
-/// Every member but the destructor throws Error(io) with the path and the system's reason.
+/// An output file that is being written: a temporary file in the target's folder until commit()
+/// renames it; the destructor removes an uncommitted file. A target behind a symbolic link is
+/// replaced at the link's target, and keeps its permissions. Devices, pipes, "-" and the names of
+/// open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written directly. All
+/// members except the destructor throw Error(io) with the path and the system's reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -20,10 +20,10 @@ class AtomicFile {
 
   void write(std::string_view bytes);
 
-  /// Closes the file: all of it is with the system then. Nothing may be written after it.
+  /// Closes the file and hands all data to the system. Nothing may be written afterwards.
   void close();
 
-  /// Closes the file and puts it in the target's place.
+  /// Closes the file and renames it to the target.
   void commit();
 
  private:
@@ -33,15 +33,16 @@ class AtomicFile {
 
   std::filesystem::path named_;      ///< as the caller named it, for messages
   std::filesystem::path target_;     ///< with a final symbolic link resolved
-  std::filesystem::path temporary_;  ///< empty if written straight, or once renamed
+  std::filesystem::path temporary_;  ///< empty if written directly, or after renaming
   int descriptor_ = -1;
-  int slot_ = -1;  ///< in the list of unfinished files, -1 if not there
+  int slot_ = -1;  ///< in the list of unfinished files; -1 if not listed
 };
 
-/// Throws Error(io) if an AtomicFile for this target would fail at once, and touches nothing.
+/// Throws Error(io) if an AtomicFile for this target would fail immediately. Has no side effects.
 void check_target(const std::filesystem::path& target);
 
-/// Is the target written straight, because it is there and no regular file, or an open descriptor?
+/// Whether the target is written directly, because it is an open descriptor or exists and is not a
+/// regular file.
 [[nodiscard]] bool is_stream(const std::filesystem::path& target);
 
 }  // namespace microtrace::io

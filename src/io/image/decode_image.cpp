@@ -13,15 +13,15 @@
 namespace microtrace::io {
 namespace {
 
-/// An exception may not pass the module's frames: what goes wrong is kept here.
+/// Exceptions must not propagate through the module's frames, so failures are stored here.
 struct Decoding {
   DecodedImage result{};
   MemoryAccount work{memory_account().budget()};
   std::exception_ptr failure{};
 };
 
-/// What a decoder needs for each pixel at most, beside the pixels: a progressive JPEG's
-/// coefficients, the colours of a WebP.
+/// Upper bound of a decoder's memory per pixel, in addition to the pixels: coefficients of a
+/// progressive JPEG, colors of a WebP.
 constexpr std::uint64_t kWorkOfPixel = 6;
 
 void* begin(void* context, const MicrotraceImageHeader* header) {

@@ -1,5 +1,5 @@
 #pragma once
-/// From the bytes of an image file to its pixels.
+/// Decodes image files.
 
 #include <microtrace/texture.hpp>
 
@@ -10,19 +10,19 @@
 
 namespace microtrace::io {
 
-/// No image has more pixels.
+/// Maximum number of pixels of an image.
 inline constexpr std::uint64_t max_texture_pixels = std::uint64_t{1} << 28U;
 
 struct DecodedImage {
-  std::optional<Image> image{};  ///< nothing where the file can't be decoded
-  std::string complaint{};       ///< why not; or what is wrong with the file nevertheless
-  bool too_large = false;        ///< more than max_texture_pixels, or than there is memory for
-  bool no_module = false;        ///< the module of decoders is not installed
+  std::optional<Image> image{};  ///< nothing if the file can't be decoded
+  std::string complaint{};       ///< the reason of a failure, or a warning
+  bool too_large = false;        ///< more than max_texture_pixels, or than the memory allows
+  bool no_module = false;        ///< the codec module is not installed
 };
 
-/// PNG, JPEG, WebP or KTX2, by the module of decoders, which is loaded at the first call. The size
-/// that the file claims is checked before memory is taken for it. The same bytes give the same
-/// pixels on every machine. Throws Error (limit) where the memory budget does not allow it.
+/// Decodes PNG, JPEG, WebP or KTX2 with the codec module, which is loaded at the first call. The
+/// size in the file's header is checked before memory is allocated. The same bytes give the same
+/// pixels on every machine. Throws Error (limit) if the memory budget is exceeded.
 [[nodiscard]] DecodedImage decode_image(std::string_view bytes);
 
 }  // namespace microtrace::io

@@ -15,7 +15,7 @@ std::uint8_t encode_linear(float v) {
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
 }
 
-/// shown(color) is the colour that encode(color, channel) takes.
+/// shown(color) is the color that encode(color, channel) expects.
 template <class Show, class Encode>
 void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Show&& shown,
                 Encode&& encode) {

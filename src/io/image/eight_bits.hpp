@@ -1,5 +1,5 @@
 #pragma once
-/// A film's pixels as 8-bit formats hold them.
+/// Conversion of a film's pixels to 8 bits.
 
 #include <microtrace/film.hpp>
 
@@ -7,9 +7,9 @@
 
 namespace microtrace::io {
 
-/// Writes red, green and blue of row y, and alpha where the film has it, as the film's display
-/// says. `out` has room for the row. Alpha is round(255 alpha), and divided out of the colours
-/// before they are encoded; a pixel with alpha 0 is all zeros.
+/// Writes red, green and blue of row y, and alpha if the film has it, according to the film's
+/// display settings. `out` must have room for the row. Alpha is round(255 alpha); colors are
+/// divided by alpha before encoding; a pixel with alpha 0 is all zeros.
 void encode_row(const Film& film, std::uint32_t y, std::uint8_t* out);
 
 }  // namespace microtrace::io

@@ -28,7 +28,7 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t 
 struct Size {
   std::uint32_t width, height;
 };
-// 0 x 0 stands for nonsense, nothing for a file that ends too early.
+// 0 x 0 means invalid; nothing means that the file ends too early.
 constexpr Size no_size{0, 0};
 
 /// PNG (ISO/IEC 15948), section 11.2.2: the chunk IHDR comes first.
@@ -39,9 +39,9 @@ std::optional<Size> png_size(std::string_view bytes) {
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
-/// JPEG (ITU-T T.81), annex B: segments follow each other up to the frame header, SOFn. Bytes
-/// between them are passed over as libjpeg does it, but where the first is no segment and none is a
-/// frame it is nonsense.
+/// JPEG (ITU-T T.81), annex B: segments up to the frame header, SOFn. Bytes between segments are
+/// skipped as libjpeg does, but a file that does not start with a segment and has no frame is
+/// invalid.
 std::optional<Size> jpeg_size(std::string_view bytes) {
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
     const std::uint32_t marker = byte(bytes, at + 1);

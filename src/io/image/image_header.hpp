@@ -1,5 +1,5 @@
 #pragma once
-/// What the first bytes of an image file say, without decoding it.
+/// Reads the size of an image from the first bytes of its file, without decoding it.
 
 #include <cstdint>
 #include <string_view>
@@ -10,13 +10,13 @@ enum class ImageFormat { unknown, png, jpeg, webp, ktx2 };
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::unknown;
-  /// The header is whole, the file ends within it, or it says nonsense; only a whole one has a
-  /// size.
+  /// The header is complete, the file ends within it, or it is invalid; only a complete header has
+  /// a size.
   enum class State { whole, cut_off, damaged } state = State::whole;
   std::uint32_t width = 0, height = 0;
 };
 
-/// Of a whole file.
+/// Expects the whole file.
 [[nodiscard]] ImageHeader read_image_header(std::string_view bytes);
 
 }  // namespace microtrace::io

@@ -1,5 +1,5 @@
 #pragma once
-/// What a KTX2 file says of its colors.
+/// Reads the color encoding of a KTX2 file.
 
 #include <microtrace/texture.hpp>
 
@@ -9,12 +9,12 @@
 namespace microtrace::io {
 
 struct Ktx2Colors {
-  std::optional<ColorEncoding> encoding{};  ///< nothing where it is neither sRGB nor linear
-  bool is_premultiplied = false;            ///< by alpha
+  std::optional<ColorEncoding> encoding{};  ///< nothing if it is neither sRGB nor linear
+  bool is_premultiplied = false;            ///< premultiplied by alpha
 };
 
-/// From the data format descriptor (KTX File Format Specification 2.0, section 3.10) of a file that
-/// read_image_header takes for KTX2; nothing where it is damaged.
+/// Reads the data format descriptor (KTX File Format Specification 2.0, section 3.10) of a file
+/// that read_image_header recognizes as KTX2; nothing if it is damaged.
 [[nodiscard]] std::optional<Ktx2Colors> read_ktx2_colors(std::string_view bytes);
 
 }  // namespace microtrace::io

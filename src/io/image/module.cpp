@@ -13,7 +13,7 @@
 namespace microtrace::io {
 namespace {
 
-/// log4cplus starts four.
+/// log4cplus starts four threads.
 constexpr unsigned kThreadsOfLibraries = 4;
 
 void* load_module(const FormatModule& format_module, const std::string& file) {
@@ -37,7 +37,8 @@ Function find_function(void* module, const char* name, const std::string& file) 
               "its module belongs to another version of microtrace; install both from one build");
 }
 
-/// What a sink writes to. An exception may not pass the module's frames, so it waits here.
+/// The targets of sinks. Exceptions must not propagate through the module's frames, so they are
+/// stored here.
 struct Sinks {
   const std::function<void(std::string_view)>& out;
   std::string reason;
@@ -63,13 +64,14 @@ void take_reason(void* context, const char* bytes, std::size_t size) {
 void require_threads(const FormatModule& module, const std::string& file) {
   if (!module.starts_threads) return;
   const auto require = [&] {
-    // OpenImageIO itself starts one for each processor.
+    // OpenImageIO itself starts one thread per processor.
     if (can_start_threads(kThreadsOfLibraries + default_threads())) return true;
     throw Error(ErrorKind::limit, file,
                 "needs OpenImageIO, whose libraries start more threads than the limits on "
                 "processes and memory allow; raise these, or use .ppm, .png or .exr");
   };
-  // Threads that run already are not needed twice; a failure is thrown again if it is met again.
+  // Checked once: threads that already run need not start again. After a failure the check is
+  // repeated.
   static const bool is_granted = require();
   static_cast<void>(is_granted);
 }

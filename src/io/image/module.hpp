@@ -1,6 +1,6 @@
 #pragma once
-/// The modules of picture formats other than PPM and PNG. Each is loaded when it is first needed:
-/// OpenImageIO and the 260 libraries it brings cost a quarter of a second and 130 MB.
+/// The modules of image formats other than PPM and PNG. Each is loaded when first needed:
+/// OpenImageIO and the 260 libraries it depends on take a quarter of a second and 130 MB.
 
 #include "io/image/module_abi.hpp"
 
@@ -14,31 +14,32 @@ namespace microtrace::io {
 
 struct FormatModule {
   const char* file;
-  const char* package;  ///< Debian's, which it is built with
-  const char* target;   ///< CMake's, which builds it
-  /// Libraries that Debian's OpenImageIO depends on start threads while they are loaded, and end
-  /// the process where they can't.
+  const char* package;  ///< Debian package needed to build the module
+  const char* target;   ///< CMake target of the module
+  /// Whether libraries of the module start threads while they are loaded, and terminate the process
+  /// if this fails, as dependencies of Debian's OpenImageIO do.
   bool starts_threads = false;
 };
 
-/// What writes pictures and reads environments of this ending (lower case, no dot).
+/// The module that writes pictures and reads environment maps with this extension (lower case, no
+/// dot).
 [[nodiscard]] const FormatModule& module_for(std::string_view ending);
 
-/// To be called before the module is loaded for `file`. Throws Error (limit) where it starts
+/// Must be called before the module is loaded for `file`. Throws Error (limit) if the module starts
 /// threads that the system would refuse.
 void require_threads(const FormatModule& module, const std::string& file);
 
 class ImageModule {
  public:
-  /// Loads the module for this ending, once in a process. `file` stands in messages.
-  /// Throws Error(unsupported) that names the places where the module was sought.
+  /// Loads the module for this extension, once per process. `file` is named in messages. Throws
+  /// Error(unsupported) with the searched folders.
   ImageModule(std::string file, std::string_view ending);
 
-  /// What files of this ending (small letters, no dot) hold. Throws Error(usage) where none can be
-  /// written.
+  /// The pixel format of files with this extension (lower case, no dot). Throws Error(usage) if the
+  /// module can't write them.
   [[nodiscard]] MicrotraceFormat find_format(const std::string& ending) const;
 
-  /// Hands the bytes of the whole picture file to `out`. Throws Error(io).
+  /// Passes the bytes of the whole picture file to `out`. Throws Error(io).
   void encode(const Film& film, const std::string& ending,
               const std::function<void(std::string_view)>& out) const;
 

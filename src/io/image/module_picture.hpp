@@ -1,5 +1,5 @@
 #pragma once
-/// A film as the module wants it.
+/// Converts a film to a module's picture.
 
 #include "io/image/module_abi.hpp"
 #include "io/image/notes.hpp"
@@ -13,7 +13,7 @@ namespace microtrace::io {
 
 class ModulePicture {
  public:
-  /// The film must outlive it.
+  /// The film must outlive this object.
   ModulePicture(const Film& film, const MicrotraceFormat& format);
 
   [[nodiscard]] const MicrotracePicture& get() const { return picture_; }
@@ -23,7 +23,7 @@ class ModulePicture {
   void add_byte_colors(const Film& film);
   void add_channels(const Film& film);
 
-  std::vector<std::uint8_t> bytes_;  // of the pixels, where the format wants them
+  std::vector<std::uint8_t> bytes_;  // converted pixels, if the format needs them
   std::vector<MicrotraceChannel> channels_;
   std::vector<Note> notes_;
   std::vector<MicrotraceNote> note_views_;

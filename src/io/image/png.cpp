@@ -15,13 +15,13 @@
 namespace microtrace::io {
 namespace {
 
-/// What the encoder reads from and writes to. An exception may not pass the module's frames, so it
-/// waits here.
+/// The encoder's input and output. Exceptions must not propagate through the module's frames, so
+/// they are stored here.
 struct Streams {
   const Film& film;
   const std::function<void(std::string_view)>& out;
   std::vector<std::uint8_t> row;
-  std::string bytes{};  // not yet handed on
+  std::string bytes{};  // not yet passed on
   std::string reason{};
   std::exception_ptr thrown{};
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// PNG (ISO/IEC 15948), written by the module of image codecs, which is loaded when it is needed.
+/// PNG (ISO/IEC 15948), written by the codec module, which is loaded when needed.
 
 #include "io/image/codec_abi.hpp"
 
@@ -13,12 +13,12 @@ namespace microtrace::io {
 
 class PngEncoder {
  public:
-  /// Loads the module. `file` stands in messages. Throws Error(unsupported) that names the places
-  /// where it was sought.
+  /// Loads the module. `file` is named in messages. Throws Error(unsupported) with the searched
+  /// folders.
   explicit PngEncoder(std::string file);
 
-  /// Hands the file to `out`, part by part: 8 bits a sample as the film's display says, with alpha
-  /// where the film has it. Throws what `out` throws, and Error(io).
+  /// Passes the file to `out` in parts: 8 bits per sample according to the film's display settings,
+  /// with alpha if the film has it. Throws what `out` throws, and Error(io).
   void encode(const Film& film, const std::function<void(std::string_view)>& out) const;
 
  private:

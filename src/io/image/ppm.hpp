@@ -9,11 +9,11 @@
 
 namespace microtrace::io {
 
-/// Magic number, width, height and 255, a line each pair; no comment.
+/// Magic number, width and height, and 255, each on a line, without comments.
 [[nodiscard]] std::string ppm_header(ImageSize size, PpmEncoding encoding);
 
-/// Appends row y of the picture, which has no alpha. Lines of P3 hold at most 70 characters, as the
-/// format asks.
+/// Appends row y of the picture, which must not have alpha. Lines of P3 have at most 70 characters,
+/// as the format requires.
 void append_ppm_row(const Film& film, std::uint32_t y, PpmEncoding encoding, std::string& out);
 
 }  // namespace microtrace::io

@@ -15,8 +15,8 @@
 namespace microtrace {
 namespace {
 
-/// The name's ending in small letters without its dot. Standard output and streams without an
-/// ending take PPM. Throws Error(usage) if there is none.
+/// The name's extension in lower case without the dot. Standard output and streams without an
+/// extension use PPM. Throws Error(usage) if there is none.
 std::string format_ending(const std::filesystem::path& path) {
   if (path == "-") return "ppm";
   std::string ending = path.extension().string();
@@ -42,7 +42,7 @@ void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
   file.write(bytes);
 }
 
-/// Throws Error(usage) unless the format holds all that the film has.
+/// Throws Error(usage) unless the format can store everything in the film.
 void require(const FilmContents& contents, const MicrotraceFormat& format,
              const std::filesystem::path& path, const std::string& ending) {
   const auto refuse = [&](const std::string& message) {
@@ -55,7 +55,7 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" has no alpha; write .png or .exr, or give the background a colour");
 }
 
-/// What writes files of one ending, loaded where it is a module.
+/// The writer for files with one extension; loads its module if necessary.
 class Writer {
  public:
   Writer(const std::filesystem::path& path, const std::string& ending) : ending_(ending) {

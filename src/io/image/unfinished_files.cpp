@@ -21,7 +21,7 @@ struct Slot {
 
 static_assert(std::atomic<State>::is_always_lock_free, "a signal handler reads it");
 
-// Of static storage, since a signal handler may use nothing else.
+// Static storage, because a signal handler may use nothing else.
 std::array<Slot, 8> slots;
 
 }  // namespace

@@ -1,11 +1,11 @@
 #pragma once
-/// The temporaries that exist now, for a signal handler to remove: remove_unfinished_files() of
-/// <microtrace/io.hpp> reads this list.
+/// The list of existing temporary files, which remove_unfinished_files() of <microtrace/io.hpp>
+/// removes in a signal handler.
 
 namespace microtrace::io {
 
-/// Lists a path, before the file is made. Returns its slot, or -1 if the list is full or the path
-/// too long: the file is then removed by its destructor alone.
+/// Lists a path before its file is created. Returns its slot, or -1 if the list is full or the path
+/// too long; then only the AtomicFile's destructor removes the file.
 [[nodiscard]] int note_unfinished_file(const char* path) noexcept;
 
 /// Frees a slot; -1 is ignored.

@@ -20,9 +20,9 @@ namespace {
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 constexpr std::string_view whitespace = " \t\r\n";
 
-/// Builds the tree from nlohmann-json's events. These carry no positions, but between two of them
-/// lie only white space and at most one comma or colon, so the start of each token follows from the
-/// end of the one before.
+/// Builds the tree from nlohmann-json's events. The events have no positions, but between two of
+/// them are only white space and at most one comma or colon, so the start of each token follows
+/// from the end of the previous one.
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
   TreeBuilder(const JsonDocument& document, std::string_view text, JsonValue& root,
@@ -63,7 +63,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return scalar(std::move(result), string_end(text_, start) - start);
   }
 
-  bool binary(binary_t& /*value*/) override { return false; }  // JSON texts have none
+  bool binary(binary_t& /*value*/) override { return false; }  // never occurs in JSON texts
   bool start_object(std::size_t /*size*/) override { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t /*size*/) override { return open(JsonValue::Kind::array); }
 
@@ -100,14 +100,14 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     fail(explain(text_, context, reason));
   }
 
-  /// The parser takes a zero byte for the end of the text.
+  /// The parser treats a zero byte as the end of the text.
   void require_end() const {
     const SyntaxContext context = next_token();
     if (context.token != text_.size()) fail(explain_misplaced(text_, context));
   }
 
  private:
-  /// Memory is counted for so many values at a time, with room for their vectors to grow in.
+  /// Memory is charged for this many values at a time, including unused capacity of their vectors.
   static constexpr std::size_t kBlock = 1024, kBytesOfValue = 2 * sizeof(JsonValue);
   static constexpr std::size_t kLongString = 256;
 
@@ -117,7 +117,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return std::min(text_.find_first_not_of(whitespace, offset), text_.size());
   }
 
-  /// The place of the next token and what may stand there.
+  /// The position of the next token, and the tokens allowed there.
   [[nodiscard]] SyntaxContext next_token() const {
     using Expects = SyntaxContext::Expects;
     SyntaxContext context{
@@ -185,11 +185,11 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonValue::Kind kind) {
     const std::size_t start = next_token().token;
     if (open_.size() == max_json_depth) {
-      // The pointer would fill the screen.
+      // The pointer would be extremely long.
       throw Error(ErrorKind::limit,
                   document_.at(start, "", "arrays and objects are nested more than 256 deep"));
     }
-    // Values grow only within the innermost open one, so the pointers stay good.
+    // Values are only added to the innermost open one, so the pointers remain valid.
     open_.push_back(&add(of_kind(kind), start));
     end_ = start + 1;
     last_ = Last::open;
@@ -216,8 +216,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     });
   }
 
-  /// A pointer may be as long as the text: one is made only for what may be the first of all, which
-  /// objects around this one alone can come before.
+  /// A pointer may be as long as the text, so it is only created for a key that may be the first
+  /// one in the text; only enclosing objects can have earlier ones.
   void note_outdone(const JsonValue& object, const std::vector<std::size_t>& offsets) {
     const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
     outdone_keys_.count += offsets.size();
@@ -228,7 +228,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     outdone_keys_.pointer = child(pointer(), first->key);
   }
 
-  /// Of the innermost open value, or of the member whose key was read last.
+  /// The pointer to the innermost open value, or to the member whose key was read last.
   [[nodiscard]] std::string pointer() const {
     std::string out;
     for (const JsonValue* value : open_) {
@@ -257,7 +257,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   RepeatedKeys policy_;
   OutdoneKeys& outdone_keys_;
   std::vector<JsonValue*> open_;  // from the root to the innermost
-  std::size_t end_ = 0;           // of the last token
+  std::size_t end_ = 0;           // end of the last token
   Last last_ = Last::open;
   std::size_t count_ = 0;
 };
@@ -282,7 +282,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
 
 Diagnostic JsonDocument::at(std::size_t offset, const std::string& pointer,
                             std::string message) const {
-  // The byte order mark is no part of the first line.
+  // The byte order mark doesn't count as part of the first line.
   const std::size_t skipped = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
   const std::string_view text = text_.substr(skipped);
   offset = std::min(offset - std::min(offset, skipped), text.size());

@@ -8,7 +8,7 @@ namespace microtrace::io {
 namespace {
 
 constexpr std::size_t width = 120;
-constexpr std::size_t before = 80;  // of them, at most, left of the caret
+constexpr std::size_t before = 80;  // maximum number of columns left of the caret
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Place place_of(std::string_view text, std::size_t offset) {
 
 std::string excerpt(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
-  // Of a long line no more is looked at than tells that it is one.
+  // Only this much of a line is examined.
   constexpr std::size_t reach = 2 * width;
   const std::size_t first = offset - std::min(offset, reach);
   const std::size_t newline = text.substr(first, offset - first).rfind('\n');

@@ -31,7 +31,7 @@ JsonValue* JsonValue::find(std::string_view key) {
 }
 
 void JsonValue::index_members() {
-  constexpr std::size_t few = 16;  // are looked through sooner
+  constexpr std::size_t few = 16;  // up to this number, linear search is faster
   by_key_.reset();
   if (members.size() <= few) return;
   std::vector<std::uint32_t> order(members.size());

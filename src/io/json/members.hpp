@@ -7,14 +7,14 @@
 
 namespace microtrace::io {
 
-/// Keys of an object that stand more than once, by the bytes at which they start.
+/// Duplicate keys of an object, by the byte offsets of the keys.
 struct RepeatedMembers {
-  std::vector<std::size_t> outdone{};  ///< those of which a later one has the same name; ascending
-  std::size_t first = 0;               ///< the first that has been there before
-  std::string_view key{};              ///< its name
+  std::vector<std::size_t> outdone{};  ///< keys that are repeated later; ascending
+  std::size_t first = 0;               ///< the first key that repeats an earlier one
+  std::string_view key{};              ///< the name of this key
 };
 
-/// The keys of the object and its `key_offset`s must be there.
+/// The object's keys and their `key_offset`s must be set.
 [[nodiscard]] RepeatedMembers repeated_members(const JsonValue& object);
 
 }  // namespace microtrace::io

@@ -132,7 +132,7 @@ std::string JsonReader::name() const {
 
 double JsonReader::number() const {
   require_kind(Kind::number);
-  if (std::abs(value_->number) < float32_bound) return value_->number;
+  if (std::abs(value_->number) < kFloat32Bound) return value_->number;
   std::string message = "must be finite in float32, where the largest number is about 3.4e38, is ";
   fail(message.append(decimal(value_->number)));
 }

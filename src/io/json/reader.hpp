@@ -1,5 +1,5 @@
 #pragma once
-/// Typed reading of a JSON document: each value knows its pointer, and each complaint its place.
+/// Typed reading of a JSON document: each value knows its pointer, and each error its position.
 
 #include "io/json/document.hpp"
 #include "scene/validate.hpp"
@@ -16,8 +16,8 @@
 
 namespace microtrace::io {
 
-/// One value of a document, which must outlive it. All functions that read throw Error
-/// (invalid_scene) at the value if it is not what they say.
+/// One value of a document, which must outlive this object. All reading functions throw Error
+/// (invalid_scene) at the value if it does not have the required form.
 class JsonReader {
  public:
   /// The root.
@@ -27,7 +27,8 @@ class JsonReader {
   [[nodiscard]] const JsonValue& value() const { return *value_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
-  /// An object with none but these members; an unknown one brings the nearest known to mind.
+  /// Requires an object with only these members; the error for an unknown one suggests the nearest
+  /// name.
   void require_object(std::initializer_list<std::string_view> known) const;
   void require_object() const;
   /// The member of an object; `member` throws at the object if it is missing.
@@ -36,25 +37,25 @@ class JsonReader {
   /// All members with their keys.
   [[nodiscard]] std::vector<std::pair<std::string, JsonReader>> members() const;
 
-  /// The items of an array; of `count` items if that is given.
+  /// The elements of an array; exactly `count` if given.
   [[nodiscard]] std::vector<JsonReader> items(std::optional<std::size_t> count = {}) const;
 
   [[nodiscard]] std::string string() const;
-  /// A string that is not empty.
+  /// A nonempty string.
   [[nodiscard]] std::string name() const;
   /// A number that is finite in float32.
   [[nodiscard]] double number() const;
   [[nodiscard]] float float32() const { return static_cast<float>(number()); }
-  /// A number without fraction from 0 to 2^53.
+  /// An integer from 0 to 2^53.
   [[nodiscard]] std::uint64_t count() const;
   [[nodiscard]] DVec3 vector() const;
   [[nodiscard]] Vec3 vector32() const { return Vec3(vector()); }
 
   [[noreturn]] void fail(std::string message, ErrorKind kind = ErrorKind::invalid_scene) const;
-  /// The complaint about a name, found in this value, that is not among the known.
+  /// Throws the error about a name in this value that is not a known one.
   [[noreturn]] void fail_unknown(std::string_view what, std::string_view name,
                                  const std::vector<std::string_view>& known) const;
-  /// Throws if a rule is broken: at the member that it names, or at this value if it is absent.
+  /// Throws if a rule is broken: at the named member, or at this value if the member is absent.
   void require(const std::optional<BrokenRule>& rule) const;
 
  private:

@@ -51,7 +51,7 @@ std::string found(std::string_view text, std::size_t offset) {
 
 SyntaxError explain_string(const SyntaxContext& context, std::string_view text,
                            std::string_view reason) {
-  const std::size_t last = context.read - 1;  // the byte that the lexer stumbled over
+  const std::size_t last = context.read - 1;  // the byte that the lexer rejected
   const auto says = [&](std::string_view part) {
     return reason.find(part) != std::string_view::npos;
   };

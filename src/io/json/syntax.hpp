@@ -1,5 +1,5 @@
 #pragma once
-/// What is wrong with a text that is not JSON, said in a short plain sentence.
+/// Short messages about syntax errors.
 
 #include <cstddef>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Where reading stopped.
+/// The position and state where parsing stopped.
 struct SyntaxContext {
   enum class Expects {
     value,           ///< at the start, after a colon, or after a comma in an array
@@ -20,9 +20,9 @@ struct SyntaxContext {
   };
   Expects expects = Expects::value;
   bool in_object = false;
-  std::size_t token = 0;  ///< byte at which the token that does not fit starts
-  std::size_t comma = 0;  ///< of the comma before it, if there is one
-  std::size_t read = 0;   ///< end of what the lexer has read of the token
+  std::size_t token = 0;  ///< byte offset of the unexpected token
+  std::size_t comma = 0;  ///< byte offset of the comma before it, if there is one
+  std::size_t read = 0;   ///< end of the bytes that the lexer has read
 };
 
 struct SyntaxError {
@@ -30,12 +30,12 @@ struct SyntaxError {
   std::string message;
 };
 
-/// `reason` is what nlohmann-json's lexer says of the token: "invalid string: ...", "invalid
-/// number; ...", "invalid literal", anything else if the token itself is right but misplaced.
+/// `reason` is the lexer's message about the token: "invalid string: ...", "invalid number; ...",
+/// "invalid literal", or anything else if the token itself is valid but misplaced.
 [[nodiscard]] SyntaxError explain(std::string_view text, const SyntaxContext& context,
                                   std::string_view reason);
 
-/// The message about a token that is whole but stands in the wrong place.
+/// The message about a valid token in the wrong place.
 [[nodiscard]] SyntaxError explain_misplaced(std::string_view text, const SyntaxContext& context);
 
 }  // namespace microtrace::io

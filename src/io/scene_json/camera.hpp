@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "cameras"; docs/scene-format.md tells its members. Throws Error.
+/// Reads a member of "cameras", defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Camera read_camera(const JsonReader& json);
 
 }  // namespace microtrace::io

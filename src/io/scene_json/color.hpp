@@ -1,5 +1,5 @@
 #pragma once
-/// Colours and other bounded numbers of a JSON scene.
+/// Colors and other bounded numbers of a JSON scene.
 
 #include "io/json/reader.hpp"
 
@@ -11,19 +11,19 @@
 
 namespace microtrace::io {
 
-/// The scene's names for colours.
+/// The scene's named colors.
 using Colors = std::map<std::string, Vec3, std::less<>>;
 
-/// No channel of what shines is brighter, so that sums and products of light stay finite.
+/// Maximum of each channel of emitted light, so that sums and products stay finite.
 inline constexpr double max_radiance = 1e9;
 
-/// Reads the root's member "colors". Throws Error, as do all below.
+/// Reads the root's member "colors". Throws Error, as do the functions below.
 [[nodiscard]] Colors read_colors(const JsonReader& json);
 
 /// Three numbers from 0 to `most`, or a name.
 [[nodiscard]] Vec3 read_color(const JsonReader& json, const Colors& colors, double most = 1);
 
-/// A number from `least` on that is finite in float32.
+/// A number of at least `least` that is finite in float32.
 [[nodiscard]] float read_at_least(const JsonReader& json, double least);
 
 /// A number from 0 to 1.

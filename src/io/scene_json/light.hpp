@@ -12,11 +12,11 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "lights"; docs/scene-format.md tells its members. Throws Error.
+/// Reads a member of "lights", defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Light read_light(const JsonReader& json, const Colors& colors);
 
-/// Reads the member "environment" and the file that it may name, sought in `folder`: adds to the
-/// warnings. Throws Error, of kind io and at the member "file" if that can't be read.
+/// Reads the member "environment" and the file that it may name, relative to `folder`; appends
+/// warnings. Throws Error, with kind io and at the member "file" if the file can't be read.
 [[nodiscard]] Environment read_environment(const JsonReader& json, const Colors& colors,
                                            const std::filesystem::path& folder,
                                            std::vector<Diagnostic>& warnings);

@@ -5,7 +5,7 @@
 namespace microtrace::io {
 namespace {
 
-/// Members of one object, each with a default.
+/// Reads optional members of an object.
 class Members {
  public:
   Members(const JsonReader& json, const Colors& colors) : json_(json), colors_(colors) {}
@@ -31,7 +31,7 @@ class Members {
   const Colors& colors_;
 };
 
-/// 0 stands for infinity (KHR_materials_ior).
+/// 0 means infinity (KHR_materials_ior).
 float read_ior(const JsonReader& json) {
   const double ior = json.number();
   if (ior == 0 || ior >= 1) return static_cast<float>(ior);

@@ -8,7 +8,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "materials"; docs/scene-format.md tells its members. Throws Error.
+/// Reads a member of "materials", defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Material read_material(const JsonReader& json, const Colors& colors);
 
 }  // namespace microtrace::io

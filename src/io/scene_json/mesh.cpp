@@ -16,7 +16,7 @@
 namespace microtrace::io {
 namespace {
 
-/// By Rodrigues: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), the axis of unit length.
+/// Rodrigues' formula: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), with a unit axis.
 DMat4 rotation(const DVec3& axis, double degrees) {
   const double sine = sin_degrees(degrees), cosine = cos_degrees(degrees);
   DMat4 out(1);
@@ -102,7 +102,7 @@ MeshFiles::MeshFiles(const std::filesystem::path& folder, const LoadOptions& opt
 MeshFiles::~MeshFiles() = default;
 
 void MeshFiles::expect(const JsonReader& json) {
-  // What is wrong with the member is said when it is read.
+  // Errors in the member are reported when it is read.
   if (const JsonValue* file = json.value().find("file")) ++uses_[file->string];
 }
 

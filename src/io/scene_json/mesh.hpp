@@ -1,5 +1,5 @@
 #pragma once
-/// The objects of a JSON scene that come from a glTF file of their own.
+/// Objects of a JSON scene that are read from glTF files.
 
 #include "io/json/reader.hpp"
 
@@ -14,19 +14,19 @@
 
 namespace microtrace::io {
 
-/// The glTF files of a scene's meshes. One that several meshes show is read and checked once.
+/// The glTF files of a scene's meshes. A file used by several meshes is read and checked once.
 class MeshFiles {
  public:
-  /// Files are sought in `folder`. Both must outlive this.
+  /// Paths are relative to `folder`. Both must outlive this object.
   MeshFiles(const std::filesystem::path& folder, const LoadOptions& options);
   ~MeshFiles();
 
-  /// Says that read() will be asked for this member of "objects".
+  /// Announces that read() will be called for this member of "objects".
   void expect(const JsonReader& json);
 
-  /// Reads a member of "objects" of type mesh and the file that it names, posed as the options say:
-  /// its objects with their own names and colours, and its warnings. Throws Error, of kind io and
-  /// at the member "file" if that file can't be read.
+  /// Reads a member of "objects" of type mesh and its file, posed according to the options: its
+  /// objects with their own names and colors, and its warnings. Throws Error, with kind io and at
+  /// the member "file" if the file can't be read.
   [[nodiscard]] LoadedScene read(const JsonReader& json);
 
  private:
@@ -37,8 +37,8 @@ class MeshFiles {
 
   const std::filesystem::path& folder_;
   const LoadOptions& options_;
-  std::map<std::string, std::size_t> uses_;  // that are still to come, by the member "file"
-  std::map<std::string, std::unique_ptr<File>> files_;  // that were used and will be again
+  std::map<std::string, std::size_t> uses_;             // remaining uses, by the member "file"
+  std::map<std::string, std::unique_ptr<File>> files_;  // files with remaining uses
 };
 
 /// Reads a member "transform": translation * rotation * scale, or a column-major affine matrix.

@@ -1,5 +1,5 @@
 #pragma once
-/// Names that differ from each other.
+/// Unique names.
 
 #include "io/json/reader.hpp"
 
@@ -8,10 +8,10 @@
 
 namespace microtrace::io {
 
-/// The names within one array of a JSON scene, unique.
+/// The names within one array of a JSON scene, which must be unique.
 class Names {
  public:
-  /// The member "name", or where there is none the pointer without its first slash. Throws Error.
+  /// The member "name", or the pointer without its first slash if there is none. Throws Error.
   std::string read(const JsonReader& json);
 
  private:

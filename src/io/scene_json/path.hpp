@@ -1,5 +1,5 @@
 #pragma once
-/// Names of files that a JSON scene refers to.
+/// File names in a JSON scene.
 
 #include "io/json/reader.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// A path within the scene's folder. Throws Error.
+/// A path inside the scene's folder. Throws Error.
 [[nodiscard]] std::filesystem::path read_relative_path(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -73,7 +73,7 @@ bool is_mesh(const JsonReader& json) {
   return type && type->value().kind == JsonValue::Kind::string && type->value().string == "mesh";
 }
 
-/// The materials that the scene names, and one for each colour of objects.
+/// The scene's named materials, and one for each color of objects.
 class Palette {
  public:
   Palette(const Colors& colors, Scene& scene) : colors_(colors), scene_(scene) {}
@@ -86,7 +86,7 @@ class Palette {
     }
   }
 
-  /// Of the object's member "material" or "color", if it has one.
+  /// The material of the object's member "material" or "color", if it has one.
   std::optional<std::uint32_t> read(const JsonReader& object) {
     const auto color = object.find("color");
     if (const auto name = object.find("material")) {
@@ -118,7 +118,7 @@ class Palette {
   std::map<std::array<float, 3>, std::uint32_t> plain_;
 };
 
-/// A material replaces those of the mesh's own file.
+/// A material replaces those of the mesh's file.
 void add_mesh(const JsonReader& json, const std::string& name,
               std::optional<std::uint32_t> material, MeshFiles& files, LoadedScene& out) {
   LoadedScene mesh = files.read(json);

@@ -9,9 +9,8 @@
 
 namespace microtrace::io {
 
-/// Reads a scene; mesh files are sought in `folder` and nowhere above it, and posed as
-/// the options say. Throws Error with the
-/// place of the first thing that is wrong.
+/// Reads a scene; mesh files must be in `folder` or below, and are posed according to the options.
+/// Throws Error at the first invalid value.
 [[nodiscard]] LoadedScene read_json_scene(const JsonDocument& document,
                                           const std::filesystem::path& folder,
                                           const LoadOptions& options = {});

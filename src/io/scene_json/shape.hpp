@@ -1,5 +1,5 @@
 #pragma once
-/// The shapes of a JSON scene that are written out in it.
+/// Shapes defined in the JSON scene itself.
 
 #include "io/json/reader.hpp"
 
@@ -7,8 +7,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "objects" that is not a mesh; docs/scene-format.md tells its members. Throws
-/// Error.
+/// Reads a member of "objects" that is not a mesh, defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Shape read_shape(const JsonReader& json);
 
 }  // namespace microtrace::io

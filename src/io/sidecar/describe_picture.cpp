@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// JSON has no infinity.
+/// null for infinity, which JSON can't express.
 std::string number(double x) {
   return std::isfinite(x) ? decimal(x) : "null";
 }
@@ -48,7 +48,7 @@ std::string rows(const DMat4& m) {
   return text += ']';
 }
 
-/// Of a rigid transform: the rotation turned back, no division.
+/// The inverse of a rigid transform: the transposed rotation, without division.
 DMat4 inverse(const DMat4& rigid) {
   const glm::dmat3 back = glm::transpose(glm::dmat3(rigid));
   DMat4 result(back);
@@ -109,7 +109,7 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
   return text += '}';
 }
 
-/// A JSON array with a line for each item.
+/// A JSON array with one item per line.
 template <class Item>
 std::string list(std::size_t count, Item&& item) {
   std::string text = "[";

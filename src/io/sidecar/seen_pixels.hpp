@@ -1,5 +1,5 @@
 #pragma once
-/// Where the objects of a picture are seen.
+/// Visible pixels and bounding boxes of objects in a picture.
 
 #include <microtrace/film.hpp>
 
@@ -15,7 +15,7 @@ struct SeenPixels {
   PixelRect box{};  ///< in the whole picture
 };
 
-/// For each of the scene's objects; nothing if the film has no channel "id.instance".
+/// For each object of the scene; nothing if the film has no channel "id.instance".
 [[nodiscard]] std::optional<std::vector<SeenPixels>> find_seen_pixels(const Film& film,
                                                                       std::size_t objects);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// One decoder for each kind of file: 1 if there is an image now, else 0. The encoder: 1 if the
-/// file is whole, else 0.
+/// A decoder for each file format: returns 1 on success, else 0. The encoder returns 1 if the file
+/// is complete, else 0.
 
 #include "io/image/codec_abi.hpp"
 

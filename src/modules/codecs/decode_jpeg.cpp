@@ -5,14 +5,14 @@
 #include <jpeglib.h>
 
 // The same samples on every machine: libjpeg-turbo's slow integer transform (JDCT_ISLOW), its
-// triangular upsampling and its colour conversion are integer arithmetic, which its SIMD code
-// repeats bit for bit. The fast and the floating-point transforms are not, and not used.
+// triangular upsampling and its color conversion are integer arithmetic, and its SIMD code is
+// bit-exact. The fast and the floating-point transforms are not, and are not used.
 
 namespace {
 
-/// No object with a destructor lives where the jump after an error passes.
+/// No object with a destructor may exist in frames that the jump after an error leaves.
 struct ErrorManager {
-  jpeg_error_mgr base;  ///< first, so that libjpeg's pointer is one to this
+  jpeg_error_mgr base;  ///< first member, so that libjpeg's pointer can be cast
   std::jmp_buf jump;
   const MicrotraceImageSink* sink;
 };
@@ -29,12 +29,12 @@ void fail(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
-/// Level -1 is damaged data, told once.
+/// Level -1 means damaged data, reported once.
 void take_message(j_common_ptr info, int level) {
   if (level < 0 && info->err->num_warnings++ == 0) complain(info);
 }
 
-/// A small file can hold very many scans of a large image.
+/// A small file can contain very many scans of a large image.
 void limit_scans(j_common_ptr info) {
   constexpr int max_scans = 500;
   auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
@@ -44,8 +44,7 @@ void limit_scans(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
-/// Four inks to three lights. Adobe's programs store them inverted, and those with a marker are
-/// theirs.
+/// Converts CMYK to RGB. Adobe programs store inverted CMYK, and mark their files.
 void rgb_from_cmyk(const unsigned char* cmyk, unsigned char* rgb, std::size_t pixels,
                    bool inverted) {
   for (std::size_t i = 0; i < pixels; ++i, cmyk += 4, rgb += 3) {
@@ -77,7 +76,7 @@ void read_rows(jpeg_decompress_struct& jpeg, unsigned char* samples, std::size_t
     }
     return;
   }
-  // The library's own memory, freed with the rest.
+  // Memory of the library, released with the rest.
   JSAMPARRAY row = jpeg.mem->alloc_sarray(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
                                           jpeg.output_width * 4, 1);
   for (; jpeg.output_scanline < jpeg.output_height; samples += stride) {

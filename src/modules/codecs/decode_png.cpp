@@ -9,8 +9,8 @@
 
 namespace {
 
-/// What libpng reads from, and where it returns to after an error. No object with a destructor
-/// lives where that jump passes.
+/// The input of libpng, and the jump target after an error. No object with a destructor may exist
+/// in frames that the jump leaves.
 struct Source {
   const unsigned char* bytes;
   std::size_t left;
@@ -33,7 +33,7 @@ void read(png_structp png, png_bytep to, std::size_t size) {
   source->left -= size;
 }
 
-/// Chunks that say nothing about the samples are skipped unread: profiles, gamma, texts.
+/// Skips chunks that do not affect the samples: profiles, gamma, texts.
 void skip_ancillary_chunks(png_structp png) {
   constexpr png_byte names[] =
       "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0"
@@ -42,7 +42,8 @@ void skip_ancillary_chunks(png_structp png) {
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, names, sizeof names / 5);
 }
 
-/// Whole rows of 8 or 16 bits: palettes, bits and transparent colours are expanded.
+/// Requests whole rows of 8 or 16 bits: palettes, low bit depths and transparent colors are
+/// expanded.
 void set_transformations(png_structp png, png_infop info) {
   png_set_expand(png);
   if (std::endian::native == std::endian::little) png_set_swap(png);
@@ -65,7 +66,7 @@ int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceIma
   volatile int done = 0;
   if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {
     png_set_read_fn(png, &source, read);
-    png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);  // begin() has the say
+    png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);  // begin() enforces the limits
     skip_ancillary_chunks(png);
     png_read_info(png, info);
     set_transformations(png, info);

@@ -3,12 +3,12 @@
 #include <string_view>
 #include <webp/decode.h>
 
-// libwebp's decoder is integer arithmetic, and its SIMD code gives the samples of the plain one.
+// libwebp's decoder is integer arithmetic, and its SIMD code is bit-exact to the scalar code.
 
 namespace {
 
-/// RFC 9649, sections 2.5 to 2.7. Of other first chunks libwebp takes what follows for a picture
-/// without container, of whatever size its first bytes come to.
+/// RFC 9649, sections 2.5 to 2.7. After other first chunks libwebp would decode the following bytes
+/// as a picture without container, with an arbitrary size.
 bool begins_with_a_picture(std::string_view bytes) {
   const std::string_view kind = bytes.substr(12, 4);
   return kind == "VP8 " || kind == "VP8L" || kind == "VP8X";

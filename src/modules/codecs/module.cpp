@@ -1,6 +1,6 @@
 /// Decodes PNG, JPEG, WebP and KTX2, and encodes PNG, behind the C interface of
-/// io/image/codec_abi.hpp. Loaded when a scene has images or a picture is PNG; small libraries, for
-/// OpenImageIO would cost a quarter of a second and 130 MB.
+/// io/image/codec_abi.hpp. Loaded if a scene has images or a picture is PNG. Uses small libraries,
+/// because OpenImageIO would take a quarter of a second and 130 MB.
 
 #include "modules/codecs/codecs.hpp"
 

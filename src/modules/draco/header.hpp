@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <optional>
 
-/// What the start of Draco's bytes says of a mesh, before memory is taken for it.
+/// The size of a mesh in the header of Draco's data, for checks before memory is allocated.
 struct DracoHeader {
   std::uint64_t triangles = 0;
-  std::uint64_t points = 0;  ///< at least; edgebreaker's bytes tell less than there are
+  std::uint64_t points = 0;  ///< at least; the edgebreaker format stores a lower number
 };
 
-/// Nothing if the bytes are no mesh of Draco's bitstream version 2.2, which glTF asks for.
+/// Nothing if the bytes are not a mesh of Draco bitstream version 2.2, which glTF requires.
 [[nodiscard]] std::optional<DracoHeader> read_draco_header(const char* bytes, std::size_t size);

@@ -1,5 +1,5 @@
-/// Decodes meshes by Draco behind the C interface of io/gltf/mesh/draco_abi.hpp. The library is
-/// asked for integers only, so that its bytes are the same on every machine.
+/// Decodes Draco meshes behind the C interface of io/gltf/mesh/draco_abi.hpp. Only the library's
+/// integer output is used, so the results are the same on every machine.
 
 #include "io/gltf/mesh/draco_abi.hpp"
 #include "modules/draco/header.hpp"
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Null, or what is wrong.
+/// Returns null, or an error message.
 const char* write_indices(const draco::Mesh& mesh, std::uint32_t* out) {
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {

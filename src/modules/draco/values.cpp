@@ -16,7 +16,7 @@ draco::AttributeValueIndex value_index(const draco::PointAttribute& source, std:
   return source.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(point)));
 }
 
-/// Values that are as they were.
+/// Copies unquantized values.
 template <typename Number>
 const char* write_plain(const draco::PointAttribute& source, std::size_t points,
                         const MicrotraceDracoAttribute& wanted) {
@@ -33,7 +33,7 @@ const char* write_plain(const draco::PointAttribute& source, std::size_t points,
   return nullptr;
 }
 
-/// restore(integers, floats) for the integers that Draco stored in place of each element.
+/// Calls restore(integers, floats) for the stored integers of each element.
 template <typename Restore>
 const char* write_restored(const draco::PointAttribute& source, std::size_t points,
                            const MicrotraceDracoAttribute& wanted, std::int8_t stored,
@@ -69,7 +69,7 @@ const char* write_quantised(const draco::PointAttribute& source, std::size_t poi
                         });
 }
 
-/// Unit vectors, folded onto a square of 2^bits - 1 steps a side.
+/// Unit vectors in octahedral encoding, on a square of 2^bits - 1 steps per side.
 const char* write_octahedral(const draco::PointAttribute& source, std::size_t points,
                              const MicrotraceDracoAttribute& wanted) {
   draco::AttributeOctahedronTransform transform;

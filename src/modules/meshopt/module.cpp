@@ -1,6 +1,6 @@
-/// The codecs of meshoptimizer behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They work
-/// on integers alone, so its versions for different processors give the same bytes; its filters do
-/// not, and are not used.
+/// The codecs of meshoptimizer behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They use
+/// only integers, so their versions for different processors give the same bytes. The library's
+/// filters do not, and are not used.
 
 #include "io/gltf/bytes/meshopt_abi.hpp"
 

@@ -1,5 +1,5 @@
-/// Decodes pictures by OpenEXR, behind the C interface of io/image/module_abi.hpp. It reads from
-/// memory: the library alone touches the disk.
+/// Decodes images with OpenEXR, behind the C interface of io/image/module_abi.hpp. Reads from
+/// memory, because only the library accesses files.
 
 #include "io/image/module_abi.hpp"
 
@@ -20,9 +20,9 @@ namespace {
 
 using Imath::Box2i;
 
-constexpr int kMaxSide = 65536;  // as the library has it for environments
+constexpr int kMaxSide = 65536;  // as the library's limit for environments
 
-/// A file that lies in memory.
+/// An input file in memory.
 class MemoryFile : public Imf::IStream {
  public:
   MemoryFile(const char* bytes, std::size_t size)
@@ -43,8 +43,8 @@ class MemoryFile : public Imf::IStream {
   std::size_t size_, place_ = 0;
 };
 
-/// The channels of the colors: R, G and B, without a layer or else of the first layer that has all
-/// three; or the only channel or Y, which is gray.
+/// The color channels: R, G and B, without a layer or else of the first layer that has all three;
+/// or the only channel or Y, for gray.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -65,10 +65,10 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
 }
 
 void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
-  // Wider ones are refused before memory is taken for their lines.
+  // Refuses larger images before memory is allocated for their lines.
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
   MemoryFile memory(bytes, size);
-  Imf::InputFile file(memory, 0);  // by this thread alone
+  Imf::InputFile file(memory, 0);  // 0: no threads
   const Imf::ChannelList& channels = file.header().channels();
   const std::vector<std::string> names = colors_of(channels);
   for (const std::string& name : names) {

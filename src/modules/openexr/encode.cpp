@@ -1,5 +1,5 @@
-/// Encodes pictures by OpenEXR, behind the C interface of io/image/module_abi.hpp. It writes to
-/// memory, so that the library alone touches the disk and sees every failure.
+/// Encodes images with OpenEXR, behind the C interface of io/image/module_abi.hpp. Writes to
+/// memory, because only the library accesses files and reports failures.
 
 #include "io/image/module_abi.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 using Imath::Box2i;
 using Imath::V2i;
 
-/// A file in memory. OpenEXR goes back in it to fill in where its chunks lie.
+/// An output file in memory. OpenEXR seeks back to write the offsets of its chunks.
 class MemoryFile : public Imf::OStream {
  public:
   MemoryFile() : OStream("picture.exr") {}
@@ -46,7 +46,7 @@ Imf::PixelType type_of(MicrotraceNumber number) {
   return number == kMicrotraceU32 ? Imf::UINT : Imf::FLOAT;
 }
 
-/// The box of the pixels from (x0, y0) on, with both ends in it as OpenEXR has it.
+/// The box of pixels starting at (x0, y0), with inclusive ends as in OpenEXR.
 Box2i box_of(std::uint32_t x0, std::uint32_t y0, std::uint32_t width, std::uint32_t height) {
   const V2i first(static_cast<int>(x0), static_cast<int>(y0));
   return {first, first + V2i(static_cast<int>(width) - 1, static_cast<int>(height) - 1)};
@@ -66,10 +66,10 @@ std::string encode(const MicrotracePicture& picture) {
   }
   MemoryFile file;
   {
-    Imf::OutputFile output(file, header, 0);  // by this thread alone
+    Imf::OutputFile output(file, header, 0);  // 0: no threads
     output.setFrameBuffer(pixels);
     output.writePixels(static_cast<int>(picture.height));
-  }  // writes the table of its chunks
+  }  // writes the table of chunks
   return file.take_bytes();
 }
 

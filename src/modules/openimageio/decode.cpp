@@ -1,5 +1,5 @@
-/// Decodes pictures by OpenImageIO, behind the C interface of io/image/module_abi.hpp. It reads
-/// from memory: the library alone touches the disk.
+/// Decodes images with OpenImageIO, behind the C interface of io/image/module_abi.hpp. Reads from
+/// memory, because only the library accesses files.
 
 #include "io/image/module_abi.hpp"
 
@@ -18,13 +18,13 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Takes OpenImageIO's message, which it would print at exit if nobody asked for it.
+/// Fetches OpenImageIO's error message, which it would otherwise print at exit.
 std::runtime_error complaint(const std::string& otherwise) {
   const std::string message = OIIO::geterror();
   return std::runtime_error(message.empty() ? otherwise : message);
 }
 
-/// The first of the three channels red, green, blue, or of one that is grey.
+/// The first of the three channels red, green, blue, or the gray channel.
 int first_color(const ImageSpec& spec) {
   for (int i = 0; i + 2 < spec.nchannels; ++i) {
     if (spec.channel_name(i) == "R" && spec.channel_name(i + 1) == "G" &&
@@ -34,8 +34,8 @@ int first_color(const ImageSpec& spec) {
   return 0;
 }
 
-/// How the samples are handed on: bytes and words as they are, all numbers with an exponent as
-/// float32, to which halves are converted without loss.
+/// The format of returned samples: 8 and 16-bit integers unchanged, floating-point numbers as
+/// float32, to which half floats convert exactly.
 MicrotraceNumber number_of(const ImageSpec& spec) {
   if (spec.format == TypeDesc::UINT8) return kMicrotraceU8;
   if (spec.format == TypeDesc::UINT16) return kMicrotraceU16;
@@ -51,11 +51,11 @@ TypeDesc type_of(MicrotraceNumber number) {
 void decode(const void* bytes, std::size_t size, const std::string& ending,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);                                    // none but the caller's
-  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // which only reads
+  OIIO::attribute("exr_threads", -1);                                    // only the calling thread
+  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // reads only
   const std::string name = "picture." + ending;
   ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // colours as the file has them
+  config.attribute("oiio:UnassociatedAlpha", 1);  // colors as stored in the file
   const std::unique_ptr<ImageInput> reader = ImageInput::create(ending, false, &config, &memory);
   if (!reader || !reader->supports("ioproxy") || std::string(reader->format_name()) == "null") {
     static_cast<void>(OIIO::geterror());

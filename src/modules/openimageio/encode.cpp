@@ -1,5 +1,5 @@
-/// Encodes pictures by OpenImageIO, behind the C interface of io/image/module_abi.hpp. It writes to
-/// memory, so that the library alone touches the disk and sees every failure.
+/// Encodes images with OpenImageIO, behind the C interface of io/image/module_abi.hpp. Writes to
+/// memory, because only the library accesses files and reports failures.
 
 #include "io/image/module_abi.hpp"
 
@@ -23,26 +23,25 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// The writer for an ending if it can write to memory, else null.
+/// The writer for an extension if it can write to memory, else null.
 std::unique_ptr<ImageOutput> find_writer(const std::string& ending) {
   OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);  // none but the caller's
+  OIIO::attribute("exr_threads", -1);  // only the calling thread
   std::unique_ptr<ImageOutput> writer = ImageOutput::create(ending);
-  // A failure leaves a message behind, which OpenImageIO would print at exit if nobody asked for
-  // it.
+  // A failure leaves a message, which OpenImageIO would otherwise print at exit.
   if (!writer) static_cast<void>(OIIO::geterror());
   if (writer && (!writer->supports("ioproxy") || std::string_view(writer->format_name()) == "null"))
     return nullptr;
   return writer;
 }
 
-/// The format made for linear light; OpenEXR has a module of its own.
+/// The format for linear light; OpenEXR has its own module.
 bool is_float_format(std::string_view name) {
   return name == "hdr";
 }
 
-/// Those whose alpha is known to come back as it was given; GIF's has one bit, and writers of other
-/// formats change the colours by it.
+/// Formats that preserve alpha exactly. GIF's alpha has one bit, and writers of other formats
+/// change the colors.
 bool holds_alpha(std::string_view name) {
   constexpr std::array kNames = {"png", "tiff", "targa", "webp", "bmp"};
   return std::ranges::find(kNames, name) != kNames.end();
@@ -69,14 +68,14 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
     spec.full_width = static_cast<int>(picture.whole_width);
     spec.full_height = static_cast<int>(picture.whole_height);
   }
-  // TIFF would note it in a second directory, which OpenImageIO can't link when it writes to
+  // TIFF would store it in a second directory, which OpenImageIO can't link when it writes to
   // memory.
   if (format != "tiff" && picture.is_color != 0)
     spec.attribute("oiio:ColorSpace", is_float_format(format) ? "Linear" : "sRGB");
   for (const MicrotraceNote& note : std::span(picture.notes, picture.note_count)) {
     spec.attribute(note.name, note.text);
   }
-  // An empty one keeps writers from noting the time, by which no two files would be equal.
+  // Without an explicit empty value, writers store the time, and no two files would be equal.
   spec.attribute("DateTime", "");
   return spec;
 }
@@ -93,7 +92,7 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
   name += ending;
   bool written = writer->open(name, spec);
   if (written) {
-    // Colors alone: they lie in memory as the file wants them.
+    // Only colors: they are stored in memory in the file's format.
     written = writer->write_image(type_of(channels[0].number), channels[0].first);
   }
   if (!writer->close() || !written) throw std::runtime_error(writer->geterror());

@@ -11,11 +11,11 @@ AnisotropicGgxAlbedo::AnisotropicGgxAlbedo(const AnisotropicGgx& ggx)
       range_(std::sqrt(ggx.along_alpha()) - smaller_) {
   const float x = 2 * smaller_ - 1, y = 2 * (smaller_ + range_) - 1;
   loss_ = plane_at(kAnisotropicLoss, x, y);
-  edge_ = plane_at(kAnisotropicEdge, x, y);
-  // So much may it be too little.
+  edge_ = plane_at(kAnisotropicSchlick, x, y);
+  // the value may be too small by this much
   constexpr float margin = 0.0015F;
-  mean_ = {.white = 1 - value(kMeanAnisotropicLoss, x, y) - margin,
-           .edge = value(kMeanAnisotropicEdge, x, y)};
+  mean_ = {.f1 = 1 - value(kMeanAnisotropicLoss, x, y) - margin,
+           .schlick = value(kMeanAnisotropicSchlick, x, y)};
 }
 
 Albedo AnisotropicGgxAlbedo::at(float z, float alpha) const {
@@ -24,18 +24,18 @@ Albedo AnisotropicGgxAlbedo::at(float z, float alpha) const {
   const float loss =
       std::clamp(value(loss_, azimuth, 2 * (z * (1 + alpha) / (z + alpha)) - 1), 0.0F, 1.0F);
   const float more = range_ * (1 - root) * value(edge_, azimuth, 2 * root - 1);
-  return {.white = 1 - loss,
-          .edge = std::clamp(GgxAlbedo(alpha).at(z).edge + more, 0.0F, 1 - loss)};
+  return {.f1 = 1 - loss,
+          .schlick = std::clamp(GgxAlbedo(alpha).at(z).schlick + more, 0.0F, 1 - loss)};
 }
 
 Albedo AnisotropicGgxAlbedo::around(float z) const {
-  // Gauss's quadrature in the azimuth, of even functions of twice the angle.
+  // Gauss quadrature over the azimuth, for even functions of twice the angle.
   const float a = ggx_.along_alpha() * ggx_.along_alpha();
   const float b = ggx_.across_alpha() * ggx_.across_alpha();
   constexpr float near = 0.853553391F;  // cos(22.5 degrees)^2
   const Albedo first = at(z, std::sqrt(near * a + (1 - near) * b));
   const Albedo second = at(z, std::sqrt((1 - near) * a + near * b));
-  return {.white = 0.5F * (first.white + second.white), .edge = 0.5F * (first.edge + second.edge)};
+  return {.f1 = 0.5F * (first.f1 + second.f1), .schlick = 0.5F * (first.schlick + second.schlick)};
 }
 
 }  // namespace microtrace::bsdf

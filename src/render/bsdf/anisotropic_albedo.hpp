@@ -7,27 +7,28 @@
 
 namespace microtrace::bsdf {
 
-/// What GgxAlbedo is, where it depends on azimuths too: within half a per cent, mostly.
+/// GgxAlbedo for anisotropic distributions, where it also depends on the azimuth; mostly accurate
+/// to half a percent.
 class AnisotropicGgxAlbedo {
  public:
   explicit AnisotropicGgxAlbedo(const AnisotropicGgx& ggx);
 
-  /// Of light to or from a direction above the surface.
+  /// The directional albedo for a direction above the surface.
   [[nodiscard]] Albedo at(const Vec3& w) const { return at(w.z, ggx_.alpha(w)); }
 
-  /// The mean of the azimuths.
+  /// The mean over all azimuths.
   [[nodiscard]] Albedo around(float z) const;
 
-  /// The cosine-weighted mean of all directions.
+  /// The cosine-weighted mean over all directions.
   [[nodiscard]] Albedo mean() const { return mean_; }
 
  private:
   [[nodiscard]] Albedo at(float z, float alpha) const;
 
   AnisotropicGgx ggx_;
-  float smaller_, range_;  // roots of alphas: the smaller, and how far the greater is from it
+  float smaller_, range_;  // square roots of the alphas: the smaller one, and the difference
   AnisotropicLossPlane loss_;
-  AnisotropicEdgePlane edge_;
+  AnisotropicSchlickPlane edge_;
   Albedo mean_;
 };
 

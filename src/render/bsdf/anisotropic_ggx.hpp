@@ -1,6 +1,6 @@
 #pragma once
 /// The distribution of ggx.hpp stretched along one direction (E. Heitz, Understanding the
-/// masking-shadowing function, 2014, section 5.4), with its members.
+/// masking-shadowing function, 2014, section 5.4), with the same member functions.
 
 #include "render/bsdf/ggx.hpp"
 
@@ -19,8 +19,8 @@ class AnisotropicGgx {
  public:
   using DirectionalAlbedo = AnisotropicGgxAlbedo;
 
-  /// As KHR_materials_anisotropy has it: `along`, of unit length, is the direction of the rougher
-  /// alpha, which strength leads from that of the roughness to 1.
+  /// As in KHR_materials_anisotropy: the unit vector `along` is the direction of the rougher alpha,
+  /// which strength interpolates from that of the roughness to 1.
   AnisotropicGgx(float roughness, float strength, const Vec2& along)
       : along_(along), across_alpha_(Ggx(roughness).alpha()) {
     alpha_ = across_alpha_ + (1 - across_alpha_) * strength * strength;
@@ -43,7 +43,7 @@ class AnisotropicGgx {
     return 0.5F / (wi.z * root(wo) + wo.z * root(wi));
   }
 
-  [[nodiscard]] float reflected_density(const Vec3& wo, float distribution) const {
+  [[nodiscard]] float reflected_pdf(const Vec3& wo, float distribution) const {
     return distribution / (2 * (wo.z + root(wo)));
   }
 
@@ -52,7 +52,7 @@ class AnisotropicGgx {
     return {along_.x * h.x - along_.y * h.y, along_.y * h.x + along_.x * h.y, h.z};
   }
 
-  /// Of the slopes along, across and towards the azimuth of w.
+  /// The alpha along the direction, across it, and at the azimuth of w.
   [[nodiscard]] float along_alpha() const { return alpha_; }
   [[nodiscard]] float across_alpha() const { return across_alpha_; }
   [[nodiscard]] float alpha(const Vec3& w) const {
@@ -62,7 +62,7 @@ class AnisotropicGgx {
   }
 
  private:
-  /// With x along the direction.
+  /// Rotated to coordinates whose x axis is the direction.
   [[nodiscard]] Vec3 turned(const Vec3& v) const {
     return {along_.x * v.x + along_.y * v.y, along_.x * v.y - along_.y * v.x, v.z};
   }

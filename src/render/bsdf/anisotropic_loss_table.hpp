@@ -1,7 +1,7 @@
 #pragma once
 /// Albedos of an anisotropic GGX reflector: polynomials fitted to 40 000 integrals of 128 x 128
-/// stratified visible normals each, those of what is lost from below, those of the edge from above.
-/// tests/statistical/anisotropic_test.cpp says how well.
+/// stratified visible normals each. The fit of the loss is a lower bound, the fit of the Schlick
+/// term an upper bound. tests/statistical/albedo_tables_test.cpp measures the errors.
 
 #include "render/bsdf/polynomial.hpp"
 
@@ -9,10 +9,9 @@
 
 namespace microtrace::bsdf {
 
-/// What single reflections lose where F = 1, by powers of 2 x - 1 in [-1, 1], x being
-///  - sqrt(a), a the smaller alpha, and sqrt(b), b the greater;
-///  - (sqrt(c) - sqrt(a)) / (sqrt(b) - sqrt(a)), c the alpha along the direction;
-///  - z (1 + c) / (z + c), z = cos(theta).
+/// The energy deficit of single scattering for F = 1, by powers of 2 x - 1 in [-1, 1], where the
+/// four x are sqrt(a), a the smaller alpha; sqrt(b), b the greater alpha; (sqrt(c) - sqrt(a)) /
+/// (sqrt(b) - sqrt(a)), c the alpha along the direction; z (1 + c) / (z + c), z = cos(theta).
 using AnisotropicLossPlane = Polynomial2<5, 8>;
 inline constexpr std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropicLoss = {
     {{{{{{{0.14203F, 0.09862F, -0.08865F, -0.08029F, -0.02716F, 0.01229F, 0.01575F, 0.01157F}},
@@ -162,10 +161,11 @@ inline constexpr std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropic
          {{0.05499F, 0.43548F, -0.03282F, -4.02758F, -0.33325F, 8.53982F, 0.37365F,
            -5.10315F}}}}}}}};
 
-/// Where F = (1 - cos)^5, what single reflections return more than those of an isotropic reflector
-/// of alpha c, over (sqrt(b) - sqrt(a)) (1 - sqrt(z)): likewise, but the last x is sqrt(z).
-using AnisotropicEdgePlane = Polynomial2<3, 4>;
-inline constexpr std::array<std::array<AnisotropicEdgePlane, 3>, 3> kAnisotropicEdge = {
+/// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic reflector of
+/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). Same variables, but the last x is
+/// sqrt(z).
+using AnisotropicSchlickPlane = Polynomial2<3, 4>;
+inline constexpr std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick = {
     {{{{{{{-0.0226F, 0.0299F, 0.0434F, 0.0154F}},
          {{-0.0046F, 0.0862F, -0.0820F, -0.1829F}},
          {{-0.0005F, -0.0395F, 0.0067F, 0.1354F}}}},
@@ -194,7 +194,7 @@ inline constexpr std::array<std::array<AnisotropicEdgePlane, 3>, 3> kAnisotropic
          {{-0.0273F, 0.0186F, 0.4444F, 0.3855F}},
          {{-0.1046F, 0.0462F, 0.5796F, 0.2835F}}}}}}}};
 
-/// The cosine-weighted means of what these give, by powers of the first two.
+/// The cosine-weighted means of these, by powers of the first two variables.
 inline constexpr Polynomial2<7, 7> kMeanAnisotropicLoss = {
     {{{0.117750F, 0.166556F, 0.231326F, -0.131505F, 0.143572F, -0.128702F, 0.035011F}},
      {{0.179112F, -0.179634F, 0.367209F, -0.869687F, 1.108393F, -0.720731F, 0.190168F}},
@@ -203,7 +203,7 @@ inline constexpr Polynomial2<7, 7> kMeanAnisotropicLoss = {
      {{0.084550F, -0.197795F, -0.882087F, 3.732299F, -5.576208F, 3.854805F, -1.032359F}},
      {{0.082253F, 0.024591F, -1.415310F, 3.991451F, -4.764932F, 2.669730F, -0.580058F}},
      {{0.036463F, 0.003311F, -0.558045F, 1.415845F, -1.428172F, 0.588125F, -0.059134F}}}};
-inline constexpr Polynomial2<7, 7> kMeanAnisotropicEdge = {
+inline constexpr Polynomial2<7, 7> kMeanAnisotropicSchlick = {
     {{{0.018752F, -0.017151F, -0.000132F, 0.014867F, -0.014453F, 0.008331F, -0.002092F}},
      {{-0.017387F, 0.018559F, -0.001378F, -0.012564F, 0.000755F, 0.007620F, -0.004069F}},
      {{0.005960F, -0.026372F, 0.049411F, -0.032795F, 0.007316F, -0.012502F, 0.008170F}},

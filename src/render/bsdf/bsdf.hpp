@@ -1,6 +1,6 @@
 #pragma once
-/// How most surfaces scatter light: the metallic-roughness model of glTF 2.0, appendix B, opaque
-/// and bare. general.hpp has the rest. Local coordinates as in parameters.hpp.
+/// The BSDF of most surfaces: the metallic-roughness model of glTF 2.0, appendix B, opaque and
+/// without layers. general.hpp has the others. Local coordinates as in parameters.hpp.
 
 #include "render/bsdf/dielectric_bound.hpp"
 #include "render/bsdf/ggx.hpp"
@@ -13,40 +13,39 @@
 
 namespace microtrace::bsdf {
 
-/// Diffuse reflection under specular reflection by GGX with Schlick's Fresnel term. Two things
-/// differ from the formulas of section B.3, which lose light on rough metals and return more than
-/// comes where dielectrics are seen at a slant: what leaves the facets only after several
-/// reflections is added (C. Kulla and A. Conty, Revisiting physically based shading at Imageworks,
-/// 2017), and the diffuse part gets what the specular one leaves over in all, to wo and from wi
-/// (C. Kelemen and L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with
-/// importance sampling, 2001). So it is reciprocal, and white returns all light.
+/// Diffuse reflection below specular reflection by GGX with Schlick's Fresnel term. It differs in
+/// two points from the formulas of section B.3, which lose energy on rough metals and gain energy
+/// on dielectrics at grazing angles: multiple scattering between microfacets is compensated (C.
+/// Kulla and A. Conty, Revisiting physically based shading at Imageworks, 2017), and the diffuse
+/// part is scaled by the energy that the specular part does not reflect, for both wo and wi (C.
+/// Kelemen and L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with
+/// importance sampling, 2001). The result is reciprocal and conserves energy.
 class Bsdf {
  public:
-  /// wo.z > 0; of the parameters, those of a plain surface count.
+  /// wo.z > 0. Only the parameters of plain surfaces are used.
   Bsdf(const Parameters& parameters, const Vec3& wo);
 
   [[nodiscard]] Evaluation evaluate(const Vec3& wi) const;
 
-  /// u chooses the direction, `lobe`, in [0, 1), the part of the model. Nothing where light is
-  /// lost.
+  /// u selects the direction, `lobe`, in [0, 1), the lobe. Nothing if the sample is absorbed.
   [[nodiscard]] std::optional<DirectionSample> sample(const Vec2& u, float lobe) const;
 
  private:
   [[nodiscard]] Evaluation above(const Vec3& wi, const Vec3& h) const;
 
-  /// What the dielectric's specular part leaves over.
-  [[nodiscard]] float left_over(const Albedo& albedo) const {
-    return 1 - greatest_.albedo(albedo) - returned_ * (1 - albedo.white);
+  /// The fraction of light that the dielectric's specular part does not reflect.
+  [[nodiscard]] float unreflected(const Albedo& albedo) const {
+    return 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
   }
 
   Vec3 wo_;
   Ggx ggx_;
   GgxAlbedo albedo_;
-  Schlick specular_;          ///< of metal and dielectric together
-  GreatestSchlick greatest_;  ///< the dielectric's
-  float returned_;            ///< of it after several reflections
-  Vec3 diffuse_, multiple_;   ///< all that does not depend on wi
-  float facet_share_;         ///< of samples: by a facet's normal
+  Schlick specular_;          ///< of metal and dielectric combined
+  GreatestSchlick greatest_;  ///< of the dielectric
+  float multiply_reflected_;  ///< its multiple-scattering factor
+  Vec3 diffuse_, multiple_;   ///< all factors that do not depend on wi
+  float facet_probability_;   ///< probability of sampling a microfacet normal
 };
 
 }  // namespace microtrace::bsdf

@@ -3,12 +3,12 @@
 
 namespace microtrace::bsdf {
 
-/// Schlick's term of the brightest channel: what lies below gets what that leaves over.
+/// Schlick's Fresnel term of the brightest channel: the base gets the energy that it leaves.
 struct GreatestSchlick {
   float f0, f90;
 
   [[nodiscard]] float albedo(const Albedo& a) const {
-    return f0 * (a.white - a.edge) + f90 * a.edge;
+    return f0 * (a.f1 - a.schlick) + f90 * a.schlick;
   }
 };
 

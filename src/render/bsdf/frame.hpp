@@ -1,5 +1,5 @@
 #pragma once
-/// Local coordinates of a surface: z is the shading normal.
+/// Local shading coordinates: z is the shading normal.
 
 #include <microtrace/math.hpp>
 
@@ -16,7 +16,7 @@ inline Vec3 unit(const Vec3& v) {
 struct Frame {
   Vec3 s, t, n;  ///< orthonormal, world space
 
-  /// About a unit vector (T. Duff et al., Building an orthonormal basis, revisited, 2017).
+  /// A frame around a unit vector (T. Duff et al., Building an orthonormal basis, revisited, 2017).
   static Frame about(const Vec3& n) {
     const float sign = std::copysign(1.0F, n.z);
     const float a = -1 / (sign + n.z), b = n.x * n.y * a;

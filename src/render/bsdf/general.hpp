@@ -1,10 +1,10 @@
 #pragma once
-/// How any surface scatters light: that of bsdf.hpp with what the extensions add to it, bare or
-/// under layers. Local coordinates as in parameters.hpp.
+/// The BSDF of any surface: bsdf.hpp and the material extensions, with or without layers. Local
+/// coordinates as in parameters.hpp.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
 #include "render/bsdf/anisotropic_ggx.hpp"
-#include "render/bsdf/cover.hpp"
+#include "render/bsdf/coating.hpp"
 #include "render/bsdf/dielectric_bound.hpp"
 #include "render/bsdf/ggx.hpp"
 #include "render/bsdf/parameters.hpp"
@@ -16,71 +16,71 @@
 
 namespace microtrace::bsdf {
 
-/// Bsdf where the parameters are plain and there is no cover.
+/// Equals Bsdf if the parameters are plain and there is no coating.
 ///
-/// What facets send through a thin wall in several turns goes where cosines lead, as what they
-/// reflect in several does: together that is all that single ones lose.
+/// The multiple-scattering lobe of transmission through thin walls is cosine-distributed, as that
+/// of reflection. Together the two lobes compensate all energy that single scattering loses.
 ///
-/// Light that is refracted (B. Walter et al., Microfacet models for refraction, 2007) is counted
-/// without the square of the index: radiance divided by it stays the same on its way in and out.
+/// Refraction (B. Walter et al., Microfacet models for refraction, 2007) omits the squared index of
+/// refraction: radiance divided by it is the same before entering and after leaving.
 ///
 /// Microfacets is Ggx or AnisotropicGgx.
 template <typename Microfacets>
 class GeneralBsdf {
  public:
-  /// wo.z > 0. The cover, here and below: what lies over it, if anything does and eta is nothing.
-  GeneralBsdf(const Parameters& parameters, const Cover* cover, const Vec3& wo);
+  /// wo.z > 0. `coating` is the coating above the surface, if there is one and eta is empty.
+  GeneralBsdf(const Parameters& parameters, const Coating* coating, const Vec3& wo);
 
-  [[nodiscard]] Evaluation evaluate(const Cover* cover, const Vec3& wi) const;
+  [[nodiscard]] Evaluation evaluate(const Coating* coating, const Vec3& wi) const;
 
-  /// u chooses the direction, `lobe`, in [0, 1), the part of the model; evaluate() tells the
-  /// density.
+  /// u selects the direction, `lobe`, in [0, 1), the lobe; evaluate() returns the pdf.
   [[nodiscard]] Vec3 direction(const Vec2& u, float lobe) const;
 
  private:
   using MicrofacetAlbedo = typename Microfacets::DirectionalAlbedo;
 
-  /// What facets that reflect all in one turn leave, and what the dielectric's leave to lie below.
+  /// Energy not reflected by facets in single scattering for F = 1, and energy that the
+  /// dielectric's facets leave for the diffuse part.
   struct Left {
-    float white, diffuse;
+    float f1, diffuse;
   };
-  [[nodiscard]] Left left(const Albedo& albedo, float passed, const Albedo& missed) const;
-  [[nodiscard]] Left left(const Cover* cover, const Vec3& w) const;
-  [[nodiscard]] Left mean_left(const Cover* cover) const;
+  [[nodiscard]] Left left(const Albedo& albedo, float transmittance, const Albedo& deficit) const;
+  [[nodiscard]] Left left(const Coating* coating, const Vec3& w) const;
+  [[nodiscard]] Left mean_left(const Coating* coating) const;
 
-  [[nodiscard]] Evaluation above(const Cover* cover, const Vec3& wi) const;
-  [[nodiscard]] Evaluation below(const Cover* cover, const Vec3& wi) const;
+  [[nodiscard]] Evaluation above(const Coating* coating, const Vec3& wi) const;
+  [[nodiscard]] Evaluation below(const Coating* coating, const Vec3& wi) const;
   void refract(const Vec3& wi, Evaluation& e) const;
   void add_refraction_loss(const Parameters& p);
 
-  /// What facets reflect that wo meets at that cosine, and what of the dielectric's light goes on.
+  /// The fractions of light that facets reflect at this cosine, and that enters the dielectric.
   struct Shares {
     Vec3 reflected, entering;
   };
   [[nodiscard]] Shares shares(float cosine) const;
   [[nodiscard]] Vec3 reflectance(const Schlick& schlick, float cosine) const;
-  /// Of samples at a facet those that are reflected.
-  [[nodiscard]] float reflected_share(const Shares& shares) const;
-  /// Sets what lies under the film; what it reflects head on, about.
+  /// The probability of reflection when a facet is sampled.
+  [[nodiscard]] float reflection_probability(const Shares& shares) const;
+  /// Sets the base of the film; returns its approximate reflectance at normal incidence.
   Vec3 add_film(const Schlick& schlick);
 
   Vec3 wo_;
   Microfacets ggx_;
   MicrofacetAlbedo albedo_;
-  Schlick dielectric_, metal_, specular_;  ///< the last of both together
+  Schlick dielectric_, metal_, specular_;  ///< the last for both combined
   std::optional<ThinFilm> film_;
   float metallic_;
-  GreatestSchlick greatest_;  ///< the dielectric's
-  float returned_;            ///< of it after several reflections
-  float passed_;              ///< by the cover
-  // All that does not depend on wi: diffuse light above and below, what comes after several
-  // reflections above and below, what goes through. Of bent light, what comes after several turns.
+  GreatestSchlick greatest_;  ///< of the dielectric
+  float multiply_reflected_;  ///< its multiple-scattering factor
+  float transmittance_;       ///< transmittance of the coating
+  // All factors that do not depend on wi: diffuse above and below, multiple scattering above and
+  // below, transmission. For refraction, its multiple scattering.
   Vec3 diffuse_, diffuse_below_, multiple_, multiple_below_, transmitted_;
   std::optional<float> eta_;
-  RefractionLoss loss_;  ///< where light is bent
+  RefractionLoss loss_;  ///< for refraction
   Vec3 lost_{0}, lost_below_{0};
-  // Of samples: by a facet's normal, and of the others those below.
-  float facet_share_, below_share_;
+  // Probabilities of sampling a facet normal, and else of sampling below the surface.
+  float facet_probability_, below_probability_;
 };
 
 extern template class GeneralBsdf<Ggx>;

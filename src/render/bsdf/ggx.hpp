@@ -17,12 +17,12 @@ namespace microtrace::bsdf {
 
 inline constexpr float kInversePi = static_cast<float>(std::numbers::inv_pi);
 
-/// Smoother surfaces are taken to have this alpha: sharper reflections than a twentieth of a degree
-/// are all the same to a picture, and float32 holds out.
+/// Minimum alpha: reflections sharper than a twentieth of a degree are indistinguishable in a
+/// picture, and float32 is precise enough for this alpha.
 inline constexpr float kLeastAlpha = 0.001F;
 
-/// A normal that wo sees of facets with those alphas along x and y (J. Dupuy and A. Benyoub,
-/// Sampling visible GGX normals with spherical caps, 2023).
+/// Samples a normal visible from wo, for facets with these alphas along x and y (J. Dupuy and A.
+/// Benyoub, Sampling visible GGX normals with spherical caps, 2023).
 inline Vec3 visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const Vec2& u) {
   Vec3 v(alpha_x * wo.x, alpha_y * wo.y, wo.z);
   v /= std::sqrt(glm::dot(v, v));
@@ -35,8 +35,8 @@ inline Vec3 visible_normal(float alpha_x, float alpha_y, const Vec3& wo, const V
 
 class GgxAlbedo;
 
-/// Isotropic. With z = cos(theta): root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) occurs in all of
-/// masking: G1(z) = 2 z / (z + root(z)).
+/// Isotropic. With z = cos(theta), root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) appears in all
+/// masking terms: G1(z) = 2 z / (z + root(z)).
 class Ggx {
  public:
   using DirectionalAlbedo = GgxAlbedo;
@@ -48,32 +48,32 @@ class Ggx {
 
   [[nodiscard]] float root(float z) const { return std::sqrt(square_ + (1 - square_) * z * z); }
 
-  /// Normals per solid angle.
+  /// The density of normals D(h) per solid angle.
   [[nodiscard]] float distribution(const Vec3& h) const {
     const float q = (h.x * h.x + h.y * h.y) / square_ + h.z * h.z;
     return kInversePi / (square_ * q * q);
   }
 
-  /// G2 / (4 z_o z_i), the directions' heights correlated.
+  /// G2 / (4 z_o z_i), height-correlated.
   [[nodiscard]] float visibility(float z_o, float z_i) const {
     return 0.5F / (z_i * root(z_o) + z_o * root(z_i));
   }
 
-  /// The density of wi where its half vector comes from visible_normal(wo): G1 D / (4 z_o).
-  [[nodiscard]] float reflected_density(float z_o, float distribution) const {
+  /// The pdf of wi if its half vector is sampled by visible_normal(wo): G1 D / (4 z_o).
+  [[nodiscard]] float reflected_pdf(float z_o, float distribution) const {
     return distribution / (2 * (z_o + root(z_o)));
   }
 
-  // By directions, as AnisotropicGgx has them.
+  // The same by directions, like AnisotropicGgx.
   [[nodiscard]] float root(const Vec3& w) const { return root(w.z); }
   [[nodiscard]] float visibility(const Vec3& wo, const Vec3& wi) const {
     return visibility(wo.z, wi.z);
   }
-  [[nodiscard]] float reflected_density(const Vec3& wo, float distribution) const {
-    return reflected_density(wo.z, distribution);
+  [[nodiscard]] float reflected_pdf(const Vec3& wo, float distribution) const {
+    return reflected_pdf(wo.z, distribution);
   }
 
-  /// A normal that wo sees.
+  /// Samples a normal visible from wo.
   [[nodiscard]] Vec3 visible_normal(const Vec3& wo, const Vec2& u) const {
     return bsdf::visible_normal(alpha_, alpha_, wo, u);
   }
@@ -82,10 +82,10 @@ class Ggx {
   float alpha_, square_;
 };
 
-/// What single reflections return of light from all around: where F = 1, and where
-/// F = (1 - cos)^5, the rest of Schlick's Fresnel term. With F0: F0 white + (1 - F0) edge.
+/// The directional albedo of single scattering: for F = 1, and for F = (1 - cos)^5, the other part
+/// of Schlick's Fresnel term. The albedo for F0 is F0 f1 + (1 - F0) schlick.
 struct Albedo {
-  float white, edge;
+  float f1, schlick;
 };
 
 /// Directional albedos for one roughness.
@@ -94,31 +94,31 @@ class GgxAlbedo {
   explicit GgxAlbedo(const Ggx& ggx) : GgxAlbedo(ggx.alpha()) {}
   explicit GgxAlbedo(float alpha) : alpha_(alpha), row_(std::sqrt(alpha)) {}
 
-  /// Of light to or from z = cos(theta), in [0, 1].
+  /// The albedo for light to or from z = cos(theta), in [0, 1].
   [[nodiscard]] Albedo at(float z) const {
-    const Place white(z * (1 + alpha_) / (z + alpha_)), edge(std::sqrt(z));
-    return {.white = row_.mixed(white.mixed(kWhiteAlbedo[row_.first]),
-                                white.mixed(kWhiteAlbedo[row_.first + 1])),
-            .edge = row_.mixed(edge.mixed(kEdgeAlbedo[row_.first]),
-                               edge.mixed(kEdgeAlbedo[row_.first + 1]))};
+    const Cell white(z * (1 + alpha_) / (z + alpha_)), edge(std::sqrt(z));
+    return {.f1 = row_.mixed(white.mixed(kAlbedoF1[row_.first]),
+                             white.mixed(kAlbedoF1[row_.first + 1])),
+            .schlick = row_.mixed(edge.mixed(kAlbedoSchlick[row_.first]),
+                                  edge.mixed(kAlbedoSchlick[row_.first + 1]))};
   }
 
-  // By directions, as AnisotropicGgxAlbedo has them.
+  // The same by directions, like AnisotropicGgxAlbedo.
   [[nodiscard]] Albedo at(const Vec3& w) const { return at(w.z); }
   [[nodiscard]] Albedo around(float z) const { return at(z); }
 
-  /// The cosine-weighted mean of all directions.
+  /// The cosine-weighted mean over all directions.
   [[nodiscard]] Albedo mean() const {
-    return {.white = row_.mixed(kMeanWhiteAlbedo), .edge = row_.mixed(kMeanEdgeAlbedo)};
+    return {.f1 = row_.mixed(kMeanAlbedoF1), .schlick = row_.mixed(kMeanAlbedoSchlick)};
   }
 
  private:
-  /// Between two steps of a table.
-  struct Place {
+  /// A position between two entries of a table.
+  struct Cell {
     std::size_t first;
     float share;
 
-    explicit Place(float s) {
+    explicit Cell(float s) {
       const float step = s * (kAlbedoSteps - 1);
       const int i = std::min(static_cast<int>(step), kAlbedoSteps - 2);
       first = static_cast<std::size_t>(i);
@@ -131,7 +131,7 @@ class GgxAlbedo {
   };
 
   float alpha_;
-  Place row_;
+  Cell row_;
 };
 
 }  // namespace microtrace::bsdf

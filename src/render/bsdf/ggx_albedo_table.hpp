@@ -1,6 +1,6 @@
 #pragma once
-/// Directional albedos of a GGX reflector, computed once by 320 x 320 stratified samples of the
-/// visible normals for each entry; tests/statistical/bsdf_test.cpp computes them in another way.
+/// Directional albedos of a GGX reflector, computed with 320 x 320 stratified samples of visible
+/// normals per entry; tests/statistical/bsdf_test.cpp verifies them by another method.
 
 #include <array>
 
@@ -8,12 +8,12 @@ namespace microtrace::bsdf {
 
 inline constexpr int kAlbedoSteps = 32;
 
-/// [roughness][angle] where roughness r = j / 31, alpha = max(r^2, 0.001).
+/// [roughness][angle], where roughness r = j / 31, alpha = max(r^2, 0.001).
 using AlbedoTable = std::array<std::array<float, kAlbedoSteps>, kAlbedoSteps>;
 
-/// What single reflections return of light from all around where F = 1. The angle of
-/// mu = cos(theta) stands at i / 31 = mu (1 + alpha) / (mu + alpha).
-inline constexpr AlbedoTable kWhiteAlbedo = {{
+/// The albedo of single scattering for F = 1. Entry i is for i / 31 = mu (1 + alpha) / (mu +
+/// alpha), mu = cos(theta).
+inline constexpr AlbedoTable kAlbedoF1 = {{
     {{0.999979F, 0.993047F, 0.985795F, 0.978268F, 0.970482F, 0.962471F, 0.954288F, 0.945998F,
       0.937690F, 0.929491F, 0.921558F, 0.914055F, 0.907201F, 0.901246F, 0.896451F, 0.893121F,
       0.891539F, 0.891977F, 0.894662F, 0.899729F, 0.907184F, 0.916858F, 0.928356F, 0.941059F,
@@ -144,9 +144,9 @@ inline constexpr AlbedoTable kWhiteAlbedo = {{
       0.400582F, 0.386313F, 0.372362F, 0.358712F, 0.345349F, 0.332262F, 0.319435F, 0.306854F}},
 }};
 
-/// The same where F = (1 - cos)^5, the rest of Schlick's Fresnel term: F0 white + (1 - F0) edge.
-/// The angle stands at i / 31 = sqrt(mu).
-inline constexpr AlbedoTable kEdgeAlbedo = {{
+/// The same for F = (1 - cos)^5, the other part of Schlick's Fresnel term: F0 white + (1 - F0)
+/// edge. Entry i is for i / 31 = sqrt(mu).
+inline constexpr AlbedoTable kAlbedoSchlick = {{
     {{0.972580F, 0.874222F, 0.942525F, 0.945649F, 0.916547F, 0.875110F, 0.825633F, 0.769413F,
       0.708279F, 0.643712F, 0.577190F, 0.510173F, 0.444064F, 0.380165F, 0.319641F, 0.263483F,
       0.212479F, 0.167195F, 0.127961F, 0.094873F, 0.067797F, 0.046389F, 0.030130F, 0.018359F,
@@ -277,13 +277,13 @@ inline constexpr AlbedoTable kEdgeAlbedo = {{
       0.001700F, 0.001244F, 0.000880F, 0.000594F, 0.000377F, 0.000217F, 0.000106F, 0.000034F}},
 }};
 
-/// The cosine-weighted means over all directions of what interpolation in the tables gives.
-inline constexpr std::array<float, kAlbedoSteps> kMeanWhiteAlbedo = {
+/// The cosine-weighted means over all directions of the interpolated tables.
+inline constexpr std::array<float, kAlbedoSteps> kMeanAlbedoF1 = {
     0.999976F, 0.999975F, 0.999859F, 0.999549F, 0.998849F, 0.997621F, 0.995452F, 0.990771F,
     0.985647F, 0.979104F, 0.970037F, 0.959268F, 0.946220F, 0.930887F, 0.913250F, 0.893247F,
     0.870951F, 0.846444F, 0.819891F, 0.791485F, 0.761469F, 0.730117F, 0.697734F, 0.664634F,
     0.631140F, 0.597567F, 0.564212F, 0.531350F, 0.499224F, 0.468044F, 0.437982F, 0.409173F};
-inline constexpr std::array<float, kAlbedoSteps> kMeanEdgeAlbedo = {
+inline constexpr std::array<float, kAlbedoSteps> kMeanAlbedoSchlick = {
     0.047784F, 0.047783F, 0.047672F, 0.047301F, 0.046544F, 0.045329F, 0.043644F, 0.041526F,
     0.039068F, 0.036356F, 0.033496F, 0.030586F, 0.027711F, 0.024938F, 0.022314F, 0.019873F,
     0.017632F, 0.015598F, 0.013768F, 0.012134F, 0.010685F, 0.009405F, 0.008278F, 0.007290F,

@@ -1,7 +1,7 @@
 #pragma once
-/// Any surface, bare or under layers. Local coordinates as in parameters.hpp.
+/// The BSDF of any surface, with or without layers. Local coordinates as in parameters.hpp.
 
-#include "render/bsdf/cover.hpp"
+#include "render/bsdf/coating.hpp"
 #include "render/bsdf/general.hpp"
 #include "render/bsdf/layers.hpp"
 
@@ -10,8 +10,8 @@
 
 namespace microtrace::bsdf {
 
-/// A GeneralBsdf under sheen under a clear coat. Where light is bent, layers lie on the outside
-/// only, and some of what comes from within is lost in them.
+/// A GeneralBsdf below sheen below a clear coat. On refracting surfaces the layers are only on the
+/// outside, and absorb part of the light from inside.
 class LayeredBsdf {
  public:
   /// wo.z > 0.
@@ -25,14 +25,14 @@ class LayeredBsdf {
  private:
   struct Over {
     Layers layers;
-    Cover cover;
-    float passed = 1;                       // to wo
-    float sheen_share = 0, coat_share = 0;  // of samples
+    Coating coating;
+    float transmittance = 1;                            // transmittance for wo
+    float sheen_probability = 0, coat_probability = 0;  // sampling probabilities
   };
 
-  /// What the base is told of the layers.
-  [[nodiscard]] const Cover* cover() const {
-    return over_ && over_->layers.side == Layers::Side::both ? &over_->cover : nullptr;
+  /// The coating that the base takes into account.
+  [[nodiscard]] const Coating* coating() const {
+    return over_ && over_->layers.side == Layers::Side::both ? &over_->coating : nullptr;
   }
   [[nodiscard]] Evaluation base(const Vec3& wi) const;
   void add_sheen(const Vec3& wi, const Vec3& h, Evaluation& e) const;

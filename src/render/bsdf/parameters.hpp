@@ -1,8 +1,8 @@
 #pragma once
-/// What is asked of a surface's scattering, and what it answers.
+/// Input and output of BSDFs.
 ///
 /// Local coordinates: z is the shading normal on the side of wo. Directions are unit vectors that
-/// point away from the surface: wo to where the path comes from, wi to where it goes on, above or
+/// point away from the surface: wo to the previous vertex of the path, wi to the next, above or
 /// below.
 
 #include "render/bsdf/schlick.hpp"
@@ -13,47 +13,50 @@
 
 namespace microtrace::bsdf {
 
-/// Over part of a surface (KHR_materials_iridescence).
+/// Covers part of a surface (KHR_materials_iridescence).
 struct ThinFilm {
-  float share = 1;        ///< in [0, 1]
+  float share = 1;        ///< covered fraction, in [0, 1]
   float ior = 1.3F;       ///< at least 1
-  float thickness = 400;  ///< nanometres
+  float thickness = 400;  ///< nanometers
 };
 
-/// What the textures and factors of a material come to at one point.
+/// The material parameters at one point, from textures and factors.
 struct Parameters {
   Vec3 base_color{1};                 ///< linear Rec. 709, each in [0, 1]
   float metallic = 0, roughness = 1;  ///< each in [0, 1]
-  Schlick dielectric{};               ///< of the part that is no metal
-  /// Of the light that enters the dielectric: what goes through (KHR_materials_transmission).
+  Schlick dielectric{};               ///< reflectance of the nonmetallic part
+  /// The fraction of the light entering the dielectric that is transmitted
+  /// (KHR_materials_transmission).
   float transmission = 0;
-  /// The index of refraction below over that above; nothing: a thin wall, which bends no light.
+  /// The index of refraction below divided by that above; empty for a thin wall, which doesn't
+  /// refract.
   std::optional<float> eta{};
-  /// Of diffuse light: what goes through, and in which colour (KHR_materials_diffuse_transmission).
+  /// The fraction of diffuse light that is transmitted, and its color
+  /// (KHR_materials_diffuse_transmission).
   float diffuse_transmission = 0;
   Vec3 diffuse_transmission_color{1};
-  /// In [0, 1], and the direction of the longer highlights, of unit length
+  /// Strength in [0, 1], and the direction of the longer highlights, of unit length
   /// (KHR_materials_anisotropy).
   float anisotropy = 0;
   Vec2 along{1, 0};
   std::optional<ThinFilm> film{};
 
-  /// Whether Bsdf is all of it.
+  /// Whether Bsdf implements these parameters.
   [[nodiscard]] bool is_plain() const {
     return !film && anisotropy == 0 && transmission == 0 && diffuse_transmission == 0;
   }
 };
 
-/// f(wo, wi) |cos(theta_i)|, and the density with which sample() gives wi, per solid angle.
+/// f(wo, wi) |cos(theta_i)|, and the pdf with which sample() returns wi, per solid angle.
 struct Evaluation {
   Vec3 value{0};
-  float density = 0;
+  float pdf = 0;
 };
 
 struct DirectionSample {
   Vec3 wi{0, 0, 1};
-  Vec3 weight{0};     ///< value / density
-  float density = 0;  ///< per solid angle
+  Vec3 weight{0};  ///< value / pdf
+  float pdf = 0;   ///< per solid angle
 };
 
 }  // namespace microtrace::bsdf

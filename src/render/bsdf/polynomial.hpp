@@ -4,11 +4,11 @@
 
 namespace microtrace::bsdf {
 
-/// Coefficients by rising powers, of the first variable by rows.
+/// Coefficients in ascending powers; rows are powers of the first variable.
 template <std::size_t rows, std::size_t columns>
 using Polynomial2 = std::array<std::array<float, columns>, rows>;
 
-/// By Horner's scheme.
+/// Horner's scheme.
 template <std::size_t rows, std::size_t columns>
 [[nodiscard]] float value(const Polynomial2<rows, columns>& p, float x, float y) {
   std::array<float, columns> sum = p[rows - 1];
@@ -19,7 +19,7 @@ template <std::size_t rows, std::size_t columns>
   return result;
 }
 
-/// Of polynomials of four variables: the two that remain.
+/// Inserts the first two of four variables; returns the polynomial of the other two.
 template <std::size_t n, typename Plane>
 [[nodiscard]] Plane plane_at(const std::array<std::array<Plane, n>, n>& planes, float x, float y) {
   Plane sum{};

@@ -5,7 +5,7 @@
 namespace microtrace::bsdf {
 namespace {
 
-/// Lagrange's parabola through three neighbours of n points in [0, 1].
+/// Lagrange's parabola through three neighboring points out of n in [0, 1].
 struct Parabola {
   std::size_t first;
   std::array<float, 3> weights;
@@ -20,8 +20,8 @@ struct Parabola {
   }
 };
 
-/// Integrals over [0, 1] of (m + 1) x^m, times the functions that rise to 1 at one of n points at
-/// equal distances and fall again.
+/// Integrals over [0, 1] of (m + 1) x^m times the piecewise linear hat functions of n equidistant
+/// points.
 template <int m, std::size_t n>
 constexpr std::array<float, n> hat_weights() {
   const auto power = [](double x, int k) {
@@ -61,8 +61,9 @@ RefractionLoss::RefractionLoss(float roughness, float eta, const GreatestSchlick
       }
     }
   }
-  // The tables are of what the index alone reflects. What is less by a factor loses so much of it
-  // at least, and no more is sure of what differs otherwise.
+  // The tables use the reflectance that follows from the index. If the actual reflectance is
+  // smaller by a factor, at least this fraction of the loss remains; other differences allow no
+  // conclusion.
   const float unsure = std::abs(dielectric.f0 - dielectric.f90 * r * r);
   const auto sure = [&](float loss) {
     return std::clamp(dielectric.f90 * loss - unsure, 0.0F, 1.0F);
@@ -83,7 +84,7 @@ RefractionLoss::RefractionLoss(float roughness, float eta, const GreatestSchlick
   }
   mean_outside_ = std::max(mean_outside_, 1e-6F);
   mean_within_ = std::max(mean_within_, 1e-6F);
-  // Reciprocal: through / eta^2 over the other side's mean is the same from both sides.
+  // Reciprocity: through / eta^2 divided by the other side's mean is the same from both sides.
   const float fresnel = dielectric.f0 + (dielectric.f90 - dielectric.f0) * (1 / 21.0F);
   const float ratio = eta * eta * mean_below() / mean_above();
   through_ = (1 - fresnel) * std::min(1.0F, ratio);

@@ -9,22 +9,22 @@
 
 namespace microtrace::bsdf {
 
-/// The share of light that single scattering at a rough boundary of media loses, on either side of
-/// it, and how what several turns return is divided (C. Kulla and A. Conty, Revisiting physically
-/// based shading at Imageworks, 2017). Never more than is lost.
+/// The energy deficit of single scattering at a rough refracting boundary, on both sides, and the
+/// division of its multiple scattering between the sides (C. Kulla and A. Conty, Revisiting
+/// physically based shading at Imageworks, 2017). Never more than the actual loss.
 class RefractionLoss {
  public:
-  /// Nothing is lost.
+  /// No loss.
   RefractionLoss() = default;
 
-  /// eta: the index of refraction below over that above, not 1.
+  /// eta: the index of refraction below divided by that above, not 1.
   RefractionLoss(float roughness, float eta, const GreatestSchlick& dielectric);
 
-  /// Of light to or from z = cos(theta) above the surface, or -z below it.
+  /// The loss for light to or from z = cos(theta) above the surface, or -z below it.
   [[nodiscard]] float above(float z) const { return above_is_thinner_ ? outside(z) : within(z); }
   [[nodiscard]] float below(float z) const { return above_is_thinner_ ? within(z) : outside(z); }
 
-  /// Cosine-weighted means of these.
+  /// Cosine-weighted means of the losses.
   [[nodiscard]] float mean_above() const {
     return above_is_thinner_ ? mean_outside_ : mean_within_;
   }
@@ -32,7 +32,7 @@ class RefractionLoss {
     return above_is_thinner_ ? mean_within_ : mean_outside_;
   }
 
-  /// Of what is lost above: what goes through in the end; the rest is reflected.
+  /// The fraction of the loss above that multiple scattering transmits; the rest is reflected.
   [[nodiscard]] float through() const { return through_; }
 
  private:

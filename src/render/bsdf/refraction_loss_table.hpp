@@ -1,6 +1,7 @@
 #pragma once
-/// What a rough boundary of refraction loses in single scattering: from below fitted to integrals
-/// of 64 x 64 stratified visible normals; tests/statistical/refraction_test.cpp says how well.
+/// Energy deficit of single scattering at a rough refracting boundary: a lower bound, fitted to
+/// integrals of 64 x 64 stratified visible normals; tests/statistical/albedo_tables_test.cpp
+/// measures the error.
 
 #include <array>
 #include <cstddef>
@@ -12,11 +13,11 @@ inline constexpr std::size_t kLossIndices = 8, kLossRows = 12, kLossColumns = 17
 inline constexpr float kGreatestCritical = 0.96F;  ///< cosine
 inline constexpr float kRefractionUnit = 1 / 10000.0F;
 
-/// [cos(critical angle) = 0.96 k / 7][roughness j / 11][angle], in that unit.
+/// [cos(critical angle) = 0.96 k / 7][roughness j / 11][angle], in this unit.
 using RefractionLossTable =
     std::array<std::array<std::array<std::int16_t, kLossColumns>, kLossRows>, kLossIndices>;
 
-/// From the thinner side: column i at cos(theta) = (i / 16)^2.
+/// From the thinner side: column i is for cos(theta) = (i / 16)^2.
 inline constexpr RefractionLossTable kLossFromOutside = {{
     {{
         {{485, -4, -500, -500, -45, -53, -3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},

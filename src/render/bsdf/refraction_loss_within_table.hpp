@@ -3,8 +3,8 @@
 
 namespace microtrace::bsdf {
 
-/// From the denser side: columns 0 to 8 at cos(theta) = c (i / 8)^2, c that of the critical angle,
-/// columns 8 to 16 at c + (1 - c) ((i - 8) / 8)^2.
+/// From the denser side: columns 0 to 8 are for cos(theta) = c (i / 8)^2, where c is the cosine of
+/// the critical angle, columns 8 to 16 for c + (1 - c) ((i - 8) / 8)^2.
 inline constexpr RefractionLossTable kLossFromWithin = {{
     {{
         {{-218, 37, 382, 710, 347, -475, 350, -500, -500, -363, -28, -3, -1, 0, 0, 0, 0}},

@@ -1,5 +1,5 @@
 #pragma once
-/// The scattering of any material.
+/// The BSDF of any material.
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/layered.hpp"
@@ -9,7 +9,7 @@
 
 namespace microtrace::bsdf {
 
-/// A Bsdf where that is enough, as it is for most.
+/// Uses Bsdf if it is sufficient, as for most materials.
 class Scattering {
  public:
   /// wo.z > 0.

@@ -3,10 +3,10 @@
 
 namespace microtrace::bsdf {
 
-/// Reflectance by angle (C. Schlick, An inexpensive BRDF model for physically-based rendering,
-/// 1994).
+/// Schlick's Fresnel approximation (C. Schlick, An inexpensive BRDF model for physically-based
+/// rendering, 1994).
 struct Schlick {
-  Vec3 f0{0.04F};  ///< head on
+  Vec3 f0{0.04F};  ///< at normal incidence
   float f90 = 1;   ///< at grazing angles
 
   [[nodiscard]] Vec3 operator()(float cosine) const {

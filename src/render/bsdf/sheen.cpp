@@ -14,7 +14,7 @@
 namespace microtrace::bsdf {
 namespace {
 
-/// The exponent of the paper's fit of the masking.
+/// The exponent of the paper's fit of the masking function.
 double fit(double x, double alpha) {
   const double t = (1 - alpha) * (1 - alpha);
   const auto mix = [t](double rough, double smooth) { return rough + t * (smooth - rough); };
@@ -61,7 +61,7 @@ float SheenLobe::look_up(const SheenTable& table, float z) const {
   return upper + down * (lower - upper);
 }
 
-// Of height z with density b (1 + b) / (z + b)^2.
+// z has the pdf b (1 + b) / (z + b)^2.
 Vec3 SheenLobe::direction(const Vec2& u) const {
   const float b = 2 * roughness_, z = std::min(u.y * b / (1 + b - u.y), 1.0F);
   const auto [cosine, sine] = sampling::unit_pair(u.x);
@@ -69,7 +69,7 @@ Vec3 SheenLobe::direction(const Vec2& u) const {
   return {r * cosine, r * sine, z};
 }
 
-float SheenLobe::density(float z) const {
+float SheenLobe::pdf(float z) const {
   const float b = 2 * roughness_;
   return 0.5F * kInversePi * b * (1 + b) / ((z + b) * (z + b));
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Fibres that stand on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet
-/// sheen BRDF, 2017), as KHR_materials_sheen has them. Local coordinates as in ggx.hpp.
+/// Sheen: fibers on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen
+/// BRDF, 2017), as in KHR_materials_sheen. Local coordinates as in ggx.hpp.
 
 #include "render/bsdf/sheen_table.hpp"
 
@@ -8,25 +8,24 @@
 
 namespace microtrace::bsdf {
 
-/// Smoother fibres are taken to have this roughness: then they shine within some five degrees of
-/// the surface only.
+/// Minimum roughness: such fibers are visible only within some five degrees of the surface.
 inline constexpr float kLeastSheenRoughness = 0.05F;
 
-/// The model as published returns more light than comes where smooth fibres are seen at a slant: up
-/// to 4 times. There it is divided by what it returns in all, to wo or from wi, whichever is more.
+/// The published model has an albedo of up to 4 for smooth fibers at grazing angles. There it is
+/// divided by its albedo for wo or wi, whichever is larger.
 class SheenLobe {
  public:
   explicit SheenLobe(float roughness);
 
-  /// D V (1 for all that comes to fibres), for directions above the surface and their half vector.
+  /// D V without color, for directions above the surface and their half vector.
   [[nodiscard]] float reflectance(const Vec3& wo, const Vec3& wi, const Vec3& h) const;
 
-  /// The share of light from all around that goes to z = cos(theta), at most 1.
+  /// The directional albedo for z = cos(theta), at most 1.
   [[nodiscard]] float albedo(float z) const { return look_up(kSheenAlbedo, z); }
 
-  /// A direction above the surface, lower the smoother the fibres are, and its density.
+  /// Samples a direction above the surface, lower for smoother fibers, and its pdf.
   [[nodiscard]] Vec3 direction(const Vec2& u) const;
-  [[nodiscard]] float density(float z) const;
+  [[nodiscard]] float pdf(float z) const;
 
  private:
   [[nodiscard]] float look_up(const SheenTable& table, float z) const;
@@ -34,7 +33,7 @@ class SheenLobe {
 
   float roughness_;
   double alpha_;
-  float row_;  // of the tables
+  float row_;  // position in the tables
 };
 
 }  // namespace microtrace::bsdf

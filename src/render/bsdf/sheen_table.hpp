@@ -1,6 +1,6 @@
 #pragma once
-/// Directional albedos of sheen, computed by the midpoint rule with 400 x 400 directions for each
-/// entry; tests/statistical/sheen_test.cpp computes some in another way.
+/// Directional albedos of sheen, computed by the midpoint rule with 400 x 400 directions per entry;
+/// tests/statistical/albedo_tables_test.cpp verifies some entries by another method.
 
 #include <array>
 #include <cstddef>
@@ -12,7 +12,7 @@ inline constexpr std::size_t kSheenRows = 20, kSheenColumns = 32;
 /// [roughness r = 0.05 + 0.95 (j / 19)^2][cos(theta) = z, z (1 + b) / (z + b) = i / 31, b = r / 2].
 using SheenTable = std::array<std::array<float, kSheenColumns>, kSheenRows>;
 
-/// Of the model as published.
+/// The published model.
 inline constexpr SheenTable kRawSheenAlbedo = {{
     {{3.9775F, 3.9775F, 3.9775F, 3.9295F, 3.8315F, 3.7159F, 3.5890F, 3.4539F,
       3.3122F, 3.1649F, 3.0127F, 2.8558F, 2.6944F, 2.5287F, 2.3585F, 2.1841F,
@@ -96,7 +96,7 @@ inline constexpr SheenTable kRawSheenAlbedo = {{
       0.3382F, 0.3146F, 0.2911F, 0.2673F, 0.2430F, 0.2178F, 0.1914F, 0.1638F}},
 }};
 
-/// Of the model where neither direction's is above 1 as published.
+/// The model after division by published albedos above 1.
 inline constexpr SheenTable kSheenAlbedo = {{
     {{1.0043F, 1.0043F, 1.0043F, 0.9999F, 0.9996F, 0.9992F, 0.9985F, 0.9977F,
       0.9965F, 0.9950F, 0.9930F, 0.9905F, 0.9873F, 0.9832F, 0.9780F, 0.9713F,

@@ -24,8 +24,8 @@ double schlick(double f0, double cosine) {
   return f0 + (1 - f0) * square(square(x)) * x;
 }
 
-/// The Fourier transform of the CIE's colour matching functions, as sums of Gaussians, at an
-/// optical path of so many nanometres; in XYZ, each of a phase of its own.
+/// The Fourier transform of the CIE color matching functions, as sums of Gaussians, for an optical
+/// path in nanometers; in XYZ, with a phase for each.
 DVec3 sensitivity(double path, const DVec3& shift) {
   struct Gaussian {
     double value, position, variance;
@@ -54,7 +54,7 @@ DVec3 rec709_from_xyz(const DVec3& c) {
 }  // namespace
 
 Vec3 thin_film_reflectance(float cosine, float film_ior, float thickness, const Vec3& f0) {
-  // A film of no thickness is none.
+  // A film of zero thickness has no effect.
   const double s = std::clamp(thickness / 0.03, 0.0, 1.0);
   const double ior = 1 + (double{film_ior} - 1) * s * s * (3 - 2 * s);
   const double inner = std::sqrt(std::max(1 - (1 - square(cosine)) / square(ior), 0.0));

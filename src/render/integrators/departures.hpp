@@ -23,7 +23,7 @@ class Departures {
   void add_shadow(const Ray& ray, const Hit& hit, const LightSample& light, const Vec3& color,
                   std::size_t slot) {
     shadows_[shadow_count_++] = {
-        .light = light, .color = color, .slot = slot, .spawn = spawn(ray, hit, light.way)};
+        .light = light, .color = color, .slot = slot, .spawn = spawn(ray, hit, light.to_light)};
   }
 
   /// The path that goes on in that direction, to be filled in.

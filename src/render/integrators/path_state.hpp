@@ -16,8 +16,8 @@ struct PathState {
   sampling::Sobol sobol{};
   std::size_t slot = 0;  ///< in the batch
   Vec3 throughput{1};
-  float density = 0;            ///< with which its last direction was chosen; 0: by the camera
-  Receiver from{};              ///< the surface that it leaves
+  float pdf = 0;                ///< with which its last direction was chosen; 0: by the camera
+  LightSampleContext from{};    ///< the surface that it leaves
   Vec3 absorption{0};           ///< of the medium that it is in, in powers of two per length
   int channel = 3;              ///< of a path through a dispersing medium, 0 to 2; 3: all
   float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
@@ -34,11 +34,9 @@ struct WaveStep {
   }
   /// With which a path goes on at most; 1 where it always does.
   [[nodiscard]] float most_survival() const { return depth >= kFirstRoulette ? 0.95F : 1; }
-  /// How much wider what a path stands for becomes by scattering: samples of such a density are
+  /// How much wider what a path stands for becomes by scattering: samples of such a pdf are
   /// about so far apart, and a quarter blurs nothing that is seen.
-  [[nodiscard]] float spread(float density) const {
-    return sample_width * 0.25F / std::sqrt(density);
-  }
+  [[nodiscard]] float spread(float pdf) const { return sample_width * 0.25F / std::sqrt(pdf); }
 
  private:
   /// Paths at least this long end at random if they carry little.
@@ -46,8 +44,8 @@ struct WaveStep {
 };
 
 /// E. Veach, Robust Monte Carlo methods for light transport simulation, 1997, section 9.2.2.
-inline float power_heuristic(float density, float other) {
-  const float square = density * density;
+inline float power_heuristic(float pdf, float other) {
+  const float square = pdf * pdf;
   return square / (square + other * other);
 }
 

@@ -27,10 +27,10 @@ ScatterSetup scatter_setup(const WaveStep& step) {
           .lobe_pair = step.pair(sampling::kLobePair),
           .most_survival = step.most_survival(),
           .albedo_steps = bsdf::kAlbedoSteps,
-          .white_albedo = bsdf::kWhiteAlbedo[0].data(),
-          .edge_albedo = bsdf::kEdgeAlbedo[0].data(),
-          .mean_white_albedo = bsdf::kMeanWhiteAlbedo.data(),
-          .mean_edge_albedo = bsdf::kMeanEdgeAlbedo.data()};
+          .albedo_f1 = bsdf::kAlbedoF1[0].data(),
+          .albedo_schlick = bsdf::kAlbedoSchlick[0].data(),
+          .mean_albedo_f1 = bsdf::kMeanAlbedoF1.data(),
+          .mean_albedo_schlick = bsdf::kMeanAlbedoSchlick.data()};
 }
 
 PlainVertices::PlainVertices() : kernels_(&best_shading_kernels()) {}
@@ -86,7 +86,7 @@ void PlainVertices::ask_lights(const WaveStep& step) {
     lights_[i] = light.value_or(LightSample{});
     put(scatter_.light_wi, lane, lights_[i].wi);
     put(scatter_.light, lane, lights_[i].light);
-    scatter_.light_density[lane] = lights_[i].density;
+    scatter_.light_pdf[lane] = lights_[i].pdf;
   }
 }
 
@@ -102,15 +102,15 @@ void PlainVertices::finish(const WaveStep& step, Departures& departures) {
       departures.add_shadow(*vertex.ray, vertex.hit, lights_[static_cast<std::size_t>(lane)], color,
                             vertex.path->slot);
     }
-    const float density = scatter_.density[lane];
-    if (!(density > 0)) continue;
+    const float pdf = scatter_.pdf[lane];
+    if (!(pdf > 0)) continue;
     PathState& next = departures.add_path(*vertex.ray, vertex.hit, got(scatter_.wi, lane));
     next = *vertex.path;
     next.throughput = got(scatter_.next_throughput, lane);
-    next.density = density;
+    next.pdf = pdf;
     next.from = {.p = vertex.p, .n = got(scatter_.frame_n, lane)};
     next.begin = vertex.width;
-    next.spread += step.spread(density);
+    next.spread += step.spread(pdf);
   }
   count_ = 0;
 }

@@ -10,7 +10,8 @@ void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& c
   // A light without size stands at t = 1; a triangle that shines is met about there.
   const float t_max = light.is_far || light.target ? infinity : 1;
   Group& group = light.target ? aimed_ : free_;
-  group.add({.o = origin, .t_min = 0, .d = light.way, .t_max = t_max}, color, slot, light.target);
+  group.add({.o = origin, .t_min = 0, .d = light.to_light, .t_max = t_max}, color, slot,
+            light.target);
 }
 
 void ShadowRays::Group::add(const Ray& ray, const Vec3& color, std::size_t slot,
@@ -25,20 +26,20 @@ namespace {
 
 /// The share of the light that passes all that is before t_max or the target; `beyond` counts the
 /// hits behind hits.
-float passed(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
-             std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
-             std::uint64_t& beyond) {
-  float passed = 1;
+float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
+                    std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
+                    std::uint64_t& beyond) {
+  float transmittance = 1;
   while (hit && hit->id != target) {
     const ShadingPoint point = shading.point(ray, *hit);
     // What the ray meets from the front the light meets from behind.
     if (!(passes_backs && Shading::lets_light_in(point)))
-      passed *= 1 - shading.coverage(point, false);
-    if (passed == 0) return 0;
+      transmittance *= 1 - shading.coverage(point, false);
+    if (transmittance == 0) return 0;
     hit = bvh.next(ray, *hit);
     ++beyond;
   }
-  return hit || !target ? passed : 0;
+  return hit || !target ? transmittance : 0;
 }
 
 }  // namespace
@@ -49,9 +50,9 @@ std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bo
   std::array<std::optional<Hit>, kRandomBatch> hits;
   bvh.intersect(std::span(group.rays).first(group.count), std::span(hits).first(group.count));
   for (std::size_t i = 0; i < group.count; ++i) {
-    colors[group.slots[i]] +=
-        passed(bvh, shading, passes_backs, group.rays[i], hits[i], group.targets[i], beyond) *
-        group.light[i];
+    colors[group.slots[i]] += transmittance(bvh, shading, passes_backs, group.rays[i], hits[i],
+                                            group.targets[i], beyond) *
+                              group.light[i];
   }
   group.count = 0;
   return beyond;

@@ -96,10 +96,9 @@ void Wave::step() {
 
 void Wave::escape(const Ray& ray, const PathState& path) {
   const Vec3 wi = bsdf::unit(ray.d);
-  if (path.density > 0) {
-    const EnvironmentLight::Look light = lighting_->environment(path.from, wi);
-    colors_[path.slot] +=
-        path.throughput * light.radiance * power_heuristic(path.density, light.pdf);
+  if (path.pdf > 0) {
+    const EnvironmentLight::Lookup light = lighting_->environment(path.from, wi);
+    colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, light.pdf);
   } else if (lighting_->is_seen()) {  // else the background is the picture's business
     colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;
@@ -123,7 +122,7 @@ void Wave::prepare(std::size_t i, ShadingPoint& point) {
 }
 
 bool Wave::stops(const PathState& path, const ShadingPoint& point, std::uint32_t layer) const {
-  const float coverage = shading_->coverage(point, path.density == 0);
+  const float coverage = shading_->coverage(point, path.pdf == 0);
   if (coverage == 0 || coverage == 1) return coverage == 1;
   return path.sobol.one(step_.pair(sampling::kCoveragePair) + layer * sampling::kLayerPairs) <
          coverage;
@@ -156,7 +155,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   const Ray& ray = rays_[i];
   PathState& path = paths_[i];
   std::optional<Hit> hit = hits_[i];
-  const bool from_camera = path.density == 0;
+  const bool from_camera = path.pdf == 0;
   std::uint32_t layer = 0;
   for (; hit && !stops(path, point, layer); ++layer) hit = next(i, *hit, point);
   if (!hit) return escape(ray, path);
@@ -172,8 +171,8 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
     const Vec3 d = bsdf::unit(ray.d);
     const float cosine = std::abs(glm::dot(d, point.at.n));
-    const float other = lighting_->emitter_density(hit->id, path.from, point.at.distance, cosine);
-    const float weight = from_camera ? 1 : power_heuristic(path.density, other);
+    const float other = lighting_->emitter_pdf(hit->id, path.from, point.at.distance, cosine);
+    const float weight = from_camera ? 1 : power_heuristic(path.pdf, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
   if (step_.depth >= options_.max_depth || point.look->material->unlit) return;
@@ -218,7 +217,7 @@ void Wave::ask_light(const Vertex& vertex, const PathState& path) {
   bsdf::Evaluation f = vertex.bsdf.evaluate(wi);
   if (f.value == Vec3(0)) return;
   if (wi.z < 0) f.value *= one_channel(vertex, path);
-  const float weight = light->density > 0 ? power_heuristic(light->density, f.density) : 1;
+  const float weight = light->pdf > 0 ? power_heuristic(light->pdf, f.pdf) : 1;
   departures_.add_shadow(vertex.ray, vertex.hit, *light,
                          path.throughput * f.value * light->light * weight, path.slot);
 }
@@ -245,10 +244,10 @@ void Wave::scatter(const Vertex& vertex, const PathState& path) {
     if (!(chances.y < survival)) return;
     next.throughput /= survival;
   }
-  next.density = sample->density;
+  next.pdf = sample->pdf;
   next.from = {.p = vertex.point.at.p, .n = vertex.frame.n};
   next.begin = vertex.point.width;
-  next.spread += step_.spread(sample->density);
+  next.spread += step_.spread(sample->pdf);
   departures_.add_path(vertex.ray, vertex.hit, wi) = next;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Which shading kernels run. Not for the kernels' own translation units.
+/// Selects the shading kernels. Not to be included by the kernels' own translation units.
 
 #include "render/kernels/kernel.hpp"
 
@@ -7,10 +7,10 @@
 
 namespace microtrace {
 
-/// The sets that this processor runs, the fastest first.
+/// Kernels for the instruction sets that this processor supports, fastest first.
 [[nodiscard]] std::vector<const ShadingKernels*> available_shading_kernels();
 
-/// Those of best_instruction_set().
+/// The kernels of best_instruction_set().
 [[nodiscard]] const ShadingKernels& best_shading_kernels();
 
 }  // namespace microtrace

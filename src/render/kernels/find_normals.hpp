@@ -1,5 +1,5 @@
 #pragma once
-/// Shading normals by normal textures, turned so that they serve the ray.
+/// Shading normals from normal textures, adjusted to reflect above the surface.
 
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/vector3.hpp"
@@ -7,7 +7,7 @@
 namespace microtrace {
 namespace {
 
-/// mapped_normal().
+/// mapped_normal() for N lanes.
 template <int N>
 inline Vector3<Float<N>> mapped_normals(const NormalLanes& lanes, int i) {
   using F = Float<N>;
@@ -27,8 +27,8 @@ inline Vector3<Float<N>> mapped_normals(const NormalLanes& lanes, int i) {
   return select3(is_turned, unit<N>(turned), ns);
 }
 
-/// The lanes in which wo is above the horizon of n, and its mirror image above that of the surface
-/// itself.
+/// The lanes in which wo is above the horizon of n, and its mirror direction is above the geometric
+/// surface.
 template <int N>
 inline Lanes reflecting_outwards(const Vector3<Float<N>>& n, const Vector3<Float<N>>& ng,
                                  const Vector3<Float<N>>& wo) {
@@ -37,12 +37,12 @@ inline Lanes reflecting_outwards(const Vector3<Float<N>>& n, const Vector3<Float
          less_equal<N>(smaller_of(0.9F * dot(wo, ng), least), dot(2 * cosine * n - wo, ng));
 }
 
-/// usable_normal().
+/// usable_normal() for N lanes.
 template <int N>
 inline Vector3<Float<N>> usable_normals(const Vector3<Float<N>>& n, const Vector3<Float<N>>& ng,
                                         const Vector3<Float<N>>& wo) {
   const Lanes are_good = reflecting_outwards<N>(n, ng, wo);
-  if (are_good == all_lanes<N>) return n;
+  if (are_good == kAllLanes<N>) return n;
   Float<N> low{}, high = all<N>(1);
   for (int step = 0; step < 6; ++step) {
     const Float<N> middle = (low + high) * 0.5F;

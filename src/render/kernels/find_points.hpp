@@ -1,5 +1,5 @@
 #pragma once
-/// Where rays meet triangles, and what interpolates there.
+/// Intersection points of rays with triangles, and interpolated attributes.
 
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/vector3.hpp"
@@ -7,7 +7,7 @@
 namespace microtrace {
 namespace {
 
-/// Float64: N lanes, half as many as floats have.
+/// Float64 vectors with N lanes, half as many as float vectors.
 template <int N>
 inline Vector3<Double<N>> widened3(const float (&v)[3][16], int i) {
   return {widened<N>(v[0] + i), widened<N>(v[1] + i), widened<N>(v[2] + i)};
@@ -19,7 +19,7 @@ inline void narrowed3(const Vector3<Double<N>>& v, float (&to)[3][16], int i) {
   narrowed<N>(v.z, to[2] + i);
 }
 
-/// The point itself: N paths from the i-th on. `area` gets the length of the edges' cross product.
+/// The points of N paths starting at i. `area` receives the length of the edges' cross product.
 template <int N>
 inline void find_place(HitLanes& lanes, int i, LaneFloats& area) {
   using D = Double<N>;
@@ -70,7 +70,7 @@ inline void interpolate(HitLanes& lanes, int i, const LaneFloats& areas) {
   store<N>(lanes.uv_scale + i, square_root<N>(uv_area / area));
 }
 
-/// N floats at a time.
+/// Processes N floats at a time.
 template <int N>
 void find_points(HitLanes& lanes) {
   alignas(64) LaneFloats areas;

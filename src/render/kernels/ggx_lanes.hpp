@@ -1,5 +1,5 @@
 #pragma once
-/// bsdf::Ggx, bsdf::GgxAlbedo and the warps that they need. z is the normal.
+/// bsdf::Ggx, bsdf::GgxAlbedo and the warps that they need, for N lanes. z is the normal.
 
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/vector3.hpp"
@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kInversePiLanes = 0.318309886183790671537767526745028724F;
 
-/// table[index], lane by lane.
+/// table[index] for each lane.
 template <int N>
 inline Float<N> gathered(const float* table, const typename FloatVector<N>::bits_type& index) {
 #if defined(__AVX512F__)
@@ -29,7 +29,7 @@ struct PolarLanes {
   Float<N> cosine, sine;
 };
 
-/// sampling::unit_pair().
+/// sampling::unit_pair() for N lanes.
 template <int N>
 inline PolarLanes<N> unit_pair(const Float<N>& u) {
   using F = Float<N>;
@@ -62,7 +62,7 @@ struct GgxLanes {
   [[nodiscard]] F visibility(const F& z_o, const F& z_i) const {
     return 0.5F / (z_i * root(z_o) + z_o * root(z_i));
   }
-  [[nodiscard]] F reflected_density(const F& z_o, const F& distribution) const {
+  [[nodiscard]] F reflected_pdf(const F& z_o, const F& distribution) const {
     return distribution / (2 * (z_o + root(z_o)));
   }
   [[nodiscard]] V visible_normal(const V& wo, const F& ux, const F& uy) const {
@@ -78,7 +78,7 @@ struct GgxLanes {
 
 template <int N>
 struct AlbedoLanes {
-  Float<N> white, edge;
+  Float<N> f1, schlick;
 };
 
 template <int N>
@@ -92,24 +92,24 @@ class GgxAlbedoLanes {
 
   [[nodiscard]] AlbedoLanes<N> at(const F& z) const {
     const int steps = setup_.albedo_steps;
-    return {mixed(setup_.white_albedo, Place(z * (1 + alpha_) / (z + alpha_), steps)),
-            mixed(setup_.edge_albedo, Place(square_root<N>(z), steps))};
+    return {mixed(setup_.albedo_f1, Cell(z * (1 + alpha_) / (z + alpha_), steps)),
+            mixed(setup_.albedo_schlick, Cell(square_root<N>(z), steps))};
   }
   [[nodiscard]] AlbedoLanes<N> mean() const {
-    return {row_.mixed(setup_.mean_white_albedo, Bits{}),
-            row_.mixed(setup_.mean_edge_albedo, Bits{})};
+    return {row_.mixed(setup_.mean_albedo_f1, Bits{}),
+            row_.mixed(setup_.mean_albedo_schlick, Bits{})};
   }
 
  private:
-  struct Place {
+  struct Cell {
     Bits first;
     F share;
 
-    Place(const F& s, int steps) {
+    Cell(const F& s, int steps) {
       const F step = s * static_cast<float>(steps - 1);
       const Bits whole = __builtin_convertvector(step, Bits), last = Bits{} + (steps - 2);
       const Bits within = last < whole ? last : whole;
-      first = within < 0 ? Bits{} : within;  // of directions below, whose albedo nobody asks for
+      first = within < 0 ? Bits{} : within;  // directions below have no albedo
       share = step - __builtin_convertvector(first, F);
     }
     [[nodiscard]] F between(const F& a, const F& b) const { return a + share * (b - a); }
@@ -117,14 +117,14 @@ class GgxAlbedoLanes {
       return between(gathered<N>(steps, offset + first), gathered<N>(steps + 1, offset + first));
     }
   };
-  [[nodiscard]] F mixed(const float* table, const Place& column) const {
+  [[nodiscard]] F mixed(const float* table, const Cell& column) const {
     const Bits row = row_.first * setup_.albedo_steps;
     return row_.between(column.mixed(table, row), column.mixed(table + setup_.albedo_steps, row));
   }
 
   const ScatterSetup& setup_;
   F alpha_;
-  Place row_;
+  Cell row_;
 };
 
 }  // namespace

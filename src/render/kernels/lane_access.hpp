@@ -1,5 +1,6 @@
 #pragma once
-/// Vectors into lanes and out of them. Not for the kernels' own translation units.
+/// Loads and stores single paths' values in lanes. Not to be included by the kernels' own
+/// translation units.
 
 #include "render/kernels/kernel.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Direct light and the way on.
+/// Direct light, and sampling of the next direction.
 
 #include "render/kernels/bsdf_lanes.hpp"
 #include "render/kernels/kernel.hpp"
@@ -10,20 +10,20 @@ namespace microtrace {
 namespace {
 
 template <int N>
-inline Float<N> power_heuristic(const Float<N>& density, const Float<N>& other) {
-  const Float<N> square = density * density;
+inline Float<N> power_heuristic(const Float<N>& pdf, const Float<N>& other) {
+  const Float<N> square = pdf * pdf;
   return square / (square + other * other);
 }
 
-/// What the chosen light adds.
+/// The contribution of the light sample.
 template <int N>
 inline void light(const BsdfLanes<N>& bsdf, const FrameLanes<N>& frame, const Vector3<Float<N>>& wo,
                   ScatterLanes& lanes, int i) {
   using F = Float<N>;
   const auto wi_world = load3<N>(lanes.light_wi, i), wi = frame.to_local(wi_world);
-  const F density = load<N>(lanes.light_density + i), one = all<N>(1);
+  const F pdf = load<N>(lanes.light_pdf + i), one = all<N>(1);
   const auto f = bsdf.above(wi, unit<N>(wo + wi));
-  const F weight = density > 0 ? power_heuristic<N>(density, f.density) : one;
+  const F weight = pdf > 0 ? power_heuristic<N>(pdf, f.pdf) : one;
   const auto color = weight * (load3<N>(lanes.throughput, i) * f.value * load3<N>(lanes.light, i));
   const auto reaches = (wi.z > 0) & (dot(wi_world, load3<N>(lanes.outwards, i)) > 0);
   store3<N>(lanes.shadow, i, select3(reaches, color, Vector3<F>{}));
@@ -38,9 +38,8 @@ inline void go_on(const ScatterSetup& setup, const BsdfLanes<N>& bsdf, const Fra
   const auto direction = bsdf.sample(u.x, u.y, chances.x);
   const auto e = bsdf.above(direction.wi, direction.h);
   const auto wi = frame.to_world(direction.wi);
-  auto next = load3<N>(lanes.throughput, i) * (e.value / e.density);
-  auto survives =
-      (direction.wi.z > 0) & (e.density > 0) & (dot(wi, load3<N>(lanes.outwards, i)) > 0);
+  auto next = load3<N>(lanes.throughput, i) * (e.value / e.pdf);
+  auto survives = (direction.wi.z > 0) & (e.pdf > 0) & (dot(wi, load3<N>(lanes.outwards, i)) > 0);
   if (setup.most_survival < 1) {
     const F survival =
         smaller_of(larger_of(larger_of(next.x, next.y), next.z), all<N>(setup.most_survival));
@@ -49,7 +48,7 @@ inline void go_on(const ScatterSetup& setup, const BsdfLanes<N>& bsdf, const Fra
   }
   store3<N>(lanes.wi, i, wi);
   store3<N>(lanes.next_throughput, i, next);
-  store<N>(lanes.density + i, survives ? e.density : F{});
+  store<N>(lanes.pdf + i, survives ? e.pdf : F{});
 }
 
 template <int N>

@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers: sampling::Sobol, of many samples at once.
+/// sampling::Sobol for N samples.
 
 #include "render/kernels/kernel.hpp"
 #include "simd/vectors.hpp"
@@ -19,7 +19,7 @@ struct SobolLanes {
   using U = Unsigned<N>;
   using F = Float<N>;
 
-  U key, index;  ///< the bits of the index reversed
+  U key, index;  ///< index: bits reversed
 
   SobolLanes(const std::uint32_t* keys, const std::uint32_t* indices)
       : key(load<N>(keys)), index(reversed_bits(load<N>(indices))) {}
@@ -51,7 +51,7 @@ struct SobolLanes {
     x ^= x * 0x53a22864U;
     return x;
   }
-  /// The second dimension's bits from the lowest on: Pascal's triangle modulo 2, by halves.
+  /// The bits of the second dimension, lowest first: Pascal's triangle modulo 2, by halves.
   static U sobol_upwards(U x) {
     x ^= (x & 0xaaaaaaaaU) >> 1;
     x ^= (x & 0xccccccccU) >> 2;
@@ -60,7 +60,7 @@ struct SobolLanes {
     x ^= (x & 0xffff0000U) >> 16;
     return x;
   }
-  /// In [0, 1), of bits from the lowest on.
+  /// A float in [0, 1) from bits in ascending order.
   static F unit_float(const U& upwards) {
     using Bits = typename FloatVector<N>::bits_type;
     return __builtin_convertvector((Bits)(reversed_bits(upwards) >> 8), F) * 0x1p-24F;

@@ -1,12 +1,13 @@
 #pragma once
-/// Three-dimensional vectors of lanes. As GLM's, operation by operation, so that bits are the same.
+/// Three-dimensional vectors of lanes. They perform the same operations as GLM in the same order,
+/// so that bits are the same.
 
 #include "simd/vectors.hpp"
 
 namespace microtrace {
 namespace {
 
-/// a or b as std::max and std::min choose: the first where they are equal or one is NaN.
+/// The result of std::max and std::min: the first argument if they are equal or one is NaN.
 template <class V>
 inline V larger_of(const V& a, const V& b) {
   return a < b ? b : a;
@@ -70,7 +71,7 @@ inline Vector3<F> select3(const M& mask, const Vector3<F>& a, const Vector3<F>& 
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }
 
-/// Of floats.
+/// For floats.
 template <int N>
 inline Vector3<Float<N>> unit(const Vector3<Float<N>>& v) {
   return v / square_root<N>(dot(v, v));

@@ -4,7 +4,7 @@
 #include "float_environment.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
-#include "scene/turns.hpp"
+#include "scene/revolutions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,12 +17,12 @@
 namespace microtrace {
 namespace {
 
-/// With the greatest radiance that files may have, at most kBrightest.
+/// Multiplied by the greatest radiance that files may have, at most kBrightest.
 constexpr float kGreatestIntensity = kBrightest / 0x1p30F;
 
 constexpr float kUniformPdf = static_cast<float>(0.25 / std::numbers::pi);
 
-/// x in [0, size), whatever comes; not a number gives 0.
+/// x clamped to [0, size); NaN gives 0.
 float clamped(float x, float size) {
   if (!(x >= 0)) return 0;
   return x < size ? x : std::nextafter(size, 0.0F);
@@ -33,14 +33,14 @@ float axis_range_of(const Vec3& d) {
   return std::sqrt(d.x * d.x + d.z * d.z);
 }
 
-/// The part of a turn beyond whole turns, in [0, 1).
+/// The fraction of a revolution, in [0, 1).
 float part_of_turn(double radians) {
   const double turns = radians / (2 * std::numbers::pi);
   const auto part = static_cast<float>(turns - std::floor(turns));
   return part < 1 ? part : 0;
 }
 
-/// A uniform environment has none.
+/// Null for a uniform environment.
 std::shared_ptr<const MapTables> tables_of(const Environment& environment, RenderCache* cache) {
   if (std::holds_alternative<Vec3>(environment.content)) return nullptr;
   RenderCache own;
@@ -87,12 +87,12 @@ EnvironmentLight::EnvironmentLight(const Environment& environment, RenderCache* 
 }
 
 MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
-  const float turns = atan2_turns(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
+  const float turns = atan2_revolutions(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
   const float u = turns - chosen(turns >= 1, 1, 0);
-  // From 0 on, pixels' centres lie at whole numbers; one is added so that they stay positive.
+  // With pixel centers at integers from 0; 1 is added to keep the result positive.
   const float x = clamped(u * width_, width_) + 0.5F;
-  // Precise at the poles, as acos(y) is not.
-  const float y = clamped(2 * height_ * atan2_turns(axis_range, d.y), height_) + 0.5F;
+  // Unlike acos(y), precise at the poles.
+  const float y = clamped(2 * height_ * atan2_revolutions(axis_range, d.y), height_) + 0.5F;
   const auto column = static_cast<std::uint32_t>(x), line = static_cast<std::uint32_t>(y);
   return {.column = column < tables_->map->width ? column : 0,
           .line = line,
@@ -100,13 +100,13 @@ MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
           .y = y - static_cast<float>(line)};
 }
 
-EnvironmentLight::Look EnvironmentLight::look(const Vec3& direction) const {
+EnvironmentLight::Lookup EnvironmentLight::lookup(const Vec3& direction) const {
   if (!tables_) return {.radiance = uniform_, .pdf = kUniformPdf};
   const float axis_range = axis_range_of(direction);
   const MapPlace place = place_of(direction, axis_range);
   const auto corners = corners_of(*tables_->map, place);
   return {.radiance = intensity_ * bilinear(corners, place.x, place.y),
-          .pdf = tables_->distribution.density(place, corners, axis_range)};
+          .pdf = tables_->distribution.pdf(place, corners, axis_range)};
 }
 
 Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
@@ -118,7 +118,7 @@ Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
 EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
   if (!tables_) {
     const float h = u.y, r = 2 * std::sqrt(h * (1 - h));
-    const SineCosine angle = sin_cos_turns(u.x);
+    const SineCosine angle = sin_cos_revolutions(u.x);
     return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
             .radiance = uniform_,
             .pdf = kUniformPdf};
@@ -129,10 +129,10 @@ EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
   float turns = column / width_ + back_turn_;  // in [-1/2, 2]
   turns -= chosen(turns >= 1, 1, 0);
   turns += chosen(turns < 0, 1, 0);
-  const SineCosine angle = sin_cos_turns(turns);
+  const SineCosine angle = sin_cos_revolutions(turns);
   return {.wi = {point.axis_range * angle.cosine, point.height, point.axis_range * angle.sine},
           .radiance = intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y),
-          .pdf = point.density};
+          .pdf = point.pdf};
 }
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// The light of an environment: its radiance, and directions in which much of it comes.
+/// Environment lights: radiance, and sampling of directions.
 
 #include "render/lights/map_distribution.hpp"
 
@@ -12,7 +12,7 @@
 
 namespace microtrace {
 
-/// A map and how it is sampled.
+/// A map and its sampling distribution.
 struct MapTables {
   std::shared_ptr<const RadianceMap> map;
   MapDistribution distribution;
@@ -21,36 +21,36 @@ struct MapTables {
       : map(std::move(m)), distribution(*map) {}
 };
 
-/// Directions are world space, of about unit length, and lead away from what is lit. Made once for
-/// a picture; any number of threads may ask.
+/// Directions are in world space, of approximately unit length, and point away from the shading
+/// point. Created once per picture; may be used by any number of threads.
 class EnvironmentLight {
  public:
   explicit EnvironmentLight(const Environment& environment, RenderCache* cache = nullptr);
 
-  /// Linear Rec. 709, W / (sr m^2) or cd / m^2 as the environment has it.
+  /// Linear Rec. 709, in the environment's unit: W / (sr m^2) or cd / m^2.
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;
 
-  /// The same from everywhere: sampling it has no use beside sampling the surface.
+  /// Uniform radiance: BSDF sampling is at least as good as sampling the environment.
   [[nodiscard]] bool is_uniform() const { return !tables_; }
 
   struct Sample {
     Vec3 wi;
-    Vec3 radiance;  ///< radiance(wi), but for rounding
-    float pdf;      ///< that of wi, above 0, but for rounding of wi
+    Vec3 radiance;  ///< radiance(wi), except for rounding
+    float pdf;      ///< pdf of wi, above 0, except for rounding of wi
   };
-  /// Chooses a direction, the brighter the likelier; u in [0, 1)^2.
+  /// Samples a direction in proportion to its radiance, approximately; u in [0, 1)^2.
   [[nodiscard]] Sample sample(const Vec2& u) const;
 
-  struct Look {
+  struct Lookup {
     Vec3 radiance;
-    float pdf;  ///< with which sample() gives this direction, per steradian; nowhere 0
+    float pdf;  ///< of sample(), per steradian; never 0
   };
-  [[nodiscard]] Look look(const Vec3& direction) const;
+  [[nodiscard]] Lookup lookup(const Vec3& direction) const;
 
-  /// The mean of the luminance over all directions, in the unit of radiance.
+  /// The mean luminance over all directions, in the unit of radiance.
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
-  /// The same of what sample() is for: what surfaces do not find as well by themselves. Of a
-  /// uniform one as much as of a map that is the same all over.
+  /// The mean of the part of the luminance that sample() covers, which is what BSDF sampling does
+  /// not find as well. A uniform environment has the value of a constant map.
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
@@ -58,7 +58,7 @@ class EnvironmentLight {
 
   Vec3 uniform_{0};
   std::shared_ptr<const MapTables> tables_{};  ///< null: uniform_
-  float width_ = 0, height_ = 0;               ///< of the map
+  float width_ = 0, height_ = 0;               ///< size of the map
   float intensity_;
   float turn_;       ///< added to a direction's longitude, in [0, 1)
   float back_turn_;  ///< added to u of the map for a longitude, in [0, 1)

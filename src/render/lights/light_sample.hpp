@@ -13,44 +13,45 @@
 
 namespace microtrace {
 
-/// Of a density above 0 the nearest whose square has a place in float32.
-[[nodiscard]] inline float limited_density(double density) {
+/// The pdf clamped to numbers whose square is representable in float32.
+[[nodiscard]] inline float limited_pdf(double pdf) {
   constexpr double most = 0x1p60;
-  return static_cast<float>(density < most ? glm::max(density, 1 / most) : most);
+  return static_cast<float>(pdf < most ? glm::max(pdf, 1 / most) : most);
 }
 
-/// Light that may reach a point from one direction.
+/// A light sample: light that reaches a point from one direction if it is not occluded.
 struct LightSample {
-  Vec3 way{0};  ///< from the point to the light; any length where it is infinitely far
+  Vec3 to_light{0};  ///< vector from the point to the light; of any length if the light is
+                     ///< infinitely far away
   bool is_far = false;
-  Vec3 wi{0, 0, 1};   ///< its direction, of unit length
-  Vec3 light{0};      ///< radiance / density; of lights without size the irradiance of a surface
-                      ///< that faces them, over the share of samples that they get
-  float density = 0;  ///< per solid angle; 0 for lights without size, which no path can meet
-  std::optional<PrimitiveId> target{};  ///< what shines, if it is a surface
+  Vec3 wi{0, 0, 1};  ///< unit direction to the light
+  Vec3 light{0};     ///< radiance / pdf; for punctual lights, irradiance of a facing surface /
+                     ///< selection probability
+  float pdf = 0;     ///< per solid angle; 0 for punctual lights, which no path can hit
+  std::optional<PrimitiveId> target{};  ///< the emitter, if it is a surface
 };
 
-/// The same before it is one of many lights, in float64: squares of all distances in float32 have
-/// a place there.
+/// The same before the selection probability is applied, in float64, where squares of all float32
+/// distances are representable.
 struct FoundLight {
-  DVec3 way{0};
+  DVec3 to_light{0};
   bool is_far = false;
   Vec3 wi{0, 0, 1};
   DVec3 light{0};
-  double density = 0;
+  double pdf = 0;
   std::optional<PrimitiveId> target{};
 
-  /// As one of several that are chosen among, by the share of samples that it gets.
-  [[nodiscard]] LightSample with_share(double share) const {
-    // Shadow rays need a direction that float32 has.
+  /// Applies the probability of selecting this light among several.
+  [[nodiscard]] LightSample with_probability(double probability) const {
+    // Shadow rays need a direction that is representable in float32.
     using Limits = std::numeric_limits<float>;
-    const double reach = std::sqrt(glm::dot(way, way));
-    const bool has_way = reach >= double{Limits::min()} && reach <= double{Limits::max()};
-    return {.way = has_way ? Vec3(way) : wi,
-            .is_far = is_far || !has_way,
+    const double reach = std::sqrt(glm::dot(to_light, to_light));
+    const bool has_direction = reach >= double{Limits::min()} && reach <= double{Limits::max()};
+    return {.to_light = has_direction ? Vec3(to_light) : wi,
+            .is_far = is_far || !has_direction,
             .wi = wi,
-            .light = Vec3(glm::min(light / share, DVec3(kBrightest))),
-            .density = density > 0 ? limited_density(density * share) : 0,
+            .light = Vec3(glm::min(light / probability, DVec3(kBrightest))),
+            .pdf = pdf > 0 ? limited_pdf(pdf * probability) : 0,
             .target = target};
   }
 };

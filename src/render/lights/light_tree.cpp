@@ -13,16 +13,16 @@
 namespace microtrace {
 namespace {
 
-/// From there on lights are halved by number, so that no way down is longer than a trail: 24 and
-/// the 32 of halving what has 32-bit numbers.
+/// From this depth on lights are split in halves by count, so that no path exceeds the bits of a
+/// trail: 24 plus 32 levels for 32-bit indices.
 constexpr unsigned kDeepest = 24;
 constexpr int kBuckets = 12;
 
-/// Of the samples at a node the least that a child gets from which light may come: what seems to
-/// bring most may be hidden.
-constexpr float kLeastShare = 0x1p-12F;
+/// The minimum probability of a child from which light can come, because the seemingly brighter
+/// child may be occluded.
+constexpr float kLeastProbability = 0x1p-12F;
 
-/// Below the square of all distances but 0 between places in float32.
+/// Below the square of every nonzero distance between float32 points.
 constexpr double kLeastSquare = 0x1p-300;
 
 /// An angle in [0, pi].
@@ -54,7 +54,7 @@ LightCone united(const LightCone& a, const LightCone& b) {
   cone.axis = middle / std::sqrt(square);
   const Angle to_a = sum(Angle(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle(a.cos_o));
   const Angle to_b = sum(Angle(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle(b.cos_o));
-  // A little wider than rounding could make it too narrow.
+  // Slightly wider, to compensate rounding.
   cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
   return cone;
 }
@@ -77,7 +77,7 @@ struct Bucket {
     bounds = count == 0 ? other.bounds : united(bounds, other.bounds);
     count += other.count;
   }
-  /// Power and box decide; one light's box may be flat or a point.
+  /// Cost by power and box; the box of a single light may be flat or a point.
   [[nodiscard]] double cost(double least_area) const {
     return bounds.power * (half_area(bounds.low, bounds.high) + least_area);
   }
@@ -94,14 +94,14 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
 }
 
 double LightBounds::importance(const Vec3& p, const Vec3& n) const {
-  const DVec3 from(low), to(high), way = DVec3(p) - (from + to) * 0.5, diagonal = to - from;
+  const DVec3 from(low), to(high), to_light = DVec3(p) - (from + to) * 0.5, diagonal = to - from;
   const double radius_square = glm::dot(diagonal, diagonal) * 0.25;
-  const double square = glm::dot(way, way);
+  const double square = glm::dot(to_light, to_light);
   if (!(square > 0)) return power / std::max(radius_square, kLeastSquare);
-  const Vec3 direction(way / std::sqrt(square));
+  const Vec3 direction(to_light / std::sqrt(square));
   const float along = glm::dot(cone.axis, direction);
   const Angle to_point(std::min(two_sided ? std::abs(along) : along, 1.0F));
-  // The angle under which the box's sphere is seen.
+  // The angle subtended by the box's bounding sphere.
   const auto sine_square = static_cast<float>(std::min(radius_square / square, 1.0));
   const Angle box = square <= radius_square
                         ? Angle(-1, 0)
@@ -143,7 +143,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
-  // The cheapest of the bucket borders; without one, or too deep, the middle of the order.
+  // Splits at the cheapest bucket boundary; without one, or below kDeepest, in halves.
   std::size_t middle = begin + (end - begin) / 2;
   if (extent[axis] > 0 && depth < kDeepest) {
     const double scale = kBuckets / extent[axis];
@@ -178,44 +178,45 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   build(lights, order, middle, end, trail | std::uint64_t{1} << depth, depth + 1);
 }
 
-float LightTree::first_share(const Node& node, const Vec3& p, const Vec3& n) const {
+float LightTree::first_probability(const Node& node, const Vec3& p, const Vec3& n) const {
   const double first = (&node + 1)->bounds.importance(p, n);
   const double second = nodes_[node.second].bounds.importance(p, n);
   if (first > 0 && second > 0)
-    return std::clamp(static_cast<float>(first / (first + second)), kLeastShare, 1 - kLeastShare);
+    return std::clamp(static_cast<float>(first / (first + second)), kLeastProbability,
+                      1 - kLeastProbability);
   return first > 0 ? 1.0F : second > 0 ? 0.0F : -1.0F;
 }
 
 std::optional<LightTree::Choice> LightTree::choose(const Vec3& p, const Vec3& n, float u) const {
-  double share = 1;
+  double probability = 1;
   const Node* node = nodes_.data();
   while (!node->is_leaf) {
-    const float first = first_share(*node, p, n);
+    const float first = first_probability(*node, p, n);
     if (first < 0) return std::nullopt;
     if (u < first) {
       u = sampling::reused(u, 0, first);
-      share *= double{first};
+      probability *= double{first};
       node = node + 1;
     } else {
       u = sampling::reused(u, first, 1 - first);
-      share *= double{1 - first};
+      probability *= double{1 - first};
       node = &nodes_[node->second];
     }
   }
-  return Choice{.light = node->light, .share = share};
+  return Choice{.light = node->light, .probability = probability};
 }
 
-double LightTree::share(std::size_t light, const Vec3& p, const Vec3& n) const {
-  double share = 1;
+double LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) const {
+  double probability = 1;
   const Node* node = nodes_.data();
   for (std::uint64_t trail = trails_[light]; !node->is_leaf; trail >>= 1U) {
-    const float first = first_share(*node, p, n);
+    const float first = first_probability(*node, p, n);
     if (first < 0) return 0;
     const bool is_second = (trail & 1U) != 0;
-    share *= double{is_second ? 1 - first : first};
+    probability *= double{is_second ? 1 - first : first};
     node = is_second ? &nodes_[node->second] : node + 1;
   }
-  return share;
+  return probability;
 }
 
 }  // namespace microtrace

@@ -1,8 +1,8 @@
 #include "render/lights/lighting.hpp"
 
 #include "base/memory_account.hpp"
+#include "render/lights/area_light.hpp"
 #include "render/lights/punctual.hpp"
-#include "render/lights/shape_light.hpp"
 #include "render/luminance.hpp"
 #include "render/sampling/warps.hpp"
 
@@ -25,7 +25,7 @@ double area_of(const Triangle& t) {
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
-/// For each thing that shines: its entry, its bounds and its nodes of the tree, with room to grow.
+/// For each emitter: its entry, its bounds and its tree nodes, including unused capacity.
 constexpr std::uint64_t kBytesOfEmitter = 260;
 
 void take_memory_for_emitters(std::uint64_t count) {
@@ -53,19 +53,19 @@ Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cach
   }
 }
 
-// About in proportion to what each brings, but none too seldom. A uniform environment gets its
-// share of samples too, which are none, of those that lamps would bring little to; a small one, for
-// in a room none of it may come.
-Lighting::Shares Lighting::shares(const Receiver& receiver) const {
+// In proportion to the estimated contributions, with a minimum probability. A uniform environment
+// also has a probability, although it isn't sampled, so that fewer samples are spent where other
+// lights contribute little. Its estimate is reduced, because indoors little of it may arrive.
+Lighting::Probabilities Lighting::probabilities(const LightSampleContext& context) const {
   constexpr float least = 0.1F;
-  const double tree = tree_ ? tree_->importance(receiver.p, receiver.n) : 0;
+  const double tree = tree_ ? tree_->importance(context.p, context.n) : 0;
   const double sum = environment_light_ + far_light_ + tree;
   const auto part = [&](bool is_there, double light) {
     return is_there ? std::max(sum > 0 ? static_cast<float>(light / sum) : 0, least) : 0;
   };
-  const Shares raw{.environment = part(environment_light_ > 0, environment_light_),
-                   .far = part(!far_lights_.empty(), far_light_),
-                   .tree = part(tree_.has_value(), tree)};
+  const Probabilities raw{.environment = part(environment_light_ > 0, environment_light_),
+                          .far = part(!far_lights_.empty(), far_light_),
+                          .tree = part(tree_.has_value(), tree)};
   const float all = raw.environment + raw.far + raw.tree;
   if (all == 0) return {};
   return {.environment = raw.environment / all, .far = raw.far / all, .tree = raw.tree / all};
@@ -91,7 +91,7 @@ void Lighting::add_surfaces(std::vector<LightBounds>& bounds) {
 
 void Lighting::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
   const double area = area_of(t);
-  // Filtered over about the triangle.
+  // Filtered over approximately the triangle.
   const auto width = static_cast<float>(std::sqrt(area) * 0.75);
   const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, width);
   const double power = area * luminance(DVec3(shading_.emission(middle)));
@@ -132,14 +132,15 @@ std::optional<FoundLight> Lighting::of_triangle(const Emitter& emitter, const Ve
                                                 const Vec2& u) const {
   const Vec3 weights = corner_weights(u);
   ShadingPoint point = shading_.point_on(emitter.id, weights, true, 0);
-  const DVec3 way = DVec3(point.at.p) - DVec3(p);
-  const double square = glm::dot(way, way);
+  const DVec3 to_light = DVec3(point.at.p) - DVec3(p);
+  const double square = glm::dot(to_light, to_light);
   if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
-  const Vec3 wi(way / std::sqrt(square));
+  const Vec3 wi(to_light / std::sqrt(square));
   const float cosine = -glm::dot(wi, point.at.n);
   point.at.front = cosine > 0;
   if (cosine == 0) return std::nullopt;
-  return of_point(point, emitter.id, way, wi, square / (emitter.area * double{std::abs(cosine)}));
+  return of_point(point, emitter.id, to_light, wi,
+                  square / (emitter.area * double{std::abs(cosine)}));
 }
 
 std::optional<FoundLight> Lighting::of_shape(const Emitter& emitter, const Vec3& p,
@@ -147,81 +148,83 @@ std::optional<FoundLight> Lighting::of_shape(const Emitter& emitter, const Vec3&
   const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
   if (!sample) return std::nullopt;
   const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
-  return of_point(point, emitter.id, sample->way, sample->wi, sample->density);
+  return of_point(point, emitter.id, sample->to_light, sample->wi, sample->pdf);
 }
 
 std::optional<FoundLight> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
-                                             const DVec3& way, const Vec3& wi,
-                                             double density) const {
+                                             const DVec3& to_light, const Vec3& wi,
+                                             double pdf) const {
   const float coverage = shading_.coverage(point, false);
   const Vec3 emission = shading_.emission(point);
   if (coverage == 0 || emission == Vec3(0)) return std::nullopt;
-  return FoundLight{.way = way,
+  return FoundLight{.to_light = to_light,
                     .wi = wi,
-                    .light = DVec3(emission) * (double{coverage} / density),
-                    .density = density,
+                    .light = DVec3(emission) * (double{coverage} / pdf),
+                    .pdf = pdf,
                     .target = id};
 }
 
-std::optional<LightSample> Lighting::of_far(const Receiver& receiver, float choice,
-                                            double share) const {
+std::optional<LightSample> Lighting::of_far(const LightSampleContext& context, float choice,
+                                            double probability) const {
   const auto count = static_cast<float>(far_lights_.size());
   const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
-  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, receiver.p);
+  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, context.p);
   if (!found) return std::nullopt;
-  return found->with_share(share / double{count});
+  return found->with_probability(probability / double{count});
 }
 
-std::optional<LightSample> Lighting::of_tree(const Receiver& receiver, const Vec2& u, float choice,
-                                             double share) const {
-  const std::optional<LightTree::Choice> chosen = tree_->choose(receiver.p, receiver.n, choice);
+std::optional<LightSample> Lighting::of_tree(const LightSampleContext& context, const Vec2& u,
+                                             float choice, double probability) const {
+  const std::optional<LightTree::Choice> chosen = tree_->choose(context.p, context.n, choice);
   if (!chosen) return std::nullopt;
   const Emitter& emitter = emitters_[chosen->light];
   const std::optional<FoundLight> found =
-      emitter.light != kNone     ? of_punctual(scene_.lights[emitter.light].light, receiver.p)
-      : emitter.shape != nullptr ? of_shape(emitter, receiver.p, u)
-                                 : of_triangle(emitter, receiver.p, u);
+      emitter.light != kNone     ? of_punctual(scene_.lights[emitter.light].light, context.p)
+      : emitter.shape != nullptr ? of_shape(emitter, context.p, u)
+                                 : of_triangle(emitter, context.p, u);
   if (!found) return std::nullopt;
-  return found->with_share(share * chosen->share);
+  return found->with_probability(probability * chosen->probability);
 }
 
-std::optional<LightSample> Lighting::sample(const Receiver& receiver, const Vec2& u,
+std::optional<LightSample> Lighting::sample(const LightSampleContext& context, const Vec2& u,
                                             float choice) const {
-  const Shares share = shares(receiver);
-  if (choice < share.environment) {
+  const Probabilities probability = probabilities(context);
+  if (choice < probability.environment) {
     if (!samples_environment()) return std::nullopt;
     const EnvironmentLight::Sample s = environment_->sample(u);
-    const float density = s.pdf * share.environment;
+    const float pdf = s.pdf * probability.environment;
     return LightSample{
-        .way = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / density, .density = density};
+        .to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
   }
-  choice -= share.environment;
-  if (share.tree == 0 || choice < share.far) {
-    if (share.far == 0) return std::nullopt;
-    return of_far(receiver, choice / share.far, double{share.far});
+  choice -= probability.environment;
+  if (probability.tree == 0 || choice < probability.far) {
+    if (probability.far == 0) return std::nullopt;
+    return of_far(context, choice / probability.far, double{probability.far});
   }
-  return of_tree(receiver, u, sampling::reused(choice, share.far, share.tree), double{share.tree});
+  return of_tree(context, u, sampling::reused(choice, probability.far, probability.tree),
+                 double{probability.tree});
 }
 
-EnvironmentLight::Look Lighting::environment(const Receiver& receiver, const Vec3& wi) const {
+EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,
+                                               const Vec3& wi) const {
   if (!samples_environment()) return {.radiance = environment(wi), .pdf = 0};
-  EnvironmentLight::Look look = environment_->look(wi);
-  look.pdf *= shares(receiver).environment;
+  EnvironmentLight::Lookup look = environment_->lookup(wi);
+  look.pdf *= probabilities(context).environment;
   return look;
 }
 
-float Lighting::emitter_density(PrimitiveId id, const Receiver& receiver, float distance,
-                                float cosine) const {
+float Lighting::emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
+                            float cosine) const {
   const auto end = emitters_.begin() + static_cast<std::ptrdiff_t>(surfaces_);
   const auto place = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
   if (place == end || place->id != id || !(cosine > 0)) return 0;
   const auto light = static_cast<std::size_t>(place - emitters_.begin());
   const double length = distance;
-  const double density = place->shape != nullptr
-                             ? shape_density(*place->shape, receiver.p, distance, cosine)
-                             : length * length / (place->area * double{cosine});
-  const double share = double{shares(receiver).tree} * tree_->share(light, receiver.p, receiver.n);
-  return share > 0 ? limited_density(density * share) : 0;
+  const double pdf = place->shape != nullptr ? shape_pdf(*place->shape, context.p, distance, cosine)
+                                             : length * length / (place->area * double{cosine});
+  const double probability =
+      double{probabilities(context).tree} * tree_->probability(light, context.p, context.n);
+  return probability > 0 ? limited_pdf(pdf * probability) : 0;
 }
 
 }  // namespace microtrace

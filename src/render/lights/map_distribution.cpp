@@ -1,8 +1,8 @@
 #include "render/lights/map_distribution.hpp"
 
 #include "render/luminance.hpp"
+#include "scene/revolutions.hpp"
 #include "scene/trigonometry.hpp"
-#include "scene/turns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@ namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kWhole = 1U << 24U;
-/// The share of the mean probability that the least likely row, and cell of a row, keep. Where
-/// there are 65537 of them that is still more than 2^-24.
+/// The minimum probability of a row, and of a cell in a row, relative to the mean. With 65537 of
+/// them it is still above 2^-24.
 constexpr double kFloor = 1.0 / 128;
 
-/// Turns weights into bounds of 0 to kWhole.
+/// Converts weights to cumulative bounds from 0 to kWhole.
 void accumulate(std::span<const double> weights, double total, std::uint32_t* bounds) {
   double sum = 0;
   *bounds = 0;
@@ -28,13 +28,14 @@ void accumulate(std::span<const double> weights, double total, std::uint32_t* bo
   *bounds = kWhole;
 }
 
-/// Entry g of count is where the search for g / count begins: at the last bound that is not above.
+/// Entry g of `count` is the start of the search for g / count: the last bound that is not above
+/// it.
 template <class Index>
 void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
   const std::size_t count = bounds.size() - 1;
   std::size_t i = 0;
   for (std::size_t g = 0; g < count; ++g) {
-    // Numbers that come to entry g are at least this.
+    // The least number that uses entry g.
     const std::size_t least = (g * kWhole + count - 1) / count;
     while (bounds[i + 1] <= least) ++i;
     guide[g] = static_cast<Index>(i);
@@ -44,14 +45,14 @@ void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
 struct Found {
   std::uint32_t index;
   std::uint32_t count;  // of numbers in the cell
-  float place;          // in the cell, in (0, 1)
+  float place;          // position in the cell, in (0, 1)
 };
 
 template <class Index>
 Found find(const std::uint32_t* bounds, const Index* guide, std::uint32_t cells, float u) {
   const auto number = std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
   std::uint32_t i = guide[std::uint64_t{number} * cells >> 24U];
-  // Mostly two steps at most: taken without branches, which could not be foretold.
+  // Mostly at most two steps: taken without branches, which would be unpredictable.
   i += std::uint32_t{bounds[i + 1] <= number};
   i += std::uint32_t{bounds[i + 1] <= number};
   while (bounds[i + 1] <= number) ++i;
@@ -60,7 +61,7 @@ Found find(const std::uint32_t* bounds, const Index* guide, std::uint32_t cells,
   return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
 }
 
-/// The place up to which the share u, above 0, of a density lies that goes evenly from a to b.
+/// Inverts the cumulative distribution of a pdf that is linear from a to b; u > 0.
 float inverted(float a, float b, float u) {
   const float root = std::sqrt(a * a + u * (b * b - a * a));
   return std::min(u * (a + b) / (a + root), 1.0F);
@@ -84,7 +85,7 @@ MapDistribution::MapDistribution(const RadianceMap& map)
   for (std::uint32_t line = 0; line <= height_; ++line) {
     const auto sine = [&](double y) { return static_cast<float>(sin_radians(step * y)); };
     rows_[line].sines = {sine(line - 0.5), sine(height_ - line - 0.5)};
-    // So that weights count as much of the solid angle there as in other rows.
+    // Makes weights proportional to solid angle there, as in other rows.
     if (is_polar(line)) rows_[line].sines.fill(static_cast<float>(2 * half * half / step));
   }
   find_mean();
@@ -101,7 +102,7 @@ void MapDistribution::find_mean() {
       for (const Vec3& pixel : std::span(map_.pixels).subspan(std::size_t{line} * width_, width_))
         below += luminance(DVec3(pixel));
     }
-    // The integrals of the sine over the line, and of its part that counts for the lower pixels.
+    // Integrals of the sine over the line, and over its part that is weighted by the lower pixels.
     const double top = step * std::max(line - 0.5, 0.0);
     const double bottom = step * std::min(line + 0.5, double{1} * height_);
     const double all = cos_radians(top) - cos_radians(bottom);
@@ -110,7 +111,7 @@ void MapDistribution::find_mean() {
     sum += lower * below + (all - lower) * above;
   }
   mean_luminance_ = sum / (2 * width_);
-  // Less is as good as none, and its inverse no float.
+  // Smaller means count as 0, because their inverse exceeds float.
   scale_ = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
 }
 
@@ -152,21 +153,21 @@ void MapDistribution::make_rows(std::vector<double> weights) {
   for (std::uint32_t line = 0; line <= height_; ++line) {
     const double probability = double{1} * (row_bounds_[line + 1] - row_bounds_[line]) / kWhole;
     const double high = is_polar(line) ? 2 * half * half : step;
-    rows_[line].density = static_cast<float>(probability / (wide * high * kWhole));
+    rows_[line].pdf = static_cast<float>(probability / (wide * high * kWhole));
   }
 }
 
-float MapDistribution::density(const MapPlace& place, const std::array<Vec3, 4>& corners,
-                               float axis_range) const {
+float MapDistribution::pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
+                           float axis_range) const {
   const Row& row = rows_[place.line];
   const std::uint32_t* bounds = &columns_[std::size_t{place.line} * (width_ + 1) + place.column];
-  return density(row, bounds[1] - bounds[0], place, weights(row, corners), axis_range);
+  return pdf(row, bounds[1] - bounds[0], place, weights(row, corners), axis_range);
 }
 
-float MapDistribution::density(const Row& row, std::uint32_t count, const MapPlace& place,
-                               const std::array<float, 4>& w, float axis_range) const {
+float MapDistribution::pdf(const Row& row, std::uint32_t count, const MapPlace& place,
+                           const std::array<float, 4>& w, float axis_range) const {
   const float mean = 0.25F * ((w[0] + w[1]) + (w[2] + w[3]));
-  const float cell = static_cast<float>(count) * row.density;
+  const float cell = static_cast<float>(count) * row.pdf;
   return cell * bilinear(w, place.x, place.y) / (is_polar(place.line) ? mean : mean * axis_range);
 }
 
@@ -179,7 +180,8 @@ MapDistribution::Point MapDistribution::sample(const Vec2& u) const {
   const auto w = weights(row, corners_of(map_, point.place));
   const bool is_south = 2 * line.index > height_;
   if (is_polar(line.index)) {
-    // Even in solid angle: in (1 - cos(theta)) / 2, precise at the pole that it is measured from.
+    // Uniform in solid angle: linear in (1 - cos(theta)) / 2, measured from the nearer pole for
+    // precision.
     const float h = (is_south ? 1 - line.place : line.place) * polar_h_;
     point.height = 1 - 2 * h;
     point.axis_range = 2 * std::sqrt(h * (1 - h));
@@ -188,7 +190,7 @@ MapDistribution::Point MapDistribution::sample(const Vec2& u) const {
     const float y = inverted(w[0] + w[1], w[2] + w[3], line.place);
     const auto rows = static_cast<float>(is_south ? height_ - line.index : line.index);
     const float turns = (rows + (is_south ? 0.5F - y : y - 0.5F)) * turns_per_row_;
-    const SineCosine angle = sin_cos_turns(turns);
+    const SineCosine angle = sin_cos_revolutions(turns);
     point.height = angle.cosine;
     point.axis_range = angle.sine;
     point.place.y = y;
@@ -196,7 +198,7 @@ MapDistribution::Point MapDistribution::sample(const Vec2& u) const {
   if (is_south) point.height = -point.height;
   const float y = point.place.y;
   point.place.x = inverted((1 - y) * w[0] + y * w[2], (1 - y) * w[1] + y * w[3], column.place);
-  point.density = density(row, column.count, point.place, w, point.axis_range);
+  point.pdf = pdf(row, column.count, point.place, w, point.axis_range);
   return point;
 }
 

@@ -13,12 +13,12 @@
 namespace microtrace {
 namespace {
 
-/// Numbers that float32 has not are infinite in it.
+/// Clamps infinity to the largest float32.
 double finite(float intensity) {
   return std::min(intensity, std::numeric_limits<float>::max());
 }
 
-/// The extension's window: from 1 down to 0 at the range.
+/// The extension's falloff window: from 1 to 0 at the range.
 double window(double distance, double range) {
   const double q = distance / range;
   const double w = std::clamp(1 - q * q * q * q, 0.0, 1.0);
@@ -27,18 +27,19 @@ double window(double distance, double range) {
 
 std::optional<FoundLight> from_place(const DVec3& place, const Vec3& p, const Vec3& color,
                                      double intensity, double range) {
-  const DVec3 way = place - DVec3(p);
-  const double square = glm::dot(way, way);
+  const DVec3 to_light = place - DVec3(p);
+  const double square = glm::dot(to_light, to_light);
   if (!(square > 0)) return std::nullopt;
   const double distance = std::sqrt(square);
   const double irradiance = intensity * window(distance, range) / square;
   if (!(irradiance > 0) || !std::isfinite(distance)) return std::nullopt;
-  return FoundLight{.way = way, .wi = Vec3(way / distance), .light = irradiance * DVec3(color)};
+  return FoundLight{
+      .to_light = to_light, .wi = Vec3(to_light / distance), .light = irradiance * DVec3(color)};
 }
 
 std::optional<FoundLight> sample(const DirectionalLight& light, const Vec3&) {
   const DVec3 wi = -light.direction;
-  return FoundLight{.way = wi,
+  return FoundLight{.to_light = wi,
                     .is_far = true,
                     .wi = Vec3(wi),
                     .light = finite(light.intensity) * DVec3(light.color)};
@@ -49,10 +50,10 @@ std::optional<FoundLight> sample(const PointLight& light, const Vec3& p) {
 }
 
 std::optional<FoundLight> sample(const SpotLight& light, const Vec3& p) {
-  const DVec3 way = DVec3(p) - light.position;
-  const double square = glm::dot(way, way);
+  const DVec3 to_light = DVec3(p) - light.position;
+  const double square = glm::dot(to_light, to_light);
   if (!(square > 0)) return std::nullopt;
-  const double cosine = glm::dot(way, light.direction) / std::sqrt(square);
+  const double cosine = glm::dot(to_light, light.direction) / std::sqrt(square);
   const double inner = cos_radians(light.inner_angle), outer = cos_radians(light.outer_angle);
   const double inside = std::clamp((cosine - outer) / std::max(inner - outer, 1e-9), 0.0, 1.0);
   return from_place(light.position, p, light.color, finite(light.intensity) * inside * inside,
@@ -72,7 +73,7 @@ std::optional<LightBounds> bounds(const PointLight& light) {
   return bounds_at(light.position, light.color, light.intensity, {.cos_o = -1});
 }
 std::optional<LightBounds> bounds(const SpotLight& light) {
-  // No less bright towards the cone's edge: it may be chosen too often there.
+  // Ignores the falloff toward the cone's edge, where the light may be selected too often.
   return bounds_at(light.position, light.color, light.intensity,
                    {.axis = Vec3(light.direction),
                     .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F});

@@ -1,5 +1,5 @@
 #pragma once
-/// Lights without size (KHR_lights_punctual).
+/// Punctual lights (KHR_lights_punctual).
 
 #include "render/lights/light_sample.hpp"
 #include "render/lights/light_tree.hpp"
@@ -11,10 +11,10 @@
 
 namespace microtrace {
 
-/// To choose among several; nothing for light from infinitely far.
+/// Bounds for the light tree; nothing for directional lights.
 [[nodiscard]] std::optional<LightBounds> punctual_bounds(const Light& light);
 
-/// Nothing where none of it comes.
+/// Nothing if the light doesn't reach p.
 [[nodiscard]] std::optional<FoundLight> of_punctual(const Light& light, const Vec3& p);
 
 }  // namespace microtrace

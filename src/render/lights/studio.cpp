@@ -15,36 +15,36 @@ constexpr std::uint32_t kWidth = 256, kHeight = 128;
 
 enum class Wall { top, side, front, back };
 
-/// A rectangle of light on a wall of the cube [-1, 1]^3 around the scene, with soft edges.
+/// A rectangular area light on a wall of the cube [-1, 1]^3 around the scene, with soft edges.
 struct Lamp {
   Wall wall;
-  double x, y;  ///< centre; on side walls x is towards the front, on top y is
+  double x, y;  ///< center; on side walls x points to the front, on top y does
   double half_width, half_height;
   double radiance;
 };
 
-// Such that white of reflectance 0.8 reaches about 0.8 where it faces upwards, 0.6 where it faces
-// the front, and a quarter where it faces downwards; and that the lamps give metals something to
-// reflect, but are not so bright that they bring much noise.
+// A white surface of reflectance 0.8 appears at about 0.8 facing up, 0.6 facing the front, and a
+// quarter facing down. The lights are reflected in metals, but are not bright enough to cause much
+// noise.
 constexpr std::array<Lamp, 4> kLamps = {{{Wall::top, 0, 0.25, 0.5, 0.4, 3.2},
                                          {Wall::side, 0.45, 0.25, 0.28, 0.6, 2.5},
                                          {Wall::front, 0.5, 0.4, 0.27, 0.45, 2.3},
                                          {Wall::back, 0, 0.45, 0.7, 0.2, 2.5}}};
 
-/// 1 where the rectangle's edge is further inside than the softness, 0 where it is outside.
+/// 1 inside the rectangle at a distance from the edge above the softness, 0 outside.
 double inside(double distance, double half) {
   constexpr double softness = 0.2;
   const double t = std::clamp((half - std::abs(distance)) / softness, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-/// The left half mirrors the right one: x is not negative.
+/// x must not be negative: the left half mirrors the right half.
 double radiance(double x, double y, double z) {
   const double reach = std::max({x, std::abs(y), std::abs(z)});
   x /= reach;
   y /= reach;
   z /= reach;
-  // Walls that grow lighter from the floor up.
+  // The walls get brighter from the floor up.
   const double height = 0.5 + 0.5 * y;
   double sum = 0.28 + 0.22 * height;
   for (const Lamp& lamp : kLamps) {

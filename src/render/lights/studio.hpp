@@ -5,7 +5,7 @@
 
 namespace microtrace {
 
-/// A map of 256 x 128 pixels, the same in the directions (x, y, z) and (-x, y, z), grey.
+/// A gray map of 256 x 128 pixels, symmetric in x.
 [[nodiscard]] RadianceMap make_studio();
 
 }  // namespace microtrace

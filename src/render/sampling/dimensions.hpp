@@ -1,20 +1,20 @@
 #pragma once
-/// What the pairs of random numbers of a sample are for.
+/// The dimensions of a sample's random numbers, in pairs.
 
 #include <cstdint>
 
 namespace microtrace::sampling {
 
-inline constexpr std::uint32_t kPixelPair = 0;  ///< the place within the pixel
+inline constexpr std::uint32_t kPixelPair = 0;  ///< position within the pixel
 
-/// Each vertex of a path has this many pairs of its own, from kFirstVertexPair on.
+/// Each path vertex has this many pairs, starting at kFirstVertexPair.
 inline constexpr std::uint32_t kFirstVertexPair = 1, kVertexPairs = 5;
-inline constexpr std::uint32_t kDirectionPair = 0;    ///< where the path goes on
-inline constexpr std::uint32_t kLobePair = 1;         ///< by which lobe, and whether at all
-inline constexpr std::uint32_t kLightPair = 2;        ///< where on a light
-inline constexpr std::uint32_t kLightChoicePair = 3;  ///< on which
-inline constexpr std::uint32_t kCoveragePair = 4;     ///< whether a surface lets the path through;
-                                                      ///< the next one kLayerPairs further, so on
+inline constexpr std::uint32_t kDirectionPair = 0;    ///< outgoing direction
+inline constexpr std::uint32_t kLobePair = 1;         ///< lobe, and Russian roulette
+inline constexpr std::uint32_t kLightPair = 2;        ///< position on a light
+inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the light
+/// Whether alpha lets the path through. Each further layer uses a pair kLayerPairs later.
+inline constexpr std::uint32_t kCoveragePair = 4;
 inline constexpr std::uint32_t kLayerPairs = 1U << 16U;
 
 }  // namespace microtrace::sampling

@@ -1,12 +1,12 @@
 #pragma once
-/// Mixing and turning of integers.
+/// Integer hashes.
 
 #include <cstdint>
 
 namespace microtrace::sampling {
 
-/// A bijection of 32 bits in which each bit of x moves every other (C. Wellons, Prospecting for
-/// hash functions, 2018: "lowbias32").
+/// A bijection of 32 bits in which each input bit affects every output bit (C. Wellons, Prospecting
+/// for hash functions, 2018: "lowbias32").
 constexpr std::uint32_t mixed(std::uint32_t x) {
   x ^= x >> 16U;
   x *= 0x7feb352dU;

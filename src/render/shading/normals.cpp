@@ -9,8 +9,8 @@
 namespace microtrace {
 namespace {
 
-/// Whether wo is above the horizon of n, and its mirror image above that of the surface itself, of
-/// normal ng.
+/// Whether wo is above the horizon of n, and its mirror direction is above the surface with the
+/// geometric normal ng.
 bool reflects_outwards(const Vec3& n, const Vec3& ng, const Vec3& wo) {
   constexpr float least = 0.01F;
   const float cosine = glm::dot(n, wo);

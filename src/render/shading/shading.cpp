@@ -15,15 +15,16 @@ namespace {
 
 const Material kNoMaterial{};
 
-/// Of a dielectric with that index of refraction in air; 0 stands for infinity.
+/// Reflectance at normal incidence of a dielectric with this index of refraction in air; 0 means
+/// infinity.
 float head_on_reflectance(float ior) {
   if (ior == 0) return 1;
   const float r = (ior - 1) / (ior + 1);
   return r * r;
 }
 
-/// Whether light passes the back whatever it is: thin glass that is one-sided is one wall to a path
-/// that goes in and out, not two, as it is to an eye.
+/// Whether light passes the back in any case: one-sided thin glass is one wall to a path that
+/// enters and leaves, not two, as it is to the camera.
 bool is_thin_glass(const Material& m) {
   return m.transmission && !has_back(m);
 }
@@ -32,7 +33,7 @@ bool is_missing_back(const ShadingPoint& point) {
   return !point.at.front && !has_back(*point.look->material);
 }
 
-/// KHR_materials_dispersion: of red, green and blue.
+/// KHR_materials_dispersion: the index for red, green or blue.
 float dispersed(float ior, float dispersion, int channel) {
   const float half_spread = (ior - 1) * 0.025F * dispersion;
   return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);

@@ -17,13 +17,13 @@ Value weighed(const SurfacePoint& at, const std::vector<Value>& values) {
          at.barycentrics.z * values[at.corners[2]];
 }
 
-/// Twice a triangle's area in texture coordinates.
+/// Twice the area of a triangle in texture coordinates.
 float uv_area(const std::vector<Vec2>& uv, const std::array<std::uint32_t, 3>& corners) {
   const Vec2 e1 = uv[corners[1]] - uv[corners[0]], e2 = uv[corners[2]] - uv[corners[0]];
   return std::abs(e1.x * e2.y - e1.y * e2.x);
 }
 
-/// From the cross product of the triangle's edges and its length.
+/// n is the cross product of the triangle's edges, `area` its length.
 void add_attributes(const DVec3& n, double area, SurfacePoint& at) {
   const Mesh& mesh = *at.mesh;
   at.n = Vec3(n / area);
@@ -32,7 +32,7 @@ void add_attributes(const DVec3& n, double area, SurfacePoint& at) {
     const Vec3 ns = weighed(at, mesh.normals);
     const float square = glm::dot(ns, ns);
     if (square > 0) at.ns = ns / std::sqrt(square);
-    // Some files wind triangles against their normals; what is in front is said by the winding.
+    // In some files the winding contradicts the normals; the winding defines the front.
     if (glm::dot(at.ns, at.n) < 0) at.ns = -at.ns;
   }
   if (!mesh.uv_sets.empty() && !mesh.uv_sets[0].empty()) {
@@ -76,13 +76,13 @@ SurfacePoint surface_point(const Primitives& primitives, const Ray& ray, const H
   at.mesh = mesh;
   at.corners = mesh->triangles[triangle];
   const auto& [i, j, k] = at.corners;
-  // Where the ray meets the triangle's plane, in float64: Hit::t is rounded to float32.
+  // The intersection with the triangle's plane in float64, because Hit::t is rounded to float32.
   const DVec3 a(mesh->positions[i]), o(ray.o), d(ray.d);
   const DVec3 e1 = DVec3(mesh->positions[j]) - a, e2 = DVec3(mesh->positions[k]) - a;
   const DVec3 n = glm::cross(e1, e2);
   const double square = glm::dot(n, n), slope = glm::dot(n, d);
   const double t = glm::dot(a - o, n) / slope;
-  // Edge on, or without area: seldom, and with care.
+  // Edge-on or without area: rare, needs the careful version.
   if (!(square > 0) || !(std::abs(t - hit.t) <= 0x1p-20 * hit.t))
     return rounded(interact(primitives, ray, hit), ray, hit);
   const DVec3 p = o + t * d, from_a = p - a;

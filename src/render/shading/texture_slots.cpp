@@ -29,7 +29,7 @@ TextureSlot TextureMaps::slot(const std::optional<TextureUse>& use, ColorEncodin
 
 namespace {
 
-/// Beer and Lambert: what is left after a length l is color^(l / distance).
+/// Beer-Lambert law: the transmittance after a length l is color^(l / distance).
 Vec3 absorption_of(const Volume& volume) {
   Vec3 result(0);
   for (int c = 0; c < 3; ++c) {

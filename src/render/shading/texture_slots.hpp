@@ -1,5 +1,5 @@
 #pragma once
-/// The textures of materials, ready to be looked up.
+/// The textures of materials, ready for lookup.
 
 #include "render/shading/shading.hpp"
 #include "render/texture_map.hpp"
@@ -13,13 +13,13 @@
 
 namespace microtrace {
 
-/// By texture and encoding, each made once.
+/// Texture maps by texture and encoding, each created once.
 class TextureMaps {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this object.
   TextureMaps(const Scene& scene, TexturePyramids& pyramids) : scene_(scene), pyramids_(pyramids) {}
 
-  /// All slots of a material. Material and this must outlive them.
+  /// All slots of a material. The material and this object must outlive the result.
   [[nodiscard]] TexturedMaterial slots(const Material& material);
 
  private:

@@ -1,4 +1,4 @@
-// Preloaded: no more than MOST_THREADS threads live at a time beside the first.
+// Preloaded: limits the process to MOST_THREADS threads besides the first.
 
 #include <atomic>
 #include <cerrno>

@@ -1,5 +1,5 @@
-// Preloaded: before main, numbers are rounded as ROUNDING has it (fesetround's number), subnormal
-// ones flushed to zero, and long double has float's precision.
+// Preloaded: before main, sets the rounding mode ROUNDING (a number of fesetround), flushing of
+// subnormals, and float precision for long double.
 
 #include <cfenv>
 #include <cstdint>

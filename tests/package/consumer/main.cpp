@@ -1,5 +1,5 @@
-// A program that uses the installed library: every public header, a scene from memory, the pictures
-// that it is asked for.
+// A program that uses the installed library: every public header, a scene in memory, and the
+// requested pictures.
 #include <microtrace/aov.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>

@@ -1,9 +1,9 @@
-// Inputs on which nearly all roundings of a filter go one way: with the bound of its error halved
-// it would be certain of what is wrong. They were found by search; mutations.py shows that
-// each bound has one.
+// Inputs for which nearly all roundings of a filter have the same direction: with its error bound
+// halved, the filter would give a wrong certain answer. They were found by search; mutations.py
+// verifies that each bound has one.
 
 #include "accel/filters/shape_filter.hpp"
-#include "accel/spawn/passing.hpp"
+#include "accel/spawn/box_clearance.hpp"
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
@@ -29,7 +29,7 @@ exact::Vector vector(const auto& numbers, std::size_t i) {
 exact::Root number(double t) {
   return exact::rational(exact::Dyadic(t), exact::Dyadic(1.0F));
 }
-// a b p as seen along the z axis.
+// The area of a b p, projected along the z axis.
 exact::Dyadic area(const exact::Vector& a, const exact::Vector& b, const exact::Vector& p) {
   return cross(b - a, p - a).z;
 }
@@ -48,28 +48,28 @@ void expect_holds(const Approximate& bounds, const exact::Dyadic& value) {
   EXPECT_LE(compare(-error, difference), 0);
 }
 
-void expect_holds(const Verdict& verdict, const exact::Root& t) {
-  ASSERT_TRUE(std::isfinite(verdict.lo) && std::isfinite(verdict.hi));
-  EXPECT_LE(number(verdict.lo), t);
-  EXPECT_GE(number(verdict.hi), t);
+void expect_holds(const FilterResult& filtered, const exact::Root& t) {
+  ASSERT_TRUE(std::isfinite(filtered.lo) && std::isfinite(filtered.hi));
+  EXPECT_LE(number(filtered.lo), t);
+  EXPECT_GE(number(filtered.hi), t);
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kEverywhere{.t_min = -kInfinity, .t_max = kInfinity};
 
-// What is certain is right, and bounds hold.
+// Certain answers must be right, and bounds must hold.
 template <class S>
 void check(const S& shape, const Vec3& o, const Vec3& d) {
   const Ray ray{.o = o, .t_min = 0, .d = d};
   SCOPED_TRACE(adversarial::reproduction(ray, shape));
-  const Verdict verdict = seen_from(o, shape)(DVec3(d), {.t_min = 0, .t_max = kInfinity});
+  const FilterResult filtered = seen_from(o, shape)(DVec3(d), {.t_min = 0, .t_max = kInfinity});
   const auto root = exact::first_hit(shape, ray);
-  if (verdict.certainty != Certainty::unsure) {
-    EXPECT_EQ(verdict.certainty == Certainty::hit, root.has_value());
+  if (filtered.certainty != Certainty::unsure) {
+    EXPECT_EQ(filtered.certainty == Certainty::hit, root.has_value());
   }
   if (!root) return;
-  EXPECT_LE(number(verdict.lo), *root);
-  EXPECT_GE(number(verdict.hi), *root);
+  EXPECT_LE(number(filtered.lo), *root);
+  EXPECT_GE(number(filtered.hi), *root);
 }
 
 TEST(Bounds, DotProduct) {
@@ -82,18 +82,18 @@ TEST(Bounds, Quotient) {
   constexpr std::array<double, 3> v = {0x1.000009dda76bdp+0, 0x1.00000482fed74p+0,
                                        0x1.ffe24557bba92p-53};
   const exact::Dyadic n(v[0]), d(v[1]), error(v[2]);
-  const Verdict verdict =
-      quotient_verdict({.value = v[0], .error = v[2]}, {.value = v[1], .error = 0}, kEverywhere);
-  expect_holds(verdict, exact::rational(n - error, d));
-  expect_holds(verdict, exact::rational(n + error, d));
+  const FilterResult filtered =
+      quotient_result({.value = v[0], .error = v[2]}, {.value = v[1], .error = 0}, kEverywhere);
+  expect_holds(filtered, exact::rational(n - error, d));
+  expect_holds(filtered, exact::rational(n + error, d));
 }
 
 TEST(Bounds, QuotientOfErrors) {
   // (4 + 1) / (8 - 1) and (4 - 1) / (8 + 1).
-  const Verdict verdict =
-      quotient_verdict({.value = 4, .error = 1}, {.value = 8, .error = 1}, kEverywhere);
-  expect_holds(verdict, exact::rational(exact::Dyadic(5.0F), exact::Dyadic(7.0F)));
-  expect_holds(verdict, exact::rational(exact::Dyadic(3.0F), exact::Dyadic(9.0F)));
+  const FilterResult filtered =
+      quotient_result({.value = 4, .error = 1}, {.value = 8, .error = 1}, kEverywhere);
+  expect_holds(filtered, exact::rational(exact::Dyadic(5.0F), exact::Dyadic(7.0F)));
+  expect_holds(filtered, exact::rational(exact::Dyadic(3.0F), exact::Dyadic(9.0F)));
 }
 
 TEST(Bounds, SquareRoot) {
@@ -101,22 +101,22 @@ TEST(Bounds, SquareRoot) {
   const exact::Dyadic least(rounded.value - rounded.error), most(rounded.value + rounded.error);
   EXPECT_LE(compare(least * least, exact::Dyadic(0x1.0000000059311p+0)), 0);
   EXPECT_GE(compare(most * most, exact::Dyadic(0x1.0000000059311p+0)), 0);
-  // Of 1 and 1/4 less.
+  // The roots of 1 and of 1 minus 1/4.
   const Approximate root = square_root({.value = 1, .error = 0.25});
   const exact::Dyadic below(root.value - root.error);
   EXPECT_LE(compare(below * below, exact::Dyadic(0.75)), 0);
 }
 
 TEST(Bounds, FirstRoot) {
-  // a, b, the root of the discriminant, and b's error.
+  // a, b, the root of the discriminant, and the error of b.
   constexpr std::array<double, 4> v = {0x1.000009dfe11d7p+0, -0x1.00000cef4faafp+0,
                                        0x1.120fea3088868p-41, 0x1.f9dad477ac838p-55};
   const exact::Dyadic a(v[0]), numerator = -exact::Dyadic(v[1]) - exact::Dyadic(v[2]), error(v[3]);
-  const Verdict verdict =
-      first_root_verdict({.value = v[0], .error = 0}, {.value = v[1], .error = v[3]},
-                         {.value = v[2], .error = 0}, kEverywhere);
-  expect_holds(verdict, exact::rational(numerator - error, a));
-  expect_holds(verdict, exact::rational(numerator + error, a));
+  const FilterResult filtered =
+      first_root_result({.value = v[0], .error = 0}, {.value = v[1], .error = v[3]},
+                        {.value = v[2], .error = 0}, kEverywhere);
+  expect_holds(filtered, exact::rational(numerator - error, a));
+  expect_holds(filtered, exact::rational(numerator + error, a));
 }
 
 TEST(Bounds, TrianglePlane) {
@@ -128,7 +128,7 @@ TEST(Bounds, TrianglePlane) {
        -0x1.600004p-22F, -0x1.7f2ffap+0F, -0x1.5c43ccp-22F, 0x1.deff36p-23F, 0x1.13043cp+0F,
        0x1.9ee56ep-51F, 0x1.c2abb2p-58F, 0x1.ff9bf8p+0F, -0x1.21445ep-3F, 0x1.ap-50F},
   }};
-  for (const auto& v : cases) {  // corners, o, d
+  for (const auto& v : cases) {  // vertices, o, d
     const exact::Vector a = vector(v, 0), n = cross(vector(v, 3) - a, vector(v, 6) - a);
     const TrianglePlaneFilter filter({vec3(v, 0), vec3(v, 3), vec3(v, 6)}, vec3(v, 9));
     expect_holds(filter(DVec3(vec3(v, 12)), kEverywhere),
@@ -188,7 +188,7 @@ TEST(Bounds, SideOfATriangle) {
   constexpr Numbers<12> v = {0x1.26025p+10F,   0x1.0bfe58p-7F,   0x1.2bc184p-2F,
                              -0x1.b740fcp-44F, -0x1.b74104p-44F, 0x1.2e49a2p-56F,
                              -0x1.9407f8p+10F, 0x1.c03d04p+19F,  0x1.68796p-2F,
-                             0x1.f745p-44F,    0x1.604586p-35F,  0x1.ae34p-54F};  // corners, point
+                             0x1.f745p-44F,    0x1.604586p-35F,  0x1.ae34p-54F};  // vertices, point
   const Triangle t{vec3(v, 0), vec3(v, 3), vec3(v, 6)};
   const exact::Vector a = vector(v, 0);
   const int side = dot(vector(v, 9) - a, cross(vector(v, 3) - a, vector(v, 6) - a)).sign();
@@ -196,16 +196,17 @@ TEST(Bounds, SideOfATriangle) {
 }
 
 TEST(Bounds, SideOfABox) {
-  // The plane x = 0 goes through a corner of the box around (1, 0, 0), one of the box around it.
+  // The plane x = 0 passes through a corner of the box around (1, 0, 0), one of the box around it.
   const Triangle t{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_EQ(certain_side(t.a, normal_of(t), DVec3(1, 0, 0), DVec3(0.75)), 1);
   EXPECT_EQ(certain_side(t.a, normal_of(t), DVec3(1, 0, 0), DVec3(1.25)), 0);
 }
 
 TEST(Bounds, CoordinateInAPlane) {
-  constexpr Numbers<11> v = {-0x1.000006p+1F, -0x1.0013f2p+1F,  0x1.a07adep-19F,  -0x1.dfff3ep-49F,
-                             0x1.dfff22p-49F, -0x1.ef7ca2p-51F, -0x1.fff382p-24F, 0x1.000006p+1F,
-                             -0x1p-1F,        0x1.dfff3ap-49F,  -0x1.dfff3ap-49F};  // corners, x, y
+  constexpr Numbers<11> v = {
+      -0x1.000006p+1F, -0x1.0013f2p+1F,  0x1.a07adep-19F,  -0x1.dfff3ep-49F,
+      0x1.dfff22p-49F, -0x1.ef7ca2p-51F, -0x1.fff382p-24F, 0x1.000006p+1F,
+      -0x1p-1F,        0x1.dfff3ap-49F,  -0x1.dfff3ap-49F};  // vertices, x, y
   const Triangle t{vec3(v, 0), vec3(v, 3), vec3(v, 6)};
   const Ray ray{.o = {v[9], v[10], 0}, .d = Vec3(0)};
   const Approximate z = coordinate_in_plane(t.a, normal_of(t), {ray, {.lo = 1, .hi = 1}}, 2);
@@ -246,7 +247,7 @@ TEST(Bounds, QuadricPassingABox) {
                              0x1.0ae40ep-2F,   0x1.27f8eap-52F,  0x1.00008p+0F,    -0x1.00008p+0F,
                              -0x1.e39592p-52F, 0x1.7f909cp-57F};  // coefficients, p, radius
   const Quadric q{v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8], v[9]};
-  if (passes(q, DVec3(vec3(v, 10)), DVec3(v[13]))) {
+  if (clears_box(q, DVec3(vec3(v, 10)), DVec3(v[13]))) {
     const int side = sign_at(q, vector(v, 10));
     for (unsigned corner = 0; corner < 8; ++corner) {
       exact::Vector x = vector(v, 10);
@@ -257,8 +258,9 @@ TEST(Bounds, QuadricPassingABox) {
     }
   }
   // Zero at a corner of the box: x y + x + y = 3 at (1, 1), and x^2 = 4 at 2.
-  EXPECT_FALSE(passes(Quadric{.d = 1, .g = 1, .h = 1, .j = -3}, DVec3(0.5, 0.5, 0), DVec3(0.5)));
-  EXPECT_FALSE(passes(Quadric{.a = 1, .j = -4}, DVec3(1, 0, 0), DVec3(1)));
+  EXPECT_FALSE(
+      clears_box(Quadric{.d = 1, .g = 1, .h = 1, .j = -3}, DVec3(0.5, 0.5, 0), DVec3(0.5)));
+  EXPECT_FALSE(clears_box(Quadric{.a = 1, .j = -4}, DVec3(1, 0, 0), DVec3(1)));
 }
 
 }  // namespace

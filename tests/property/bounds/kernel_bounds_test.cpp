@@ -1,11 +1,11 @@
-// As bounds_test.cpp, for the kernels of every instruction set: a tree of one triangle, asked in
-// every way. Where products and sums are fused other inputs are the worst, so each bound has some
-// for both.
+// As bounds_test.cpp, for the kernels of every instruction set: a tree of one triangle, queried by
+// every function. Different inputs are the worst with and without fused operations, so each bound
+// has some for both.
 
+#include "accel/hit_resolver.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "accel/slow_path.hpp"
-#include "accel/tile_judge.hpp"
+#include "accel/packet_resolver.hpp"
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"
@@ -24,7 +24,7 @@
 namespace microtrace {
 namespace {
 
-using Numbers = std::array<float, 15>;  // corners, o, d
+using Numbers = std::array<float, 15>;  // vertices, o, d
 
 Vec3 vec3(const Numbers& numbers, std::size_t i) {
   return {numbers[i], numbers[i + 1], numbers[i + 2]};
@@ -36,7 +36,7 @@ float largest_component(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// A leaf of one block, with one triangle in it, its corners as they stand.
+// A leaf of one block that contains one triangle, with its vertices in the given order.
 class OneTriangle {
  public:
   explicit OneTriangle(const Numbers& v)
@@ -67,7 +67,8 @@ class OneTriangle {
     in_a_stream(kernels);
   }
 
-  /// Of the ray's parameter in the triangle's plane, be it within the triangle or not.
+  /// Checks the rounding of the parameter in the triangle's plane, whether or not the ray hits the
+  /// triangle.
   void check_rounding(const Kernels& kernels) const {
     SCOPED_TRACE(kernels.name);
     const exact::Vector a = exact::vector(triangle_.a),
@@ -88,12 +89,12 @@ class OneTriangle {
     if (kernels.round_t(batch) != 0) {
       EXPECT_EQ(batch.t[0], t);
     }
-    const std::vector<Ray> rays(kTileRays, ray_);
-    KernelTile tile;
-    ASSERT_TRUE(fill_tile(rays, kernels, tile));
-    std::fill(tile.best_place, tile.best_place + kTileRays, 0U);
-    alignas(64) float tile_t[kTileRays];
-    if (kernels.round_t_of_tile(tree(), tile, tile_t) != 0) {
+    const std::vector<Ray> rays(kPacketRays, ray_);
+    KernelPacket tile;
+    ASSERT_TRUE(fill_packet(rays, kernels, tile));
+    std::fill(tile.best_slot, tile.best_slot + kPacketRays, 0U);
+    alignas(64) float tile_t[kPacketRays];
+    if (kernels.round_t_of_packet(tree(), tile, tile_t) != 0) {
       EXPECT_EQ(tile_t[0], t);
     }
   }
@@ -109,7 +110,7 @@ class OneTriangle {
     return {.nodes = nullptr, .blocks = &block_, .others = nullptr, .root = child_ref::kTriangles};
   }
 
-  void expect_right(const Best& best) const {
+  void expect_right(const ClosestSoFar& best) const {
     ASSERT_EQ(best.id != kNoPrimitive, root_.has_value());
     if (!root_) return;
     EXPECT_LE(number(best.lo), *root_);
@@ -117,31 +118,32 @@ class OneTriangle {
   }
 
   void alone(const Kernels& kernels) const {
-    Judge judge(primitives_, ray_);
-    Best best = judge.no_hit();
-    kernels.closest(tree(), kernel_ray(ray_, 1), judge.slow_path(), best);
+    HitResolver judge(primitives_, ray_);
+    ClosestSoFar best = judge.no_hit();
+    kernels.closest(tree(), kernel_ray(ray_, 1), judge.fallback(), best);
     expect_right(best);
-    EXPECT_EQ(kernels.any(tree(), kernel_ray(ray_, 1), judge.slow_path()), root_.has_value());
+    EXPECT_EQ(kernels.any(tree(), kernel_ray(ray_, 1), judge.fallback()), root_.has_value());
   }
 
   void in_a_tile(const Kernels& kernels) const {
-    const std::vector<Ray> rays(kTileRays, ray_);
-    KernelTile tile;
-    ASSERT_TRUE(fill_tile(rays, kernels, tile));
-    TileJudge judge(primitives_, rays);
-    kernels.closest_of_tile(tree(), tile, judge.slow_path());
-    for (int i = 0; i < kTileRays; ++i)
+    const std::vector<Ray> rays(kPacketRays, ray_);
+    KernelPacket tile;
+    ASSERT_TRUE(fill_packet(rays, kernels, tile));
+    PacketResolver judge(primitives_, rays);
+    kernels.closest_of_packet(tree(), tile, judge.fallback());
+    for (int i = 0; i < kPacketRays; ++i)
       expect_right({tile.best_lo[i], tile.best_hi[i], tile.best_id[i]});
   }
 
-  // As many as go through the tree in packets.
+  // As many rays as traverse the tree in packets.
   void in_a_stream(const Kernels& kernels) const {
     const auto stream = std::make_unique<KernelStream>();
-    const StreamSlowPath slow{.context = const_cast<OneTriangle*>(this),
-                              .consider = [](void* self, int, std::uint32_t id, Best& best) {
-                                const auto& one = *static_cast<const OneTriangle*>(self);
-                                Judge(one.primitives_, one.ray_).consider(id, best);
-                              }};
+    const StreamFallback slow{
+        .context = const_cast<OneTriangle*>(this),
+        .consider = [](void* self, int, std::uint32_t id, ClosestSoFar& best) {
+          const auto& one = *static_cast<const OneTriangle*>(self);
+          HitResolver(one.primitives_, one.ray_).consider(id, best);
+        }};
     fill(kernels, *stream);
     kernels.closest_of_stream(tree(), *stream, slow);
     for (int i = 0; i < stream->count; ++i)
@@ -152,7 +154,7 @@ class OneTriangle {
       EXPECT_EQ(stream->best_id[i] != kNoPrimitive, root_.has_value());
   }
   void fill(const Kernels& kernels, KernelStream& stream) const {
-    stream.count = kTileRays;
+    stream.count = kPacketRays;
     for (int i = 0; i < stream.count; ++i) {
       for (int k = 0; k < 3; ++k) stream.o[k][i] = ray_.o[k], stream.d[k][i] = ray_.d[k];
       stream.t_min[i] = ray_.t_min;
@@ -241,7 +243,7 @@ TEST(KernelBounds, ParameterOfAHit) {
 }
 
 TEST(KernelBounds, RoundedParameter) {
-  // Plane and ray; for the last a tile's bound of the slope is no more than the ray's.
+  // Plane and ray; in the last case a packet's bound of the slope equals the ray's.
   constexpr std::array<Numbers, 3> cases = {{
       {-0x1.1c343ep+1F, -0x1.6p-26F, 0x1.040022p+1F, -0x1.d2a5acp+0F, 0x1.000004p+1F,
        0x1.000002p+1F, 0x1.80007p-51F, -0x1.6a4a92p-47F, 0x1.4006f4p-50F, 0x1.3ffc6ap-50F,
@@ -259,7 +261,7 @@ TEST(KernelBounds, RoundedParameter) {
   }
 }
 
-// The distance to a plane of a box, x - o over d, from below and from above.
+// The distance to a plane of a box, (x - o) / d, from below and from above.
 TEST(KernelBounds, Slabs) {
   struct Slab {
     float x, o, d;
@@ -274,7 +276,7 @@ TEST(KernelBounds, Slabs) {
   for (const Kernels* kernels : available_kernels()) {
     SCOPED_TRACE(kernels->name);
     const auto ask = [&](const Slab& slab) {
-      stream->count = kTileRays;
+      stream->count = kPacketRays;
       for (int i = 0; i < stream->count; ++i) {
         for (int k = 0; k < 3; ++k) stream->o[k][i] = slab.o, stream->d[k][i] = slab.d;
         stream->t_min[i] = 0;

@@ -4,9 +4,9 @@
 namespace microtrace {
 namespace {
 
-/// neighbour() for N floats.
+/// neighbor() for N floats.
 template <int N>
-inline Float<N> neighbours(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
+inline Float<N> neighbors(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
   using Bits = Unsigned<N>;  // -0 and NaN, in unused lanes, wrap around
   const Bits bits = (Bits)x, one = Bits{} + 1;
   const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
@@ -41,7 +41,7 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
-    const D moved = __builtin_convertvector(neighbours<N>(x, up_floats), D) + D{};  // no -0
+    const D moved = __builtin_convertvector(neighbors<N>(x, up_floats), D) + D{};  // no -0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);

@@ -23,7 +23,7 @@ constexpr double reach_of(int steps, double w_k) {
 using SpawnFloats = float[kSpawnLanes];
 
 /// Points where rays hit triangles.
-struct alignas(64) DepartureLanes {
+struct alignas(64) HitPointLanes {
   SpawnFloats a[3], b[3], c[3];  ///< vertices
   SpawnFloats o[3], d[3], t_min, t_max;
   // ---- set by the kernel:
@@ -37,7 +37,7 @@ struct alignas(64) DepartureLanes {
 
 /// Directions of rays that leave these points.
 struct alignas(64) OriginLanes {
-  SpawnFloats a[3], p[3], axis;  ///< as in DepartureLanes, and the next members too
+  SpawnFloats a[3], p[3], axis;  ///< as in HitPointLanes, and the next members too
   double n[3][kSpawnLanes], permanent[3][kSpawnLanes];
   SpawnFloats direction[3];
   // ---- set by the kernel:
@@ -46,7 +46,7 @@ struct alignas(64) OriginLanes {
 };
 
 struct SpawnKernels {
-  void (*find_departures)(DepartureLanes& lanes);
+  void (*find_hit_points)(HitPointLanes& lanes);
   void (*find_origins)(OriginLanes& lanes);
 };
 

@@ -3,7 +3,7 @@
 #include "io/gltf/mesh/surfaces.hpp"
 #include "io/gltf/pose/instances.hpp"
 #include "io/gltf/pose/nodes.hpp"
-#include "scene/way_to_origin.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <vector>
 

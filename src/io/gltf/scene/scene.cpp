@@ -25,7 +25,7 @@
 #include "io/gltf/scene/object_maker.hpp"
 #include "io/gltf/scene/placed_bounds.hpp"
 #include "io/load_clock.hpp"
-#include "scene/way_to_origin.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <new>
 #include <stdexcept>
@@ -214,7 +214,7 @@ LoadedScene GltfFile::at(std::optional<double> time) {
     const gltf::PosedAsset pose = content_->pose(time);
     Asset unheard = content_->asset;
     const std::vector<PlacedNode> nodes = content_->tree.place(unheard, DMat4(1), pose.nodes);
-    const DVec3 way = way_to_origin(
+    const DVec3 way = translation_to_origin(
         gltf::bounds_of(content_->model, nodes, content_->surfaces, content_->instances));
     LoadedScene result = content_->scene(pose, glm::translate(DMat4(1), way));
     result.scene.origin = -way;

@@ -1,5 +1,5 @@
 #pragma once
-/// Bits from the lowest of the first byte on, as BasisLZ and UASTC store them.
+/// Reads bits starting with the lowest bit of the first byte, as BasisLZ and UASTC store them.
 
 #include "modules/codecs/basis/bytes.hpp"
 
@@ -11,7 +11,7 @@ class BitReader {
  public:
   explicit BitReader(Bytes bytes) : bytes_(bytes) {}
 
-  /// The next `count` bits, 0 to 32, the first of them lowest; zeros follow the end.
+  /// The next `count` bits, 0 to 32, first bit lowest; zeros follow the end of the data.
   [[nodiscard]] std::uint32_t peek(unsigned count) const {
     const std::size_t first = position_ / 8;
     const std::size_t end = std::min(bytes_.size(), first + 5);
@@ -22,7 +22,7 @@ class BitReader {
     return static_cast<std::uint32_t>(window >> position_ % 8 & ((std::uint64_t{1} << count) - 1));
   }
 
-  /// Throws Damage past the end.
+  /// Throws Damage beyond the end.
   void skip(unsigned count) {
     position_ += count;
     if (position_ > 8 * bytes_.size()) throw Damage("the compressed data is cut off");

@@ -1,5 +1,5 @@
 #pragma once
-/// Reading of numbers from a file's bytes that checks every access.
+/// Bounds-checked reading of numbers from a file's bytes.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace basis {
 
-/// What is wrong with a file. It never leaves the module.
+/// An error in a file. Never leaves the module.
 class Damage : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -16,7 +16,7 @@ class Damage : public std::runtime_error {
 
 using Bytes = std::span<const unsigned char>;
 
-/// Throws Damage(words) unless all `size` bytes at `offset` are there.
+/// Throws Damage(words) unless there are `size` bytes at `offset`.
 inline Bytes part_of(Bytes bytes, std::uint64_t offset, std::uint64_t size, const char* words) {
   if (offset > bytes.size() || size > bytes.size() - offset) throw Damage(words);
   return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));

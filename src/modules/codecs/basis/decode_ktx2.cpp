@@ -8,15 +8,15 @@
 #include <vector>
 #include <zstd.h>
 
-// All of it is integer arithmetic.
+// All decoding is integer arithmetic.
 
 namespace basis {
 namespace {
 
-/// The blocks, of which there are `size` bytes; `storage` holds them if they were compressed.
+/// The blocks, `size` bytes in all; `storage` holds them if they were compressed.
 Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char>& storage) {
   if (!ktx2.is_zstd) return ktx2.level;
-  // Zstandard's frame says how much it holds before memory is taken.
+  // Zstandard's frame header has the content size, which is checked before memory is allocated.
   if (ZSTD_getFrameContentSize(ktx2.level.data(), ktx2.level.size()) != size) {
     throw Damage("the Zstandard data does not have the size of the blocks");
   }

@@ -12,22 +12,22 @@
 
 namespace basis {
 
-/// A base color of 5 bits a channel, and a row of ETC1's table of modifiers.
+/// A base color with 5 bits per channel, and a row of ETC1's table of modifiers.
 struct Endpoint {
   std::array<std::uint8_t, 3> color;
   std::uint8_t intensity;
 };
 
-/// For each row of a block four values of 2 bits, the left one lowest.
+/// Four 2-bit values for each row of a block, the left one lowest.
 using Selector = std::array<std::uint8_t, 4>;
 
-/// What the blocks of all levels refer to, and the codes of the references.
+/// The codebooks of all levels, and the Huffman codes of references to them.
 struct Codebooks {
   std::vector<Endpoint> endpoints;
   std::vector<Selector> selectors;
   HuffmanTable predictions, endpoint_deltas, selector_symbols, history_runs;
   std::uint32_t history_size = 0;
-  Bytes color_slice{}, alpha_slice{};  ///< of the base level; without alpha the latter is empty
+  Bytes color_slice{}, alpha_slice{};  ///< of the base level; alpha_slice is empty without alpha
 };
 
 /// Throws Damage.
@@ -35,7 +35,7 @@ struct Codebooks {
 
 /// Writes the colors. Throws Damage.
 void decode_color_slice(const Codebooks& books, const Texels& texels);
-/// Writes alpha, which is the slice's green. Throws Damage.
+/// Writes alpha, which is stored in the slice's green channel. Throws Damage.
 void decode_alpha_slice(const Codebooks& books, const Texels& texels);
 
 }  // namespace basis

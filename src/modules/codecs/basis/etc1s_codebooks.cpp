@@ -5,7 +5,7 @@ namespace {
 
 constexpr const char* damaged = "the BasisLZ global data is damaged";
 
-/// Which of three tables holds the step from a channel's previous value.
+/// The index, out of three tables, for the difference to a channel's previous value.
 std::size_t delta_table(std::uint32_t previous) {
   if (previous <= 9) return 0;
   return previous <= 21 ? 1 : 2;
@@ -16,7 +16,7 @@ std::vector<Endpoint> read_endpoints(Bytes bytes, std::size_t count) {
   std::array<HuffmanTable, 3> color_deltas = {read_huffman_table(bits), read_huffman_table(bits),
                                               read_huffman_table(bits)};
   const HuffmanTable intensity_deltas = read_huffman_table(bits);
-  const std::size_t channels = bits.read(1) != 0 ? 1 : 3;  // gray, or not
+  const std::size_t channels = bits.read(1) != 0 ? 1 : 3;  // 1 for gray
   std::vector<Endpoint> endpoints(count);
   Endpoint last{{16, 16, 16}, 0};
   for (Endpoint& endpoint : endpoints) {

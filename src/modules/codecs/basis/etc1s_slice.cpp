@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* damaged = "an ETC1S slice is damaged";
 
-/// A number in groups of `width` bits, each with a bit more that says whether another follows.
+/// A number in groups of `width` bits, each followed by a bit that tells whether another group
+/// follows.
 std::uint64_t read_groups(BitReader& bits, unsigned width) {
   std::uint64_t result = 0;
   for (unsigned shift = 0; shift < 32; shift += width) {
@@ -19,7 +20,7 @@ std::uint64_t read_groups(BitReader& bits, unsigned width) {
   throw Damage(damaged);
 }
 
-/// Selectors that were used lately: approximately moved to the front.
+/// Recently used selectors, with approximate move-to-front order.
 class History {
  public:
   explicit History(std::size_t size) : values_(size), next_(size / 2) {}
@@ -42,7 +43,7 @@ class History {
   std::size_t next_;
 };
 
-/// Decodes the references of the blocks, row by row.
+/// Decodes the references of all blocks, row by row.
 class SliceDecoder {
  public:
   SliceDecoder(const Codebooks& books, Bytes slice, std::uint32_t blocks_x)
@@ -56,7 +57,8 @@ class SliceDecoder {
     if (x % 2 == 0) prediction_ = y % 2 == 0 ? even_row_prediction(x) : odd_row_[x / 2];
     const std::uint32_t way = prediction_ & 3U;
     prediction_ >>= 2U;
-    // The left block's endpoint is the last one, and this row's are written over those above.
+    // The left block's endpoint is the previous one. This row's endpoints overwrite those of the
+    // row above.
     const std::uint32_t upper = above_[x];
     if (way == 0) {
       if (x == 0) throw Damage(damaged);
@@ -86,7 +88,7 @@ class SliceDecoder {
   }
 
  private:
-  /// Of 2 x 2 blocks, 2 bits each, whose lower two wait for their row.
+  /// Predictions for 2 x 2 blocks, 2 bits each; the lower two are stored for the next row.
   std::uint32_t even_row_prediction(std::uint32_t x) {
     constexpr std::uint32_t repeat = 256, least_repeats = 3;
     if (repeats_ > 0) {
@@ -102,7 +104,7 @@ class SliceDecoder {
     return last_prediction_;
   }
 
-  /// An index into the codebook, or its size plus one into the history.
+  /// An index into the codebook, or the codebook's size plus one plus an index into the history.
   std::uint32_t selector_symbol(std::uint32_t count) {
     constexpr std::uint32_t least_run = 3, long_run = 63;
     if (run_ > 0) {
@@ -119,8 +121,8 @@ class SliceDecoder {
   const Codebooks& books_;
   BitReader bits_;
   History history_;
-  std::vector<std::uint32_t> above_;   // endpoints of the row above from the present column on
-  std::vector<std::uint8_t> odd_row_;  // predictions of pairs of blocks
+  std::vector<std::uint32_t> above_;   // endpoints of the row above, from the current column on
+  std::vector<std::uint8_t> odd_row_;  // predictions for pairs of blocks
   std::uint32_t upper_left_ = 0, last_ = 0, prediction_ = 0, last_prediction_ = 0;
   std::uint64_t repeats_ = 0, run_ = 0;
 };
@@ -144,7 +146,7 @@ std::array<Color, 4> palette(const Endpoint& endpoint) {
       result[i][c] =
           static_cast<std::uint8_t>(std::clamp(base + modifiers[endpoint.intensity][i], 0, 255));
     }
-    result[i][3] = result[i][1];  // for slices of alpha
+    result[i][3] = result[i][1];  // for alpha slices
   }
   return result;
 }

@@ -8,14 +8,14 @@ namespace {
 
 constexpr unsigned max_length = 16;
 
-/// Codes are stored from their highest bit on.
+/// Codes are stored highest bit first.
 std::uint32_t reversed(std::uint32_t code, unsigned length) {
   std::uint32_t result = 0;
   for (unsigned i = 0; i < length; ++i) result |= (code >> i & 1U) << (length - 1 - i);
   return result;
 }
 
-/// Symbols from 17 on of the code lengths' alphabet: runs of zeros, or of the length before.
+/// Symbols 17 and above of the alphabet of code lengths: runs of zeros, or of the previous length.
 struct Run {
   unsigned least, bits;
   bool of_zeros;
@@ -42,8 +42,8 @@ HuffmanTable::HuffmanTable(std::span<const std::uint8_t> lengths) {
   for (const std::uint8_t length : lengths) ++count[length];
   const auto used = static_cast<std::uint32_t>(lengths.size()) - count[0];
   count[0] = 0;
-  std::array<std::uint32_t, max_length + 2> next{};  // code of each length
-  std::uint32_t space = 0;                           // of 2^16
+  std::array<std::uint32_t, max_length + 2> next{};  // next code of each length
+  std::uint32_t space = 0;                           // used code space, of 2^16
   for (unsigned length = 1; length <= max_length; ++length) {
     next[length + 1] = (next[length] + count[length]) << 1U;
     space += count[length] << (max_length - length);
@@ -64,7 +64,7 @@ HuffmanTable::HuffmanTable(std::span<const std::uint8_t> lengths) {
 
 HuffmanTable read_huffman_table(BitReader& bits) {
   const std::uint32_t size = bits.read(14);
-  if (size == 0) return HuffmanTable({});  // of symbols that do not occur
+  if (size == 0) return HuffmanTable({});  // for symbols that do not occur
   const HuffmanTable length_table = read_length_table(bits);
   std::vector<std::uint8_t> lengths;
   lengths.reserve(size);

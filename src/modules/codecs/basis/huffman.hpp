@@ -12,8 +12,8 @@ namespace basis {
 
 class HuffmanTable {
  public:
-  /// The lengths of the symbols' codes, 0 for symbols without one. Throws Damage unless the codes
-  /// are complete or there is at most one.
+  /// `lengths` has the code length of each symbol, 0 for symbols without a code. Throws Damage
+  /// unless the code is complete or has at most one symbol.
   explicit HuffmanTable(std::span<const std::uint8_t> lengths);
 
   /// Throws Damage.
@@ -31,10 +31,10 @@ class HuffmanTable {
   };
 
   unsigned longest_ = 0;        // bits
-  std::vector<Entry> entries_;  // by the next longest_ bits
+  std::vector<Entry> entries_;  // indexed by the next longest_ bits
 };
 
-/// A table as the file holds it. Throws Damage.
+/// Reads a table from the file. Throws Damage.
 [[nodiscard]] HuffmanTable read_huffman_table(BitReader& bits);
 
 }  // namespace basis

@@ -42,11 +42,11 @@ void check_shape(Bytes file) {
   }
 }
 
-/// The basic block of the data format descriptor.
+/// Reads the basic block of the data format descriptor.
 void read_descriptor(Bytes file, Ktx2& ktx2) {
   constexpr const char* damaged = "the data format descriptor is damaged";
   const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), damaged);
-  constexpr std::size_t heads = 28, sample_size = 16;  // bytes before the samples, and of each
+  constexpr std::size_t heads = 28, sample_size = 16;  // bytes before samples, and of each
   if (dfd.size() < heads + sample_size || u32_at(dfd, 4) != 0) throw Damage(damaged);
   const std::uint32_t block_size = u32_at(dfd, 8) >> 16U;
   if (block_size < heads - 4 + sample_size || block_size > dfd.size() - 4) throw Damage(damaged);
@@ -72,7 +72,7 @@ void read_descriptor(Bytes file, Ktx2& ktx2) {
   }
 }
 
-/// Of one entry of the metadata; the values end with a null byte.
+/// Checks one metadata entry; values end with a null byte.
 void check_entry(Bytes entry) {
   const std::string_view text(reinterpret_cast<const char*>(entry.data()), entry.size());
   const std::size_t end = text.find('\0');
@@ -97,7 +97,7 @@ void check_metadata(Bytes file) {
   }
 }
 
-/// The first level is the largest one.
+/// Reads the first level, which is the largest one.
 void read_level(Bytes file, Ktx2& ktx2) {
   constexpr std::size_t level_index = 80;
   ktx2.levels = std::max(u32_at(file, 40), 1U);

@@ -1,5 +1,5 @@
 #pragma once
-/// The container: KTX File Format Specification 2.0, and what KHR_texture_basisu allows of it.
+/// The KTX2 container (KTX File Format Specification 2.0), as far as KHR_texture_basisu allows.
 
 #include "modules/codecs/basis/bytes.hpp"
 
@@ -14,14 +14,14 @@ struct Ktx2 {
   std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
   TexelFormat format = TexelFormat::etc1s;
   bool has_alpha = false;
-  bool is_zstd = false;      ///< whether Zstandard compresses the level
+  bool is_zstd = false;      ///< whether the level is compressed by Zstandard
   Bytes level{};             ///< the level's data
-  Bytes global{};            ///< ETC1S: what all levels share
+  Bytes global{};            ///< ETC1S: data shared by all levels
   std::uint32_t levels = 1;  ///< in the file
 };
 
-/// Throws Damage where the file is damaged, or holds anything but a 2D texture in ETC1S with
-/// BasisLZ, or in UASTC as it is or compressed by Zstandard.
+/// Throws Damage if the file is damaged, or contains anything other than a 2D texture in ETC1S with
+/// BasisLZ, or in UASTC, uncompressed or with Zstandard.
 [[nodiscard]] Ktx2 read_ktx2(Bytes file);
 
 }  // namespace basis

@@ -1,5 +1,5 @@
 #pragma once
-/// Where decoded blocks go.
+/// Destination of decoded blocks.
 
 #include <algorithm>
 #include <array>
@@ -11,20 +11,20 @@ namespace basis {
 using Color = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
 using Block = std::array<Color, 16>;        ///< 4 x 4 texels, row by row
 
-/// Blocks along a side of so many texels.
+/// The number of blocks along a side with this many texels.
 constexpr std::uint32_t blocks_along(std::uint32_t texels) {
   return texels / 4 + (texels % 4 != 0 ? 1 : 0);
 }
 
-/// Rows of 8-bit samples; blocks at the right and lower edge are cut.
+/// Rows of 8-bit samples; blocks at the right and lower edge are clipped.
 struct Texels {
   unsigned char* samples;
-  std::uint32_t width, height, channels;  ///< 3 or 4 channels
+  std::uint32_t width, height, channels;  ///< channels: 3 or 4
 
   [[nodiscard]] std::uint32_t blocks_x() const { return blocks_along(width); }
   [[nodiscard]] std::uint32_t blocks_y() const { return blocks_along(height); }
 
-  /// Writes channels `first` to `end` - 1 of the texels.
+  /// Writes channels `first` to `end` - 1 of a block's texels.
   void set_block(std::uint32_t block_x, std::uint32_t block_y, const Block& block,
                  std::uint32_t first, std::uint32_t end) const {
     const std::uint32_t columns = std::min(width - 4 * block_x, 4U);

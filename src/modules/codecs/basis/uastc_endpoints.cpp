@@ -5,10 +5,10 @@
 namespace basis {
 namespace {
 
-/// Trits and quints come in groups, whose last one may be short, as the digits of a number.
+/// Trits and quints are stored as the digits of a number, in groups; the last group may be short.
 struct Digits {
   std::size_t group;
-  std::array<unsigned, 6> bits;  ///< of a group of so many digits
+  std::array<unsigned, 6> bits;  ///< bits of a group with this many digits
 };
 constexpr Digits trits = {5, {0, 2, 4, 5, 7, 8}};
 constexpr Digits quints = {3, {0, 3, 5, 7}};
@@ -18,7 +18,7 @@ constexpr Digits quints = {3, {0, 3, 5, 7}};
 constexpr std::array<std::uint32_t, 7> trit_scales = {0, 204, 93, 44, 22, 11, 5};
 constexpr std::array<std::uint32_t, 6> quint_scales = {0, 113, 54, 26, 13, 6};
 
-/// The table's B: nine bits that repeat those of the value but the lowest.
+/// The table's B: nine bits that repeat the value's bits except the lowest.
 std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
   const std::uint32_t bits = value >> 1U;
   const bool is_trit = range.values == 3;
@@ -32,7 +32,7 @@ std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
       return bits << 6U | (is_trit ? bits : bits >> 1U);
     case 5:
       return bits << 5U | (is_trit ? bits >> 2U : bits >> 3U);
-    default:  // 6, of a trit; none of 1
+    default:  // 6 bits of a trit; there are none of 1
       return bits << 4U | bits >> 4U;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers between which UASTC's weights mix.
+/// Reads the endpoint values between which UASTC's weights interpolate.
 
 #include "modules/codecs/basis/bit_reader.hpp"
 #include "modules/codecs/basis/uastc_mode.hpp"
@@ -11,7 +11,7 @@ namespace basis {
 
 inline constexpr std::size_t max_endpoint_values = 18;
 
-/// `count` numbers from 0 to 255. Throws Damage.
+/// Reads `count` numbers from 0 to 255. Throws Damage.
 [[nodiscard]] std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(
     BitReader& bits, const EndpointRange& range, std::size_t count);
 

@@ -7,7 +7,7 @@ namespace {
 
 constexpr auto rgb = Channels::rgb, rgba = Channels::rgba, la = Channels::luminance_alpha;
 
-// "UASTC LDR 4x4 Texture Specification", the tables of modes and of their bits.
+// The tables of modes and of their bits in the "UASTC LDR 4x4 Texture Specification".
 constexpr std::array<UastcMode, 19> modes = {{
     {0b0001, 4, rgb, 1, 1, 4, {3, 6}, 15},   {0b110101, 6, rgb, 1, 1, 2, {1, 8}, 15},
     {0b11101, 5, rgb, 2, 1, 3, {1, 4}, 15},  {0b00011, 5, rgb, 3, 1, 2, {3, 2}, 15},
@@ -23,7 +23,7 @@ constexpr std::array<UastcMode, 19> modes = {{
 
 constexpr unsigned longest_code = 7;
 
-/// By the first bits of a block; modes.size() for the code that is reserved.
+/// Modes by the first bits of a block; modes.size() for the reserved code.
 constexpr std::array<std::uint8_t, 1U << longest_code> make_lookup() {
   std::array<std::uint8_t, 1U << longest_code> lookup{};
   lookup.fill(modes.size());

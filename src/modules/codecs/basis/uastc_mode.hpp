@@ -8,7 +8,7 @@
 
 namespace basis {
 
-/// How ASTC quantizes a number of 8 bits: n values times 2^bits.
+/// ASTC's quantization of 8-bit numbers: `values` times 2^bits levels.
 struct EndpointRange {
   unsigned values;  ///< 1, 3 (a trit) or 5 (a quint)
   unsigned bits;
@@ -17,13 +17,13 @@ struct EndpointRange {
 enum class Channels { rgb, rgba, luminance_alpha };
 
 struct UastcMode {
-  unsigned code, code_length;  ///< begins a block, the lowest bit first
+  unsigned code, code_length;  ///< prefix of a block, lowest bit first
   Channels channels;
-  unsigned subsets;      ///< of texels with endpoints of their own; 0: one color for all texels
-  unsigned planes;       ///< weights of a texel
-  unsigned weight_bits;  ///< each
+  unsigned subsets;  ///< subsets of texels with their own endpoints; 0: one color for all texels
+  unsigned planes;   ///< weights per texel
+  unsigned weight_bits;  ///< bits per weight
   EndpointRange range;
-  unsigned hint_bits;  ///< for conversion to other formats, passed over
+  unsigned hint_bits;  ///< hints for conversion to other formats, ignored
 
   [[nodiscard]] std::size_t endpoint_values() const {
     switch (channels) {
@@ -37,10 +37,10 @@ struct UastcMode {
   }
 };
 
-/// Index of mode 7, whose patterns are its own.
+/// Index of mode 7, which has its own patterns.
 inline constexpr std::size_t uastc_mode_of_other_patterns = 7;
 
-/// The number of the mode that a block begins with, whose code is read. Throws Damage.
+/// Reads the mode of a block. Throws Damage.
 [[nodiscard]] std::size_t read_uastc_mode(BitReader& bits);
 [[nodiscard]] const UastcMode& uastc_mode(std::size_t index);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// How blocks of several subsets are divided.
+/// Partition of blocks into subsets.
 
 #include <array>
 #include <cstddef>
@@ -9,13 +9,13 @@ namespace basis {
 
 struct Pattern {
   std::array<std::uint8_t, 16> subset{};  ///< of each texel
-  std::array<bool, 16> is_anchor{};       ///< first texel of a subset, whose weight lacks a bit
+  std::array<bool, 16> is_anchor{};  ///< first texel of a subset, whose weight has one bit less
 };
 
-/// Bits of a pattern's number in blocks of so many subsets, 1 to 3.
+/// Number of bits of a pattern's index in blocks with this many subsets, 1 to 3.
 [[nodiscard]] unsigned pattern_bits(unsigned subsets);
 
-/// Throws Damage where there is no pattern of that number.
+/// Throws Damage if there is no pattern with this number.
 [[nodiscard]] const Pattern& pattern(std::size_t mode, unsigned subsets, std::size_t number);
 
 }  // namespace basis

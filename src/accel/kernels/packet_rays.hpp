@@ -30,38 +30,39 @@ inline void transpose(Float<8> (&m)[8]) {
 }
 
 /// Transposes rays to one array per component. Returns false if they have different origins.
-inline bool read_rows(const float* rays, KernelTile& tile) {
+inline bool read_rows(const float* rays, KernelPacket& packet) {
   Float<8> differences{};
-  for (int i = 0; i < kTileRays; i += 8) {
+  for (int i = 0; i < kPacketRays; i += 8) {
     Float<8> column[8];
     for (int k = 0; k < 8; ++k)
-      column[k] = load<8>(rays + 8 * (i + k < tile.count ? i + k : tile.count - 1));
+      column[k] = load<8>(rays + 8 * (i + k < packet.count ? i + k : packet.count - 1));
     transpose(column);
     for (int axis = 0; axis < 3; ++axis) {
-      differences = differences + magnitude(column[axis] - tile.o[axis]);
-      store<8>(tile.d[axis] + i, column[4 + axis]);
+      differences = differences + magnitude(column[axis] - packet.o[axis]);
+      store<8>(packet.d[axis] + i, column[4 + axis]);
     }
-    store<8>(tile.t_min + i, column[3]);
-    store<8>(tile.best_lo + i, column[7]);
-    store<8>(tile.best_hi + i, column[7]);
+    store<8>(packet.t_min + i, column[3]);
+    store<8>(packet.best_lo + i, column[7]);
+    store<8>(packet.best_hi + i, column[7]);
   }
   // Different float32 numbers never have the difference 0, and the comparison is false for NaN.
-  return less_equal<8>(differences, Float<8>{}) == all_lanes<8>;
+  return less_equal<8>(differences, Float<8>{}) == kAllLanes<8>;
 }
 
 inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
   Beam beam;
   for (int axis = 0; axis < 3; ++axis) {
-    const float centre = 0.5F * least[axis] + 0.5F * greatest[axis];
-    beam.centre[axis] = centre;
+    const float center = 0.5F * least[axis] + 0.5F * greatest[axis];
+    beam.center[axis] = center;
     beam.radius[axis] =
-        greater(greatest[axis] - centre, centre - least[axis]) * (1 + 0x1p-22F) + 0x1p-126F;
+        greater(greatest[axis] - center, center - least[axis]) * (1 + 0x1p-22F) + 0x1p-126F;
   }
   return beam;
 }
 
 /// Bounds of the factors of all rays: the factors decrease as |d| increases.
-inline void bound_factors(const float (&least)[3], const float (&greatest)[3], KernelTile& tile) {
+inline void bound_factors(const float (&least)[3], const float (&greatest)[3],
+                          KernelPacket& packet) {
   const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
   float near[8], far[8];
   for (int i = 0; i < 8; i += 4) {
@@ -71,60 +72,60 @@ inline void bound_factors(const float (&least)[3], const float (&greatest)[3], K
     store<4>(far + i, far_factors);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    tile.negative[axis] = greatest[axis] < 0;
-    tile.common_sign[axis] = (greatest[axis] < 0 || least[axis] >= 0) &&
-                             __builtin_fabsf(far[axis]) <= __FLT_MAX__ &&
-                             __builtin_fabsf(far[axis + 4]) <= __FLT_MAX__;
-    tile.least_near[axis] = near[axis + 4];
-    tile.greatest_near[axis] = near[axis];
-    tile.least_far[axis] = far[axis + 4];
-    tile.greatest_far[axis] = far[axis];
+    packet.negative[axis] = greatest[axis] < 0;
+    packet.common_sign[axis] = (greatest[axis] < 0 || least[axis] >= 0) &&
+                               __builtin_fabsf(far[axis]) <= __FLT_MAX__ &&
+                               __builtin_fabsf(far[axis + 4]) <= __FLT_MAX__;
+    packet.least_near[axis] = near[axis + 4];
+    packet.greatest_near[axis] = near[axis];
+    packet.least_far[axis] = far[axis + 4];
+    packet.greatest_far[axis] = far[axis];
   }
 }
 
 template <int N>
-bool fill_tile(const float* rays, int count, KernelTile& tile) {
+bool fill_packet(const float* rays, int count, KernelPacket& packet) {
   using F = Float<N>;
-  tile.count = count;
+  packet.count = count;
   for (int axis = 0; axis < 3; ++axis) {
-    tile.o[axis] = rays[axis];
+    packet.o[axis] = rays[axis];
     if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
   }
-  if (!read_rows(rays, tile)) return false;
+  if (!read_rows(rays, packet)) return false;
   // The caller's next packet is usually stored after this one.
-  for (int i = 0; i < 8 * kTileRays; i += 16) __builtin_prefetch(rays + 8 * kTileRays + i);
-  __builtin_memset(tile.best_id, 0xff, sizeof tile.best_id);
-  __builtin_memset(tile.best_place, 0xff, sizeof tile.best_place);
-  static_assert(kNoPrimitive == 0xffffffff && kNoPlace == 0xffffffff);
+  for (int i = 0; i < 8 * kPacketRays; i += 16) __builtin_prefetch(rays + 8 * kPacketRays + i);
+  __builtin_memset(packet.best_id, 0xff, sizeof packet.best_id);
+  __builtin_memset(packet.best_slot, 0xff, sizeof packet.best_slot);
+  static_assert(kNoPrimitive == 0xffffffff && kNoSlot == 0xffffffff);
 
   const F longest = all<N>(kLongestDirection), shortest = all<N>(kShortestDirection);
-  Lanes suited = all_lanes<N>;
+  Lanes suited = kAllLanes<N>;
   const F infinity = all<N>(__builtin_inff());
   F least_t_begin = infinity;
   float tile_least[3], tile_greatest[3];
-  for (int first = 0; first < kTileRays; first += kGroupRays) {
+  for (int first = 0; first < kPacketRays; first += kGroupRays) {
     float least_d[3], greatest_d[3];
     F least[3] = {infinity, infinity, infinity}, greatest[3] = {-infinity, -infinity, -infinity};
     for (int i = first; i < first + kGroupRays; i += N) {
       F size{};
       for (int axis = 0; axis < 3; ++axis) {
-        const F d = load<N>(tile.d[axis] + i), length = magnitude(d);
+        const F d = load<N>(packet.d[axis] + i), length = magnitude(d);
         F near, far;
         slab_factors<N>(d, near, far);
-        store<N>(tile.near[axis] + i, near);
-        store<N>(tile.far[axis] + i, far);
+        store<N>(packet.near[axis] + i, near);
+        store<N>(packet.far[axis] + i, far);
         size = greater(length, size);
         suited &= less_equal<N>(length, longest);
         least[axis] = lesser(d, least[axis]);
         greatest[axis] = greater(d, greatest[axis]);
       }
-      const F t_min = load<N>(tile.t_min + i);
+      const F t_min = load<N>(packet.t_min + i);
       const F t_begin = t_min < all<N>(kLeastBegin) ? F{} : t_min;
-      store<N>(tile.t_begin + i, t_begin);
+      store<N>(packet.t_begin + i, t_begin);
       least_t_begin = lesser(t_begin, least_t_begin);
       suited &= less_equal<N>(shortest, size) & less_equal<N>(F{}, t_min) &
                 less_equal<N>(t_min, all<N>(kFarthestCoordinate)) &
-                less_equal<N>(t_min, load<N>(tile.best_hi + i));
+                less_equal<N>(t_min, load<N>(packet.best_hi + i));
     }
     for (int axis = 0; axis < 3; ++axis) {
       least_d[axis] = least_of<N>(least[axis]);
@@ -133,17 +134,18 @@ bool fill_tile(const float* rays, int count, KernelTile& tile) {
       tile_greatest[axis] =
           first == 0 ? greatest_d[axis] : greater(greatest_d[axis], tile_greatest[axis]);
     }
-    tile.group_beam[first / kGroupRays] = beam_between(least_d, greatest_d);
+    packet.group_beam[first / kGroupRays] = beam_between(least_d, greatest_d);
   }
-  if (suited != all_lanes<N>) return false;
-  for (int i = count; i < kTileRays; ++i) tile.best_lo[i] = tile.best_hi[i] = -__builtin_inff();
-  tile.beam = beam_between(tile_least, tile_greatest);
-  tile.d_sum = 0;
+  if (suited != kAllLanes<N>) return false;
+  for (int i = count; i < kPacketRays; ++i)
+    packet.best_lo[i] = packet.best_hi[i] = -__builtin_inff();
+  packet.beam = beam_between(tile_least, tile_greatest);
+  packet.d_sum = 0;
   for (int axis = 0; axis < 3; ++axis)
-    tile.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
-  tile.d_sum *= 1 + 0x1p-21F;
-  tile.least_t_begin = least_of<N>(least_t_begin);
-  bound_factors(tile_least, tile_greatest, tile);
+    packet.d_sum += greater(-tile_least[axis], tile_greatest[axis]);
+  packet.d_sum *= 1 + 0x1p-21F;
+  packet.least_t_begin = least_of<N>(least_t_begin);
+  bound_factors(tile_least, tile_greatest, packet);
   return true;
 }
 

@@ -1,6 +1,6 @@
-#include "accel/spawn/departure.hpp"
-#include "accel/spawn/passing.hpp"
-#include "accel/spawn/quick_spawn.hpp"
+#include "accel/spawn/box_clearance.hpp"
+#include "accel/spawn/fast_spawn.hpp"
+#include "accel/spawn/origin_search.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,9 +9,9 @@
 namespace microtrace {
 namespace {
 
-Triangle triangle_at(const TreeView& tree, std::uint32_t place) {
-  const TriangleBlock& block = tree.blocks[place / kWidth];
-  const std::uint32_t i = place % kWidth;
+Triangle triangle_at(const TreeView& tree, std::uint32_t slot) {
+  const TriangleBlock& block = tree.blocks[slot / kWidth];
+  const std::uint32_t i = slot % kWidth;
   return {.a = {block.a_x[i], block.a_y[i], block.a_z[i]},
           .b = {block.b_x[i], block.b_y[i], block.b_z[i]},
           .c = {block.c_x[i], block.c_y[i], block.c_z[i]}};
@@ -28,7 +28,7 @@ DVec3 vector_of(const double (&lanes)[3][kSpawnLanes], std::size_t lane) {
 }
 
 /// Sets the query to the box p +- reach; the rounding error is less than the reach.
-void set_box(const Vec3& p, const DVec3& reach, PlaceQuery& query) {
+void set_box(const Vec3& p, const DVec3& reach, BoxQuery& query) {
   for (int k = 0; k < 3; ++k) {
     query.lo[k] = static_cast<float>(p[k] - 2 * reach[k]);
     query.hi[k] = static_cast<float>(p[k] + 2 * reach[k]);
@@ -36,25 +36,25 @@ void set_box(const Vec3& p, const DVec3& reach, PlaceQuery& query) {
 }
 
 /// Sets the query to an empty box.
-void set_empty(PlaceQuery& query) {
+void set_empty(BoxQuery& query) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) query.lo[k] = infinity, query.hi[k] = -infinity;
 }
 
 }  // namespace
 
-void QuickSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
-  put_vector(departures_.a, lane, t.a);
-  put_vector(departures_.b, lane, t.b);
-  put_vector(departures_.c, lane, t.c);
-  put_vector(departures_.o, lane, ray.o);
-  put_vector(departures_.d, lane, ray.d);
-  departures_.t_min[lane] = ray.t_min;
-  departures_.t_max[lane] = ray.t_max;
+void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
+  put_vector(hit_points_.a, lane, t.a);
+  put_vector(hit_points_.b, lane, t.b);
+  put_vector(hit_points_.c, lane, t.c);
+  put_vector(hit_points_.o, lane, ray.o);
+  put_vector(hit_points_.d, lane, ray.d);
+  hit_points_.t_min[lane] = ray.t_min;
+  hit_points_.t_max[lane] = ray.t_max;
 }
 
-void QuickSpawns::add(const Bvh::Spawn& spawn) {
-  Departure& surface = surfaces_[hits_];
+void FastSpawns::add(const Bvh::Spawn& spawn) {
+  LeftSurface& surface = surfaces_[hits_];
   surface = {.id = spawn.hit.id, .is_triangle = false, .other = {}, .is_alone = false};
   if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives_.count()) {
     primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
@@ -69,35 +69,35 @@ void QuickSpawns::add(const Bvh::Spawn& spawn) {
   ++hits_;
 }
 
-std::optional<AxisPlane> QuickSpawns::axis_plane_of(std::size_t hit) const {
+std::optional<AxisPlane> FastSpawns::axis_plane_of(std::size_t hit) const {
   if (!surfaces_[hit].is_triangle) return surfaces_[hit].other->axis_plane();
-  return AxisPlane::of(vector_of(departures_.a, hit), vector_of(departures_.permanent, hit));
+  return AxisPlane::of(vector_of(hit_points_.a, hit), vector_of(hit_points_.permanent, hit));
 }
 
-bool QuickSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const {
-  const PlaceQuery& found = queries_[hit];
+bool FastSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const {
+  const BoxQuery& found = queries_[hit];
   if (found.count < 0) return false;
   const PrimitiveId own = surfaces_[hit].id;
   const std::optional<AxisPlane> plane = axis_plane_of(hit);
   // Surfaces in the plane that the ray leaves don't obstruct it.
-  const auto is_passed_by = [&](const auto& shape) {
-    return (plane && lies_in(*plane, shape)) || passes(shape, DVec3(p), reach);
+  const auto is_clear = [&](const auto& shape) {
+    return (plane && lies_in(*plane, shape)) || clears_box(shape, DVec3(p), reach);
   };
   const auto is_primitive_passed = [&](PrimitiveId id) {
     return id == own || primitives_.visit(id, [&](const auto& shape) {
-      return is_filterable(shape) && is_passed_by(shape);
+      return is_filterable(shape) && is_clear(shape);
     });
   };
-  const auto is_passed = [&](std::uint32_t place) {
-    if (place >= kOtherPlace) return is_primitive_passed(tree_->others[place - kOtherPlace]);
-    return tree_->blocks[place / kWidth].id[place % kWidth] == own ||
-           is_passed_by(triangle_at(*tree_, place));
+  const auto is_passed = [&](std::uint32_t slot) {
+    if (slot >= kOtherSlot) return is_primitive_passed(tree_->others[slot - kOtherSlot]);
+    return tree_->blocks[slot / kWidth].id[slot % kWidth] == own ||
+           is_clear(triangle_at(*tree_, slot));
   };
-  return std::all_of(found.places, found.places + found.count, is_passed) &&
+  return std::all_of(found.slots, found.slots + found.count, is_passed) &&
          std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
 }
 
-void QuickSpawns::find_neighbours() {
+void FastSpawns::find_neighbors() {
   struct Point {
     bool is_sure;
     Vec3 p;
@@ -105,14 +105,14 @@ void QuickSpawns::find_neighbours() {
   };
   std::array<Point, kHits> points;
   for (std::size_t k = 0; k < hits_; ++k) {
-    const Departure& surface = surfaces_[k];
-    PlaceQuery& query = queries_[k];
+    const LeftSurface& surface = surfaces_[k];
+    BoxQuery& query = queries_[k];
     Point& point = points[k];
     query.count = 0;
     if (surface.is_triangle) {
-      point = {.is_sure = departures_.is_sure[k] != 0,
-               .p = vector_of(departures_.p, k),
-               .reach = vector_of(departures_.reach, k)};
+      point = {.is_sure = hit_points_.is_sure[k] != 0,
+               .p = vector_of(hit_points_.p, k),
+               .reach = vector_of(hit_points_.reach, k)};
     } else {
       const bool is_sure = surface.other && surface.other->point();
       point = {.is_sure = is_sure,
@@ -128,19 +128,19 @@ void QuickSpawns::find_neighbours() {
   }
 }
 
-void QuickSpawns::put(std::size_t hit, const Vec3& direction, std::size_t lane) {
-  put_vector(origins_.a, lane, vector_of(departures_.a, hit));
-  put_vector(origins_.p, lane, vector_of(departures_.p, hit));
-  origins_.axis[lane] = departures_.axis[hit];
+void FastSpawns::put(std::size_t hit, const Vec3& direction, std::size_t lane) {
+  put_vector(origins_.a, lane, vector_of(hit_points_.a, hit));
+  put_vector(origins_.p, lane, vector_of(hit_points_.p, hit));
+  origins_.axis[lane] = hit_points_.axis[hit];
   for (std::size_t k = 0; k < 3; ++k) {
-    origins_.n[k][lane] = departures_.n[k][hit];
-    origins_.permanent[k][lane] = departures_.permanent[k][hit];
+    origins_.n[k][lane] = hit_points_.n[k][hit];
+    origins_.permanent[k][lane] = hit_points_.permanent[k][hit];
   }
   put_vector(origins_.direction, lane, direction);
 }
 
-void QuickSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
-                                  std::span<std::optional<Vec3>> origins) {
+void FastSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
+                                 std::span<std::optional<Vec3>> origins) {
   std::array<std::size_t, kSpawnLanes> spawn_of;
   std::size_t lanes = 0;
   const auto finish = [&] {
@@ -152,7 +152,7 @@ void QuickSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
     lanes = 0;
   };
   for (std::size_t i = 0; i < spawns.size(); ++i) {
-    const Departure& surface = surfaces_[hit_of_[i]];
+    const LeftSurface& surface = surfaces_[hit_of_[i]];
     if (!surface.is_triangle || !surface.is_alone) continue;
     put(hit_of_[i], spawns[i].direction, lanes);
     spawn_of[lanes++] = i;
@@ -161,8 +161,8 @@ void QuickSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
   finish();
 }
 
-std::size_t QuickSpawns::origins(std::span<const Bvh::Spawn> spawns,
-                                 std::span<std::optional<Vec3>> origins) {
+std::size_t FastSpawns::origins(std::span<const Bvh::Spawn> spawns,
+                                std::span<std::optional<Vec3>> origins) {
   hits_ = 0;
   std::size_t done = 0;
   for (; done < spawns.size() && done < kSpawns; ++done) {
@@ -175,12 +175,12 @@ std::size_t QuickSpawns::origins(std::span<const Bvh::Spawn> spawns,
     }
     hit_of_[done] = hits_ - 1;
   }
-  const std::span<const Departure> surfaces = std::span(surfaces_).first(hits_);
-  if (std::ranges::any_of(surfaces, &Departure::is_triangle))
-    spawn_kernels_.find_departures(departures_);
-  find_neighbours();
+  const std::span<const LeftSurface> surfaces = std::span(surfaces_).first(hits_);
+  if (std::ranges::any_of(surfaces, &LeftSurface::is_triangle))
+    spawn_kernels_.find_hit_points(hit_points_);
+  find_neighbors();
   for (std::size_t i = 0; i < done; ++i) {
-    const Departure& surface = surfaces_[hit_of_[i]];
+    const LeftSurface& surface = surfaces_[hit_of_[i]];
     origins[i] = surface.other && surface.is_alone ? surface.other->origin(spawns[i].direction)
                                                    : std::nullopt;
   }

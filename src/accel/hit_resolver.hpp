@@ -1,7 +1,7 @@
 #pragma once
 /// The stages after the float32 kernels: float64 filters, then exact arithmetic.
 
-#include "accel/build/twins.hpp"
+#include "accel/build/duplicates.hpp"
 #include "accel/closest_hit.hpp"
 #include "accel/filters/filter.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -15,7 +15,7 @@
 namespace microtrace {
 
 /// The initial value of a ray's nearest hit; t_scale is that of its kernel ray.
-[[nodiscard]] inline Best no_hit(const Ray& ray, double t_scale = 1) {
+[[nodiscard]] inline ClosestSoFar no_hit(const Ray& ray, double t_scale = 1) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
   const double end = ray.t_max * t_scale;  // a float32 unless it overflows
   const float t_max =
@@ -24,33 +24,34 @@ namespace microtrace {
 }
 
 /// A hit with t in [lo, hi] in the kernels' form: the interval is rounded outwards.
-[[nodiscard]] Best outwards(double lo, double hi, PrimitiveId id);
-[[nodiscard]] Best best_of(const ClosestHit& closest, const Ray& ray, double t_scale = 1);
+[[nodiscard]] ClosestSoFar outwards(double lo, double hi, PrimitiveId id);
+[[nodiscard]] ClosestSoFar closest_so_far(const ClosestHit& closest, const Ray& ray,
+                                          double t_scale = 1);
 
 class KnownHit;
 
 /// Decides hits of one ray with primitives.
-class Judge {
+class HitResolver {
  public:
   /// All arguments must outlive this object. Values of t in kernels are t_scale times the ray's.
   /// With `after`, only hits that follow it are considered.
-  Judge(const Primitives& primitives, const Ray& ray, double t_scale = 1,
-        const KnownHit* after = nullptr);
+  HitResolver(const Primitives& primitives, const Ray& ray, double t_scale = 1,
+              const KnownHit* after = nullptr);
 
   /// The initial value of the nearest hit.
-  [[nodiscard]] Best no_hit() const { return microtrace::no_hit(*ray_, t_scale_); }
+  [[nodiscard]] ClosestSoFar no_hit() const { return microtrace::no_hit(*ray_, t_scale_); }
 
   /// Updates best if primitive id is hit before it. best may come from a kernel.
-  void consider(std::uint32_t id, Best& best) const;
+  void consider(std::uint32_t id, ClosestSoFar& best) const;
 
   /// The filter's result for primitive id; unsure if the filters' limits are exceeded.
-  [[nodiscard]] Verdict verdict(PrimitiveId id) const;
+  [[nodiscard]] FilterResult filtered(PrimitiveId id) const;
 
   /// The hit with a primitive that the ray is known to hit, t rounded once.
   [[nodiscard]] Hit hit(std::uint32_t id) const;
 
   /// For kernels; this object must outlive the result.
-  [[nodiscard]] SlowPath slow_path();
+  [[nodiscard]] Fallback fallback();
 
  private:
   void consider(std::uint32_t id, ClosestHit& closest) const;
@@ -66,22 +67,23 @@ class Judge {
 /// The hit of a valid ray with a primitive, if there is one.
 class KnownHit {
  public:
-  /// All arguments must outlive this object. `id` is the primitive's; `twins` are the duplicates of
-  /// the primitives that will be queried.
-  KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Twins& twins);
+  /// All arguments must outlive this object. `id` is the primitive's; `duplicates` are the
+  /// duplicates of the primitives that will be queried.
+  KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
+           const Duplicates& duplicates);
 
   [[nodiscard]] bool exists() const { return exists_; }
   /// Bounds of its exact t.
   [[nodiscard]] const exact::Enclosure& bounds() const { return bounds_; }
   /// The next hit among primitive id and its duplicates, given a filter's result for them: id
   /// itself if it is at a larger t; at the same t, the least id above this hit's.
-  [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const Verdict& verdict) const;
+  [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const FilterResult& filtered) const;
 
  private:
   const Primitives* primitives_;
   const Ray* ray_;
   PrimitiveId id_;
-  const Twins* twins_;
+  const Duplicates* duplicates_;
   bool exists_;
   exact::Enclosure bounds_{};
 };

@@ -11,7 +11,7 @@ namespace {
 
 /// Processes N triangles at a time, N <= kWidth.
 template <int N>
-struct TileView {
+struct PacketView {
   // All multiplied by the sign of n . d, if it is the same for all directions of the beam.
   alignas(64) float u[3][kWidth];  ///< e2 x A
   float v[3][kWidth];              ///< A x e1
@@ -21,8 +21,8 @@ struct TileView {
   Lanes seen[kGroups];  ///< for each group, triangles that are not certainly missed by all its rays
   Lanes two_sided;      ///< triangles that rays may hit from both sides
 
-  TileView(const TriangleBlock& block, const KernelTile& tile) : seen{}, two_sided(0) {
-    for (int i = 0; i < kWidth; i += N) look_at(block, tile, i);
+  PacketView(const TriangleBlock& block, const KernelPacket& packet) : seen{}, two_sided(0) {
+    for (int i = 0; i < kWidth; i += N) look_at(block, packet, i);
   }
 
  private:
@@ -39,7 +39,7 @@ struct TileView {
   }
   // The range of the product with all directions of the beam.
   static Range over(const Beam& beam, const Vector& a) {
-    return {a.x * beam.centre[0] + a.y * beam.centre[1] + a.z * beam.centre[2],
+    return {a.x * beam.center[0] + a.y * beam.center[1] + a.z * beam.center[2],
             magnitude(a.x) * beam.radius[0] + magnitude(a.y) * beam.radius[1] +
                 magnitude(a.z) * beam.radius[2]};
   }
@@ -57,9 +57,9 @@ struct TileView {
     microtrace::store<N>(to[2] + i, a.z);
   }
 
-  void look_at(const TriangleBlock& block, const KernelTile& tile, int i) {
+  void look_at(const TriangleBlock& block, const KernelPacket& packet, int i) {
     const Vector corner{load<N>(block.a_x + i), load<N>(block.a_y + i), load<N>(block.a_z + i)};
-    const Vector a{corner.x - tile.o[0], corner.y - tile.o[1], corner.z - tile.o[2]};
+    const Vector a{corner.x - packet.o[0], corner.y - packet.o[1], corner.z - packet.o[2]};
     const Vector e1{load<N>(block.b_x + i) - corner.x, load<N>(block.b_y + i) - corner.y,
                     load<N>(block.b_z + i) - corner.z};
     const Vector e2{load<N>(block.c_x + i) - corner.x, load<N>(block.c_y + i) - corner.y,
@@ -72,10 +72,10 @@ struct TileView {
     const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
     const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
     const F m = em1 * em2 * (1 + 0x1p-22F);
-    const F bound = (a_sum * greater(em1, em2) + m) * (15.01F * kUnit * tile.d_sum) + kTiny;
-    const F size_bound = m * (15.01F * kUnit * tile.d_sum) + kTiny;
+    const F bound = (a_sum * greater(em1, em2) + m) * (15.01F * kUnit * packet.d_sum) + kTiny;
+    const F size_bound = m * (15.01F * kUnit * packet.d_sum) + kTiny;
 
-    const Range size = over(tile.beam, normal);
+    const Range size = over(packet.beam, normal);
     // The range has as many roundings as the product with a ray. Half of the bound would suffice,
     // because center and radius together do not exceed the largest |d|.
     const Lanes both = less_equal<N>(magnitude(size.middle) - size.radius, 2 * size_bound);
@@ -89,7 +89,7 @@ struct TileView {
     // third form has nine roundings, for which 18 units would suffice; 1.5 bounds are more.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for (int group = 0; group < kGroups; ++group) {
-      const Beam& beam = tile.group_beam[group];
+      const Beam& beam = packet.group_beam[group];
       const F within = lesser(lesser(greatest(beam, p), greatest(beam, q)), greatest(beam, r));
       seen[group] |= (both | less_equal<N>(-3 * bound, within)) << i;
     }

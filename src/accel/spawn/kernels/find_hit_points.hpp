@@ -15,7 +15,7 @@ inline Double<N> spacings(const Double<N>& x) {
 
 /// As TrianglePlaneFilter and rounded_point(), for N hits starting at i.
 template <int N>
-inline void find_departures_of(DepartureLanes& lanes, int i) {
+inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   using D = Double<N>;
   const auto a = widened3<N>(lanes.a, i), b = widened3<N>(lanes.b, i), c = widened3<N>(lanes.c, i);
   const auto o = widened3<N>(lanes.o, i), d = widened3<N>(lanes.d, i);
@@ -24,7 +24,7 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
   const auto normal = CrossProducts<N>::of(b - a, c - a);
   const auto height = normal.along(a - o, kHeightRoundings),
              slope = normal.along(d, kSlopeRoundings);
-  // quotient_verdict()
+  // quotient_result()
   const D size = magnitude(slope.value), t = height.value / slope.value;
   const D t_error =
       (height.error + magnitude(t) * slope.error) / (size - slope.error) * (1 + 16 * kRounding) +
@@ -86,8 +86,8 @@ inline void find_departures_of(DepartureLanes& lanes, int i) {
 }
 
 template <int N>
-void find_departures(DepartureLanes& lanes) {
-  for (int i = 0; i < kSpawnLanes; i += N) find_departures_of<N>(lanes, i);
+void find_hit_points(HitPointLanes& lanes) {
+  for (int i = 0; i < kSpawnLanes; i += N) find_hit_points_of<N>(lanes, i);
 }
 
 }  // namespace

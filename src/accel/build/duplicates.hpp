@@ -13,13 +13,13 @@
 
 namespace microtrace {
 
-class Twins {
+class Duplicates {
  public:
-  Twins() = default;
+  Duplicates() = default;
 
   /// Removes triangles with the vertices of another, in any order, from the bounded references: the
   /// least id of each such group remains.
-  Twins(build::References& references, const Primitives& primitives);
+  Duplicates(build::References& references, const Primitives& primitives);
 
   /// The least id above `after` in the group that a primitive of the tree represents.
   [[nodiscard]] std::optional<PrimitiveId> above(PrimitiveId id, PrimitiveId after) const;

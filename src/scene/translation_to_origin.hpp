@@ -23,6 +23,6 @@ struct PointBounds {
 /// The translation to the origin for a scene within the bounds, if its distance is large compared
 /// with its size; else zero. On each axis it is a multiple of a power of two above the size, so
 /// that float32 coordinates no finer than their distance allows stay exact.
-[[nodiscard]] DVec3 way_to_origin(const PointBounds& bounds);
+[[nodiscard]] DVec3 translation_to_origin(const PointBounds& bounds);
 
 }  // namespace microtrace

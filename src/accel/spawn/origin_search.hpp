@@ -40,7 +40,7 @@ inline Vec3 unsigned_zeros(const Vec3& v) {
 }
 
 /// The next float32 above x (`up`) or below it; x must be finite.
-inline float neighbour(float x, bool up) {
+inline float neighbor(float x, bool up) {
   if (x == 0)
     return up ? std::numeric_limits<float>::denorm_min()
               : -std::numeric_limits<float>::denorm_min();
@@ -49,16 +49,16 @@ inline float neighbour(float x, bool up) {
 }
 
 /// A step that moves an origin off a surface: one coordinate to the next float32.
-struct Nudge {
+struct OriginStep {
   int axis;
   bool up;
 
-  void apply(Vec3& p) const { p[axis] = neighbour(p[axis], up); }
+  void apply(Vec3& p) const { p[axis] = neighbor(p[axis], up); }
 };
 
 /// The axis whose step increases the surface's function most. v is the surface's gradient or a
 /// substitute.
-[[nodiscard]] inline Nudge best_nudge(const Vec3& p, const DVec3& v) {
+[[nodiscard]] inline OriginStep best_step(const Vec3& p, const DVec3& v) {
   int best = 0;
   for (int k = 1; k < 3; ++k) {
     if (std::abs(v[k]) * spacing(p[k]) > std::abs(v[best]) * spacing(p[best])) best = k;
@@ -211,11 +211,11 @@ class TriangleSurface {
 
   std::optional<Vec3> point(const Ray& ray) {
     if (is_filterable(ray.o) && is_filterable(ray.d) && is_filterable(triangle_)) {
-      const Verdict verdict =
+      const FilterResult filtered =
           seen_from(ray.o, triangle_)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
-      if (verdict.certainty == Certainty::miss) return std::nullopt;
-      if (verdict.certainty == Certainty::hit) {
-        if (const auto p = rounded_point({ray, {verdict.lo, verdict.hi}}, triangle_.a, normal_))
+      if (filtered.certainty == Certainty::miss) return std::nullopt;
+      if (filtered.certainty == Certainty::hit) {
+        if (const auto p = rounded_point({ray, {filtered.lo, filtered.hi}}, triangle_.a, normal_))
           return p;
       }
     }
@@ -264,16 +264,16 @@ class TriangleSurface {
 };
 
 /// The start of the search for an origin.
-struct Departure {
-  Vec3 p;          ///< the hit point, each coordinate rounded
-  int side;        ///< sign of the surface's function on the new ray's side
-  bool goes_back;  ///< whether the new ray returns to the side of the incoming ray
-  Nudge nudge;     ///< steps from the surface to that side
+struct OriginSearch {
+  Vec3 p;           ///< the hit point, each coordinate rounded
+  int side;         ///< sign of the surface's function on the new ray's side
+  bool goes_back;   ///< whether the new ray returns to the side of the incoming ray
+  OriginStep step;  ///< steps from the surface to that side
 };
 
 /// Nothing if there is no hit or the direction is zero or not finite.
 template <class Surface>
-std::optional<Departure> departure(Surface& surface, const Ray& ray, const Vec3& direction) {
+std::optional<OriginSearch> origin_search(Surface& surface, const Ray& ray, const Vec3& direction) {
   if (!exact::is_finite(direction) || direction == Vec3(0)) return std::nullopt;
   const std::optional<Vec3> p = surface.point(ray);
   if (!p || !exact::is_finite(*p)) return std::nullopt;
@@ -283,10 +283,10 @@ std::optional<Departure> departure(Surface& surface, const Ray& ray, const Vec3&
   if (side == 0) side = 1;  // the incoming ray is within the surface
   DVec3 outwards = double(side) * surface.gradient(*p);
   if (outwards == DVec3(0)) outwards = direction;  // the apex of a cone
-  return Departure{.p = *p,
-                   .side = side,
-                   .goes_back = before == 0 || side == before,
-                   .nudge = best_nudge(*p, outwards)};
+  return OriginSearch{.p = *p,
+                      .side = side,
+                      .goes_back = before == 0 || side == before,
+                      .step = best_step(*p, outwards)};
 }
 
 }  // namespace microtrace

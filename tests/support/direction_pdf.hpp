@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a sampler of directions has the density that it tells.
+/// Checks that a sampler of directions has the pdf that it returns.
 
 #include "support/chi_square.hpp"
 
@@ -24,13 +24,14 @@ struct DirectionGrid {
   int rows, columns, fine, samples;
 };
 
-struct DensityTest {
-  double mass;    ///< the integral of the density
-  double excess;  ///< chi_square_excess of the samples' counts, those lost in a cell of their own
+struct PdfTest {
+  double mass;    ///< integral of the pdf
+  double excess;  ///< chi_square_excess of the samples' counts, with rejected samples in a cell of
+                  ///< their own
 };
 
 template <class Bsdf>
-DensityTest test_density(const Bsdf& bsdf, const DirectionGrid& grid, std::mt19937& random) {
+PdfTest test_pdf(const Bsdf& bsdf, const DirectionGrid& grid, std::mt19937& random) {
   constexpr double pi = std::numbers::pi;
   const auto& [rows, columns, fine, samples] = grid;
   std::uniform_real_distribution<float> u(0, 1);
@@ -54,7 +55,7 @@ DensityTest test_density(const Bsdf& bsdf, const DirectionGrid& grid, std::mt199
       for (int j = 0; j < fine; ++j) {
         const double z = 2 * (cell / columns + (i + 0.5) / fine) / rows - 1;
         const double phi = 2 * pi * (cell % columns + (j + 0.5) / fine) / columns;
-        sum += bsdf.evaluate(direction(std::acos(z), phi)).density;
+        sum += bsdf.evaluate(direction(std::acos(z), phi)).pdf;
       }
     }
     const double part = sum / (fine * fine) * 4 * pi / (rows * columns);

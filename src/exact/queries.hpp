@@ -6,11 +6,11 @@
 
 namespace microtrace::exact {
 
-struct Questions {
+struct Queries {
   std::uint64_t grid = 0;    ///< queries answered by Grid: fixed-width integers
   std::uint64_t dyadic = 0;  ///< queries answered by Dyadic: arbitrary width
 };
 
-inline thread_local Questions questions;
+inline thread_local Queries queries;
 
 }  // namespace microtrace::exact

@@ -2,7 +2,7 @@
 /// Float64 tests whether a small box is clear of surfaces.
 
 #include "accel/filters/shape_filter.hpp"
-#include "accel/spawn/departure.hpp"
+#include "accel/spawn/origin_search.hpp"
 
 #include <microtrace/shape.hpp>
 
@@ -114,21 +114,21 @@ inline bool lies_in(const AxisPlane&, const Quadric&) {
 
 // Whether certainly no segment between two points of the box p +- radius meets the surface.
 
-inline bool passes(const Triangle& t, const DVec3& p, const DVec3& radius) {
+inline bool clears_box(const Triangle& t, const DVec3& p, const DVec3& radius) {
   const CrossProduct normal = normal_of(t);
   return certain_side(t.a, normal, p, radius) != 0 || is_beside(t, normal, p, radius);
 }
-inline bool passes(const Plane& s, const DVec3& p, const DVec3& radius) {
+inline bool clears_box(const Plane& s, const DVec3& p, const DVec3& radius) {
   return certain_side(s.point, CrossProduct(DVec3(s.normal)), p, radius) != 0;
 }
-inline bool passes(const Disc& s, const DVec3& p, const DVec3& radius) {
+inline bool clears_box(const Disc& s, const DVec3& p, const DVec3& radius) {
   return certain_side(s.center, CrossProduct(DVec3(s.normal)), p, radius) != 0;
 }
-inline bool passes(const Sphere& s, const DVec3& p, const DVec3& radius) {
+inline bool clears_box(const Sphere& s, const DVec3& p, const DVec3& radius) {
   const Approximate f = ball_value(s.center, s.radius, p, radius);
   return f.is_positive() || f.is_negative();
 }
-inline bool passes(const Quadric& q, const DVec3& p, const DVec3& radius) {
+inline bool clears_box(const Quadric& q, const DVec3& p, const DVec3& radius) {
   const DVec3 squares(q.a, q.b, q.c), mixed(q.f, q.e, q.d), linear(q.g, q.h, q.i);
   const auto form = [](const DVec3& s, const DVec3& m, const DVec3& x) {
     return s.x * x.x * x.x + s.y * x.y * x.y + s.z * x.z * x.z + m.z * x.x * x.y + m.y * x.x * x.z +

@@ -1,6 +1,6 @@
 #pragma once
-/// What facets miss under a cover, computed by 320 x 320 stratified visible normals for each entry;
-/// tests/statistical/cover_test.cpp computes some in another way.
+/// Energy deficit of facets below a coating, computed with 320 x 320 stratified visible normals per
+/// entry; tests/statistical/albedo_tables_test.cpp verifies some entries by another method.
 
 #include <array>
 #include <cstddef>
@@ -8,26 +8,26 @@
 
 namespace microtrace::bsdf {
 
-inline constexpr std::size_t kCoverNodes = 8, kCoverRows = 12, kCoverColumns = 16;
+inline constexpr std::size_t kCoatingNodes = 8, kCoatingRows = 12, kCoatingColumns = 16;
 
-/// Gauss's quadrature of functions of z = cos(theta) over the hemisphere, weighted by 2 z.
-inline constexpr std::array<float, kCoverNodes> kCoverNode = {0.04463395F, 0.14436625F, 0.28682475F,
-                                                              0.45481330F, 0.62806782F, 0.78569151F,
-                                                              0.90867638F, 0.98222007F};
-inline constexpr std::array<float, kCoverNodes> kCoverWeight = {
+/// Gauss quadrature of functions of z = cos(theta) over the hemisphere, with weight 2 z.
+inline constexpr std::array<float, kCoatingNodes> kCoatingNode = {
+    0.04463395F, 0.14436625F, 0.28682475F, 0.45481330F,
+    0.62806782F, 0.78569151F, 0.90867638F, 0.98222007F};
+inline constexpr std::array<float, kCoatingNodes> kCoatingWeight = {
     0.00659038F, 0.03568580F, 0.09087863F, 0.15839919F,
     0.21209471F, 0.22501159F, 0.18223805F, 0.08910164F};
 
-/// Of the tables' entries.
-inline constexpr float kMissedUnit = 1 / 16384.0F;
+/// Unit of the tables' entries.
+inline constexpr float kDeficitUnit = 1 / 16384.0F;
 
-/// [sqrt(roughness) j / 11][sqrt(z) i / 15][node]: of light to or from z that white
-/// facets return, less passes a cover at the other direction than at z; so much for each node's
-/// share that passes it, which Lagrange's polynomials join.
-using MissedTable =
-    std::array<std::array<std::array<std::int16_t, kCoverNodes>, kCoverColumns>, kCoverRows>;
+/// [sqrt(roughness) j / 11][sqrt(z) i / 15][node]: the energy deficit for light to or from z that
+/// white facets reflect into directions of lower transmittance than z. The deficit is linear in the
+/// transmittance at each node; Lagrange polynomials interpolate between nodes.
+using DeficitTable =
+    std::array<std::array<std::array<std::int16_t, kCoatingNodes>, kCoatingColumns>, kCoatingRows>;
 
-inline constexpr MissedTable kMissedWhite = {
+inline constexpr DeficitTable kDeficitF1 = {
     {{{{0, 0, 0, 0, 0, 0, 0, 0},
        {-267, 605, -681, 642, -529, 373, -204, 61},
        {-430, 928, -984, 908, -741, 518, -283, 84},

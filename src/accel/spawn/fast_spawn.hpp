@@ -3,8 +3,8 @@
 
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
+#include "accel/spawn/box_clearance.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
-#include "accel/spawn/passing.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/hit.hpp>
@@ -22,14 +22,14 @@ namespace microtrace {
 
 /// The point where a ray hits a surface other than a triangle, and origins of rays that leave it.
 /// The answers equal those of spawn_among.
-class QuickSpawn {
+class FastSpawn {
  public:
   /// `ray` must hit the surface.
-  QuickSpawn(const Plane& surface, const Ray& ray);
-  QuickSpawn(const Disc& surface, const Ray& ray);
-  QuickSpawn(const Sphere& surface, const Ray& ray);
+  FastSpawn(const Plane& surface, const Ray& ray);
+  FastSpawn(const Disc& surface, const Ray& ray);
+  FastSpawn(const Sphere& surface, const Ray& ray);
   /// Never certain.
-  QuickSpawn(const Quadric& surface, const Ray& ray);
+  FastSpawn(const Quadric& surface, const Ray& ray);
 
   /// The rounded point; nothing if it is not known precisely enough to search its neighborhood.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
@@ -63,12 +63,12 @@ class QuickSpawn {
 };
 
 /// Computes the origins of several hits at a time.
-class QuickSpawns {
+class FastSpawns {
  public:
   /// `outside` lists the primitives that are not in the tree. A tree without leaves is not passed.
-  QuickSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
-              const Kernels& kernels, const SpawnKernels& spawn_kernels,
-              const std::optional<TreeView>& tree)
+  FastSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
+             const Kernels& kernels, const SpawnKernels& spawn_kernels,
+             const std::optional<TreeView>& tree)
       : primitives_(primitives),
         outside_(outside),
         kernels_(kernels),
@@ -80,21 +80,21 @@ class QuickSpawns {
   std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
  private:
-  static constexpr std::size_t kHits = kPlaceQueries;
+  static constexpr std::size_t kHits = kBoxQueries;
   static constexpr std::size_t kSpawns = 4 * kHits;
   static_assert(kHits == kSpawnLanes);
 
   /// A surface that rays leave, whose hit point float64 can determine.
-  struct Departure {
+  struct LeftSurface {
     PrimitiveId id;
-    bool is_triangle;                 ///< whether departures_ has it, at the index of the hit
-    std::optional<QuickSpawn> other;  ///< for surfaces other than triangles
-    bool is_alone;                    ///< no other surface is between the point and the origins
+    bool is_triangle;                ///< whether hit_points_ has it, at the index of the hit
+    std::optional<FastSpawn> other;  ///< for surfaces other than triangles
+    bool is_alone;                   ///< no other surface is between the point and the origins
   };
 
   void add(const Bvh::Spawn& spawn);
   void put(const Triangle& triangle, const Ray& ray, std::size_t lane);
-  void find_neighbours();
+  void find_neighbors();
   [[nodiscard]] std::optional<AxisPlane> axis_plane_of(std::size_t hit) const;
   [[nodiscard]] bool is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const;
   void put(std::size_t hit, const Vec3& direction, std::size_t lane);
@@ -106,10 +106,10 @@ class QuickSpawns {
   const SpawnKernels& spawn_kernels_;
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
-  std::array<Departure, kHits> surfaces_;
+  std::array<LeftSurface, kHits> surfaces_;
   std::array<std::size_t, kSpawns> hit_of_;  // index of the hit, for each spawn
-  std::array<PlaceQuery, kHits> queries_;
-  DepartureLanes departures_{};
+  std::array<BoxQuery, kHits> queries_;
+  HitPointLanes hit_points_{};
   OriginLanes origins_{};
 };
 

@@ -1,11 +1,11 @@
-#include "scene/way_to_origin.hpp"
+#include "scene/translation_to_origin.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace microtrace {
 
-DVec3 way_to_origin(const PointBounds& bounds) {
+DVec3 translation_to_origin(const PointBounds& bounds) {
   // At smaller ratios of distance and size float32 has 20 bits or more for the scene anyway.
   constexpr double kFar = 16;
   const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;

@@ -1,4 +1,4 @@
-#include "render/lights/shape_light.hpp"
+#include "render/lights/area_light.hpp"
 
 #include "render/bsdf/frame.hpp"
 #include "render/sampling/warps.hpp"
@@ -21,13 +21,13 @@ constexpr bool kIsSampled =
 
 constexpr double kPi = std::numbers::pi;
 
-/// A part of a plane; `n` is the unit normal of its front.
+/// A planar emitter; `n` is the unit normal of its front.
 struct Flat {
   Vec3 n{0, 0, 1};
   double area = 0;
 };
 
-/// Without area where v has no direction.
+/// Without area if v is zero.
 Flat flat(const DVec3& v, double area) {
   const double length = std::sqrt(glm::dot(v, v));
   if (!(length > 0) || !std::isfinite(length)) return {};
@@ -52,33 +52,33 @@ DVec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
   return w.x * DVec3(s.a) + w.y * DVec3(s.b) + std::max(1 - w.x - w.y, 0.0) * DVec3(s.c);
 }
 
-double density_of(const Flat& flat, double square, float cosine) {
+double pdf_of(const Flat& flat, double square, float cosine) {
   return square / (flat.area * double{cosine});
 }
 
-/// What p sees of a sphere: directions within an angle of the way to its centre.
+/// The cone of directions in which p sees a sphere.
 struct Cone {
   Vec3 axis{0, 0, 1};
-  double distance = 0;  ///< of the centre
+  double distance = 0;  ///< to the center
   double height = 0;    ///< 1 - cos(angle); 0: p is not outside
 
   Cone(const Sphere& s, const Vec3& p) {
-    const DVec3 way = DVec3(s.center) - DVec3(p);
-    const double square = glm::dot(way, way);
+    const DVec3 to_light = DVec3(s.center) - DVec3(p);
+    const double square = glm::dot(to_light, to_light);
     const double ratio = double{s.radius} * double{s.radius} / square;
     if (!(ratio < 1)) return;
     distance = std::sqrt(square);
-    axis = Vec3(way / distance);
+    axis = Vec3(to_light / distance);
     height = ratio / (1 + std::sqrt(1 - ratio));
   }
-  [[nodiscard]] double density() const { return height > 0 ? 1 / (2 * kPi * height) : 0; }
+  [[nodiscard]] double pdf() const { return height > 0 ? 1 / (2 * kPi * height) : 0; }
 };
 
 LightBounds box(const Vec3& center, const DVec3& reach) {
   return {.low = finite_point(DVec3(center) - reach), .high = finite_point(DVec3(center) + reach)};
 }
 LightBounds bounds_of(const Disc& s, const Flat& flat) {
-  // Along each axis as far as the disc's edge goes.
+  // The extent of the disc's edge along each axis.
   const Vec3 part = glm::sqrt(glm::max(Vec3(1) - flat.n * flat.n, Vec3(0)));
   return box(s.center, double{s.radius} * DVec3(part));
 }
@@ -105,16 +105,16 @@ LightBounds bounds(const Sphere& s) {
 template <class FlatShape>
 std::optional<ShapeSample> sample(const FlatShape& s, const Vec3& p, const Vec2& u) {
   const Flat flat = flat_of(s);
-  const DVec3 way = point_of(s, flat.n, u) - DVec3(p);
-  const double square = glm::dot(way, way);
+  const DVec3 to_light = point_of(s, flat.n, u) - DVec3(p);
+  const double square = glm::dot(to_light, to_light);
   if (!(square > 0)) return std::nullopt;
-  const Vec3 wi(way / std::sqrt(square));
+  const Vec3 wi(to_light / std::sqrt(square));
   const float cosine = -glm::dot(wi, flat.n);
   if (cosine == 0) return std::nullopt;
-  return ShapeSample{.way = way,
+  return ShapeSample{.to_light = to_light,
                      .wi = wi,
                      .front = cosine > 0,
-                     .density = density_of(flat, square, std::abs(cosine))};
+                     .pdf = pdf_of(flat, square, std::abs(cosine))};
 }
 std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u) {
   const Cone cone(s, p);
@@ -125,9 +125,8 @@ std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u)
   const Vec3 wi = bsdf::Frame::about(cone.axis).to_world(local);
   const double off_centre = cone.distance * sine, r = s.radius;
   const double half_chord = std::sqrt(std::max(r * r - off_centre * off_centre, 0.0));
-  return ShapeSample{.way = DVec3(wi) * (cone.distance * (1 - h) - half_chord),
-                     .wi = wi,
-                     .density = cone.density()};
+  return ShapeSample{
+      .to_light = DVec3(wi) * (cone.distance * (1 - h) - half_chord), .wi = wi, .pdf = cone.pdf()};
 }
 }  // namespace
 
@@ -152,12 +151,12 @@ std::optional<ShapeSample> sample_shape(const Shape& shape, const Vec3& p, const
   return result;
 }
 
-double shape_density(const Shape& shape, const Vec3& p, float distance, float cosine) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return Cone(*sphere, p).density();
+double shape_pdf(const Shape& shape, const Vec3& p, float distance, float cosine) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return Cone(*sphere, p).pdf();
   Flat flat;
   if (const auto* disc = std::get_if<Disc>(&shape)) flat = flat_of(*disc);
   if (const auto* triangle = std::get_if<Triangle>(&shape)) flat = flat_of(*triangle);
-  return flat.area > 0 && cosine > 0 ? density_of(flat, double{distance} * double{distance}, cosine)
+  return flat.area > 0 && cosine > 0 ? pdf_of(flat, double{distance} * double{distance}, cosine)
                                      : 0;
 }
 

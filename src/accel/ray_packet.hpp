@@ -3,7 +3,7 @@
 
 #include "accel/closest_hit.hpp"
 #include "accel/filters/shape_filter.hpp"
-#include "accel/slow_path.hpp"
+#include "accel/hit_resolver.hpp"
 
 #include <microtrace/primitives.hpp>
 
@@ -14,13 +14,13 @@
 
 namespace microtrace {
 
-class Bundle {
+class RayPacket {
  public:
-  static constexpr std::size_t kCapacity = kTileRays;
+  static constexpr std::size_t kCapacity = kPacketRays;
 
   /// rays: 1 to kCapacity valid rays with the same origin. They and the primitives must outlive
   /// this object.
-  Bundle(const Primitives& primitives, std::span<const Ray> rays)
+  RayPacket(const Primitives& primitives, std::span<const Ray> rays)
       : primitives_(&primitives), rays_(rays) {
     filterable_ = is_filterable(rays[0].o);
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -32,25 +32,28 @@ class Bundle {
 
   /// Tests one primitive against all rays. Every primitive must be tested once, in any order.
   template <class AnyShape>
-  void meet(PrimitiveId id, const AnyShape& shape) {
-    for_each_verdict(shape, [&](std::size_t i, const Verdict& verdict) {
-      closest_[i].consider(id, verdict, ExactHits(*primitives_, rays_[i]));
+  void test(PrimitiveId id, const AnyShape& shape) {
+    for_each_result(shape, [&](std::size_t i, const FilterResult& filtered) {
+      closest_[i].consider(id, filtered, ExactHits(*primitives_, rays_[i]));
     });
   }
 
-  /// Calls f(i, verdict) for every ray.
+  /// Calls f(i, filtered) for every ray.
   template <class AnyShape, class F>
-  void for_each_verdict(const AnyShape& shape, const F& f) const {
+  void for_each_result(const AnyShape& shape, const F& f) const {
     if (filterable_ && is_filterable(shape)) {
       const auto filter = seen_from(rays_[0].o, shape);
       for (std::size_t i = 0; i < rays_.size(); ++i) f(i, filter(directions_[i], ranges_[i]));
     } else {
-      for (std::size_t i = 0; i < rays_.size(); ++i) f(i, Verdict{.certainty = Certainty::unsure});
+      for (std::size_t i = 0; i < rays_.size(); ++i)
+        f(i, FilterResult{.certainty = Certainty::unsure});
     }
   }
 
   /// The nearest hit so far of ray i, in the form that kernels use.
-  [[nodiscard]] Best best(std::size_t i) const { return best_of(closest_[i], rays_[i]); }
+  [[nodiscard]] ClosestSoFar best(std::size_t i) const {
+    return closest_so_far(closest_[i], rays_[i]);
+  }
 
   [[nodiscard]] std::optional<Hit> hit(std::size_t i) const {
     return closest_[i].rounded(ExactHits(*primitives_, rays_[i]));

@@ -1,7 +1,7 @@
-#include "accel/spawn/quick_spawn.hpp"
+#include "accel/spawn/fast_spawn.hpp"
 
-#include "accel/spawn/departure.hpp"
-#include "accel/spawn/passing.hpp"
+#include "accel/spawn/box_clearance.hpp"
+#include "accel/spawn/origin_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,21 +22,22 @@ bool is_filterable(const Ray& ray) {
 
 }  // namespace
 
-QuickSpawn::QuickSpawn(const Plane& s, const Ray& ray) {
+FastSpawn::FastSpawn(const Plane& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
     set_flat({.a = s.point, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
-QuickSpawn::QuickSpawn(const Disc& s, const Ray& ray) {
+FastSpawn::FastSpawn(const Disc& s, const Ray& ray) {
   if (microtrace::is_filterable(s)) {
     set_flat({.a = s.center, .normal = CrossProduct(DVec3(s.normal))}, ray);
   }
 }
-QuickSpawn::QuickSpawn(const Quadric&, const Ray&) {}
+FastSpawn::FastSpawn(const Quadric&, const Ray&) {}
 
-QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
+FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
   if (!microtrace::is_filterable(s) || !is_filterable(ray)) return;
-  const Verdict t = SphereFilter(s, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
+  const FilterResult t =
+      SphereFilter(s, ray.o)(DVec3(ray.d), {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty != Certainty::hit) return;
   const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
@@ -59,22 +60,22 @@ QuickSpawn::QuickSpawn(const Sphere& s, const Ray& ray) {
     set_reach(kBallSteps);
 }
 
-void QuickSpawn::set_reach(int steps) {
+void FastSpawn::set_reach(int steps) {
   for (int k = 0; k < 3; ++k) {
     const double unit = spacing((*p_)[k]);
     reach_[k] = k == axis_ ? reach_of(steps, unit) : unit / 2;
   }
 }
 
-void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
+void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
   // As in TrianglePlaneFilter. The normal is exact, so half of this would suffice.
   const Approximate height{
       .value = glm::dot(from_a, flat.normal.value),
       .error = gamma(9) * glm::dot(glm::abs(from_a), flat.normal.permanent) + kUnderflow};
-  const Verdict t = quotient_verdict(height, flat.normal.along(DVec3(ray.d)),
-                                     {.t_min = ray.t_min, .t_max = ray.t_max});
+  const FilterResult t = quotient_result(height, flat.normal.along(DVec3(ray.d)),
+                                         {.t_min = ray.t_min, .t_max = ray.t_max});
   if (t.certainty == Certainty::unsure) return;
   p_ = rounded_point({ray, {t.lo, t.hi}}, flat.a, flat.normal);
   if (!p_) return;
@@ -93,19 +94,19 @@ void QuickSpawn::set_flat(const Flat& flat, const Ray& ray) {
     set_reach(kFlatSteps);
 }
 
-std::optional<AxisPlane> QuickSpawn::axis_plane() const {
+std::optional<AxisPlane> FastSpawn::axis_plane() const {
   const auto* flat = std::get_if<Flat>(&surface_);
   return flat == nullptr ? std::nullopt : AxisPlane::of(flat->a, flat->normal.permanent);
 }
 
-std::optional<Vec3> QuickSpawn::origin(const Vec3& direction) const {
+std::optional<Vec3> FastSpawn::origin(const Vec3& direction) const {
   if (!microtrace::is_filterable(direction)) return std::nullopt;
   if (const auto* flat = std::get_if<Flat>(&surface_)) return origin(*flat, direction);
   if (const auto* ball = std::get_if<Ball>(&surface_)) return origin(*ball, direction);
   return std::nullopt;
 }
 
-std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) const {
+std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) const {
   const Approximate slope = flat.normal.along(DVec3(direction));
   if (!slope.is_positive() && !slope.is_negative()) return std::nullopt;
   const int side = slope.is_positive() ? 1 : -1;
@@ -118,12 +119,12 @@ std::optional<Vec3> QuickSpawn::origin(const Flat& flat, const Vec3& direction) 
     const DVec3 from_a = DVec3(q) - DVec3(flat.a);
     const bool is_on = glm::dot(glm::abs(from_a), flat.normal.permanent) == 0;
     if (sign == 0 && !is_on) return std::nullopt;
-    q[axis_] = neighbour(q[axis_], up);
+    q[axis_] = neighbor(q[axis_], up);
   }
   return std::nullopt;
 }
 
-std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) const {
+std::optional<Vec3> FastSpawn::origin(const Ball& ball, const Vec3& direction) const {
   const DVec3 w(direction), size = glm::abs(w);
   // The product and the sums have three roundings: half of gamma(6) would suffice.
   const Approximate slope{.value = glm::dot(ball.from_center, w),
@@ -142,7 +143,7 @@ std::optional<Vec3> QuickSpawn::origin(const Ball& ball, const Vec3& direction) 
       if (side < 0 || dot_product(DVec3(q) - center, w, 4).is_positive()) return q;
       return std::nullopt;
     }
-    q[axis_] = neighbour(q[axis_], up);
+    q[axis_] = neighbor(q[axis_], up);
   }
   return std::nullopt;
 }

@@ -1,6 +1,6 @@
-// Boxes that a surface certainly keeps out of: no segment between two points of theirs meets it.
+// Boxes that are certainly clear of a surface: no segment between two of their points meets it.
 
-#include "accel/spawn/passing.hpp"
+#include "accel/spawn/box_clearance.hpp"
 
 #include "exact/intersect.hpp"
 #include "support/adversarial_rays.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using adversarial::Random;
 
-// With corners on a grid, where many have no area; some next to a corner that they almost share.
+// Vertices on a grid, where many triangles have no area; some near a vertex that they almost share.
 Triangle triangle_on_grid(Random& random) {
   Triangle t{random.on_grid(4), random.on_grid(4), random.on_grid(4)};
   switch (random.between(0, 4)) {
@@ -34,16 +34,16 @@ Triangle triangle_on_grid(Random& random) {
   return t;
 }
 
-TEST(Passing, OfATriangleLeavesNoWayThroughIt) {
+TEST(BoxClearance, OfATriangleLeavesNoWayThroughIt) {
   Random random(41);
   int passed = 0, met = 0;
   for (int i = 0; i < 200000 && !testing::Test::HasFatalFailure(); ++i) {
     const Triangle t = triangle_on_grid(random);
     const float radius = random.power_of_two(-12, 0);
-    // On an edge, or beside it by about the box's size.
+    // On an edge, or beside it at a distance of about the box's size.
     const float share = 0.125F * static_cast<float>(random.between(0, 8));
     const Vec3 p = t.a + (t.b - t.a) * share + random.on_grid(3, 0.75F * radius);
-    const bool passes_it = passes(t, DVec3(p), DVec3(radius));
+    const bool passes_it = clears_box(t, DVec3(p), DVec3(radius));
     passed += passes_it ? 1 : 0;
     for (int k = 0; k < 6; ++k) {
       const Vec3 from = p + random.on_grid(2, radius / 2), to = p + random.on_grid(2, radius / 2);
@@ -58,20 +58,20 @@ TEST(Passing, OfATriangleLeavesNoWayThroughIt) {
   EXPECT_GT(met, 10000);
 }
 
-// Seen along any of the axes.
-TEST(Passing, OfSegmentsBesideABoxIsCertain) {
+// In projection along any of the axes.
+TEST(BoxClearance, OfSegmentsBesideABoxIsCertain) {
   Random random(42);
   for (int i = 0; i < 10000; ++i) {
     const Vec3 a = random.on_grid(1024, 0x1p-10F), half = random.on_grid(1024, 0x1p-10F);
     const Vec3 b = a + 2.0F * half, c = i % 2 == 0 ? a : a + half;
     const int axis = random.between(0, 2);
     Vec3 across(0);
-    // At right angles to the segment and to the axis.
+    // Perpendicular to the segment and to the axis.
     across[(axis + 1) % 3] = half[(axis + 2) % 3];
     across[(axis + 2) % 3] = -half[(axis + 1) % 3];
     if (across == Vec3(0)) continue;
     const Vec3 p = a + half * 0.5F + across * 0.25F;
-    EXPECT_TRUE(passes(Triangle{a, b, c}, DVec3(p), DVec3(0x1p-14))) << i;
+    EXPECT_TRUE(clears_box(Triangle{a, b, c}, DVec3(p), DVec3(0x1p-14))) << i;
   }
 }
 

@@ -19,7 +19,7 @@ namespace microtrace {
 
 /// The angle of the point (x, y) from the x axis, in [-1/2, 1/2] revolutions, with an error of
 /// 1e-7; 0 for (0, 0). Inputs must be finite.
-[[nodiscard]] inline float atan2_turns(float y, float x) {
+[[nodiscard]] inline float atan2_revolutions(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
   // Below the least normal number the angle is lost; the minimum also avoids a division by 0.
   const float t = std::min(ax, ay) / std::max({ax, ay, std::numeric_limits<float>::min()});
@@ -37,8 +37,8 @@ struct SineCosine {
 };
 
 /// Sine and cosine of an angle in [0, 1] revolutions, with an error of 2^-23.
-[[nodiscard]] inline SineCosine sin_cos_turns(float turns) {
-  const float quarters = 4 * turns;
+[[nodiscard]] inline SineCosine sin_cos_revolutions(float revolutions) {
+  const float quarters = 4 * revolutions;
   // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const int quadrant = static_cast<int>(quarters + 0.5F);
   const float f = quarters - static_cast<float>(quadrant), z = f * f;  // f in [-1/2, 1/2], exact

@@ -1,4 +1,4 @@
-#include "accel/build/twins.hpp"
+#include "accel/build/duplicates.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,34 +60,34 @@ std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
     if (once.contains(hash)) again.push_back(hash);
     once.insert(hash);
   }
-  std::vector<std::uint32_t> places;
-  if (again.empty()) return places;
+  std::vector<std::uint32_t> slots;
+  if (again.empty()) return slots;
   BloomFilter twice(again.size());
   for (const std::uint32_t hash : again) twice.insert(hash);
   for (std::size_t i = 0; i < hashes.size(); ++i) {
-    if (twice.contains(hashes[i])) places.push_back(static_cast<std::uint32_t>(i));
+    if (twice.contains(hashes[i])) slots.push_back(static_cast<std::uint32_t>(i));
   }
-  return places;
+  return slots;
 }
 
 }  // namespace
 
-Twins::Twins(build::References& from, const Primitives& primitives) {
+Duplicates::Duplicates(build::References& from, const Primitives& primitives) {
   PageVector<Reference>& references = from.bounded;
   struct Entry {
     std::uint32_t hash;
     PrimitiveId id;
-    std::uint32_t place;
+    std::uint32_t slot;
   };
   std::vector<Entry> entries;
-  for (const std::uint32_t place : repeated(from.hashes)) {
-    if (primitives.triangle(references[place].id()))
-      entries.push_back({.hash = from.hashes[place], .id = references[place].id(), .place = place});
+  for (const std::uint32_t slot : repeated(from.hashes)) {
+    if (primitives.triangle(references[slot].id()))
+      entries.push_back({.hash = from.hashes[slot], .id = references[slot].id(), .slot = slot});
   }
   std::ranges::sort(entries, [](const Entry& a, const Entry& b) {
     return std::tie(a.hash, a.id) < std::tie(b.hash, b.id);
   });
-  std::vector<bool> is_twin(references.size());
+  std::vector<bool> is_duplicate(references.size());
   for (std::size_t i = 0; i < entries.size();) {
     std::size_t end = i + 1;
     while (end < entries.size() && entries[end].hash == entries[i].hash) ++end;
@@ -97,7 +97,7 @@ Twins::Twins(build::References& from, const Primitives& primitives) {
       for (std::size_t k = i + 1; k < end; ++k) {
         if (corners_of(*primitives.triangle(entries[k].id)) != corners) continue;
         ids_.push_back(entries[k].id);
-        is_twin[entries[k].place] = true;
+        is_duplicate[entries[k].slot] = true;
       }
       if (ids_.size() > first)
         groups_.push_back({.least = entries[i].id, .first = first, .end = ids_.size()});
@@ -113,21 +113,21 @@ Twins::Twins(build::References& from, const Primitives& primitives) {
   }
   std::size_t left = 0;
   for (std::size_t i = 0; i < references.size(); ++i) {
-    if (!is_twin[i]) references[left++] = references[i];
+    if (!is_duplicate[i]) references[left++] = references[i];
   }
   references.resize(left);
 }
 
-std::optional<PrimitiveId> Twins::above(PrimitiveId id, PrimitiveId after) const {
+std::optional<PrimitiveId> Duplicates::above(PrimitiveId id, PrimitiveId after) const {
   if (id > after) return id;
   const auto group = std::ranges::lower_bound(groups_, id, {}, &Group::least);
   if (group == groups_.end() || group->least != id) return std::nullopt;
-  const auto twins = std::span(ids_).subspan(group->first, group->end - group->first);
-  const auto next = std::ranges::upper_bound(twins, after);
-  return next != twins.end() ? std::optional(*next) : std::nullopt;
+  const auto duplicates = std::span(ids_).subspan(group->first, group->end - group->first);
+  const auto next = std::ranges::upper_bound(duplicates, after);
+  return next != duplicates.end() ? std::optional(*next) : std::nullopt;
 }
 
-std::size_t Twins::memory() const {
+std::size_t Duplicates::memory() const {
   const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
   return bytes(ids_) + bytes(groups_) + bytes(representatives_);
 }
