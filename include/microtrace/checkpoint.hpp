@@ -1,6 +1,6 @@
 #pragma once
-/// Files of samples: what an interrupted run goes on from, and what machines that share a picture
-/// bring together.
+/// Files of samples: an interrupted run resumes from them, and machines that share a picture merge
+/// them.
 
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
@@ -12,14 +12,14 @@
 
 namespace microtrace {
 
-/// The samples of a picture, and what picture it is.
+/// The samples of a picture, and the identity of the picture.
 struct Checkpoint {
-  /// All that the samples depend on: lines of a name, a tab and a value. Files whose samples may be
-  /// added have the same.
+  /// Everything that the samples depend on: lines with a name, a tab and a value. Only files with
+  /// equal identities may be merged.
   std::string identity;
-  bool has_alpha = false;     ///< of the picture
-  std::uint32_t samples = 1;  ///< that the run was to take for each pixel
-  Display display{};          ///< of its light: exposure and tone map
+  bool has_alpha = false;     ///< whether the picture has alpha
+  std::uint32_t samples = 1;  ///< requested samples per pixel
+  Display display{};          ///< exposure and tone map of the picture
   SampleSums sums{};
 };
 
@@ -27,20 +27,20 @@ struct Checkpoint {
 MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
                                        const std::filesystem::path& path);
 
-/// Reads one. Throws Error (io) also where the file is none, was written by another version, or is
-/// not as it was written.
+/// Reads a checkpoint. Throws Error (io) also if the file is not a checkpoint, has another version,
+/// or is damaged.
 [[nodiscard]] MICROTRACE_EXPORT Checkpoint load_checkpoint(const std::filesystem::path& path);
 
-/// Adds the samples of `other`, which was read from `path`; takes them where `checkpoint` has no
-/// sums yet. Throws Error (usage) where they are another picture's, and says what differs, or where
-/// some are here already.
+/// Adds the samples of `other`, which was read from `path`; moves them if `checkpoint` has no sums
+/// yet. Throws Error (usage) if they belong to another picture, naming the difference, or if some
+/// of them are already present.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
                                    const std::filesystem::path& path);
 
-/// The picture of its samples.
+/// The picture of the checkpoint's samples.
 [[nodiscard]] MICROTRACE_EXPORT Film picture_of(const Checkpoint& checkpoint);
 
-/// Throws the Error that save_checkpoint would throw at once, and writes nothing.
+/// Throws the Error that save_checkpoint would throw immediately, without writing.
 MICROTRACE_EXPORT void check_checkpoint_path(const std::filesystem::path& path);
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// A number that tells byte strings apart.
+/// A non-cryptographic hash of byte strings.
 
 #include <microtrace/export.hpp>
 
@@ -9,11 +9,11 @@
 
 namespace microtrace {
 
-/// 64 bits that differ for different bytes but by chance (one in 2^64), the same on every machine.
-/// Against bytes that someone chose to deceive it is no help.
+/// 64 bits that differ for different bytes with high probability (a collision is one in 2^64), the
+/// same on every machine. Not secure against deliberate collisions.
 class Digest {
  public:
-  /// Goes on with these bytes; how a string is cut into calls has no influence.
+  /// Appends bytes; the division into calls has no effect.
   void add(std::string_view bytes) {
     for (; !bytes.empty() && filled_ != 0; bytes.remove_prefix(1)) add_byte(bytes[0]);
     for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
@@ -27,7 +27,7 @@ class Digest {
   [[nodiscard]] std::uint64_t value() const {
     Digest ended = *this;
     ended.mix(rest_);
-    ended.mix(8 * words_ + filled_);  // the length: zeros at the end count
+    ended.mix(8 * words_ + filled_);  // the length: trailing zeros count
     return ended.state_ ^ ended.state_ >> 29U;
   }
 
@@ -40,7 +40,7 @@ class Digest {
     rest_ = 0;
   }
 
-  // The multiplier and shifts of SplitMix64 (S. Vigna); one word a step.
+  // The multiplier and shifts of SplitMix64 (S. Vigna); one word per step.
   void mix(std::uint64_t word) {
     state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9U;
     state_ ^= state_ >> 31U;
@@ -48,13 +48,12 @@ class Digest {
   }
 
   std::uint64_t state_ = 0x9e3779b97f4a7c15U, words_ = 0;
-  std::uint64_t rest_ = 0;  ///< bytes that make no word yet
+  std::uint64_t rest_ = 0;  ///< bytes of an incomplete word
   unsigned filled_ = 0;     ///< their number
 };
 
-/// While it lives, takes all bytes of files, and of standard input, that the library reads on this
-/// thread: at the one place where it reads, so that none can be forgotten. The last one made
-/// counts.
+/// During its lifetime, hashes all bytes of files and standard input that the library reads on this
+/// thread. If there are several objects, the last one counts.
 class MICROTRACE_EXPORT ReadDigest {
  public:
   ReadDigest();

@@ -1,5 +1,5 @@
 #pragma once
-/// The picture being made.
+/// The picture being rendered.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
@@ -22,27 +22,27 @@ struct PixelRect {
   [[nodiscard]] bool operator==(const PixelRect&) const = default;
 };
 
-/// How 8-bit formats show a film's numbers; float formats hold the numbers themselves.
+/// How 8-bit formats show a film's values; float formats store the values themselves.
 struct Display {
   bool srgb = true;  ///< linear light, encoded by sRGB's curve; else v is shown as
                      ///< round(255 (scale v + offset)), clamped
   Vec3 scale{1}, offset{0};
-  double exposure = 0;  ///< of linear light, in stops: it is multiplied with 2^exposure
-  ToneMap tone_map = ToneMap::none;  ///< of linear light, after exposure and before the encoding
+  double exposure = 0;               ///< for linear light, in stops: multiplies by 2^exposure
+  ToneMap tone_map = ToneMap::none;  ///< for linear light, after exposure and before encoding
 };
 
-/// One number for each pixel beside the colours, row by row from the upper left.
+/// One value per pixel in addition to the colors, row by row from the upper left.
 struct Channel {
-  std::string name;  ///< as OpenEXR's: "depth.Z", "id.instance"
+  std::string name;  ///< in OpenEXR's style: "depth.Z", "id.instance"
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-/// width x height linear Rec. 709 colours, row by row from the upper left, with alpha or without.
+/// width x height linear Rec. 709 colors, row by row from the upper left, with or without alpha.
 class Film {
  public:
   enum class Alpha { none, premultiplied };
 
-  /// All pixels black, and transparent where there is alpha.
+  /// All pixels are black, and transparent if there is alpha.
   explicit Film(ImageSize size, Alpha alpha = Alpha::none)
       : whole(size),
         size_(size),
@@ -55,16 +55,16 @@ class Film {
     return std::span(pixels_).subspan(index(0, y), size_.width);
   }
 
-  /// The colours are then multiplied with it.
+  /// With alpha, colors are premultiplied.
   [[nodiscard]] bool has_alpha() const { return !alpha_.empty(); }
-  /// Where the film has alpha: 0 transparent, 1 opaque.
+  /// Only with alpha: 0 transparent, 1 opaque.
   [[nodiscard]] float& alpha_at(std::uint32_t x, std::uint32_t y) { return alpha_[index(x, y)]; }
   [[nodiscard]] std::span<const float> alpha_row(std::uint32_t y) const {
     return std::span(alpha_).subspan(index(0, y), size_.width);
   }
 
-  ImageSize whole;               ///< the picture that this film is a part of
-  std::uint32_t x0 = 0, y0 = 0;  ///< this film's upper left pixel there
+  ImageSize whole;               ///< size of the picture that this film is a part of
+  std::uint32_t x0 = 0, y0 = 0;  ///< position of this film's upper left pixel in it
   Display display{};
   std::vector<Channel> channels{};  ///< each with a number for every pixel of this film
 

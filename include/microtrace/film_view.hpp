@@ -10,15 +10,15 @@
 namespace microtrace {
 
 struct FilmView {
-  bool is_empty = true;  ///< no pixel shows anything of the scene or its environment
-  /// 8-bit pictures show more than three quarters of the pixels black that show something.
+  bool is_empty = true;  ///< no pixel shows any part of the scene or its environment
+  /// More than three quarters of the pixels that show something are black in 8-bit pictures.
   bool is_dark = false;
-  float brightest = 0;  ///< the greatest part of a color in black pixels, linear
+  float brightest = 0;  ///< the greatest color component of black pixels, linear
 };
 
-/// Of the picture that render() made of the same; exposure and tone map are the film's. Where
-/// background alone can't be told from what is black, the scene is asked what is at the pixels'
-/// centers. Throws Error.
+/// Examines a picture made by render() with the same arguments; exposure and tone map are the
+/// film's. Where the background can't be distinguished from black, rays are traced through the
+/// pixel centers. Throws Error.
 [[nodiscard]] MICROTRACE_EXPORT FilmView view_of(const Film& film, const Scene& scene,
                                                  const Camera& camera,
                                                  const RenderOptions& options);

@@ -8,16 +8,16 @@
 
 namespace microtrace {
 
-/// A sum of multiples of 2^-FractionBits, exact while it is below 2^(64 Words - 1 - FractionBits)
-/// in magnitude: two's complement, the lowest word first. Integers add up to the same in any order
-/// and grouping, which floating-point numbers don't.
+/// A sum of multiples of 2^-FractionBits, exact below 2^(64 Words - 1 - FractionBits) in magnitude:
+/// two's complement, lowest word first. Unlike floating-point sums, integer sums don't depend on
+/// order or grouping.
 template <std::size_t Words, int FractionBits>
 struct FixedSum {
   __extension__ using Wide = unsigned __int128;
 
   std::array<std::uint64_t, Words> words{};
 
-  /// x, finite, without what it has beyond the last multiple of 2^-FractionBits towards 0.
+  /// Adds x, which must be finite, truncated toward 0 to a multiple of 2^-FractionBits.
   void add(double x) {
     if (x > -0x1p30 && x < 0x1p30) return add_small(x);
     constexpr int kMantissaBits = 52, kBias = 1075;  // x = mantissa 2^(exponent - kBias)
@@ -27,7 +27,7 @@ struct FixedSum {
         (bits & ((std::uint64_t{1} << kMantissaBits) - 1)) | (std::uint64_t{1} << kMantissaBits);
     int shift = exponent - kBias + FractionBits;
     if (shift < 0) {
-      if (shift <= -64) return;  // also 0 and subnormal numbers
+      if (shift <= -64) return;  // also for 0 and subnormals
       mantissa >>= static_cast<unsigned>(-shift);
       shift = 0;
     }
@@ -66,10 +66,10 @@ struct FixedSum {
   [[nodiscard]] bool operator==(const FixedSum&) const = default;
 
  private:
-  /// The same by conversions to integers, for |x| < 2^30.
+  /// The same by conversion to integers, for |x| < 2^30.
   void add_small(double x) {
     static_assert(Words <= 3 && FractionBits >= 32 && FractionBits <= 94);
-    // Cut off towards 0, both times; what is between is exact.
+    // Truncates toward 0 both times; the difference is exact.
     const double upper = x * 0x1p32;
     const auto whole = static_cast<std::int64_t>(upper);
     constexpr auto kScale = std::bit_cast<double>(std::uint64_t{1023 + FractionBits - 32} << 52U);

@@ -1,5 +1,5 @@
 #pragma once
-/// A camera that sees a whole scene, for scenes that bring none.
+/// A camera that frames a whole scene, for scenes without cameras.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
@@ -12,35 +12,35 @@
 
 namespace microtrace {
 
-/// Where a picture is taken from, as seen from the scene. The default is the front, which in glTF
-/// faces +z, from the right and above.
+/// The direction from which a picture is taken. The default is the front, which in glTF faces +z,
+/// from the right and above.
 struct View {
   double azimuth = 30;    ///< degrees about +y: 0 is +z, 90 is +x; finite
-  double elevation = 25;  ///< degrees above the level, in [-90, 90]; at 90 up is -z for azimuth 0
-  double vertical_fov = 45;  ///< of the camera: the full opening angle in degrees, in (0, 180)
+  double elevation = 25;  ///< degrees above horizontal, in [-90, 90]; at 90 up is -z for azimuth 0
+  double vertical_fov = 45;  ///< of the camera, in degrees, in (0, 180)
 };
 
-/// Finds a perspective camera for the picture's size. All bounded shapes lie in the inner 96 % of
-/// the picture and touch the edges of that part on two opposite sides, in the middle of the others;
-/// unless that would bring the camera nearer than 1/64 of their bounding box's diagonal to the
-/// nearest point, measured along the view. Planes, quadrics other than ellipsoids, and vertices
-/// that are not finite do not count. Where all is one point the distance is 1; where there is
-/// nothing, that point is the origin. The same bits everywhere: only
-/// + - * / and sqrt.
+/// Finds a perspective camera for the picture's size. All bounded shapes are in the inner 96 % of
+/// the picture, touch two opposite edges of this region, and are centered along the other axis. If
+/// this would bring the camera closer than 1/64 of their bounding box's diagonal to the nearest
+/// point, measured along the view, the camera keeps that distance. Planes, quadrics other than
+/// ellipsoids, and vertices that are not finite are ignored. If all shapes are one point the
+/// distance is 1; without shapes this point is the origin. The same bits everywhere: only + - * /
+/// and sqrt.
 class MICROTRACE_EXPORT Framing {
  public:
   Framing(const View& view, ImageSize size);
 
-  /// Takes a scene's shapes, beside those of scenes before it: the poses of an animation, say. All
-  /// points that this class speaks of are in the first one's coordinates.
+  /// Adds a scene's shapes to those of previous scenes, for example the poses of an animation. All
+  /// points of this class are in the first scene's coordinates.
   void add(const Scene& scene);
 
   [[nodiscard]] PerspectiveCamera camera() const;
 
-  /// The camera that looks at the target from so far away, whatever it sees. distance > 0.
+  /// The camera that looks at the target from this distance, whatever it sees. distance > 0.
   [[nodiscard]] PerspectiveCamera camera_around(const DVec3& target, double distance) const;
 
-  /// Of the bounding box; (0, 0, 0) where there is nothing.
+  /// The center of the bounding box; (0, 0, 0) if there are no shapes.
   [[nodiscard]] DVec3 center() const;
 
   /// The first scene's origin.
@@ -57,7 +57,7 @@ class MICROTRACE_EXPORT Framing {
   DVec3 right_, up_, back_;  // orthonormal
   double vertical_fov_;      // radians
   double slope_x_, slope_y_;
-  // Four normals of the frustum's sides, outward, and back; and how far the shapes reach along
+  // The outward normals of the frustum's four sides, and back; and the extent of the shapes along
   // each.
   std::array<DVec3, 5> directions_;
   std::array<double, 5> reach_;
@@ -68,7 +68,7 @@ class MICROTRACE_EXPORT Framing {
 [[nodiscard]] MICROTRACE_EXPORT PerspectiveCamera frame(const Scene& scene, const View& view,
                                                         ImageSize size);
 
-/// The scene's first camera; where it has none, frame() from the default view.
+/// The scene's first camera, or without cameras the frame() of the default view.
 [[nodiscard]] MICROTRACE_EXPORT Camera default_camera(const Scene& scene, ImageSize size);
 
 }  // namespace microtrace

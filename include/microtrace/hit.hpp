@@ -1,12 +1,12 @@
 #pragma once
-/// What a ray met.
+/// A ray's hit.
 
 #include <cstdint>
 
 namespace microtrace {
 
-/// Numbers the primitives of a scene in the order of its file: a shape of its own takes one number,
-/// a mesh one for each of its triangles. Of two hits at the same t the lower number wins.
+/// The number of a primitive, in file order: a shape has one number, a mesh one for each triangle.
+/// Of two hits at the same t the lower number is the nearer one.
 using PrimitiveId = std::uint32_t;
 
 struct Hit {

@@ -1,6 +1,5 @@
 #pragma once
-/// Vectors: GLM's, in one place. World space is right-handed, +y up; lengths have no unit of their
-/// own.
+/// GLM's vectors. World space is right-handed, +y up; lengths have no unit.
 
 #include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
@@ -11,16 +10,15 @@
 namespace microtrace {
 
 using Vec2 = glm::vec2;      ///< texture coordinates
-using Vec3 = glm::vec3;      ///< stored geometry, rays, colours
-using Vec4 = glm::vec4;      ///< colours with alpha, tangents
-using DVec2 = glm::dvec2;    ///< texture coordinates being computed
+using Vec3 = glm::vec3;      ///< stored geometry, rays, colors
+using Vec4 = glm::vec4;      ///< colors with alpha, tangents
+using DVec2 = glm::dvec2;    ///< texture coordinates during computation
 using DVec3 = glm::dvec3;    ///< cameras and transforms, before the one rounding to float32
-using DVec4 = glm::dvec4;    ///< colours with alpha, being computed
+using DVec4 = glm::dvec4;    ///< colors with alpha, during computation
 using Mat3x2 = glm::mat3x2;  ///< affine maps of the plane: two columns and the translation
 using DMat4 = glm::dmat4;    ///< node transforms, column-major as in glTF
 
-// A program that defines GLM's alignment macros would see other layouts than the library was built
-// with.
+// GLM's alignment macros would change the layouts with which the library was built.
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16 && sizeof(DVec3) == 24,
               "GLM must be used without forced alignment");
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures with light.
+/// Path tracing.
 
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
@@ -11,23 +11,22 @@
 
 namespace microtrace {
 
-/// What light does at the back of what is one-sided (glTF's doubleSided false), through which the
-/// camera looks. What encloses a medium (KHR_materials_volume) has both sides.
+/// The behavior of light at the back of one-sided surfaces (glTF's doubleSided false), which the
+/// camera looks through. Surfaces that enclose a medium (KHR_materials_volume) are two-sided.
 enum class Backfaces {
-  pass,     ///< goes on, as rays of the camera do: hulls seen from within hide no light
-  occlude,  ///< ends there: walls seen through from outside keep the sun out
+  pass,     ///< passes through, like camera rays: hulls seen from inside don't block light
+  occlude,  ///< is blocked: walls that the camera looks through from outside block sunlight
 };
 
 struct PathOptions {
-  /// The most straight parts of a path: with 1 only what shines itself is seen, with 2 what it
-  /// lights directly. At least 1.
+  /// The maximum path length: 1 is emission only, 2 adds direct light. At least 1.
   std::uint32_t max_depth = 32;
   Backfaces backfaces = Backfaces::pass;
 };
 
-/// Light by path tracing (J. Kajiya, The rendering equation, 1986): the scene's lights, its
-/// environment, and what shines, scattered by the surfaces' materials as glTF 2.0's appendix B has
-/// them. The mean over the samples is the radiance but for what paths longer than max_depth bring.
+/// Path tracing (J. Kajiya, The rendering equation, 1986) with the scene's lights, its environment
+/// and emissive surfaces, and the materials of glTF 2.0, appendix B. The mean over the samples is
+/// the radiance, except for the contribution of paths longer than max_depth.
 class MICROTRACE_EXPORT PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const PathOptions& options = {});

@@ -1,5 +1,5 @@
 #pragma once
-/// Which files were read, so that none of them is written over.
+/// Records which files were read, so that none of them is overwritten.
 
 #include <microtrace/export.hpp>
 
@@ -12,21 +12,20 @@
 
 namespace microtrace {
 
-/// A file by its device and inode: the same under all its names and links.
+/// A file's device and inode: the same for all its names and links.
 using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
 
-/// That of the regular file to which the name leads; "-" is standard output. Nothing where there is
-/// none, or another kind of file.
+/// The identity of the regular file to which the name leads; "-" is standard output. Nothing if
+/// there is none, or if it is another kind of file.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<FileIdentity> identity_of(
     const std::filesystem::path& path);
 
-/// Whether writing to both names would write one file, be it there already or not.
+/// Whether writing to both names would write to the same file, whether or not it exists.
 [[nodiscard]] MICROTRACE_EXPORT bool are_same_target(const std::filesystem::path& a,
                                                      const std::filesystem::path& b);
 
-/// While it lives, notes all regular files, standard input among them, that the library reads on
-/// this thread, and those that its scenes name: at the one place where it reads, so that none can
-/// be forgotten. The last one made counts.
+/// During its lifetime, records all regular files, including standard input, that the library reads
+/// on this thread, and those that scenes name. If there are several objects, the last one counts.
 class MICROTRACE_EXPORT ReadFiles {
  public:
   ReadFiles();
@@ -34,7 +33,7 @@ class MICROTRACE_EXPORT ReadFiles {
   ReadFiles(const ReadFiles&) = delete;
   ReadFiles& operator=(const ReadFiles&) = delete;
 
-  /// The name under which the file to which `path` leads was read; nothing if it was not.
+  /// The name under which the file was read to which `path` leads; nothing if it was not read.
   [[nodiscard]] std::optional<std::string> name_of(const std::filesystem::path& path) const;
 
   void note(const FileIdentity& file, const std::string& name) { names_.emplace(file, name); }

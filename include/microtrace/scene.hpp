@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as the loaders make it: plain data, checked by `validate`.
+/// A scene as created by the loaders: plain data, checked by `validate`.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/environment.hpp>
@@ -18,7 +18,7 @@
 
 namespace microtrace {
 
-/// Something to draw, of one material.
+/// A shape with one material.
 struct Object {
   std::string name;
   Shape shape;
@@ -36,26 +36,26 @@ struct NamedLight {
 };
 
 struct Scene {
-  /// Where (0, 0, 0) of all coordinates here lies in the world that the file speaks of: next to a
-  /// scene that is far from that world's own origin, so that float32 can hold it.
+  /// The position of these coordinates' (0, 0, 0) in the file's own coordinates. Scenes far from
+  /// the file's origin are translated, so that float32 can represent them precisely.
   DVec3 origin{0};
   std::vector<Object> objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  std::vector<std::shared_ptr<const Image>> images;  ///< null where one was not decoded
-  std::vector<NamedCamera> cameras;                  ///< none: see default_camera
+  std::vector<std::shared_ptr<const Image>> images;  ///< null if not decoded
+  std::vector<NamedCamera> cameras;                  ///< if empty see default_camera
   std::vector<NamedLight> lights{};
-  std::optional<Environment> environment{};  ///< has no influence on flat pictures
-  ImageSize size;                            ///< of the picture, unless the caller wants another
+  std::optional<Environment> environment{};  ///< no effect on flat pictures
+  ImageSize size;                            ///< default size of the picture
   Vec3 background{0};                        ///< linear Rec. 709
-  float epsilon = 0;  ///< primary rays hit only in the open interval (epsilon, infinity)
+  float epsilon = 0;  ///< camera rays only hit in the open interval (epsilon, infinity)
 };
 
-/// The object's material, which lives as long as the scene.
+/// The object's material, valid for the lifetime of the scene.
 [[nodiscard]] MICROTRACE_EXPORT const Material& material_of(const Scene& scene,
                                                             const Object& object);
 
-/// How many PrimitiveIds a shape takes.
+/// The number of a shape's PrimitiveIds.
 [[nodiscard]] MICROTRACE_EXPORT std::size_t primitive_count(const Shape& shape);
 
 }  // namespace microtrace

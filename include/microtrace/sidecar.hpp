@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture shows, in words and numbers, as a JSON text.
+/// A description of a picture as JSON text.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
@@ -10,9 +10,9 @@
 
 namespace microtrace {
 
-/// The camera, the objects with the ids of Aov::id, and the materials; docs/outputs.md tells the
-/// members. `picture` is the name that the text gives the picture. Where the film has the channel
-/// "id.instance", objects have the number and the box of the pixels in which they are seen.
+/// The camera, the objects with the ids of Aov::id, and the materials; docs/outputs.md describes
+/// the members. `picture` is the picture's name in the text. If the film has the channel
+/// "id.instance", objects have the number and the bounding box of the pixels that show them.
 [[nodiscard]] MICROTRACE_EXPORT std::string describe_picture(const Scene& scene,
                                                              const Camera& camera, const Film& film,
                                                              const std::string& picture);

@@ -1,5 +1,5 @@
 #pragma once
-/// How often a tree's questions went past the float32 kernels.
+/// The number of queries of a tree that float32 couldn't decide.
 
 #include <microtrace/export.hpp>
 
@@ -7,18 +7,17 @@
 
 namespace microtrace {
 
-/// Numbers of questions, by the arithmetic that was asked; each stage is asked where the one before
-/// it can't be sure. Of rays, "a question" is whether and where one ray hits one primitive, or
-/// which of two hits is first; of origins, where a ray that leaves a surface begins. See
-/// docs/exactness.md.
+/// Numbers of queries by stage; a stage is queried if the previous one can't decide. For rays, a
+/// query is whether and where one ray hits one primitive, or which of two hits is first; for
+/// origins, the origin of a ray that leaves a surface. See docs/exactness.md.
 struct StageCounts {
-  std::uint64_t edges = 0;             ///< a triangle's edges, by float64 within the kernels
+  std::uint64_t edges = 0;             ///< triangle edges, by float64 in the kernels
   std::uint64_t filters = 0;           ///< float64 with error bounds
-  std::uint64_t grid = 0;              ///< exact, by integers of fixed width
-  std::uint64_t dyadic = 0;            ///< exact, by integers of any width
-  std::uint64_t origins = 0;           ///< of rays that leave surfaces
+  std::uint64_t grid = 0;              ///< exact, by fixed-width integers
+  std::uint64_t dyadic = 0;            ///< exact, by arbitrary-width numbers
+  std::uint64_t origins = 0;           ///< origins of rays that leave surfaces
   std::uint64_t searched_origins = 0;  ///< of these, not found by float64 alone
-  std::uint64_t missing_origins = 0;   ///< of these, not found at all: paths end there
+  std::uint64_t missing_origins = 0;   ///< of these, nonexistent: paths end there
 
   StageCounts& operator+=(const StageCounts& other) {
     edges += other.edges;
@@ -41,8 +40,7 @@ struct StageCounts {
   }
 };
 
-/// Of all questions that the calling thread has asked so far; the difference of two is what came
-/// between.
+/// All queries of the calling thread so far. To count those of a step, subtract two values.
 [[nodiscard]] MICROTRACE_EXPORT StageCounts stage_counts();
 
 }  // namespace microtrace

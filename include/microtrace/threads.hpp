@@ -1,10 +1,10 @@
 #pragma once
-/// What "threads = 0" means in every option.
+/// The meaning of "threads = 0" in all options.
 #include <microtrace/export.hpp>
 
 namespace microtrace {
 
-/// One for each processor that this process may use, at least 1.
+/// The number of processors available to this process, at least 1.
 [[nodiscard]] MICROTRACE_EXPORT unsigned default_threads();
 
 }  // namespace microtrace

@@ -67,7 +67,7 @@ TEST(AtomicFile, FailuresNameTheFileTheReasonAndTheRemedy) {
   EXPECT_EQ(folder.entries(), 2U);
 }
 
-TEST(AtomicFile, FailuresAreForeseen) {
+TEST(AtomicFile, FailuresAreReportedInAdvance) {
   const Folder folder;
   fs::create_directory(folder / "d.ppm");
   EXPECT_THROW(check_image_path(folder / "missing/a.ppm"), Error);
@@ -91,7 +91,7 @@ TEST(AtomicFile, ShortWriteKeepsTheOldFileAndLeavesNothing) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-TEST(AtomicFile, NothingIsSeenBeforeCommit) {
+TEST(AtomicFile, FileAppearsOnCommit) {
   const Folder folder;
   write_bytes(folder / "a", "old");
   {
@@ -107,7 +107,7 @@ TEST(AtomicFile, NothingIsSeenBeforeCommit) {
   EXPECT_EQ(folder.entries(), 1U);
 }
 
-TEST(AtomicFile, SignalHandlerRemovesWhatIsUnfinished) {
+TEST(AtomicFile, SignalHandlerRemovesUnfinishedFiles) {
   const Folder folder;
   io::AtomicFile file(folder / "a");
   file.write("half");
@@ -152,7 +152,7 @@ TEST(AtomicFile, LoopOfLinksFails) {
   EXPECT_THAT(failure(folder / "a.ppm"), HasSubstr("Too many levels of symbolic links"));
 }
 
-TEST(AtomicFile, PipesAreWrittenStraight) {
+TEST(AtomicFile, PipesAreWrittenDirectly) {
   const Folder folder;
   const fs::path pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -162,7 +162,7 @@ TEST(AtomicFile, PipesAreWrittenStraight) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-TEST(AtomicFile, StandardOutputIsWrittenStraight) {
+TEST(AtomicFile, StandardOutputIsWrittenDirectly) {
   const Folder folder;
   for (const char* name : {"-", "/dev/stdout", "/dev/fd/1"}) {
     const int saved = ::dup(STDOUT_FILENO);

@@ -43,20 +43,20 @@ class BrokenModule : public testing::Test {
   Folder folder_;
 };
 
-TEST_F(BrokenModule, CutOffAnywhereIsAnError) {
+TEST_F(BrokenModule, TruncationIsAnError) {
   for (std::size_t size = 0; size < whole_.size(); size += size < 4096 ? 64 : 1021) {
     EXPECT_THAT(complaint(whole_.substr(0, size)), HasSubstr("can't be used")) << size;
   }
   EXPECT_THAT(complaint(whole_.substr(0, whole_.size() - 1)), HasSubstr("truncated or damaged"));
 }
 
-TEST_F(BrokenModule, WithZerosForItsEndIsAnError) {
+TEST_F(BrokenModule, ZerosAtTheEndAreAnError) {
   std::string bytes = whole_;
   std::fill(bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2), bytes.end(), '\0');
   EXPECT_THAT(complaint(bytes), HasSubstr("truncated or damaged"));
 }
 
-TEST_F(BrokenModule, OfAnotherKindIsAnError) {
+TEST_F(BrokenModule, OtherElfClassIsAnError) {
   EXPECT_THAT(complaint("not a library"), HasSubstr("no shared library of this machine"));
   std::string bytes = whole_;
   bytes[4] = 1;  // ELFCLASS32
@@ -71,7 +71,7 @@ TEST_F(BrokenModule, OfAnotherKindIsAnError) {
   }
 }
 
-TEST_F(BrokenModule, WholeAgainItIsUsed) {
+TEST_F(BrokenModule, RestoredModuleIsUsed) {
   EXPECT_EQ(complaint(whole_), "nothing");
 }
 

@@ -58,7 +58,7 @@ Film see_through() {
   return film;
 }
 
-TEST(Alpha, IsDividedOutOfColoursOfEightBits) {
+TEST(Alpha, IsUnassociatedInEightBits) {
   const Folder folder;
   const Film film = see_through();
   std::vector<std::uint8_t> expected(std::size_t{19} * 7 * 4);
@@ -79,7 +79,7 @@ TEST(Alpha, IsDividedOutOfColoursOfEightBits) {
   for (std::size_t i = 3; i < read.size(); i += 4) EXPECT_EQ(read[i], expected[i]);
 }
 
-TEST(Alpha, OfEightBitsByHand) {
+TEST(Alpha, EightBitsComputedByHand) {
   Film film({4, 1}, Film::Alpha::premultiplied);
   film.at(0, 0) = {0.5F, 0.25F, 0};
   film.alpha_at(0, 0) = 0.5F;
@@ -92,7 +92,7 @@ TEST(Alpha, OfEightBitsByHand) {
   EXPECT_THAT(row, ElementsAre(255, 188, 0, 128, 149, 149, 149, 255, 0, 0, 0, 0, 0, 0, 0, 0));
 }
 
-TEST(Alpha, IsMultipliedIntoColoursOfFloat) {
+TEST(Alpha, IsPremultipliedInFloat) {
   const Folder folder;
   const Film film = see_through();
   save_image(film, folder / "a.exr");
@@ -110,7 +110,7 @@ TEST(Alpha, IsMultipliedIntoColoursOfFloat) {
   }
 }
 
-TEST(Alpha, FormatsWithoutItAreUsageErrors) {
+TEST(Alpha, FormatsWithoutAlphaAreUsageErrors) {
   const Folder folder;
   for (const char* name : {"a.ppm", "a.jpg", "a.hdr", "a.gif"}) {
     for (const auto& attempt :
@@ -146,7 +146,7 @@ Film with_channels(Film::Alpha alpha, ImageSize size = {19, 131}) {
   return film;
 }
 
-TEST(Channels, ComeBackFromExrToTheBit) {
+TEST(Channels, ExrKeepsAllBits) {
   const Folder folder;
   for (const Film::Alpha alpha : {Film::Alpha::none, Film::Alpha::premultiplied}) {
     const Film film = with_channels(alpha);
@@ -208,7 +208,7 @@ TEST(Crop, ExrKnowsTheWholePicture) {
   EXPECT_EQ(std::memcmp(read.data(), film.row(0).data(), read.size() * sizeof(float)), 0);
 }
 
-TEST(Display, NumbersThatAreNoColoursHaveNoColourSpace) {
+TEST(Display, QuantitiesHaveNoColorSpace) {
   const Folder folder;
   Film film = gradient();
   film.display = {.srgb = false};

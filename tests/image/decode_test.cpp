@@ -110,14 +110,14 @@ TEST(DecodeImage, DamagedPngGivesTheReason) {
   }
 }
 
-TEST(DecodeImage, ABombIsRefusedByItsSize) {
+TEST(DecodeImage, DecompressionBombIsRefusedBySize) {
   const DecodedImage decoded =
       decode_image(tests::png_file({.width = 1U << 15U, .height = (1U << 13U) + 1, .rows = {"x"}}));
   EXPECT_TRUE(decoded.too_large);
   EXPECT_FALSE(decoded.image);
 }
 
-TEST(DecodeImage, JpegGivesTheseBytesEverywhere) {
+TEST(DecodeImage, JpegGivesTheSameBytesEverywhere) {
   const Image image = decode(kJpeg);
   expect_size(image, 4, 3, 3);
   EXPECT_EQ(
@@ -126,7 +126,7 @@ TEST(DecodeImage, JpegGivesTheseBytesEverywhere) {
              56,  97, 154, 57,  98, 27, 109, 219, 27, 109, 219, 21, 112, 226, 22, 113, 227}));
 }
 
-TEST(DecodeImage, JpegThatBreaksOffIsDrawnWithAComplaint) {
+TEST(DecodeImage, TruncatedJpegIsDecodedWithAWarning) {
   const DecodedImage decoded = decode_image(kJpeg.substr(0, kJpeg.size() - 8));
   EXPECT_TRUE(decoded.image);
   EXPECT_THAT(decoded.complaint, HasSubstr("end"));
@@ -146,7 +146,7 @@ TEST(DecodeImage, WebpLosslessAndLossy) {
 }
 
 // libwebp would decode the following bytes as a picture without container, of arbitrary size.
-TEST(DecodeImage, WebpWithoutAPictureIsRefusedBeforeMemoryIsTaken) {
+TEST(DecodeImage, WebpWithoutPictureIsRefusedBeforeAllocation) {
   const auto made = [](std::string_view kind) {
     std::string file = kLosslessWebp;
     file.replace(12, 4, kind);
@@ -160,7 +160,7 @@ TEST(DecodeImage, WebpWithoutAPictureIsRefusedBeforeMemoryIsTaken) {
   EXPECT_THAT(decode_image(found).complaint, HasSubstr("header is damaged"));
 }
 
-TEST(DecodeImage, OtherFilesAreNone) {
+TEST(DecodeImage, OtherFilesAreNotImages) {
   EXPECT_THAT(decode_image("GIF89a").complaint, HasSubstr("neither PNG, JPEG, WebP nor KTX2"));
   EXPECT_FALSE(decode_image("").image);
 }

@@ -88,7 +88,7 @@ TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
 }
 
 // The picture is a gradient: red x * 7, green y * 5, blue 128 + x - y.
-TEST(DecodeKtx2, BeginsAtTheUpperLeft) {
+TEST(DecodeKtx2, StartsAtTheUpperLeft) {
   const Image image = decode_image(file("uastc_linear_4x4")).image.value();
   const auto& samples = std::get<std::vector<std::uint8_t>>(image.samples);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -97,7 +97,7 @@ TEST(DecodeKtx2, BeginsAtTheUpperLeft) {
   }
 }
 
-TEST(DecodeKtx2, FilesThatEndEarlyGiveTheReason) {
+TEST(DecodeKtx2, TruncatedFilesGiveTheReason) {
   for (const char* name : {"etc1s_3x5", "uastc_linear_4x4", "uastc_zstd_17x31"}) {
     const std::string whole = file(name);
     for (std::size_t size = 12; size < whole.size(); ++size) {
@@ -108,7 +108,7 @@ TEST(DecodeKtx2, FilesThatEndEarlyGiveTheReason) {
   }
 }
 
-TEST(DecodeKtx2, OtherTexturesAreRefusedByTheirKind) {
+TEST(DecodeKtx2, UnsupportedTexturesAreRefusedByName) {
   const std::string etc1s = file("etc1s_3x5"), uastc = file("uastc_linear_4x4");
   const std::size_t dfd = u32_at(uastc, kDfdOffset), etc1s_dfd = u32_at(etc1s, kDfdOffset);
   const auto expect = [](const std::string& bytes, Patch patch, const char* words) {
@@ -130,7 +130,7 @@ TEST(DecodeKtx2, OtherTexturesAreRefusedByTheirKind) {
   expect(etc1s, {u32_at(etc1s, kGlobalOffset) + 20, 2}, "video");
 }
 
-TEST(DecodeKtx2, MetadataMayNotTurnOrSwizzle) {
+TEST(DecodeKtx2, MetadataMayNotFlipOrSwizzle) {
   const std::string plain = file("uastc_linear_4x4");
   const auto decode_with_entry = [&](std::string entry) {
     const std::size_t size = entry.size();
@@ -154,7 +154,7 @@ TEST(DecodeKtx2, MetadataMayNotTurnOrSwizzle) {
   EXPECT_THAT(decode_with_entry("KTXwriter"s).complaint, HasSubstr("metadata is damaged"));
 }
 
-TEST(DecodeKtx2, SizesAreCheckedBeforeMemoryIsTaken) {
+TEST(DecodeKtx2, SizesAreCheckedBeforeAllocation) {
   // 2^24 x 2^24 texels, whose blocks exceed any file size.
   const DecodedImage etc1s = decode_with(
       file("etc1s_3x5"), {{kWidth, 0}, {kWidth + 3, 1}, {kHeight, 0}, {kHeight + 3, 1}});
@@ -180,7 +180,7 @@ TEST(DecodeKtx2, DamagedDataGivesTheReason) {
 }
 
 // Damaged files either decode to some image or fail with a reason.
-TEST(DecodeKtx2, NoByteCanBreakTheDecoder) {
+TEST(DecodeKtx2, NoModifiedByteCrashesTheDecoder) {
   for (const char* name : {"etc1s_3x5", "etc1s_alpha_mips_17x31", "etc1s_runs_100x36"}) {
     const std::string whole = file(name);
     for (std::size_t at = kDepth; at < whole.size(); ++at) {
@@ -204,7 +204,7 @@ TEST(ImageHeader, OfKtx2) {
   EXPECT_EQ(read_image_header(whole.substr(0, 11)).format, ImageFormat::unknown);
 }
 
-TEST(Ktx2Colors, AreThoseOfTheDescriptor) {
+TEST(Ktx2Colors, EqualTheDescriptor) {
   std::string bytes = file("uastc_linear_4x4");
   const std::size_t dfd = u32_at(bytes, kDfdOffset);
   EXPECT_EQ(read_ktx2_colors(bytes).value().encoding, ColorEncoding::linear);

@@ -30,7 +30,7 @@ std::string output_of(const std::string& command, const fs::path& scratch) {
   return read_bytes(scratch);
 }
 
-TEST(Module, LosslessFormatsHoldThePixelsOfPpm) {
+TEST(Module, LosslessFormatsEqualPpm) {
   const Folder folder;
   save_image(gradient(), folder / "a.ppm");
   for (const char* ending : {"png", "PNG", "tif", "bmp", "tga"}) {
@@ -41,7 +41,7 @@ TEST(Module, LosslessFormatsHoldThePixelsOfPpm) {
   }
 }
 
-TEST(Module, ExrHoldsTheFloatsThemselves) {
+TEST(Module, ExrStoresTheFloatsUnchanged) {
   const Folder folder;
   const Film film = gradient();
   save_image(film, folder / "a.exr");
@@ -74,7 +74,7 @@ TEST(Module, TwoRunsGiveTheSameBytes) {
   }
 }
 
-TEST(Module, UnknownEndingsAreUsageErrors) {
+TEST(Module, UnknownExtensionsAreUsageErrors) {
   const Folder folder;
   for (const char* name : {"a.xyz", "a.null", "a", "a."}) {
     try {

@@ -52,7 +52,7 @@ std::vector<std::string> chunks_of(const std::string& png) {
   return names;
 }
 
-TEST(Png, HoldsTheSamplesOfTheFilm) {
+TEST(Png, StoresTheSamplesOfTheFilm) {
   const Folder folder;
   expect_samples(gradient(), folder / "a.png");
   expect_samples(gradient({1, 1}), folder / "b.PNG");
@@ -69,7 +69,7 @@ TEST(Png, HoldsTheSamplesOfTheFilm) {
   expect_samples(film, folder / "e.png");
 }
 
-TEST(Png, SaysThatItIsSrgbAndNothingMore) {
+TEST(Png, HasAnSrgbChunkAndNoOthers) {
   const Folder folder;
   save_image(gradient(), folder / "a.png");
   EXPECT_THAT(chunks_of(read_bytes(folder / "a.png")),
@@ -80,7 +80,7 @@ TEST(Png, SaysThatItIsSrgbAndNothingMore) {
   EXPECT_THAT(chunks_of(read_bytes(folder / "b.png")), ElementsAre("IHDR", "IDAT", "IEND"));
 }
 
-TEST(Png, HoldsColoursAndAlphaAlone) {
+TEST(Png, StoresOnlyColorsAndAlpha) {
   const Folder folder;
   EXPECT_NO_THROW(check_image_path(folder / "a.png", {.alpha = true}));
   EXPECT_THROW(check_image_path(folder / "a.png", {.channels = true}), Error);

@@ -74,7 +74,7 @@ TEST(Ppm, AlphaIsRefused) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-TEST(Ppm, NumbersThatAreNoColoursAreShownAsTheDisplaySays) {
+TEST(Ppm, QuantitiesAreShownByTheDisplaySettings) {
   Film film({5, 1});
   film.display = {.srgb = false, .scale = Vec3(0.5F), .offset = Vec3(0.5F, 0.5F, 0)};
   film.at(0, 0) = {-1, 0, 1};

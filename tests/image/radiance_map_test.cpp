@@ -57,7 +57,7 @@ ErrorKind kind_of(const fs::path& path, const std::string& word) {
   return ErrorKind::internal;
 }
 
-TEST(RadianceMapFile, ExrHoldsTheNumbersThemselves) {
+TEST(RadianceMapFile, ExrStoresTheNumbersUnchanged) {
   const Folder folder;
   save_image(panorama(), folder / "a.exr");
   const LoadedRadianceMap loaded = load_radiance_map(folder / "a.exr");
@@ -68,7 +68,7 @@ TEST(RadianceMapFile, ExrHoldsTheNumbersThemselves) {
   expect_equal(*load_radiance_map(folder / "half.EXR").map, panorama(), 0);
 }
 
-TEST(RadianceMapFile, HdrIsTrueToItsEightBits) {
+TEST(RadianceMapFile, HdrIsAccurateToEightBits) {
   const Folder folder;
   save_image(panorama(), folder / "a.hdr");
   const LoadedRadianceMap loaded = load_radiance_map(folder / "a.hdr");
@@ -90,7 +90,7 @@ TEST(RadianceMapFile, BytesAndWordsAreSrgb) {
   EXPECT_EQ(words.map->pixels[1], bytes.map->pixels[1]);
 }
 
-TEST(RadianceMapFile, GreyIsTakenForAllAndAlphaLeftOut) {
+TEST(RadianceMapFile, GrayIsExpandedAndAlphaIgnored) {
   const Folder folder;
   save_image(panorama(), folder / "a.exr");
   const std::string in = (folder / "a.exr").string();
@@ -136,7 +136,7 @@ TEST(RadianceMapFile, SurvivesDamagedOpenExrFiles) {
   EXPECT_THAT(kind_of(folder / "wide.exr", ""), testing::AnyOf(ErrorKind::io, ErrorKind::limit));
 }
 
-TEST(RadianceMapFile, NumbersThatAreNoLightAreClampedWithAWarning) {
+TEST(RadianceMapFile, InvalidRadianceIsClampedWithAWarning) {
   const Folder folder;
   Film film = panorama();
   film.at(0, 0) = Vec3(-1, 2, 3);
@@ -154,7 +154,7 @@ TEST(RadianceMapFile, NumbersThatAreNoLightAreClampedWithAWarning) {
   EXPECT_EQ(pixels[3], Vec3(0, 0, kMaxRadiance));
 }
 
-TEST(RadianceMapFile, AnotherShapeIsWarnedOf) {
+TEST(RadianceMapFile, OtherAspectRatiosGiveAWarning) {
   const Folder folder;
   save_image(Film({.width = 3, .height = 3}), folder / "a.exr");
   const LoadedRadianceMap loaded = load_radiance_map(folder / "a.exr");
@@ -162,7 +162,7 @@ TEST(RadianceMapFile, AnotherShapeIsWarnedOf) {
   EXPECT_THAT(loaded.warnings[0].text(), HasSubstr("twice as wide as high"));
 }
 
-TEST(RadianceMapFile, RefusesWhatItCannotRead) {
+TEST(RadianceMapFile, RefusesUnreadableFiles) {
   const Folder folder;
   save_image(panorama(), folder / "a.exr");
   EXPECT_EQ(kind_of(folder / "missing.exr", "missing.exr"), ErrorKind::io);
@@ -178,7 +178,7 @@ TEST(RadianceMapFile, RefusesWhatItCannotRead) {
   }
 }
 
-TEST(RadianceMapFile, RefusesSizesBeforeMemoryIsTaken) {
+TEST(RadianceMapFile, RefusesSizesBeforeAllocation) {
   const Folder folder;
   write_bytes(folder / "large.ppm", "P6\n65536 65536\n255\n");
   EXPECT_EQ(kind_of(folder / "large.ppm", "65536 x 65536"), ErrorKind::limit);

@@ -38,7 +38,7 @@ class CheckpointFile : public testing::Test {
       ("checkpoint_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
-TEST_F(CheckpointFile, HoldsAllThatThereIs) {
+TEST_F(CheckpointFile, StoresAllMembers) {
   const Checkpoint written = example();
   save_checkpoint(written, path_);
   const Checkpoint read = load_checkpoint(path_);
@@ -55,7 +55,7 @@ TEST_F(CheckpointFile, HoldsAllThatThereIs) {
   EXPECT_EQ(read.sums.pixels, written.sums.pixels);
 }
 
-TEST_F(CheckpointFile, EveryBitCounts) {
+TEST_F(CheckpointFile, DetectsEveryChangedBit) {
   save_checkpoint(example(), path_);
   std::string bytes(std::filesystem::file_size(path_), '\0');
   std::ifstream(path_, std::ios::binary)
@@ -70,7 +70,7 @@ TEST_F(CheckpointFile, EveryBitCounts) {
   }
 }
 
-TEST(Checkpoint, SaysWhatDiffers) {
+TEST(Checkpoint, NamesTheDifference) {
   const auto message = [](const std::string& there, const std::string& here) {
     Checkpoint ours{.identity = here};
     try {
@@ -88,7 +88,7 @@ TEST(Checkpoint, SaysWhatDiffers) {
   EXPECT_EQ(message("--a\tb\n", "--a\tb\n"), "");
 }
 
-TEST(Checkpoint, SamplesThatAreThereAreNotAddedAgain) {
+TEST(Checkpoint, RefusesSamplesThatArePresent) {
   Checkpoint sum = example();
   Checkpoint other = example();
   other.sums.note({.first = 10, .last = 11});
@@ -106,7 +106,7 @@ TEST_F(CheckpointFile, RangesOfSamplesAreInOrderAndApart) {
   }
 }
 
-TEST(Digest, CutsDontMatterAndBytesDo) {
+TEST(Digest, DependsOnBytesButNotOnTheirDivision) {
   const std::string text = "A number that tells byte strings apart";
   const auto digest = [](std::initializer_list<std::string_view> parts) {
     Digest result;

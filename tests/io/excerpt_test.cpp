@@ -27,12 +27,12 @@ TEST(Excerpt, PutsTheCaretUnderThePlace) {
   EXPECT_EQ(excerpt("", 0), "\n^");
 }
 
-TEST(Excerpt, KeepsTheCaretAlignedBehindTabsAndOtherAlphabets) {
+TEST(Excerpt, AlignsTheCaretAfterTabsAndOtherAlphabets) {
   EXPECT_EQ(excerpt("\t\ta b", 4), "  a b\n    ^");
   EXPECT_EQ(excerpt("\xC3\xA4\xE2\x82\xAC x", 6), "\xC3\xA4\xE2\x82\xAC x\n   ^");
 }
 
-TEST(Excerpt, ShowsNoBytesThatATerminalObeys) {
+TEST(Excerpt, EscapesTerminalControlBytes) {
   EXPECT_EQ(excerpt("\x1B[2J!", 4), "\\x1b[2J!\n       ^");
   EXPECT_EQ(excerpt("\xC2\x9B!", 2), "\\xc2\\x9b!\n        ^");
   EXPECT_EQ(excerpt("\xE2\x80\xAE!", 3), "\\xe2\\x80\\xae!\n            ^");
@@ -49,7 +49,7 @@ TEST(Excerpt, CutsLongLines) {
   EXPECT_THAT(excerpt(line, 3), StartsWith(std::string(120, 'x') + "...\n   ^"));
 }
 
-TEST(Excerpt, CutsBetweenCharacters) {
+TEST(Excerpt, TruncatesBetweenCharacters) {
   std::string line;
   for (int i = 0; i < 300; ++i) line += "\xE2\x82\xAC";
   for (std::size_t i = 300; i < 312; i += 3) {
@@ -57,7 +57,7 @@ TEST(Excerpt, CutsBetweenCharacters) {
   }
 }
 
-TEST(Quoted, CutsAndCleans) {
+TEST(Quoted, TruncatesAndEscapes) {
   EXPECT_EQ(in_quotes("abc"), "\"abc\"");
   EXPECT_EQ(in_quotes("a\nb"), "\"a\\x0ab\"");
   EXPECT_EQ(in_quotes(std::string(61, 'a')), "\"" + std::string(60, 'a') + "...\"");

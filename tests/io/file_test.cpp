@@ -48,7 +48,7 @@ TEST_F(File, ReadsEveryByte) {
   }
 }
 
-TEST_F(File, SaysWhatIsWrong) {
+TEST_F(File, NamesTheReason) {
   EXPECT_EQ(error_of(folder_ / "none", 10).kind(), ErrorKind::io);
   EXPECT_THAT(error_of(folder_ / "none", 10).what(), HasSubstr("No such file or directory"));
   EXPECT_EQ(error_of(folder_, 10).kind(), ErrorKind::io);
@@ -73,7 +73,7 @@ TEST_F(File, ReadsAPipe) {
   writer.join();
 }
 
-TEST_F(File, ThatAnotherNamesIsRegular) {
+TEST_F(File, ReferencedFilesMustBeRegular) {
   EXPECT_EQ(read_regular_file(write("12345"), 10), "12345");
   const std::filesystem::path pipe = folder_ / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -87,7 +87,7 @@ TEST_F(File, ThatAnotherNamesIsRegular) {
   }
 }
 
-TEST_F(File, LetsTheCallerJudgeTheFirstBytes) {
+TEST_F(File, LetsTheCallerRejectByTheFirstBytes) {
   const std::filesystem::path path = write(std::string(1'000'000, 'x'));
   std::size_t seen = 0;
   const auto refuse = [&](std::string_view first) {

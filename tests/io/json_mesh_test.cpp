@@ -25,7 +25,7 @@ TEST(Transform, AbsentPartsChangeNothing) {
   EXPECT_EQ(transform("{}"), DMat4(1));
 }
 
-TEST(Transform, ScalesThenTurnsThenMoves) {
+TEST(Transform, ScalesThenRotatesThenTranslates) {
   const DMat4 m = transform(
       R"({"translation": [10, 20, 30], "rotation": {"axis": [0, 0, 5], "angle": 90}, "scale": [2, 3, 4]})");
   EXPECT_EQ(apply(m, DVec3(1, 0, 0)), DVec3(10, 22, 30));
@@ -34,7 +34,7 @@ TEST(Transform, ScalesThenTurnsThenMoves) {
   EXPECT_EQ(transform(R"({"scale": -2})")[1][1], -2);
 }
 
-TEST(Transform, TurnsCounterClockwiseSeenAgainstTheAxis) {
+TEST(Transform, RotatesCounterclockwise) {
   const DMat4 about_x = transform(R"({"rotation": {"axis": [1, 0, 0], "angle": 90}})");
   EXPECT_EQ(apply(about_x, DVec3(0, 1, 0)), DVec3(0, 0, 1));
   const DMat4 about_y = transform(R"({"rotation": {"axis": [0, 1, 0], "angle": -90}})");
@@ -46,7 +46,7 @@ TEST(Transform, TurnsCounterClockwiseSeenAgainstTheAxis) {
   EXPECT_NEAR(turned.z, 0, 1e-15);
 }
 
-TEST(Transform, MatrixGoesColumnByColumn) {
+TEST(Transform, MatrixIsColumnMajor) {
   const DMat4 m = transform(R"({"matrix": [1,2,3,0, 4,5,6,0, 7,8,9,0, 10,11,12,1]})");
   EXPECT_EQ(apply(m, DVec3(0)), DVec3(10, 11, 12));
   EXPECT_EQ(apply(m, DVec3(1, 0, 0)), DVec3(11, 13, 15));
@@ -85,7 +85,7 @@ TEST_F(MeshObject, IsPlacedNamedAndColored) {
   }
 }
 
-TEST_F(MeshObject, TakesNoCameraFromItsFile) {
+TEST_F(MeshObject, IgnoresCamerasOfItsFile) {
   EXPECT_EQ(load(R"({"type": "mesh", "file": "gltf/cube.glb"})").scene.cameras.size(), 1U);
 }
 

@@ -174,7 +174,7 @@ TEST(JsonScene, NamesThePlaceOfAnError) {
   }
 }
 
-TEST(JsonScene, TakesNoQuadraticTimeForManyObjects) {
+TEST(JsonScene, ManyObjectsTakeLinearTime) {
   std::string text(minimal.substr(0, minimal.rfind(']')));
   for (int i = 0; i < 50'000; ++i) text += R"(,{"type":"sphere","center":[0,0,0],"radius":1})";
   EXPECT_EQ(parse(text + "]}").objects.size(), 50'001U);

@@ -53,7 +53,7 @@ TEST_F(LoadScene, ReadsEveryShippedScene) {
   EXPECT_GE(count, 24U);
 }
 
-TEST_F(LoadScene, TellsFormatsApartByContentWhereTheEndingSaysNothing) {
+TEST_F(LoadScene, DetectsTheFormatByContentForOtherExtensions) {
   std::filesystem::copy_file(scenes / "sphere.json", folder_ / "a.scene");
   EXPECT_EQ(load_scene(folder_ / "a.scene").scene.cameras[0].name, "front");
   std::filesystem::copy_file(scenes / "gltf/cube.glb", folder_ / "b");
@@ -62,7 +62,7 @@ TEST_F(LoadScene, TellsFormatsApartByContentWhereTheEndingSaysNothing) {
   EXPECT_THAT(error.what(), HasSubstr("1.0"));
 }
 
-TEST_F(LoadScene, FollowsAnEndingInCapitals) {
+TEST_F(LoadScene, AcceptsUpperCaseExtensions) {
   std::filesystem::copy_file(scenes / "gltf/cube.glb", folder_ / "B.GLB");
   EXPECT_FALSE(load_scene(folder_ / "B.GLB").scene.objects.empty());
   EXPECT_THAT(error_of(write("C.JSON", R"({"asset": {"version": "2.0"}})")).what(),
@@ -81,7 +81,7 @@ TEST_F(LoadScene, RefusesGarbageFromItsFirstBytes) {
   }
 }
 
-TEST_F(LoadScene, PassesOnWhatTheFileSystemSays) {
+TEST_F(LoadScene, PassesOnFileSystemErrors) {
   EXPECT_EQ(error_of(folder_ / "none.json").kind(), ErrorKind::io);
   EXPECT_EQ(error_of(folder_).kind(), ErrorKind::io);
   EXPECT_EQ(error_of(write("empty.json", "")).kind(), ErrorKind::invalid_scene);

@@ -17,7 +17,7 @@ TEST(Suggestion, NamesTheNearest) {
   EXPECT_EQ(suggestion("Center", known), "; did you mean \"center\"?");
 }
 
-TEST(Suggestion, ListsAllWhereNoneIsNear) {
+TEST(Suggestion, ListsAllIfNoneIsSimilar) {
   EXPECT_EQ(suggestion("shininess", known), "; known are \"radius\", \"center\", \"a\"");
   EXPECT_EQ(suggestion("b", known), "; known are \"radius\", \"center\", \"a\"");
   EXPECT_EQ(suggestion("b", {}), "");

@@ -36,7 +36,7 @@ Twin expression(Random& random, int degree, int lo, int hi) {
   return {term.dyadic - product.dyadic, term.rational - product.rational};
 }
 
-TEST(DyadicOracle, ArithmeticAndOrderAreThoseOfRationals) {
+TEST(DyadicOracle, ArithmeticAndOrderEqualRationals) {
   Random random = announced_random(300);
   const int count = case_count(0.01);
   Twin previous = twin(0);
@@ -129,7 +129,7 @@ TEST(RootOracle, OrderOfLargeRootsAndOfNearlyEqualOnes) {
   }
 }
 
-TEST(RootOracle, RoundingOfNumbersAtTheMiddleOfFloats) {
+TEST(RootOracle, RoundingAtMidpointsOfFloats) {
   Random random = announced_random(304);
   for (int i = 0; i < case_count(0.02) && !HasFatalFailure(); ++i) {
     const float f = random.any_float(-149, 127);

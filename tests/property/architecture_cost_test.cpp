@@ -33,7 +33,7 @@ Asked draw(const generated::ArchitectureScene& architecture, const Pose& view, u
 
 class ArchitectureCost : public testing::TestWithParam<std::string> {};
 
-TEST_P(ArchitectureCost, FewQuestionsNeedExactArithmetic) {
+TEST_P(ArchitectureCost, FewQueriesNeedExactArithmetic) {
   const auto scene = generated::architecture(GetParam());
   const auto turned = generated::turned(generated::architecture(GetParam()));
   for (const auto* architecture : {&scene, &turned}) {

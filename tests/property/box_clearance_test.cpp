@@ -34,7 +34,7 @@ Triangle triangle_on_grid(Random& random) {
   return t;
 }
 
-TEST(BoxClearance, OfATriangleLeavesNoWayThroughIt) {
+TEST(BoxClearance, CertainClearanceOfTriangles) {
   Random random(41);
   int passed = 0, met = 0;
   for (int i = 0; i < 200000 && !testing::Test::HasFatalFailure(); ++i) {
@@ -59,7 +59,7 @@ TEST(BoxClearance, OfATriangleLeavesNoWayThroughIt) {
 }
 
 // In projection along any of the axes.
-TEST(BoxClearance, OfSegmentsBesideABoxIsCertain) {
+TEST(BoxClearance, CertainClearanceOfSegments) {
   Random random(42);
   for (int i = 0; i < 10000; ++i) {
     const Vec3 a = random.on_grid(1024, 0x1p-10F), half = random.on_grid(1024, 0x1p-10F);

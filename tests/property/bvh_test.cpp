@@ -84,7 +84,7 @@ bool equal(const std::optional<Hit>& a, const std::optional<Hit>& b) {
   return a.has_value() == b.has_value() && (!a || (a->id == b->id && a->t == b->t));
 }
 
-TEST(Bvh, EqualsTheDefinitionWhereEverythingCoincides) {
+TEST(Bvh, EqualsTheDefinitionForCoincidentShapes) {
   Random random(7);
   int hits = 0;
   for (int round = 0; round < 200; ++round) {
@@ -100,7 +100,7 @@ TEST(Bvh, EqualsTheDefinitionWhereEverythingCoincides) {
   EXPECT_GT(hits, 2000);
 }
 
-TEST(Bvh, ManyRaysAtOnceGetTheAnswersOfEach) {
+TEST(Bvh, BatchesEqualSingleRays) {
   Random random(8);
   for (int round = 0; round < 20; ++round) {
     const Scene scene = coincident_scene(random);
@@ -118,7 +118,7 @@ TEST(Bvh, ManyRaysAtOnceGetTheAnswersOfEach) {
 }
 
 // A tree without triangle blocks.
-TEST(Bvh, SpheresAloneAreHitByATile) {
+TEST(Bvh, PacketsHitATreeOfSpheres) {
   Scene scene;
   for (int i = 0; i < 100; ++i) add(scene, Sphere{Vec3(i % 10, i / 10, -5), 0.5F});
   const Bvh bvh(scene);

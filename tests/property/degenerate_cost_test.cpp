@@ -104,7 +104,7 @@ Mesh copies_of(const Mesh& once, int count) {
   return copies;
 }
 
-TEST_P(DegenerateCost, OfCopiesIsThatOfOne) {
+TEST_P(DegenerateCost, OfDuplicatesIsThatOfOne) {
   const Mesh once = generated::displaced_sphere(5001);
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Asked alone = ask(scene_of(once), rays);
@@ -118,7 +118,7 @@ TEST_P(DegenerateCost, OfCopiesIsThatOfOne) {
 }
 
 // Too few triangles for a tree, then enough.
-TEST_P(DegenerateCost, OfCopiesOfAFewTrianglesIsThatOfOne) {
+TEST_P(DegenerateCost, OfDuplicatesOfAFewTrianglesIsThatOfOne) {
   Mesh once;
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
   add_triangle(once, {-1, -0.8F, -0.1F}, {1, -1, 0.5F}, {-0.4F, 1, 0.7F});
@@ -134,7 +134,7 @@ TEST_P(DegenerateCost, OfCopiesOfAFewTrianglesIsThatOfOne) {
 
 // The next hit is that of the copy, at the same t; rays that leave the copy have the origins of
 // rays that leave the first.
-TEST_P(DegenerateCost, OfHitsOfACopyIsThatOfTheFirst) {
+TEST_P(DegenerateCost, OfHitsOfADuplicateIsThatOfTheFirst) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
   for (PrimitiveId i = 0; i < count; ++i) {

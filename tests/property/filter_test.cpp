@@ -77,7 +77,7 @@ TEST(Filter, Triangle) {
 }
 
 // Points and ends of segments that rays hit exactly although a - o has more bits than float64.
-TEST(Filter, TriangleWithoutAreaWhereTheWayRounds) {
+TEST(Filter, TriangleWithoutAreaWithRoundedOffset) {
   Random random(3);
   Count count;
   for (int i = 0; i < kCasesPerKind && !testing::Test::HasFatalFailure(); ++i) {

@@ -158,7 +158,7 @@ std::string lit_gltf_ppm() {
   return lit_ppm(load_scene(tests::source_folder() / "scenes/gltf/textures.glb").scene);
 }
 
-TEST_P(HostRules, ChangeNoPictureWithLight) {
+TEST_P(HostRules, ChangeNoPathTracedPicture) {
   for (const auto& draw : {lit_json_ppm, lit_gltf_ppm}) {
     const std::string expected = draw();
     set();

@@ -104,7 +104,7 @@ using LawsOfPlace = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfPlace, testing::Values(SceneKind::lattice, SceneKind::walls),
                          kind_name);
 
-TEST_P(Laws, TheOrderOfCornersIsIndifferent) {
+TEST_P(Laws, OrderOfVerticesHasNoEffect) {
   for_each_case(1, [](Random& random, const Case& c) {
     Scene turned = c.scene;
     for (Object& object : turned.objects) {
@@ -120,7 +120,7 @@ TEST_P(Laws, TheOrderOfCornersIsIndifferent) {
 }
 
 // Among equal t another primitive may be first, but t may not change.
-TEST_P(Laws, TheOrderOfPrimitivesDecidesTiesAlone) {
+TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
   for_each_case(2, [](Random& random, const Case& c) {
     Scene shuffled = c.scene;
     std::vector<std::size_t> old_place(
@@ -164,7 +164,7 @@ TEST_P(Laws, TheOrderOfPrimitivesDecidesTiesAlone) {
   });
 }
 
-TEST_P(Laws, MirroredAndExchangedAxesAreIndifferent) {
+TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
   for_each_case(3, [](Random& random, Case c) {
     const int first = random.between(0, 2);
     const bool mirrored = random.one_in(2);
@@ -182,7 +182,7 @@ TEST_P(Laws, MirroredAndExchangedAxesAreIndifferent) {
 }
 
 // If nothing over- or underflows.
-TEST_P(LawsOfSize, SizesOfPowersOfTwoAreIndifferent) {
+TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
   for_each_case(4, [](Random& random, Case c) {
     const bool exact =
         std::all_of(c.scene.objects.begin(), c.scene.objects.end(), [](const auto& o) {
@@ -217,7 +217,7 @@ TEST_P(LawsOfSize, SizesOfPowersOfTwoAreIndifferent) {
   });
 }
 
-TEST_P(LawsOfPlace, AnExactOffsetIsIndifferent) {
+TEST_P(LawsOfPlace, ExactTranslationHasNoEffect) {
   for_each_case(5, [](Random& random, Case c) {
     const auto fits = [](const Vec3& p) {
       return glm::abs(p.x) <= 64 && glm::abs(p.y) <= 64 && glm::abs(p.z) <= 64 &&
@@ -238,7 +238,7 @@ TEST_P(LawsOfPlace, AnExactOffsetIsIndifferent) {
   });
 }
 
-TEST_P(Laws, TheBuildIsIndifferent) {
+TEST_P(Laws, BuildOptionsHaveNoEffect) {
   for_each_case(6, [](Random& random, const Case& c) {
     const Answers expected = answers(c.scene, c.rays, {.threads = 1});
     const auto threads = static_cast<unsigned>(random.between(2, 5));

@@ -89,7 +89,7 @@ TEST_P(Next, EnumeratesAllHitsInExactOrder) {
 }
 
 // Sixty coplanar copies, and sixty at distances of an ulp.
-TEST_P(Next, TellsLayersApartThatFloatsDoNot) {
+TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   Scene scene;
   const auto add = [&](float z) {
     scene.objects.push_back(
@@ -110,7 +110,7 @@ TEST_P(Next, TellsLayersApartThatFloatsDoNot) {
 
 // Triangles that start at another vertex, have the opposite winding, and are among others with the
 // same t.
-TEST_P(Next, FindsTrianglesThatAreTheSame) {
+TEST_P(Next, FindsDuplicateTriangles) {
   Random random(23);
   std::size_t ties = 0;
   for (int round = 0; round < 8; ++round) {
@@ -139,7 +139,7 @@ TEST_P(Next, FindsTrianglesThatAreTheSame) {
   EXPECT_GT(ties, 1000U);
 }
 
-TEST_P(Next, FollowsNothingThatIsNotHit) {
+TEST_P(Next, HasNoSuccessorOfAMiss) {
   Scene scene;
   for (int i = 0; i < 40; ++i)
     scene.objects.push_back({.name = "", .shape = Sphere{Vec3(0, 0, -3 * (i + 1)), 1}});

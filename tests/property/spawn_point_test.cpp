@@ -97,7 +97,7 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
 }
 
 // If the other coordinates are known exactly, the whole bound is for its own roundings.
-TEST(SpawnPoint, BoundOfACoordinateInAPlaneHolds) {
+TEST(SpawnPoint, BoundsOfACoordinateInAPlaneHold) {
   Random random = traversal::announced_random(97);
   std::size_t bounded = 0;
   for (std::size_t i = 0; i < traversal::ray_count(0.2) && !HasFatalFailure(); ++i) {

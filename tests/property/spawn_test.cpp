@@ -153,7 +153,7 @@ TEST(Spawn, Triangle) {
 
 // Rays leave all flat surfaces with an area, however far away, thin or large, except at the ends of
 // the float32 range.
-TEST(Spawn, EveryTriangleWithAreaIsLeft) {
+TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   Random random(32);
   for (int i = 0; i < 5 * kCasesPerKind; ++i) {
     const auto [ray, triangle] =
@@ -191,7 +191,7 @@ TEST(Spawn, Quadric) {
 }
 
 // A ray that leaves a convex body outwards hits none of its faces, edges or vertices.
-TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
+TEST(Spawn, RaysLeaveConvexBodies) {
   Random random(34);
   int leaves = 0;
   for (int round = 0; round < kCasesPerKind; ++round) {
@@ -232,7 +232,7 @@ TEST(Spawn, NothingOfAConvexBodyIsMetAgain) {
 
 // A batch is computed by other means, with the same origins: among shapes of all kinds, also
 // touching ones, with a tree and without.
-TEST(Spawn, ManyAtOnceAreAnsweredAlike) {
+TEST(Spawn, BatchesEqualSingleOrigins) {
   Random random = traversal::announced_random(77);
   std::size_t answers = 0;
   for (int round = 0; round < 40; ++round) {

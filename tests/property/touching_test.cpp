@@ -82,7 +82,7 @@ TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
 }
 
 // Long segments and slivers, hundreds of which have the box in their bounding boxes.
-TEST_P(Touching, LeavesOutLongThinTrianglesThatPass) {
+TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
   Random random(52);
   int answered = 0, met = 0;
   for (int round = 0; round < 20; ++round) {

@@ -127,7 +127,7 @@ class Traversal : public testing::TestWithParam<SceneKind> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Traversal, testing::ValuesIn(scene_kinds),
                          [](const auto& kind) { return std::string(name(kind.param)); });
 
-TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
+TEST_P(Traversal, EveryKernelAndFunctionEqualsTestingEveryPrimitive) {
   Random random = traversal::announced_random(11 + static_cast<std::uint64_t>(GetParam()));
   const std::size_t count = traversal::ray_count(double{1} / scene_kinds.size()) + 1;
   std::size_t cast = 0, hits = 0, hits_without_area = 0;
@@ -156,7 +156,7 @@ TEST_P(Traversal, EveryKernelAndCallEqualsAskingEveryPrimitive) {
 }
 
 // Kernels scale rays with long directions; shapes anywhere in the float32 range are still hit.
-TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
+TEST(TraversalFarAway, LongDirectionsHitDistantShapes) {
   Random random = traversal::announced_random(29);
   std::size_t hits = 0;
   for (int round = 0; round < 60; ++round) {
@@ -188,7 +188,7 @@ TEST(TraversalFarAway, LongDirectionsReachWhatIsThere) {
 
 // Rays that start next to a triangle's vertex and run along its plane, so that rounding may put the
 // triangle behind them; they still hit it.
-TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
+TEST(TraversalNextToACorner, FindsHitsOfRaysAlmostInThePlane) {
   Random random = traversal::announced_random(28);
   std::size_t hits_of_own = 0;
   for (int round = 0; round < 60; ++round) {
@@ -222,7 +222,7 @@ TEST(TraversalNextToACorner, FindsWhatRaysAlmostInThePlaneMeet) {
   EXPECT_GT(hits_of_own, 2000U);
 }
 
-TEST(TraversalOfADeepTree, GivesStreamsTheAnswersOfSingleRays) {
+TEST(TraversalOfADeepTree, StreamsEqualSingleRays) {
   Random random(14);
   Scene scene;
   scene.objects.push_back(

@@ -79,14 +79,14 @@ Tree check(const Scene& scene, Place place) {
   return check(scene, [&](PrimitiveId) { return place; });
 }
 
-TEST(Tree, OfNothingIsANodeWithoutChildren) {
+TEST(Tree, EmptyTreeIsANodeWithoutChildren) {
   const Tree tree = check(scene_of({}), Place::nowhere);
   ASSERT_EQ(tree.nodes.size(), 1);
   EXPECT_EQ(tree.root, 0);
   EXPECT_GT(tree.bounds.lo.x, tree.bounds.hi.x);
 }
 
-TEST(Tree, OfUpToABlockIsOneLeaf) {
+TEST(Tree, OneBlockIsOneLeaf) {
   for (std::size_t n = 1; n <= 9; ++n) {
     const Tree tree = check(scene_of({soup(n, 1)}), Place::blocks);
     if (n <= 8) {
@@ -107,7 +107,7 @@ TEST(Tree, HoldsMeshesOfAllSizes) {
   }
 }
 
-TEST(Tree, SplitsSlantingTriangles) {
+TEST(Tree, SplitsObliqueTriangles) {
   const auto triangles = [](const Mesh& mesh) {
     return static_cast<double>(mesh.triangles.size());
   };
@@ -132,7 +132,7 @@ TEST(Tree, SplitsSlantingTriangles) {
   EXPECT_EQ(references(even), triangles(even));
 }
 
-TEST(Tree, CutsHoldBothParts) {
+TEST(Tree, SplitBoxesContainBothParts) {
   Random random;
   for (int i = 0; i < 20000; ++i) {
     const float size = std::ldexp(1.0F, i % 60 - 30);
@@ -225,7 +225,7 @@ TEST(Tree, BoxesOfCurvedShapesAreTight) {
 }
 
 // Two or three copies, in any order of the triangles and of their vertices.
-TEST(Tree, HoldsCopiesOnce) {
+TEST(Tree, StoresDuplicatesOnce) {
   const Mesh once = soup(20001, 0.01F);
   const auto copies = [&](int count, auto change) {
     Mesh mesh = once;
@@ -265,7 +265,7 @@ TEST(Tree, HoldsCopiesOnce) {
   EXPECT_EQ(tree.duplicates.ids(), std::vector<PrimitiveId>{3});
 }
 
-TEST(Tree, KeepsTrianglesWithoutAreaApart) {
+TEST(Tree, SeparatesTrianglesWithoutArea) {
   Mesh mesh = soup(1000, 0.01F);
   for (std::uint32_t i = 0; i < 1000; i += 2) {
     mesh.triangles.push_back({i, i, i});
@@ -277,7 +277,7 @@ TEST(Tree, KeepsTrianglesWithoutAreaApart) {
   EXPECT_EQ(tree.others.size(), 500U);
 }
 
-TEST(Tree, EndsWhereNoPlaneSeparates) {
+TEST(Tree, HandlesInseparableCentroids) {
   Mesh duplicates{.positions = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(5)}, .triangles = {}};
   duplicates.triangles.assign(100000, {0, 1, 2});
   EXPECT_EQ(check(scene_of({duplicates}), Place::blocks).blocks.size(), 1U);
@@ -318,7 +318,7 @@ TEST(Tree, HasBoundedDepth) {
         [](PrimitiveId id) { return id / 40 <= 148 + 38 ? Place::blocks : Place::others; });
 }
 
-TEST(Tree, BearsAnyScale) {
+TEST(Tree, HandlesAnyScale) {
   for (const float scale : {0x1p-149F, 0x1p-140F, 0x1p-100F, 0x1p-60F, 0x1p30F, 0x1p37F}) {
     Mesh mesh = soup(3000, 0.1F);
     for (Vec3& p : mesh.positions) p *= scale;

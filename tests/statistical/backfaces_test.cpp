@@ -88,7 +88,7 @@ std::array<std::pair<std::string, Model>, 8> lit_models() {
 
 // Light passes where the camera looks through: shadow rays and paths, combined by multiple
 // importance sampling.
-TEST(Backfaces, HullsKeepNoLightAway) {
+TEST(Backfaces, HullsDoNotBlockLight) {
   for (auto& [name, model] : lit_models()) {
     const Estimate bare = model.seen(Backfaces::pass);
     EXPECT_GT(bare.mean, 0.05) << name;

@@ -138,7 +138,7 @@ TEST(Bsdf, HalfGlassGainsNoEnergy) {
 }
 
 // White light through both walls of a body is multiplied by the base color once.
-TEST(Bsdf, GlassTintsInAndOutTogether) {
+TEST(Bsdf, GlassMultipliesTheBaseColorOnce) {
   const Parameters in{.base_color = {0.25F, 1, 1}, .roughness = 0, .transmission = 1, .eta = 1.5F};
   Parameters out = in;
   out.eta = 1 / 1.5F;

@@ -60,7 +60,7 @@ double slope(const Scene& scene, const Camera& camera, Shot shot, std::uint32_t 
 
 // Direct light of an area light without visible edges is a smooth function of the points on the
 // light.
-TEST(Convergence, SmoothLightBecomesRightAsFastAsSobolAllows) {
+TEST(Convergence, SmoothLightConvergesAtTheSobolRate) {
   Scene scene;
   scene.materials = {{.base_color = {0.7F, 0.7F, 0.7F, 1}},
                      {.base_color = {0, 0, 0, 1}, .emissive = Vec3(8)}};
@@ -76,7 +76,7 @@ TEST(Convergence, SmoothLightBecomesRightAsFastAsSobolAllows) {
   EXPECT_LT(slope(scene, camera, shot, 256), -0.85);
 }
 
-TEST(Convergence, NoPictureIsSlowerThanByChance) {
+TEST(Convergence, NoPictureConvergesSlowerThanIndependentSampling) {
   const Shot shot{.size = {.width = 24, .height = 18}};
   EXPECT_LT(slope(still_life(), kCamera, shot, 64), -0.5);
 }
@@ -84,7 +84,7 @@ TEST(Convergence, NoPictureIsSlowerThanByChance) {
 // Compares pictures with few samples and several seeds with a reference: the deviation of each
 // pixel's mean follows Student's t distribution, so its square has the mean n / (n - 2) with n
 // degrees of freedom, and one in 270 exceeds 3.6 (16 seeds).
-TEST(Convergence, ShortPicturesAreRightOnAverage) {
+TEST(Convergence, PicturesWithFewSamplesAreUnbiased) {
   const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
   constexpr std::uint32_t seeds = 16;
   Shot shot{.size = {.width = 32, .height = 24}, .samples = 512 * effort, .seed = 1000};
@@ -116,7 +116,7 @@ TEST(Convergence, ShortPicturesAreRightOnAverage) {
 }
 
 // Whether alpha stops a path, over many layers.
-TEST(Convergence, LayersOfGlassLetTheirSharesThrough) {
+TEST(Convergence, LayersTransmitByOpacity) {
   Scene scene;
   scene.materials = {{.base_color = {0, 0, 0, 0.25F}, .alpha_mode = AlphaMode::blend},
                      {.emissive = Vec3(1)}};

@@ -96,7 +96,7 @@ DVec3 seen(const std::shared_ptr<const RadianceMap>& map, double rotation, const
 
 class Walls : public testing::TestWithParam<DVec3> {};
 
-TEST_P(Walls, SendBackWhatTheMapSends) {
+TEST_P(Walls, ReflectTheMap) {
   const auto map = sky();
   for (const double rotation : {0.0, 2.1}) {
     const DVec3 wanted = 0.5 * reflected(*map, rotation, GetParam(), 0.6F);

@@ -54,7 +54,7 @@ Mesh tiled_floor(std::uint32_t n) {
 
 // Under grazing light, a floor of many triangles looks like one of two: no triangle shadows its
 // neighbors.
-TEST(Invariance, FlatTrianglesThrowNoShadows) {
+TEST(Invariance, FlatTrianglesCastNoShadows) {
   Scene scene;
   scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .metallic = 0.5F, .roughness = 0.6F}};
   scene.objects.push_back({.name = "floor", .shape = tiled_floor(1), .material = 0});
@@ -101,7 +101,7 @@ Scene blocks(const Vec3& shift) {
 }
 
 // The same numbers far away: as precise as here.
-TEST(Invariance, FarFromTheOriginItLooksTheSame) {
+TEST(Invariance, FarFromTheOriginPicturesAreEqual) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Shot shot{.size = {.width = 64, .height = 48}, .samples = 16};
   const auto picture = [&](const Vec3& by) {
@@ -120,7 +120,7 @@ TEST(Invariance, FarFromTheOriginItLooksTheSame) {
 }
 
 // Exact quantities of a path-traced picture refer to the original coordinates.
-TEST(Invariance, FarFromTheOriginExactQuantitiesStay) {
+TEST(Invariance, FarFromTheOriginExactQuantitiesAreUnchanged) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Scene scene = blocks(shift);
   const PerspectiveCamera camera{.pose = {.position = DVec3(shift) + DVec3(6, 14, 32),

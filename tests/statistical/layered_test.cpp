@@ -155,7 +155,7 @@ TEST(Anisotropic, WithoutStrengthIsTheBase) {
   }
 }
 
-TEST(Anisotropic, HighlightsAreLongerAlong) {
+TEST(Anisotropic, HighlightsAreElongated) {
   const Parameters p{.base_color = Vec3(1), .metallic = 1, .roughness = 0.3F, .anisotropy = 0.7F};
   const Scattering bsdf(p, {}, {0, 0, 1});
   EXPECT_GT(bsdf.evaluate(direction(0.5, 0)).value.x,
@@ -204,12 +204,12 @@ TEST(Layered, SamplesHaveTheirPdf) {
   }
 }
 
-TEST(ThinFilm, WithoutThicknessIsNone) {
+TEST(ThinFilm, ZeroThicknessHasNoEffect) {
   const Vec3 f0(0.04F, 0.3F, 0.9F), film = thin_film_reflectance(1, 1.3F, 0, f0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(film[c], f0[c], 0.02F);
 }
 
-TEST(ThinFilm, ColoursChangeWithTheThickness) {
+TEST(ThinFilm, ColorsVaryWithThickness) {
   const Vec3 thin = thin_film_reflectance(1, 1.33F, 300, Vec3(0.1F));
   const Vec3 thick = thin_film_reflectance(1, 1.33F, 400, Vec3(0.1F));
   EXPECT_GT(glm::distance(thin, thick), 0.02F);

@@ -77,7 +77,7 @@ TEST(LightTree, ChoosesEachByItsProbability) {
 }
 
 // No contributing light is left out: a tree's bounds are nonzero wherever a light's are.
-TEST(LightTree, BoundsHoldWhatTheyUnite) {
+TEST(LightTree, UnitedBoundsContainBoth) {
   Random random;
   for (int i = 0; i < 20000; ++i) {
     const auto two = lights(random, 2);
@@ -90,7 +90,7 @@ TEST(LightTree, BoundsHoldWhatTheyUnite) {
 }
 
 // A floor under many lights, compared with the sum over all lights.
-TEST(LightTree, ManyLampsOverAFloor) {
+TEST(LightTree, ManyLightsOverAFloor) {
   Scene scene;
   scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .metallic = 1, .roughness = 1}};
   scene.objects.push_back({.name = "floor", .shape = Plane{{0, 0, 0}, {0, 1, 0}}, .material = 0});

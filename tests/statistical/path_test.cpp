@@ -82,7 +82,7 @@ TEST(Path, DirectionalAndSpotLightOverFloor) {
 }
 
 // A square area light over the floor, by the midpoint rule over the light.
-TEST(Path, ShiningSquareOverFloor) {
+TEST(Path, AreaLightOverFloor) {
   Floor floor({.base_color = {0.5F, 0.5F, 0.5F, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = {2, 3, 4}});
   floor.scene.objects.push_back(
@@ -113,7 +113,7 @@ TEST(Path, WhiteMetalVanishesInTheFurnace) {
   EXPECT_NEAR(light, 1, 0.002);
 }
 
-TEST(Path, DepthOneShowsOnlyWhatShines) {
+TEST(Path, DepthOneIsEmissionOnly) {
   Floor floor({.emissive = {0.25F, 0.5F, 1}});
   floor.scene.environment = Environment{.content = Vec3(1)};
   EXPECT_EQ(mean(floor.scene, floor.camera, 2, {.max_depth = 1}), DVec3(0.25, 0.5, 1));
@@ -121,7 +121,7 @@ TEST(Path, DepthOneShowsOnlyWhatShines) {
 }
 
 // Panes with half opacity: blended over an emitter behind them.
-TEST(Path, BlendedSurfacesLetTheirShareThrough) {
+TEST(Path, BlendedSurfacesTransmitByOpacity) {
   Floor floor({.emissive = {1, 1, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 0.5F}, .alpha_mode = AlphaMode::blend});
   floor.scene.objects.push_back(
@@ -129,7 +129,7 @@ TEST(Path, BlendedSurfacesLetTheirShareThrough) {
   EXPECT_NEAR(mean(floor.scene, floor.camera, 256, {.max_depth = 1}).x, 0.5, 0.01);
 }
 
-TEST(Path, BytesDependOnNothingButTheScene) {
+TEST(Path, BytesDependOnlyOnTheScene) {
   Scene scene;
   scene.materials = {{.base_color = {0.9F, 0.3F, 0.2F, 1}, .metallic = 0.5F, .roughness = 0.3F}};
   for (int i = 0; i < 30; ++i) {

@@ -84,7 +84,7 @@ Mesh ball(const DVec3& centre, double radius) {
 }
 
 // Straight above: the light within the cone tangent to the ball.
-TEST(Radiance, ShiningBallOverFloor) {
+TEST(Radiance, EmissiveBallOverFloor) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
   for (const Material& material : {kMatt, kShiny}) {
@@ -150,7 +150,7 @@ TEST(Radiance, EnvironmentOverFloor) {
 
 // In a closed room of emissive, non-absorbing walls each path segment contributes as much as the
 // first. Missed light would make it darker, light counted twice brighter.
-TEST(Radiance, RoomOfShiningWhiteWalls) {
+TEST(Radiance, RoomOfEmissiveWhiteWalls) {
   for (const float metallic : {0.0F, 1.0F}) {
     for (const float roughness : {0.3F, 1.0F}) {
       Scene scene;
@@ -170,7 +170,7 @@ TEST(Radiance, RoomOfShiningWhiteWalls) {
 
 // A ball as a quadric, which only paths can find, and as sampled shapes: multiple importance
 // sampling compared with BSDF sampling alone.
-TEST(Radiance, LampsThatAreSampledAndLampsThatAreMet) {
+TEST(Radiance, SampledAndUnsampledEmittersAgree) {
   const Shot shot{.size = kSize, .samples = 64};
   for (const Material& material : {kMatt, kShiny}) {
     const auto lit = [&](const Shape& lamp) {
@@ -201,7 +201,7 @@ class LampShapes : public testing::TestWithParam<Lamp> {};
 
 // One sample per pixel is nearly sufficient; with BSDF sampling alone, the error of lights of this
 // size would exceed the mean.
-TEST_P(LampShapes, OfShapesOfTheirOwnSendWhatTheyShould) {
+TEST_P(LampShapes, HaveTheExpectedRadiance) {
   for (const Material& material : {kMatt, kShiny}) {
     Floor floor(material);
     floor.scene.materials.push_back({.double_sided = false, .emissive = Vec3(5)});
@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(All, LampShapes,
                                               2 / std::sqrt(4.25)}));
 
 // Irradiance of a sphere that is not overhead: pi L (r / d)^2 cos.
-TEST(Radiance, OfASphereAtASlant) {
+TEST(Radiance, ObliqueSphere) {
   const Material material{
       .base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1, .specular = Specular{.factor = 0}};
   Floor floor(material);
@@ -235,7 +235,7 @@ TEST(Radiance, OfASphereAtASlant) {
 }
 
 // A single triangle emits the same light as one in a mesh.
-TEST(Radiance, OfATriangleOutsideAMesh) {
+TEST(Radiance, SingleTriangle) {
   const Vec3 a(-1, 2, -1), b(1, 2, -1), c(0.5F, 2.5F, 1);
   std::vector<double> means;
   for (const Shape& shape : {Shape{Triangle{a, b, c}},
@@ -251,7 +251,7 @@ TEST(Radiance, OfATriangleOutsideAMesh) {
 }
 
 // A light with half opacity emits half as much, however it is found.
-TEST(Radiance, OfALampThatIsHalfThere) {
+TEST(Radiance, EmitterWithHalfOpacity) {
   const auto lit = [](float alpha, const Shape& shape) {
     Floor floor(kShiny);
     floor.scene.materials.push_back(

@@ -63,7 +63,7 @@ DVec3 direction_to(std::size_t pixel, const Camera& camera) {
                                   .d));
 }
 
-TEST(Aov, NamesLeadBack) {
+TEST(Aov, NamesRoundTrip) {
   for (const Aov aov : kAovs) EXPECT_EQ(aov_named(name_of(aov)), aov);
   EXPECT_EQ(aov_named("colour"), std::nullopt);
 }
@@ -88,7 +88,7 @@ TEST(Aov, DepthOfAWallIsItsDistanceAlongTheView) {
   }
 }
 
-TEST(Aov, PositionsAreTheWorlds) {
+TEST(Aov, PositionsAreInWorldSpace) {
   Scene scene = scene_of({Plane{{0, 0, -4}, {0, 0, 2}}});
   const Film here = drawn(scene, PerspectiveCamera{});
   scene.origin = {1024, -2048, 512};
@@ -196,7 +196,7 @@ TEST(Aov, IdsAndAlbedoAndTextureCoordinates) {
   for (const std::uint32_t id : {0U, 1U, 2U}) EXPECT_GT(std::ranges::count(instances, id), 20);
 }
 
-TEST(Aov, WhatIsNotThereIsSeenThrough) {
+TEST(Aov, MaskedAndCulledSurfacesAreTransparent) {
   Scene scene = scene_of({Disc{{0, 0, -2}, {0, 0, 1}, 9}, Disc{{0, 0, -3}, {0, 0, 1}, 9},
                           Disc{{0, 0, -4}, {0, 0, 1}, 9}});
   scene.materials.push_back(

@@ -48,7 +48,7 @@ TEST(PerspectiveCamera, FractionalCoordinatesFollowTheDerivation) {
   expect_near(RayGenerator(first_camera(), kSize)(128.5, 5.5).d, expected, 1e-7);
 }
 
-TEST(PerspectiveCamera, FocusLengthOfDirectionAndOfUpDoNotMatter) {
+TEST(PerspectiveCamera, FocusAndLengthsHaveNoEffect) {
   PerspectiveCamera other = first_camera();
   other.focus = 7.3;
   other.pose.direction *= 8.0;
@@ -74,7 +74,7 @@ TEST(PerspectiveCamera, VerticalAngleSpansThePicture) {
   EXPECT_NEAR(std::acos(glm::dot(top, bottom)), std::numbers::pi / 3, 1e-6);
 }
 
-TEST(PerspectiveCamera, WindowOfItsOwnAspectIsSeenWhole) {
+TEST(PerspectiveCamera, WindowWithAspectRatioIsFitted) {
   PerspectiveCamera camera = first_camera();
   camera.aspect_ratio = 2;
   const double half = std::tan(std::numbers::pi / 6);
@@ -115,7 +115,7 @@ TEST(EnvironmentCamera, LongitudeAcrossLatitudeDown) {
   expect_near(ray(180, 45).d, {0, std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, 1e-7);
 }
 
-TEST(RayGenerator, DifferentialsAreTheStepsToNeighbouringPixels) {
+TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
   const Pose pose{.position = {1, 2, 3}, .direction = {3, -1, 2}, .up = {0.2, 1, 0}};
   const Camera cameras[] = {PerspectiveCamera{.pose = pose, .vertical_fov = 1.2},
                             OrthographicCamera{.pose = pose, .height = 7},

@@ -55,7 +55,7 @@ TEST(Dyadic, IsExactForEveryKindOfFloat) {
   EXPECT_EQ(compare(Dyadic(0x1p-1074) * Dyadic(0x1p1023) * Dyadic(0x1p51), Dyadic(1.0f)), 0);
 }
 
-TEST(Dyadic, KeepsWhatIsFarBelowTheLeadingBit) {
+TEST(Dyadic, KeepsBitsFarBelowTheLeadingOne) {
   const Dyadic large = std::numeric_limits<float>::max();
   const Dyadic small = std::numeric_limits<float>::denorm_min();
   EXPECT_EQ(compare(large + small - large, small), 0);

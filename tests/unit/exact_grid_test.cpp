@@ -37,7 +37,7 @@ class GridKinds : public ::testing::TestWithParam<TriangleKind> {
   }
 };
 
-TEST_P(GridKinds, FindsTheHitsOfDyadic) {
+TEST_P(GridKinds, HitsEqualDyadic) {
   int asked = 0, known = 0;
   const auto check_on = [&](const auto& hit, const Triangle& triangle, const Ray& ray) {
     const auto root = first_hit(triangle, ray);
@@ -76,7 +76,7 @@ TEST_P(GridKinds, FindsTheHitsOfDyadic) {
   }
 }
 
-TEST_P(GridKinds, SeesOtherTrianglesAsDyadicDoes) {
+TEST_P(GridKinds, QueriesOfOtherTrianglesEqualDyadic) {
   int known = 0;
   const auto check = [&]<int Limbs>(const GridHit<Limbs>& hit, const Triangle& triangle,
                                     const Triangle& other, const Ray& ray, const Vec3& q) {
@@ -127,7 +127,7 @@ TEST_P(GridKinds, SeesOtherTrianglesAsDyadicDoes) {
 }
 
 // The combination of all stages always has an answer, and always the same.
-TEST_P(GridKinds, HitsArePutTogetherFromAllStages) {
+TEST_P(GridKinds, HitsCombineAllStages) {
   for (int i = 0; i < kCases; ++i) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
     const auto root = first_hit(triangle, ray);
@@ -147,7 +147,7 @@ TEST_P(GridKinds, HitsArePutTogetherFromAllStages) {
 INSTANTIATE_TEST_SUITE_P(Grid, GridKinds, ::testing::ValuesIn(triangle_kinds),
                          [](const auto& kind) { return name(kind.param); });
 
-TEST(Grid, LeavesToOthersWhatItCannotHold) {
+TEST(Grid, RefusesUnrepresentableCoordinates) {
   const Triangle triangle{{0, 0, 0}, {500, 0, 0}, {0, 500, 0x1.000002p-80F}};
   const Ray ray = adversarial::ray({.o = {1, 1, 1}, .d = {0, 0, -1}});
   EXPECT_EQ(GridHit<2>(triangle, ray).found(), Found::unknown);
@@ -158,7 +158,7 @@ TEST(Grid, LeavesToOthersWhatItCannotHold) {
 }
 
 // A midpoint between two float32 numbers, also as t: ties go to even.
-TEST(Grid, RoundsMiddlesToEven) {
+TEST(Grid, RoundsMidpointsToEven) {
   const Triangle wall{{-8, -8, 3}, {8, -8, 3}, {0, 8, 3}};
   // x = 1 + 2^-24 (3 - 2^-24): just below the midpoint of 1 + 2^-23 and 1 + 2^-22.
   const Ray ray = adversarial::ray({.o = {1, 0, 0x1p-24F}, .d = {0x1p-24F, 0, 1}});

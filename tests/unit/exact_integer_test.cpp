@@ -45,7 +45,7 @@ class Numbers {
   adversarial::Random random_{1};
 };
 
-TEST(Integer, SumsAndProductsAreThoseOfDyadic) {
+TEST(Integer, SumsAndProductsEqualDyadic) {
   Numbers number;
   for (int i = 0; i < 20000; ++i) {
     const Integer<2> a = number(), b = number(), c = number(), d = number(), e = number();

@@ -32,7 +32,7 @@ constexpr std::array kinds_within_2_to_60 = {TriangleKind::unit,     TriangleKin
   return ::testing::AssertionSuccess();
 }
 
-TEST(ExactLaws, TriangleDoesNotDependOnTheOrderOfItsCorners) {
+TEST(ExactLaws, TriangleDoesNotDependOnTheOrderOfVertices) {
   Random random(3);
   for (const TriangleKind kind : adversarial::triangle_kinds) {
     for (int i = 0; i < 2000; ++i) {

@@ -42,7 +42,7 @@ TEST(Root, OrdersIrrationals) {
   EXPECT_LT(root(1, -1, 3, 2), root(5, -1, 17, 2));
 }
 
-TEST(Root, TellsNumbersApartFarBehindThePoint) {
+TEST(Root, OrdersNumbersThatDifferInLowBits) {
   // sqrt(n^2 + 1) - n is approximately 1 / (2 n).
   const float n = 0x1p100f;
   const Root small{Dyadic(-n), square(n) + Dyadic(1.0f), 1.0f, 1};
@@ -67,7 +67,7 @@ TEST(Root, EnclosuresAreTight) {
   EXPECT_EQ(zero.hi, 0);
 }
 
-TEST(Root, EnclosuresGiveWayToTheRangeOfDouble) {
+TEST(Root, EnclosuresAreClampedToTheRangeOfDouble) {
   const Dyadic large = square(square(Dyadic(0x1p800)));
   const Enclosure above = enclose(rational(large, 1.0f));
   EXPECT_GT(above.lo, 1e290);

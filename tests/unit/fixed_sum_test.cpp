@@ -26,7 +26,7 @@ TEST(FixedSum, OneTermIsItself) {
   }
 }
 
-TEST(FixedSum, WhatIsBelowTheUnitIsCutOffTowardsZero) {
+TEST(FixedSum, TermsBelowTheUnitAreTruncated) {
   EXPECT_EQ(sum_of({0x1p-65}), Sum{});
   EXPECT_EQ(sum_of({-0x1p-65}), Sum{});
   EXPECT_EQ(sum_of({0x1.8p-64}).value(), 0x1p-64);
@@ -49,7 +49,7 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
 }
 
 // Near 1 and far from it, where terms are added in two ways.
-TEST(FixedSum, TermsAreCutOffMultiplesOfTheUnit) {
+TEST(FixedSum, TermsAreTruncatedToMultiplesOfTheUnit) {
   __extension__ using Wide = __int128;
   std::mt19937_64 random(2);
   for (int i = 0; i < 100000; ++i) {
@@ -77,7 +77,7 @@ TEST(FixedSum, EqualTermsAddUpExactly) {
   }
 }
 
-TEST(FixedSum, OrderAndGroupingDontMatter) {
+TEST(FixedSum, OrderAndGroupingHaveNoEffect) {
   std::mt19937 random(1);
   std::vector<double> terms;
   for (int i = 0; i < 1000; ++i) {

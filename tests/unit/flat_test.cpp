@@ -56,7 +56,7 @@ TEST(Flat, MaskDrawsAllOrNothing) {
   EXPECT_EQ(stack.pixel(), kBackground);
 }
 
-TEST(Flat, BlendIsOverInTheOrderOfDepth) {
+TEST(Flat, BlendingIsInDepthOrder) {
   Stack stack;
   stack.add(blend({1, 0, 0, 0.5F}));
   stack.add(blend({0, 1, 0, 0.5F}));
@@ -67,7 +67,7 @@ TEST(Flat, BlendIsOverInTheOrderOfDepth) {
   EXPECT_EQ(stack.pixel(), Vec3(0.25F, 0.5F, 0) + 0.25F * kBackground);
 }
 
-TEST(Flat, BlendEndsAtWhatIsOpaque) {
+TEST(Flat, BlendingEndsAtOpaqueSurfaces) {
   Stack stack;
   stack.add(blend({1, 0, 0, 0.5F}));
   stack.add({.base_color = {0, 0, 1, 1}});
@@ -83,7 +83,7 @@ TEST(Flat, BlendedSurfacesInOnePlaneAllCount) {
   EXPECT_EQ(stack.pixel(), Vec3(0.5F, 0.25F, 0) + 0.25F * kBackground);
 }
 
-TEST(Flat, TheWayThroughTwoTrianglesOfACornerIsOneSurface) {
+TEST(Flat, SharedEdgesAreOneSurface) {
   // The pixel's ray passes through the diagonal of each square. The two sides of a wedge count as
   // two layers.
   Stack stack;
@@ -105,7 +105,7 @@ TEST(Flat, BlendGivesTheFilmAlpha) {
   EXPECT_EQ(film.alpha_at(0, 0), 0.75F);
 }
 
-TEST(Flat, ThinVeilsEndSomewhere) {
+TEST(Flat, ManyTransparentLayersTerminate) {
   Stack stack;
   for (int i = 0; i < 200; ++i) stack.add(blend({1, 1, 1, 0.5F}));
   EXPECT_EQ(stack.pixel(), Vec3(1));

@@ -122,7 +122,7 @@ TEST(Framing, StandsAroundATarget) {
   EXPECT_EQ(camera.pose.direction, framing.camera().pose.direction);
 }
 
-TEST(Framing, RoomOnTheOtherAxisIsEqual) {
+TEST(Framing, MarginsOnTheOtherAxisAreEqual) {
   const std::vector<Vec3> wide = {{-100, 0, 0}, {100, 0, 0}, {0, 1, 0}, {0, 3, 0}};
   const ImageSize size{640, 480};
   const PerspectiveCamera camera = frame(cloud(wide), {.azimuth = 0, .elevation = 0}, size);
@@ -131,7 +131,7 @@ TEST(Framing, RoomOnTheOtherAxisIsEqual) {
   EXPECT_NEAR(camera.pose.position.y, 1.5, 1e-12);
 }
 
-TEST(Framing, RoundShapesTouchWithTheirOutlines) {
+TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   const DVec3 center(3, -2, 5);
@@ -204,7 +204,7 @@ TEST(Framing, ASinglePointAndNothingAreSeenFromDistanceOne) {
   EXPECT_NEAR(glm::length(nothing.pose.position), 1, 1e-12);
 }
 
-TEST(Framing, WhatHasNoBoundsOrIsNotFiniteDoesNotCount) {
+TEST(Framing, UnboundedAndNonFiniteShapesAreIgnored) {
   const std::vector<Vec3> points = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   const ImageSize size{640, 480};
   const DVec3 expected = frame(cloud(points), View{}, size).pose.position;

@@ -19,14 +19,14 @@ double density(double t) {
          (3 * 0.35875);
 }
 
-TEST(PixelFilter, BoxLeavesPlacesAsTheyAre) {
+TEST(PixelFilter, BoxKeepsPositions) {
   const FilterSampler box(PixelFilter::box);
   const PixelOffset place = box(0.125, 0.75);
   EXPECT_EQ(place.x, 0.125);
   EXPECT_EQ(place.y, 0.75);
 }
 
-TEST(PixelFilter, BlackmanHarrisGoesFromItsEdgeOverTheCentreToTheOther) {
+TEST(PixelFilter, BlackmanHarrisMapsToItsWholeWidth) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   EXPECT_EQ(filter(0, 1).x, -1);
   EXPECT_EQ(filter(0, 1).y, 2);
@@ -37,7 +37,7 @@ TEST(PixelFilter, BlackmanHarrisGoesFromItsEdgeOverTheCentreToTheOther) {
 }
 
 // Between the positions of u and u + 1/n is 1/n of the weight, by Simpson's rule.
-TEST(PixelFilter, EqualSharesHoldEqualWeight) {
+TEST(PixelFilter, EqualIntervalsHaveEqualWeight) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 64;
   for (int i = 0; i < n; ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr Vec3 kBlack{0};
 
-TEST(PixelSum, EqualSamplesGiveTheirColour) {
+TEST(PixelSum, EqualSamplesGiveTheirColor) {
   const Vec3 color(0.1F, 1e-5F, 12345.678F);
   PixelSum sum;
   for (int i = 0; i < 65536; ++i) EXPECT_TRUE(sum.add(color, 0.3F, kBlack));
@@ -20,7 +20,7 @@ TEST(PixelSum, EqualSamplesGiveTheirColour) {
   EXPECT_LT(sum.variance(kBlack), 1e-12 * sum.mean_luminance(kBlack));
 }
 
-TEST(PixelSum, NothingIsBlackAndTransparent) {
+TEST(PixelSum, NoSamplesAreBlackAndTransparent) {
   const PixelSum sum;
   EXPECT_EQ(sum.mean_color(), kBlack);
   EXPECT_EQ(sum.mean_alpha(), 0);
@@ -48,7 +48,7 @@ TEST(PixelSum, LuminanceIsThatOverTheBackground) {
   EXPECT_NEAR(sum.variance(background), deviation * deviation, 1e-10);
 }
 
-TEST(PixelSum, CountsWhatIsNoNumberAsBlackAndWhatIsInfiniteAsTheMost) {
+TEST(PixelSum, NanIsBlackAndInfinityIsClamped) {
   PixelSum sum;
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_FALSE(sum.add(Vec3(1, nan, 1), 0, kBlack));
@@ -74,7 +74,7 @@ TEST(SampleSums, RangesJoinInOrder) {
   EXPECT_EQ(sums.count(), 9U);
 }
 
-TEST(SampleSums, MissingIsWhatIsNotThere) {
+TEST(SampleSums, MissingIsTheComplement) {
   using Ranges = std::vector<SampleRange>;
   const SampleSums sums = sums_with({{2, 4}, {6, 8}});
   EXPECT_EQ(sums.missing({0, 10}), (Ranges{{0, 2}, {4, 6}, {8, 10}}));

@@ -55,7 +55,7 @@ TEST(SampledAov, VarianceAndNumberOfSamples) {
   EXPECT_EQ(value(by_passes, 0, 7, 3), value(film, 0, 7, 3));
 }
 
-TEST(SampledAov, WhatIsSeenIsFilteredAsColoursAre) {
+TEST(SampledAov, FeaturesAreFilteredLikeColors) {
   const Film film =
       drawn({.samples = 64,
              .aovs = {Aov::depth},
@@ -79,7 +79,7 @@ TEST(SampledAov, NamesAreThoseOfTheCommandLine) {
   EXPECT_EQ(sampled_aov_named("depth"), std::nullopt);
 }
 
-TEST(SampledAov, AreOfRandomIntegratorsOnceEach) {
+TEST(SampledAov, NeedARandomIntegratorAndNoDuplicates) {
   const FlatIntegrator flat;
   EXPECT_THROW((void)drawn({.integrator = &flat, .sampled_aovs = {SampledAov::samples}}), Error);
   EXPECT_THROW((void)drawn({.sampled_aovs = {SampledAov::samples, SampledAov::samples}}), Error);

@@ -11,14 +11,14 @@
 namespace microtrace {
 namespace {
 
-TEST(SamplePattern, OneSampleIsTheCentre) {
+TEST(SamplePattern, OneSampleIsTheCenter) {
   const auto pattern = sample_pattern(1);
   ASSERT_EQ(pattern.size(), 1U);
   EXPECT_EQ(pattern[0].x, 0.5);
   EXPECT_EQ(pattern[0].y, 0.5);
 }
 
-TEST(SamplePattern, EachRowAndColumnHoldsOneSampleInItsMiddle) {
+TEST(SamplePattern, EachRowAndColumnHasOneSample) {
   for (const std::uint32_t n : {2U, 3U, 4U, 7U, 16U, 100U, 1024U}) {
     const auto pattern = sample_pattern(n);
     std::vector<double> rows;
@@ -32,7 +32,7 @@ TEST(SamplePattern, EachRowAndColumnHoldsOneSampleInItsMiddle) {
 }
 
 // Any elementary interval of area 1/16 contains one of 16 points (a (0, 4, 2)-net in base 2).
-TEST(SamplePattern, PowersOfTwoMakeNets) {
+TEST(SamplePattern, PowersOfTwoAreNets) {
   const auto pattern = sample_pattern(16);
   for (int columns = 1; columns <= 16; columns *= 2) {
     const int rows = 16 / columns;
@@ -63,7 +63,7 @@ Film drawn(const Scene& scene, const RenderOptions& options, ImageSize size = kS
   return render(scene, OrthographicCamera{.pose = {.position = {0, 0, 1}}}, size, options);
 }
 
-TEST(Antialiasing, AnEdgeCoversItsShareOfAPixel) {
+TEST(Antialiasing, EdgesHaveFractionalCoverage) {
   for (const std::uint32_t n : {1U, 2U, 4U, 9U, 16U, 50U, 256U, 1000U}) {
     // The edge is in the third tenth of the pixels of column 13.
     Film film = drawn(half_plane(0.3F + 0.03F), {.threads = 2, .samples = n});
@@ -88,7 +88,7 @@ TEST(Antialiasing, FilterSoftensAnEdgeByItsWeight) {
   EXPECT_EQ(film.at(15, 5), kBlue);
 }
 
-TEST(Antialiasing, AlphaIsTheShareAndColourIsMultipliedWithIt) {
+TEST(Antialiasing, AlphaIsCoverageAndColorIsPremultiplied) {
   Film film = drawn(half_plane(0.33F), {.threads = 1, .samples = 16, .transparent = true});
   ASSERT_TRUE(film.has_alpha());
   EXPECT_EQ(film.at(12, 7), kWhite);
@@ -99,7 +99,7 @@ TEST(Antialiasing, AlphaIsTheShareAndColourIsMultipliedWithIt) {
   EXPECT_EQ(film.at(13, 7), Vec3(5.0F / 16));
 }
 
-TEST(Antialiasing, TransparentPicturesOverTheBackgroundAreOpaqueOnes) {
+TEST(Antialiasing, TransparentPicturesCompositeToOpaqueOnes) {
   const Scene scene = half_plane(0.33F);
   Film over = drawn(scene, {.samples = 16, .transparent = true});
   Film opaque = drawn(scene, {.samples = 16});
@@ -153,7 +153,7 @@ class DirectionIntegrator final : public Integrator {
   }
 };
 
-TEST(Integrator, AnswersComeOverTheBackground) {
+TEST(Integrator, SamplesAreCompositedOverTheBackground) {
   Scene scene;
   scene.background = Vec3(0.5F, 0, 1);
   const DirectionIntegrator integrator;

@@ -81,7 +81,7 @@ TEST(Segments, PointsCoverTheirPixel) {
   }
 }
 
-TEST(Segments, LevelAndUprightLinesAreOnePixelWideBetweenPixelsToo) {
+TEST(Segments, AxisAlignedLinesAreOnePixelWide) {
   for (const float at : {12.0F, 12.3F, 12.5F, 12.8F}) {
     const std::vector<Pixel> level = line(Vec3(10.5, at, 0), Vec3(40.5, at, 0));
     EXPECT_EQ(level.size(), 31U) << at;
@@ -130,7 +130,7 @@ TEST(Segments, PerspectiveLinesAreConnectedNearAndFar) {
   }
 }
 
-TEST(Segments, LinesAcrossTheCamerasPlaneAreCut) {
+TEST(Segments, LinesAreClippedAtTheCamera) {
   // From the picture's center to the right edge, and on to behind the camera.
   const std::vector<Pixel> pixels = line(Vec3(0, 0, 0), Vec3(6, 0, 10), kPerspective);
   EXPECT_TRUE(is_connected(pixels));
@@ -142,7 +142,7 @@ TEST(Segments, LinesAcrossTheCamerasPlaneAreCut) {
   EXPECT_THAT(line(Vec3(-1, 3, 5), Vec3(2, 5, 0), kPerspective), IsEmpty());
 }
 
-TEST(Segments, EnvironmentCamerasSeeThemAllAround) {
+TEST(Segments, EnvironmentCamerasSeeAllDirections) {
   std::mt19937 random(10);
   std::normal_distribution<float> normal;
   const auto anywhere = [&] { return Vec3(normal(random), normal(random), normal(random)); };
@@ -175,7 +175,7 @@ TEST(Segments, HideAndAreHidden) {
   EXPECT_EQ(film.at(30, 18), Vec3(1));
 }
 
-TEST(Segments, EachTakesTwoTrianglesSeenOrNot) {
+TEST(Segments, EachTakesTwoTriangles) {
   Scene scene;
   scene.objects.push_back(
       {.name = "both",

@@ -54,7 +54,7 @@ void expect_bits(const Vec3& a, const Vec3& b, const char* what) {
 
 class ShadingKernelsTest : public testing::TestWithParam<const ShadingKernels*> {};
 
-TEST_P(ShadingKernelsTest, PointsAreThoseOfOneRay) {
+TEST_P(ShadingKernelsTest, PointsEqualTheScalarCode) {
   Random random(1);
   HitLanes lanes{};
   int asked = 0;
@@ -117,14 +117,14 @@ TEST_P(ShadingKernelsTest, PointsAreThoseOfOneRay) {
   EXPECT_GT(asked, kRounds * kShadingLanes * 0.95);
 }
 
-TEST_P(ShadingKernelsTest, PointsThatAreNotSureAreSaidToBe) {
+TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
   HitLanes lanes{};  // no triangle has an area
   for (float& t : lanes.t) t = 1;
   GetParam()->find_points(lanes);
   for (const float sure : lanes.is_sure) EXPECT_EQ(sure, 0);
 }
 
-TEST_P(ShadingKernelsTest, NormalsAreThoseOfOneRay) {
+TEST_P(ShadingKernelsTest, NormalsEqualTheScalarCode) {
   Random random(2);
   NormalLanes lanes{};
   int turned = 0;
@@ -214,7 +214,7 @@ Scattered scattered(const ScatterLanes& lanes, int i, const WaveStep& step) {
   return result;
 }
 
-TEST_P(ShadingKernelsTest, LightScattersAsForOnePath) {
+TEST_P(ShadingKernelsTest, ScatteringEqualsTheScalarCode) {
   Random random(3);
   ScatterLanes lanes{};
   int lit = 0, alive = 0;

@@ -32,7 +32,7 @@ Film film_of(const std::vector<std::uint32_t>& ids) {
   return film;
 }
 
-TEST(Sidecar, TellsOfObjectsAndWhereTheyAreSeen) {
+TEST(Sidecar, DescribesObjectsAndTheirPixels) {
   const std::string text = describe_picture(odd_scene(), PerspectiveCamera{},
                                             film_of({0, 1, 1, 0, 3, 0, 1, 0}), "a\"b.exr");
   const json sidecar = json::parse(text);
@@ -59,7 +59,7 @@ TEST(Sidecar, TellsOfObjectsAndWhereTheyAreSeen) {
   EXPECT_EQ(sidecar["materials"], json::array({{{"id", 1}, {"name", "\tgold"}}}));
 }
 
-TEST(Sidecar, SpeaksOfTheWorldWhereverCoordinatesBegin) {
+TEST(Sidecar, UsesTheFilesCoordinates) {
   Scene scene = odd_scene();
   scene.origin = {1e6, -2e6, 0.25};
   const PerspectiveCamera camera{.pose = {.position = {4, 5, 6}}};
@@ -74,7 +74,7 @@ TEST(Sidecar, SpeaksOfTheWorldWhereverCoordinatesBegin) {
   EXPECT_EQ(sidecar["camera"]["camera_from_world"][0][3], -1000004.0);
 }
 
-TEST(Sidecar, WithoutIdsSaysNothingOfPixels) {
+TEST(Sidecar, WithoutIdsHasNoPixels) {
   Film film({.width = 4, .height = 2});
   const json sidecar =
       json::parse(describe_picture(odd_scene(), EnvironmentCamera{}, film, "a.png"));
@@ -87,7 +87,7 @@ TEST(Sidecar, WithoutIdsSaysNothingOfPixels) {
   EXPECT_FALSE(sidecar["camera"].contains("fx"));
 }
 
-TEST(Sidecar, OfAnEmptySceneIsJsonToo) {
+TEST(Sidecar, OfAnEmptySceneIsValidJson) {
   const json sidecar = json::parse(
       describe_picture(Scene{}, OrthographicCamera{}, film_of({0, 9, 0, 0, 0, 0, 0, 0}), ""));
   EXPECT_EQ(sidecar["objects"], json::array());

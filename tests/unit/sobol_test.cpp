@@ -60,7 +60,7 @@ TEST(Sobol, PairsAreIndependent) {
   }
 }
 
-TEST(Sobol, SeedPixelAndPairMakeOthers) {
+TEST(Sobol, DependsOnSeedPixelAndPair) {
   const Vec2 base = Sobol(pixel_key(0, 1, 2), 3).pair(0);
   EXPECT_NE(base, Sobol(pixel_key(1, 1, 2), 3).pair(0));
   EXPECT_NE(base, Sobol(pixel_key(0, 2, 1), 3).pair(0));
@@ -68,7 +68,7 @@ TEST(Sobol, SeedPixelAndPairMakeOthers) {
   EXPECT_NE(base, Sobol(pixel_key(0, 1, 2), 3).pair(1));
 }
 
-TEST(Sobol, OneIsThePairsFirst) {
+TEST(Sobol, OneIsTheFirstOfThePair) {
   for (std::uint32_t k = 0; k < 100; ++k) {
     const Sobol sobol(pixel_key(9, 5, 5), k);
     EXPECT_EQ(sobol.one(4), sobol.pair(4).x);

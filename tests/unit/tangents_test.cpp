@@ -67,7 +67,7 @@ void expect_near(const Vec4& actual, const Vec4& wanted, float tolerance = 1e-6F
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(actual[i], wanted[i], tolerance) << "at " << i;
 }
 
-TEST(Tangents, FollowUAndTheBitangentGoesUpInTheImage) {
+TEST(Tangents, FollowUWithTheBitangentUp) {
   Mesh mesh = grid(kPlane, 4, 3);
   const std::vector<std::uint32_t> origin = make_tangents(mesh, 0);
   std::vector<std::uint32_t> all(mesh.positions.size());
@@ -77,7 +77,7 @@ TEST(Tangents, FollowUAndTheBitangentGoesUpInTheImage) {
   for (const Vec4& t : mesh.tangents) expect_near(t, {1, 0, 0, 1});
 }
 
-TEST(Tangents, MirroredCoordinatesTurnTheHandedness) {
+TEST(Tangents, MirroredCoordinatesFlipTheHandedness) {
   const auto mirrored = [](double x, double y) { return Vec2(-x, 1 - y); };
   for (const Vec4& t : tangents_of(grid(with_uv(kPlane, mirrored), 2, 2))) {
     expect_near(t, {-1, 0, 0, -1});
@@ -97,7 +97,7 @@ TEST(Tangents, ShearedCoordinatesGiveTheDerivativeByU) {
   }
 }
 
-TEST(Tangents, OfASphereGoEast) {
+TEST(Tangents, OfASpherePointEast) {
   const auto on_sphere = [](double x, double y) {
     const double longitude = 2 * kPi * x, latitude = kPi * (0.8 * y - 0.4);
     return Vec3(std::cos(longitude) * std::cos(latitude), std::sin(latitude),
@@ -114,7 +114,7 @@ TEST(Tangents, OfASphereGoEast) {
   }
 }
 
-TEST(Tangents, WeighTrianglesByTheirAngle) {
+TEST(Tangents, WeightTrianglesByAngle) {
   // A ridge along y: at its middle the left slope has a right angle, and so has the right slope,
   // which is divided in two. The normal points up, so both tangents are horizontal and do not
   // cancel.
@@ -147,7 +147,7 @@ TEST(Tangents, WeighTrianglesByTheirAngle) {
   expect_near(shared[5], {half, half, 0, 1});
 }
 
-TEST(Tangents, SplitVerticesWhereMirroredTrianglesMeet) {
+TEST(Tangents, SplitVerticesBetweenMirroredTriangles) {
   const auto folded = [](double x, double y) { return Vec2(std::abs(x - 0.5), 1 - y); };
   Mesh mesh = grid(with_uv(kPlane, folded), 2, 1);
   mesh.colors.assign(6, Vec4(1));
@@ -176,7 +176,7 @@ TEST(Tangents, SplitVerticesWhereMirroredTrianglesMeet) {
   EXPECT_EQ(origin[mesh.segments[0][1]], 4U);
 }
 
-TEST(Tangents, TrianglesWithoutTextureAreaTakeTheirNeighbours) {
+TEST(Tangents, TrianglesWithoutTextureAreaUseTheirNeighbors) {
   Mesh mesh = grid(kPlane, 2, 1);
   // The right half maps to one point of the image, so its left vertices have the tangents of the
   // left half.
@@ -186,7 +186,7 @@ TEST(Tangents, TrianglesWithoutTextureAreaTakeTheirNeighbours) {
   for (const std::size_t i : {0U, 1U, 3U, 4U}) expect_near(tangents[i], {1, 0, 0, 1});
 }
 
-TEST(Tangents, WithoutTextureAreaAnyDirectionAcrossTheNormalDoes) {
+TEST(Tangents, WithoutTextureAreaAnyPerpendicularDirectionIsValid) {
   std::mt19937 random(7);
   std::normal_distribution<double> coordinate;
   for (int round = 0; round < 100; ++round) {
@@ -204,7 +204,7 @@ TEST(Tangents, WithoutTextureAreaAnyDirectionAcrossTheNormalDoes) {
   }
 }
 
-TEST(Tangents, TrianglesWithoutAreaTakeThoseOfTheirVertices) {
+TEST(Tangents, TrianglesWithoutAreaUseTheirVertices) {
   Mesh mesh = grid(kPlane, 1, 1);
   mesh.triangles.insert(mesh.triangles.begin(), {1, 1, 3});
   const std::vector<Vec4> tangents = tangents_of(mesh);
@@ -277,7 +277,7 @@ std::vector<Vec4> shuffled_corners(std::uint32_t seed) {
   return result;
 }
 
-TEST(Tangents, TheOrderOfTrianglesDoesNotMatter) {
+TEST(Tangents, OrderOfTrianglesHasNoEffect) {
   const std::vector<Vec4> wanted = shuffled_corners(0);
   for (std::uint32_t seed = 1; seed < 5; ++seed) {
     const std::vector<Vec4> actual = shuffled_corners(seed);
@@ -287,7 +287,7 @@ TEST(Tangents, TheOrderOfTrianglesDoesNotMatter) {
   }
 }
 
-TEST(Tangents, OfEqualVerticesAreTheSameWithAndWithoutIndices) {
+TEST(Tangents, IndexingHasNoEffect) {
   const auto wavy = [](double x, double y) { return Vec2(x + 0.3 * y * y, 1 - y); };
   const Mesh mesh = grid(with_uv(kPlane, wavy), 5, 5);
   Mesh apart;

@@ -47,7 +47,7 @@ Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned t
 
 // A coin flip of 0 or 2 has the standard deviation 1; the mean of n has at most the error 1 /
 // sqrt(n - 1).
-TEST(TileErrors, AreRelativeToThePixelsLightAndThePictures) {
+TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   SampleSums sums;
   (void)drawn_to(0, sums, 4096);
   const std::vector<double> errors = tile_errors(sums);
@@ -65,7 +65,7 @@ TEST(TileErrors, ABlackPictureHasNone) {
   EXPECT_EQ(tile_errors(sums), (std::vector<double>{0, 0}));
 }
 
-TEST(TileErrors, GoodTilesHaveGoodNeighbours) {
+TEST(TileErrors, ConvergedTilesHaveConvergedNeighbors) {
   const PixelRect window{0, 0, 30, 20};  // 4 x 3 tiles
   std::vector<double> errors(12, 0.1);
   EXPECT_EQ(good_tiles(errors, window, 0.1), std::vector<bool>(12, true));
@@ -82,7 +82,7 @@ TEST(TileErrors, GoodTilesHaveGoodNeighbours) {
 
 // At the border between the halves, tiles wait for each other; the coin needs some 800 samples, so
 // 1024.
-TEST(TargetError, StopsWhereThePictureIsGood) {
+TEST(TargetError, StopsConvergedTiles) {
   SampleSums sums;
   RenderCounts counts;
   const CoinIntegrator integrator;
@@ -103,14 +103,14 @@ TEST(TargetError, StopsWhereThePictureIsGood) {
   }
 }
 
-TEST(TargetError, TheMostSamplesStay) {
+TEST(TargetError, SampleLimitIsKept) {
   SampleSums sums;
   (void)drawn_to(1e-9, sums, 100);
   EXPECT_EQ(sums.at(20, 5).count, 100U);
   EXPECT_EQ(sums.count(), 100U);
 }
 
-TEST(TargetError, ThreadsAndInterruptionsDontMatter) {
+TEST(TargetError, ThreadsAndInterruptionsHaveNoEffect) {
   SampleSums whole, parts;
   const Film film = drawn_to(0.04, whole, 4096);
   for (const std::uint32_t samples : {7U, 32U, 50U, 64U, 700U, 1024U, 1100U})
@@ -123,7 +123,7 @@ TEST(TargetError, ThreadsAndInterruptionsDontMatter) {
   }
 }
 
-TEST(TargetError, IsNotForParts) {
+TEST(TargetError, IsNotForShards) {
   EXPECT_THROW(
       (void)drawn({.samples = 4, .passes = Passes{.part = SampleRange{0, 2}, .target_error = 0.1}}),
       Error);

@@ -31,7 +31,7 @@ double grey(const Image& image, const Sampler& how, double u,
   return color.x * 255;
 }
 
-TEST(TextureMap, NearestTakesThePixelThatHoldsThePoint) {
+TEST(TextureMap, NearestSelectsTheContainingPixel) {
   const Image image = strip({10, 20, 30, 40});
   const Sampler nearest = sampler(Wrap::clamp_to_edge, Filter::nearest);
   EXPECT_NEAR(grey(image, nearest, 0), 10, 1e-5);
@@ -40,7 +40,7 @@ TEST(TextureMap, NearestTakesThePixelThatHoldsThePoint) {
   EXPECT_NEAR(grey(image, nearest, 1), 40, 1e-5);
 }
 
-TEST(TextureMap, LinearGoesFromMiddleToMiddle) {
+TEST(TextureMap, LinearInterpolatesBetweenCenters) {
   const Image image = strip({10, 20, 30, 40});
   const Sampler linear = sampler(Wrap::clamp_to_edge, Filter::linear);
   EXPECT_NEAR(grey(image, linear, 0.125), 10, 1e-5);
@@ -67,7 +67,7 @@ TEST(TextureMap, WrapModesContinueTheImage) {
   EXPECT_NEAR(edge(Wrap::mirrored_repeat), 10, 1e-5);
 }
 
-TEST(TextureMap, CoordinatesBeyondReasonStayInTheImage) {
+TEST(TextureMap, HugeCoordinatesStayInTheImage) {
   const Image image = strip({10, 20});
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     for (const double u : {1e300, -1e300, 1e17, std::numeric_limits<double>::infinity(),
@@ -91,7 +91,7 @@ TEST(TextureMap, SrgbIsDecodedBeforeItIsFiltered) {
   EXPECT_NEAR(middle.w, 0.5, 1e-7) << "alpha is linear";
 }
 
-TEST(TextureMap, SixteenBitsAreKept) {
+TEST(TextureMap, KeepsSixteenBits) {
   const Image image{.width = 1,
                     .height = 1,
                     .channels = 2,
@@ -121,7 +121,7 @@ TEST(TextureMap, SmallChecksMergeToTheirMean) {
   EXPECT_EQ(own.x, 1) << "one pixel a sample";
 }
 
-TEST(TextureMap, WithoutMipMapsTheImageItselfIsTaken) {
+TEST(TextureMap, WithoutMipMapsUsesTheBaseLevel) {
   const Image image = checker();
   Sampler how{.minification = Filter::nearest, .mip = MipFilter::none};
   const TextureMap map(image, how, ColorEncoding::srgb);
@@ -129,7 +129,7 @@ TEST(TextureMap, WithoutMipMapsTheImageItselfIsTaken) {
   EXPECT_EQ(map.look_up({1.4 / 8, 0.5 / 8}, {.dx = {1, 0}, .dy = {0, 1}}).x, 0);
 }
 
-TEST(TextureMap, SlantedSurfacesAreBlurredAlongTheSlantOnly) {
+TEST(TextureMap, ObliqueSurfacesAreFilteredAnisotropically) {
   // Columns of two pixels: sharp if the footprint is elongated along them.
   std::vector<std::uint8_t> samples;
   for (int i = 0; i < 16 * 16; ++i) samples.push_back(i % 4 < 2 ? 255 : 0);
@@ -140,7 +140,7 @@ TEST(TextureMap, SlantedSurfacesAreBlurredAlongTheSlantOnly) {
   EXPECT_NEAR(map.look_up({column, 0.5}, {.dx = {8 * column, 0}, .dy = {0, column}}).x, 0.5, 0.1);
 }
 
-TEST(TextureMap, MipMapsOfOddSizesWeighAllPixelsTheSame) {
+TEST(TextureMap, MipMapsOfOddSizesWeightAllPixelsEqually) {
   const Image image = strip({0, 0, 0, 0, 255});
   EXPECT_NEAR(grey(image, Sampler{}, 0.5, {.dx = {100, 0}, .dy = {0, 100}}), 51, 0.01);
   const Image three = strip({255, 0, 0});

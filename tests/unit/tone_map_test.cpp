@@ -84,7 +84,7 @@ TEST(ToneMap, AgreesWithReferenceValues) {
   }
 }
 
-TEST(ToneMap, GreysRiseFromBlackToWhite) {
+TEST(ToneMap, GraysAreMonotonic) {
   for (const ToneMap map : kToneMaps) {
     EXPECT_EQ(tone_mapped(Vec3(0), map), Vec3(0)) << name_of(map);
     float before = -1;
@@ -103,7 +103,7 @@ TEST(ToneMap, GreysRiseFromBlackToWhite) {
   }
 }
 
-TEST(ToneMap, GivesColoursWhateverComes) {
+TEST(ToneMap, HandlesAnyInput) {
   const float odd[] = {0, -1, 1e-40F, 1e-20F, 0.5F, 3e38F, HUGE_VALF, -HUGE_VALF, NAN};
   for (const ToneMap map : kToneMaps) {
     if (map == ToneMap::none) continue;
@@ -118,7 +118,7 @@ TEST(ToneMap, GivesColoursWhateverComes) {
   }
 }
 
-TEST(ToneMap, NeutralKeepsColoursButForReflection) {
+TEST(ToneMap, NeutralKeepsColorsMinusReflection) {
   for (const Vec3 color : {Vec3(0.5F, 0.2F, 0.1F), Vec3(0.09F, 0.7F, 0.3F)}) {
     const Vec3 shown = tone_mapped(color, ToneMap::khronos_pbr_neutral);
     for (glm::length_t i = 0; i < 3; ++i) EXPECT_NEAR(shown[i], color[i] - 0.04F, 1e-7);

@@ -39,7 +39,7 @@ TEST(Trigonometry, DegreesAgreeWithRadians) {
   }
 }
 
-TEST(Trigonometry, QuarterTurnsAreExact) {
+TEST(Trigonometry, MultiplesOf90DegreesAreExact) {
   for (int k = -1000; k <= 1000; ++k) {
     const double sines[] = {0, 1, 0, -1};
     EXPECT_EQ(sin_degrees(90.0 * k), sines[k & 3]);

@@ -217,7 +217,7 @@ TEST(KernelBounds, EdgesInFloat64) {
   }});
 }
 
-TEST(KernelBounds, WhatIsLeftBehind) {
+TEST(KernelBounds, PlaneBehindTheRay) {
   check<2>({{
       {0x1.000004p+1F, -0x1.00008ap-2F, 0x1.00020ap-1F, -0x1.f4c734p-53F, -0x1.f4c734p-53F,
        0x1.682cdap-53F, 0x1.011fc4p+0F, 0x1.380586p+9F, 0x1.00022cp-1F, 0x1.db624ap-53F,
