@@ -18,7 +18,7 @@ foreach(kind shared static)
 endforeach()
 
 install(TARGETS microtrace)
-install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp)
+install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 # The same folders as in the repository: links from page to page hold.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)

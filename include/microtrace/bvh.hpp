@@ -29,6 +29,7 @@ class MICROTRACE_EXPORT Bvh {
   /// The scene must outlive this and stay as it is. Throws Error (limit) where memory or primitive
   /// numbers run out.
   explicit Bvh(const Scene& scene, const BvhOptions& options = {});
+  explicit Bvh(const Scene&& scene, const BvhOptions& options = {}) = delete;  // it would dangle
   ~Bvh();
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;

@@ -17,6 +17,7 @@ enum class ErrorKind {
   unsupported = 4,    ///< the scene requires a feature that is not there
   io = 5,             ///< a file can't be read or written
   limit = 6,          ///< a documented limit was reached
+  canceled = 7,       ///< a callback asked to stop; never an exit code of the program
 };
 
 enum class Severity {

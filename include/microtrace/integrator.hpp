@@ -9,9 +9,11 @@
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 namespace microtrace {
@@ -20,17 +22,32 @@ class Lighting;
 class Shading;
 class Surfaces;
 
-/// What integrators ask.
-struct World {
+/// The scene as integrators see it. Rays, points and normals are in the scene's own coordinates,
+/// whose origin is at Scene::origin in the world; for integrators that are random they may have
+/// another origin, next to the camera.
+struct MICROTRACE_EXPORT World {
   const Scene& scene;
-  const Bvh& bvh;            ///< of that scene
-  const Surfaces& surfaces;  ///< of that scene: src/render/surfaces.hpp
+  const Bvh& bvh;
   const RayGenerator& camera;
-  // For random integrators:
-  std::uint32_t seed = 0;              ///< of all that is random
-  std::uint32_t samples = 1;           ///< of each pixel, for which textures are filtered
-  const Shading* shading = nullptr;    ///< src/render/shading/shading.hpp
-  const Lighting* lighting = nullptr;  ///< src/render/lights/lighting.hpp
+  std::uint32_t seed = 0;     ///< random seed
+  std::uint32_t samples = 1;  ///< samples per pixel for which base_color filters textures
+  const Surfaces& surfaces;   ///< for the integrators of the library, as the next two
+  const Shading* shading = nullptr;
+  const Lighting* lighting = nullptr;
+
+  /// Position, normals, texture coordinates, object and triangle at a hit of `ray`.
+  [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {
+    return interact(bvh.primitives(), ray, hit);
+  }
+
+  /// Base color at a hit of a camera ray, linear Rec. 709: factor, texture and vertex color, the
+  /// texture filtered over the sample's part of the pixel. Alpha is the surface's coverage: 0 for
+  /// the back of a one-sided surface and where a mask cuts it out, 1 where it is opaque (glTF 2.0,
+  /// sections 3.9.4 and 3.9.6).
+  [[nodiscard]] Vec4 base_color(const Ray& ray, const Hit& hit) const;
+
+  /// The first hit of a camera ray, from `hit` on, where coverage is above 0.
+  [[nodiscard]] std::optional<Hit> first_visible(const Ray& ray, std::optional<Hit> hit) const;
 };
 
 /// Which of a picture's samples a ray is. With the seed it settles all that is random about it.

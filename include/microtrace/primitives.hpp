@@ -24,6 +24,7 @@ class MICROTRACE_EXPORT Primitives {
  public:
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
   explicit Primitives(const Scene& scene);
+  explicit Primitives(const Scene&&) = delete;  // it would dangle
 
   /// Numbers run from 0 to count() - 1.
   [[nodiscard]] PrimitiveId count() const { return count_; }
@@ -32,6 +33,9 @@ class MICROTRACE_EXPORT Primitives {
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
   /// The least number of that object's primitives.
   [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
+  /// The least number of the primitives of an object of the scene.
+  [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const { return first_ids_[object]; }
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
   }

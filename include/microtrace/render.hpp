@@ -3,11 +3,12 @@
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
+#include <microtrace/environment.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/memory.hpp>
-#include <microtrace/render_cache.hpp>
+#include <microtrace/prepared_scene.hpp>
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
@@ -66,9 +67,13 @@ struct Passes {
 
 struct RenderOptions {
   unsigned threads = 0;  ///< 0: default_threads()
-  /// Told the share of the picture that is done, in (0, 1]; by one thread at a time, not always the
-  /// caller's.
-  std::function<void(double)> progress{};
+  /// Runs work() on up to `threads` threads of the host at a time, the caller's among them if it
+  /// likes, and returns when all calls have returned; one call is enough to do all the work, which
+  /// does not throw. Null: render starts threads of its own.
+  std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
+  /// Called with the fraction of the picture that is done, in (0, 1]; by one thread at a time, not
+  /// always the caller's. If it returns false, render stops at once and throws Error (canceled).
+  std::function<bool(double)> progress{};
   RenderTimes* times = nullptr;            ///< if given, set at the end
   const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
   /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
@@ -83,8 +88,9 @@ struct RenderOptions {
   /// one.
   std::optional<Passes> passes{};
   RenderCounts* counts = nullptr;  ///< if given, set at the end
-  RenderCache* cache = nullptr;    ///< if given, spares work that an earlier picture did
   MemoryBudget* memory = nullptr;  ///< if given, counts what the call takes until it returns
+  std::optional<Environment> environment{};  ///< in place of the scene's
+  std::optional<Vec3> background{};          ///< in place of the scene's; linear Rec. 709
   /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
   /// size.
   std::optional<PixelRect> crop{};
@@ -95,11 +101,16 @@ struct RenderOptions {
   bool transparent = false;  ///< leaves the background out and gives the film alpha
 };
 
-/// Colours by the integrator, over scene.background where it leaves some; rays hit only in
-/// (scene.epsilon, infinity). Threads, progress, times and cache have no influence on the picture.
-/// Throws Error: usage where samples, passes, crop or aovs are not as above, an integrator of data
-/// is asked for more than one sample, or one that is not random for passes; limit where memory or
-/// primitive numbers run out.
+/// Draws a picture: colors by the integrator, composited over scene.background; rays hit only in
+/// (scene.epsilon, infinity). The camera is in the scene's own coordinates, as Scene::cameras are.
+/// Threads, progress and times have no influence on the picture. Throws Error: usage where samples,
+/// passes, crop or aovs are not as above, an integrator of data is asked for more than one sample,
+/// or one that is not random for passes; limit where memory runs out; canceled. Any number of
+/// threads may render one scene at a time.
+[[nodiscard]] MICROTRACE_EXPORT Film render(const PreparedScene& scene, const Camera& camera,
+                                            ImageSize size, const RenderOptions& options = {});
+
+/// The same for a single picture. Throws what PreparedScene throws, too.
 [[nodiscard]] MICROTRACE_EXPORT Film render(const Scene& scene, const Camera& camera,
                                             ImageSize size, const RenderOptions& options = {});
 

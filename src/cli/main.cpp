@@ -52,7 +52,7 @@ int render_pictures(cli::Arguments arguments) {
   cli::Warnings log(arguments);
   std::optional<Environment> environment;
   std::optional<cli::SampleFiles> samples;
-  RenderCache cache;
+  cli::Tables tables;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     LoadedScene loaded = file.at(sequence.time(index));
     Scene& scene = loaded.scene;
@@ -77,7 +77,7 @@ int render_pictures(cli::Arguments arguments) {
     const auto report_progress = [&](double fraction) {
       if (progress) progress((index + fraction) / sequence.count());
     };
-    cli::render_picture(std::move(scene), camera, size, arguments, files, cache, watch, log,
+    cli::render_picture(std::move(scene), camera, size, arguments, files, tables, watch, log,
                         report_progress);
   }
   return arguments.validate ? log.print_result(arguments.scene) : 0;

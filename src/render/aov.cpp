@@ -55,7 +55,7 @@ std::span<const std::string_view> channels_of(Aov aov) {
 void find_seen(const World& world, std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
   world.bvh.intersect(rays, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i] = world.surfaces.first_seen(world.bvh, rays[i], hits[i]);
+    hits[i] = world.first_visible(rays[i], hits[i]);
   }
 }
 
@@ -80,7 +80,7 @@ std::array<float, 3> value_of(Aov aov, const Sight& sight) {
     case Aov::barycentric:
       return rounded(at.triangle ? at.triangle->barycentrics : DVec3(0));
     case Aov::albedo:
-      return rounded(DVec3(DVec4(sight.world.surfaces.look(sight.ray, sight.hit))));
+      return rounded(DVec3(DVec4(sight.world.base_color(sight.ray, sight.hit))));
     case Aov::id:
       break;
   }

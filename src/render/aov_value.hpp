@@ -1,11 +1,10 @@
 #pragma once
 /// The numbers of exact outputs.
 
-#include "scene/surface_interaction.hpp"
-
 #include <microtrace/aov.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <array>
 #include <cstdint>

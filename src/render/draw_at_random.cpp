@@ -41,7 +41,8 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
                     const std::function<void(const PixelRect&)>& beside) {
   const RenderOptions& options = drawing.options;
   const PixelRect& window = drawing.window;
-  const Vec3 background = options.transparent ? Vec3(0) : drawing.world.scene.background;
+  const Vec3 background =
+      options.transparent ? Vec3(0) : options.background.value_or(drawing.world.scene.background);
   const RandomPainter painter(drawing.world, drawing.integrator, options, background);
   const SampleRange all{.first = 0, .last = options.samples};
   std::uint32_t samples_per_pixel = options.samples;

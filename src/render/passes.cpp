@@ -67,7 +67,7 @@ class Stops {
 
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
                 std::chrono::steady_clock::time_point start, Threads& threads,
-                const std::function<void(double)>& progress, SampleSums& sums) {
+                const std::function<bool(double)>& progress, SampleSums& sums) {
   std::uint32_t to_do = 0, done = 0;
   for (const SampleRange& range : sums.missing(wanted)) to_do += range.size();
   Stops stops(sums, passes.target_error);
@@ -84,14 +84,14 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
     const auto draw = [&](const PixelRect& tile) {
       if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, sums);
     };
-    const auto tell = [&](double share) { progress((done + share * range.size()) / to_do); };
+    const auto tell = [&](double share) { return progress((done + share * range.size()) / to_do); };
     for_each_tile(sums.window, threads, draw,
-                  progress ? std::function<void(double)>(tell) : nullptr);
+                  progress ? std::function<bool(double)>(tell) : nullptr);
     sums.note(range);
     done += range.size();
     if (passes.after_each) passes.after_each(sums);
   }
-  if (progress && (done < to_do || to_do == 0)) progress(1);
+  if (progress && (done < to_do || to_do == 0)) (void)progress(1);
 }
 
 }  // namespace microtrace

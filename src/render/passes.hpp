@@ -17,6 +17,6 @@ namespace microtrace {
 /// is counted since `start`. `progress` is told as by for_each_tile.
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
                 std::chrono::steady_clock::time_point start, Threads& threads,
-                const std::function<void(double)>& progress, SampleSums& sums);
+                const std::function<bool(double)>& progress, SampleSums& sums);
 
 }  // namespace microtrace

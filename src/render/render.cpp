@@ -3,14 +3,11 @@
 #include "render/aov_painter.hpp"
 #include "render/draw_at_random.hpp"
 #include "render/lights/lighting.hpp"
-#include "render/recentre.hpp"
-#include "render/shading/shading.hpp"
-#include "render/surfaces.hpp"
+#include "render/prepared/content.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
-#include "scene/mesh_memory.hpp"
+#include "scene/check_indices.hpp"
 
-#include <microtrace/bvh.hpp>
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/segments.hpp>
@@ -18,10 +15,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
+#include <memory>
 #include <new>
+#include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 namespace microtrace {
 namespace {
@@ -102,74 +100,66 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
                   std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
 }
 
-/// What is exact is that of the scene as it stands.
-Film render_recentred(const PlacedScene& near, const Scene& scene, const Camera& camera,
-                      ImageSize size, const RenderOptions& options) {
-  RenderOptions own = options;
-  own.aovs.clear();
-  Film film = render(near.scene, near.camera, size, own);
-  if (options.aovs.empty()) return film;
-  RenderOptions exact;
-  exact.threads = options.threads;
-  exact.crop = options.crop;
-  exact.aovs = options.aovs;
-  exact.memory = options.memory;
-  Film channels = render(scene, camera, size, exact);
-  film.channels.insert(film.channels.begin(), std::move_iterator(channels.channels.begin()),
-                       std::move_iterator(channels.channels.end()));
-  return film;
-}
+/// What a picture is drawn of: the scene, or the same with points and lines widened, or moved next
+/// to the origin.
+struct View {
+  std::shared_ptr<const PreparedScene::Content> content;
+  RayGenerator camera;
 
-}  // namespace
+  View(std::shared_ptr<const PreparedScene::Content> c, const Camera& from, ImageSize size)
+      : content(std::move(c)), camera(from, size) {}
 
-Film render(const Scene& scene, const Camera& camera, ImageSize size,
-            const RenderOptions& options) {
-  const FloatEnvironment environment;
-  MemoryAccount memory(options.memory);
-  const MemoryScope scope(memory);
-  if (has_segments(scene)) {
-    take_memory(memory_of(scene), "points and lines as triangles");
-    Scene widened = scene;
-    widen_segments(widened, camera, size);
-    return render(widened, camera, size, options);
+  [[nodiscard]] World world(std::uint32_t samples) const {
+    return {.scene = content->scene(),
+            .bvh = content->bvh(),
+            .camera = camera,
+            .samples = samples,
+            .surfaces = content->surfaces()};
   }
+};
+
+Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
+          ImageSize size, const RenderOptions& options) {
   check(options);
-  if (options.integrator != nullptr && options.integrator->is_random()) {
-    if (const auto near = recentred(scene, camera))
-      return render_recentred(*near, scene, camera, size, options);
-  }
   const PixelRect window = window_of(size, options.crop);
-  Threads threads{.wanted = options.threads != 0 ? options.threads : default_threads()};
+  Threads threads{.wanted = options.threads != 0 ? options.threads : default_threads(),
+                  .run = options.run_threads};
   const auto start = Clock::now();
-  const Bvh bvh(scene, {.threads = threads.wanted});
-  const auto built = Clock::now();
-  const RayGenerator rays(camera, size);
   const FlatIntegrator flat;
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
   const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
-  TexturePyramids pyramids(scene);
-  const Surfaces surfaces(scene, bvh.primitives(), rays, samples, pyramids);
-  World world{.scene = scene,
-              .bvh = bvh,
-              .surfaces = surfaces,
-              .camera = rays,
-              .seed = options.seed,
-              .samples = samples};
-  std::optional<Shading> shading;
+
+  const auto shown = has_segments(content->scene()) ? content->widened(camera, size) : content;
+  // Exact outputs are those of the scene as it stands.
+  const View exact(shown, camera, size);
+  std::optional<View> near;
+  if (integrator.is_random()) {
+    if (const auto moved = shown->recentered(camera))
+      near.emplace(moved->content, moved->camera, size);
+  }
+  const View& view = near ? *near : exact;
+  (void)view.content->bvh();
+  if (!options.aovs.empty()) (void)exact.content->bvh();
+  const auto built = Clock::now();
+
+  World world = view.world(samples);
+  world.seed = options.seed;
   std::optional<Lighting> lighting;
   if (integrator.is_random()) {
-    world.shading = &shading.emplace(scene, bvh.primitives(), pyramids);
-    world.lighting = &lighting.emplace(scene, *shading, options.cache);
+    world.shading = &view.content->shading();
+    world.lighting = &lighting.emplace(view.content->lighting(options.environment));
   }
   Film film =
       make_film(size, window, options.transparent ? Film::Alpha::premultiplied : Film::Alpha::none,
                 numbers_of_pixel(options));
-  // What is exact has nothing to do with samples.
-  const Surfaces exact_surfaces(surfaces, 1);
-  const World exact_world{.scene = scene, .bvh = bvh, .surfaces = exact_surfaces, .camera = rays};
-  const AovPainter channels(exact_world, options.aovs, window, film);
+  std::optional<World> exact_world;
+  std::optional<AovPainter> channels;
+  if (!options.aovs.empty()) {
+    exact_world.emplace(exact.world(1));
+    channels.emplace(*exact_world, options.aovs, window, film);
+  }
   const auto paint_channels = [&](const PixelRect& tile) {
-    if (!options.aovs.empty()) channels.paint(tile);
+    if (channels) channels->paint(tile);
   };
   if (integrator.is_random()) {
     draw_at_random({.world = world,
@@ -201,6 +191,30 @@ Film render(const Scene& scene, const Camera& camera, ImageSize size,
   if (options.times != nullptr)
     *options.times = {.build = seconds(start, built), .trace = seconds(built, Clock::now())};
   return film;
+}
+
+}  // namespace
+
+Film render(const PreparedScene& scene, const Camera& camera, ImageSize size,
+            const RenderOptions& options) {
+  const FloatEnvironment environment;
+  MemoryAccount memory(options.memory);
+  const MemoryScope scope(memory);
+  const std::shared_ptr<const PreparedScene::Content> content(std::shared_ptr<void>(),
+                                                              &scene.content());
+  return draw(content, camera, size, options);
+}
+
+Film render(const Scene& scene, const Camera& camera, ImageSize size,
+            const RenderOptions& options) {
+  const FloatEnvironment environment;
+  MemoryAccount memory(options.memory);
+  const MemoryScope scope(memory);
+  check_indices(scene);
+  const BvhOptions build{.threads = options.threads != 0 ? options.threads : default_threads()};
+  const auto content = std::make_shared<const PreparedScene::Content>(
+      borrowed(scene), build, std::make_shared<SharedTables>(), MemoryAccount(options.memory));
+  return draw(content, camera, size, options);
 }
 
 }  // namespace microtrace

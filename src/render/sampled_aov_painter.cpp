@@ -4,7 +4,8 @@
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
-#include "scene/surface_interaction.hpp"
+
+#include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
 #include <span>

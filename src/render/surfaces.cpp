@@ -1,6 +1,9 @@
 #include "render/surfaces.hpp"
 
-#include "scene/surface_interaction.hpp"
+#include "render/prepared/shared_tables.hpp"
+
+#include <microtrace/integrator.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,32 +12,14 @@
 
 namespace microtrace {
 
-namespace {
-
-/// Of what a sample stands for, in pixels.
-double width_of(std::uint32_t samples) {
-  return 1 / std::sqrt(static_cast<double>(samples));
-}
-
-}  // namespace
-
-Surfaces::Surfaces(const Surfaces& other, std::uint32_t samples) : Surfaces(other) {
-  sample_width_ = width_of(samples);
-}
-
-Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const RayGenerator& camera,
-                   std::uint32_t samples, TexturePyramids& pyramids)
-    : scene_(scene),
-      primitives_(primitives),
-      camera_(camera),
-      sample_width_(width_of(samples)),
-      colors_(std::make_shared<std::vector<std::optional<TextureMap>>>(scene.textures.size())) {
+Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, SharedTables& tables)
+    : scene_(scene), primitives_(primitives), colors_(scene.textures.size()) {
   entries_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     if (material.base_color_texture) {
-      make_map(material.base_color_texture->texture, pyramids);
+      make_map(material.base_color_texture->texture, tables);
     }
     Entry entry{.color = Vec3(material.base_color), .kind = Kind::plain};
     if (material.alpha_mode != AlphaMode::opaque || material.base_color_texture ||
@@ -57,15 +42,17 @@ bool Surfaces::is_front(const Ray& ray, const Hit& hit) const {
   });
 }
 
-void Surfaces::make_map(std::uint32_t index, TexturePyramids& pyramids) {
+void Surfaces::make_map(std::uint32_t index, SharedTables& tables) {
   const Texture& texture = scene_.textures[index];
-  std::optional<TextureMap>& map = (*colors_)[index];
+  std::optional<TextureMap>& map = colors_[index];
   if (map || !texture.image || !scene_.images[*texture.image]) return;
-  map.emplace(pyramids.of(*texture.image, ColorEncoding::srgb), texture.sampler);
+  map.emplace(
+      tables.texture_map(scene_.images[*texture.image], texture.sampler, ColorEncoding::srgb));
 }
 
-DVec4 Surfaces::texel(const TextureUse& use, const Ray& ray, const SurfaceInteraction& at) const {
-  const std::optional<TextureMap>& map = (*colors_)[use.texture];
+DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
+                      const SurfaceInteraction& at) const {
+  const std::optional<TextureMap>& map = colors_[use.texture];
   if (!map) return DVec4(1);
   const DVec2 uv = at.uv(use.uv_set).value_or(DVec2(0));
   const auto& m = use.texture_from_uv;
@@ -73,25 +60,26 @@ DVec4 Surfaces::texel(const TextureUse& use, const Ray& ray, const SurfaceIntera
 
   // Where the rays of the next samples meet the plane of the surface (H. Igehy, Tracing ray
   // differentials, 1999).
-  const RayDifferential step = camera_.differential(ray);
+  const RayDifferential step = world.camera.differential(ray);
+  const double sample_width = 1 / std::sqrt(static_cast<double>(world.samples));  // in pixels
   const DVec3 d(ray.d);
   const double t = glm::dot(at.p - DVec3(ray.o), d) / glm::dot(d, d);
   const double slant = glm::dot(d, at.n);
   const auto uv_step = [&](const DVec3& o_step, const DVec3& d_step) {
     const DVec3 moved = o_step + t * d_step;
     return linear(at.uv_step(use.uv_set, moved - d * (glm::dot(moved, at.n) / slant))) *
-           sample_width_;
+           sample_width;
   };
   return map->look_up(linear(uv) + DVec2(m[2]),
                       {.dx = uv_step(step.o_dx, step.d_dx), .dy = uv_step(step.o_dy, step.d_dy)});
 }
 
-Vec4 Surfaces::look(const Ray& ray, const Hit& hit) const {
+Vec4 Surfaces::look(const World& world, const Ray& ray, const Hit& hit) const {
   const Material& material = material_of(scene_, primitives_.object(hit.id));
   const SurfaceInteraction at = interact(primitives_, ray, hit);
   if (!at.front && !material.double_sided) return Vec4(0);
   DVec4 product = DVec4(material.base_color) * at.color();
-  if (material.base_color_texture) product *= texel(*material.base_color_texture, ray, at);
+  if (material.base_color_texture) product *= texel(world, *material.base_color_texture, ray, at);
   Vec4 color(product);
   switch (material.alpha_mode) {
     case AlphaMode::opaque:
@@ -122,10 +110,19 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
          shows_front(one, ray.d) == shows_front(other, ray.d);
 }
 
-std::optional<Hit> Surfaces::first_seen(const Bvh& bvh, const Ray& ray,
-                                        std::optional<Hit> hit) const {
-  while (hit && !plain_look(ray, *hit) && look(ray, *hit).w <= 0) hit = bvh.next(ray, *hit);
+std::optional<Hit> Surfaces::first_visible(const World& world, const Ray& ray,
+                                           std::optional<Hit> hit) const {
+  while (hit && !plain_look(ray, *hit) && look(world, ray, *hit).w <= 0)
+    hit = world.bvh.next(ray, *hit);
   return hit;
+}
+
+Vec4 World::base_color(const Ray& ray, const Hit& hit) const {
+  return surfaces.look(*this, ray, hit);
+}
+
+std::optional<Hit> World::first_visible(const Ray& ray, std::optional<Hit> hit) const {
+  return surfaces.first_visible(*this, ray, hit);
 }
 
 }  // namespace microtrace

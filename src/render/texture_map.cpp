@@ -38,7 +38,9 @@ std::uint32_t wrapped_pixel(std::int64_t i, std::int64_t size, Wrap wrap) {
 }  // namespace
 
 TextureMap::TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding)
-    : TextureMap(std::make_shared<TexturePyramid>(image, encoding), sampler) {}
+    : TextureMap(std::make_shared<TexturePyramid>(
+                     std::shared_ptr<const Image>(std::shared_ptr<void>(), &image), encoding),
+                 sampler) {}
 
 TextureMap::TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler)
     : pyramid_(pyramid), image_(pyramid->image()), sampler_(sampler) {

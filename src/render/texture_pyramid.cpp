@@ -1,10 +1,10 @@
 #include "render/texture_pyramid.hpp"
 
-#include "base/memory_account.hpp"
 #include "scene/srgb.hpp"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <variant>
 
 namespace microtrace {
@@ -51,25 +51,26 @@ Cover cover(std::uint32_t i, std::uint32_t n) {
 
 }  // namespace
 
-TexturePyramid::TexturePyramid(const Image& image, ColorEncoding encoding) : image_(image) {
-  const bool is_wide = std::holds_alternative<std::vector<std::uint16_t>>(image.samples);
+TexturePyramid::TexturePyramid(std::shared_ptr<const Image> image, ColorEncoding encoding)
+    : image_(std::move(image)), memory_(memory_account().budget()) {
+  const bool is_wide = std::holds_alternative<std::vector<std::uint16_t>>(image_->samples);
   color_table_ = table(is_wide, encoding);
   alpha_table_ = table(is_wide, ColorEncoding::linear);
 }
 
 const std::vector<TexturePyramid::Level>& TexturePyramid::levels() {
-  if (levels_.empty() && (image_.width > 1 || image_.height > 1)) make_levels();
+  if (levels_.empty() && (image_->width > 1 || image_->height > 1)) make_levels();
   return levels_;
 }
 
 void TexturePyramid::make_levels() {
   std::uint64_t pixels = 0;
-  for (std::uint64_t width = image_.width, height = image_.height; width > 1 || height > 1;) {
+  for (std::uint64_t width = image_->width, height = image_->height; width > 1 || height > 1;) {
     width = std::max(width / 2, std::uint64_t{1});
     height = std::max(height / 2, std::uint64_t{1});
     pixels += width * height;
   }
-  take_memory(pixels * 4 * sizeof(std::uint16_t), "the mip maps of images");
+  memory_.take(pixels * 4 * sizeof(std::uint16_t), "the mip maps of images");
   DVec2 size = level_size(0);
   while (size.x > 1 || size.y > 1) {
     const auto width = static_cast<std::uint32_t>(size.x);
@@ -156,7 +157,7 @@ void TexturePyramid::halve(std::size_t finer, Level& level) const {
           };
           halve_lines(level.width, level.height, add, level.samples);
         };
-        switch (image_.channels) {
+        switch (image_->channels) {
           case 1:
             return halve_from.template operator()<1>();
           case 2:
@@ -167,24 +168,24 @@ void TexturePyramid::halve(std::size_t finer, Level& level) const {
             return halve_from.template operator()<4>();
         }
       },
-      image_.samples);
+      image_->samples);
 }
 
 DVec2 TexturePyramid::level_size(std::size_t level) const {
-  if (level == 0) return {image_.width, image_.height};
+  if (level == 0) return {image_->width, image_->height};
   return {levels_[level - 1].width, levels_[level - 1].height};
 }
 
 DVec4 TexturePyramid::image_pixel(std::uint32_t x, std::uint32_t y) const {
   return std::visit(
       [&](const auto& samples) -> DVec4 {
-        const std::size_t channels = image_.channels;
-        const auto* s = &samples[(std::size_t{y} * image_.width + x) * channels];
+        const std::size_t channels = image_->channels;
+        const auto* s = &samples[(std::size_t{y} * image_->width + x) * channels];
         const double alpha = channels % 2 == 0 ? alpha_table_[s[channels - 1]] : 1;
         if (channels < 3) return {DVec3(color_table_[s[0]]), alpha};
         return {color_table_[s[0]], color_table_[s[1]], color_table_[s[2]], alpha};
       },
-      image_.samples);
+      image_->samples);
 }
 
 DVec4 TexturePyramid::pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const {
@@ -192,13 +193,6 @@ DVec4 TexturePyramid::pixel(std::size_t level, std::uint32_t x, std::uint32_t y)
   const Level& mip = levels_[level - 1];
   const std::uint16_t* s = &mip.samples[(std::size_t{y} * mip.width + x) * 4];
   return DVec4(s[0], s[1], s[2], s[3]) * (1 / 65535.0);
-}
-
-std::shared_ptr<TexturePyramid> TexturePyramids::of(std::uint32_t image, ColorEncoding encoding) {
-  const Image* pixels = scene_.images[image].get();
-  std::shared_ptr<TexturePyramid>& pyramid = pyramids_[{pixels, encoding}];
-  if (!pyramid) pyramid = std::make_shared<TexturePyramid>(*pixels, encoding);
-  return pyramid;
 }
 
 }  // namespace microtrace

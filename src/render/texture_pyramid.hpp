@@ -1,16 +1,15 @@
 #pragma once
-/// Images with their mip maps, which all textures that show one share.
+/// Images with their mip maps, shared by all textures of an image.
+
+#include "base/memory_account.hpp"
 
 #include <microtrace/math.hpp>
-#include <microtrace/scene.hpp>
 #include <microtrace/texture.hpp>
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace microtrace {
@@ -18,8 +17,7 @@ namespace microtrace {
 /// An image whose numbers are read in one way.
 class TexturePyramid {
  public:
-  /// The image must outlive this.
-  TexturePyramid(const Image& image, ColorEncoding encoding);
+  TexturePyramid(std::shared_ptr<const Image> image, ColorEncoding encoding);
 
   /// A mip map: linear light, four channels.
   struct Level {
@@ -27,7 +25,7 @@ class TexturePyramid {
     std::vector<std::uint16_t> samples{};
   };
 
-  [[nodiscard]] const Image& image() const { return image_; }
+  [[nodiscard]] const Image& image() const { return *image_; }
   /// The linear light of the image's numbers.
   [[nodiscard]] std::span<const float> color_table() const { return color_table_; }
   [[nodiscard]] std::span<const float> alpha_table() const { return alpha_table_; }
@@ -46,24 +44,10 @@ class TexturePyramid {
   /// Fills a level of half the width and height of the finer one, both even.
   void halve(std::size_t finer, Level& level) const;
 
-  const Image& image_;
+  std::shared_ptr<const Image> image_;
   std::span<const float> color_table_, alpha_table_;
+  MemoryAccount memory_;  // of the levels, which several scenes may share
   std::vector<Level> levels_;
-};
-
-/// One for each image of a scene and way to read it, made when it is asked for.
-class TexturePyramids {
- public:
-  /// The scene must outlive this and what it makes.
-  explicit TexturePyramids(const Scene& scene) : scene_(scene) {}
-
-  /// Of an image that was decoded.
-  [[nodiscard]] std::shared_ptr<TexturePyramid> of(std::uint32_t image, ColorEncoding encoding);
-
- private:
-  const Scene& scene_;
-  // Images may stand more than once in a scene.
-  std::map<std::pair<const Image*, ColorEncoding>, std::shared_ptr<TexturePyramid>> pyramids_;
 };
 
 }  // namespace microtrace

@@ -43,7 +43,8 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
       window_(window),
       film_(film),
       pattern_(filtered_pattern(options.samples, FilterSampler(options.filter))),
-      background_(integrator.is_data() ? Vec3(0) : world.scene.background),
+      background_(integrator.is_data() ? Vec3(0)
+                                       : options.background.value_or(world.scene.background)),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
   // The rays of a batch should go nearly the same way, so few pixels make one where each has many

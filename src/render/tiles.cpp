@@ -1,6 +1,9 @@
 #include "render/tiles.hpp"
 
 #include "base/start_threads.hpp"
+#include "float_environment.hpp"
+
+#include <microtrace/error.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -38,45 +41,54 @@ PixelRect tile_at(std::size_t index, const PixelRect& window) {
 
 void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
-                   const std::function<void(double)>& progress) {
+                   const std::function<bool(double)>& progress) {
   const std::uint64_t count = tile_count(window);
   // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
   // enough to share evenly.
   const std::uint64_t run =
       std::clamp<std::uint64_t>(count / (std::uint64_t{threads.wanted} * 32), 1, 64);
   std::atomic<std::uint64_t> next{0}, done{0};
+  std::atomic<bool> ended = false;  // before all is drawn
   std::mutex report;
   std::exception_ptr failure;
 
+  const auto tell = [&] {
+    if (!progress) return;
+    const std::scoped_lock lock(report);
+    if (ended) return;
+    ended = !progress(static_cast<double>(done) / static_cast<double>(count));
+    if (ended) throw Error(ErrorKind::canceled, "", "the rendering was canceled");
+  };
   const auto draw_some = [&] {
     try {
-      for (std::uint64_t first; (first = next.fetch_add(run)) < count;) {
+      for (std::uint64_t first; !ended && (first = next.fetch_add(run)) < count;) {
         const std::uint64_t last = std::min(first + run, count);
-        for (std::uint64_t index = first; index < last; ++index) draw(tile_at(index, window));
+        for (std::uint64_t index = first; index < last && !ended; ++index)
+          draw(tile_at(index, window));
         done += last - first;
-        if (progress) {
-          const std::scoped_lock lock(report);
-          progress(static_cast<double>(done) / static_cast<double>(count));
-        }
+        tell();
       }
     } catch (...) {
-      next = count;
+      ended = true;
       const std::scoped_lock lock(report);
       if (!failure) failure = std::current_exception();
     }
   };
 
   const auto work = [&] {
+    const FloatEnvironment environment;
     const StageCounts before = stage_counts();
     draw_some();
     const std::scoped_lock lock(report);
     threads.stages += stage_counts() - before;
   };
 
-  {
-    const auto helpers = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count)) - 1;
-    const std::vector<std::jthread> started = start_threads(helpers, work);
-    threads.missing = std::max(threads.missing, helpers - static_cast<unsigned>(started.size()));
+  const auto wanted = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count));
+  if (threads.run) {
+    threads.run(wanted, work);
+  } else {
+    const std::vector<std::jthread> started = start_threads(wanted - 1, work);
+    threads.missing = std::max(threads.missing, wanted - 1 - static_cast<unsigned>(started.size()));
     work();
   }
   if (failure) std::rethrow_exception(failure);

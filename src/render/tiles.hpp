@@ -29,15 +29,18 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
 /// Threads that share the tiles, the caller's among them.
 struct Threads {
-  unsigned wanted = 1;   ///< at least 1
+  unsigned wanted = 1;  ///< at least 1
+  std::function<void(unsigned, const std::function<void()>&)>
+      run{};             ///< RenderOptions::run_threads
   unsigned missing = 0;  ///< the most of them that the system ever refused to start
   StageCounts stages{};  ///< of what they drew
 };
 
-/// Calls draw once for every tile of the window, on those threads; then progress with the share
-/// done. The first exception that draw throws stops the work and is thrown here.
+/// Calls draw once for every tile of the window, on those threads; then progress with the fraction
+/// done. The first exception that draw throws stops the work and is thrown here; so is Error
+/// (canceled) if progress returns false.
 void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
-                   const std::function<void(double)>& progress);
+                   const std::function<bool(double)>& progress);
 
 }  // namespace microtrace

@@ -1,4 +1,4 @@
-#include "scene/surface_interaction.hpp"
+#include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +105,9 @@ class Interaction {
                                    direction_of(area_vector(s), facing()));
     result.front = shows_front(s, ray_.d);
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
-    const auto* mesh = std::get_if<Mesh>(&primitives_.object(hit_.id).shape);
+    const auto* mesh = std::get_if<Mesh>(&primitives_.scene().objects[result.object].shape);
     if (mesh == nullptr) return result;
-    const auto& vertices = mesh->triangles[hit_.id - primitives_.first_id(hit_.id)];
+    const auto& vertices = mesh->triangles[result.primitive];
     result.triangle->mesh = mesh;
     result.triangle->corners = vertices;
     if (!mesh->normals.empty()) {
@@ -125,7 +125,13 @@ class Interaction {
   [[nodiscard]] DVec3 facing() const { return direction_of(-d_, DVec3(0, 0, 1)); }
 
   [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n) const {
-    return {.p = p, .n = n, .ns = n, .front = !(glm::dot(d_, n) > 0)};
+    const std::size_t object = primitives_.object_index(hit_.id);
+    return {.p = p,
+            .n = n,
+            .ns = n,
+            .front = !(glm::dot(d_, n) > 0),
+            .object = object,
+            .primitive = hit_.id - primitives_.first_id_of(object)};
   }
 
   [[nodiscard]] SurfaceInteraction planar(const DVec3& point, const DVec3& normal) const {

@@ -122,12 +122,11 @@ Rule check_indices(const char* field, const std::vector<Primitive>& primitives,
 }
 
 Rule check(const Mesh& mesh) {
-  if (Rule rule = check_attributes(mesh)) return rule;
+  if (Rule rule = broken_index(mesh)) return rule;
   for (const Vec3& position : mesh.positions) {
     if (Rule rule = finite("positions", position)) return rule;
   }
-  if (Rule rule = check_indices("triangles", mesh.triangles, mesh.positions.size())) return rule;
-  return check_indices("segments", mesh.segments, mesh.positions.size());
+  return {};
 }
 
 Rule check(const Pose& pose) {
@@ -182,6 +181,12 @@ Rule check_side(const char* field, std::uint32_t side) {
 }
 
 }  // namespace
+
+std::optional<BrokenRule> broken_index(const Mesh& mesh) {
+  if (Rule rule = check_attributes(mesh)) return rule;
+  if (Rule rule = check_indices("triangles", mesh.triangles, mesh.positions.size())) return rule;
+  return check_indices("segments", mesh.segments, mesh.positions.size());
+}
 
 std::optional<BrokenRule> validate(const Shape& shape) {
   return std::visit([](const auto& s) { return check(s); }, shape);

@@ -28,6 +28,10 @@ struct BrokenRule {
 /// zero; a mesh's indices below the number of its positions, and its attributes of the same number.
 [[nodiscard]] std::optional<BrokenRule> validate(const Shape& shape);
 
+/// The rules of meshes about indices and the number of attributes, which keep a program from
+/// undefined behavior.
+[[nodiscard]] std::optional<BrokenRule> broken_index(const Mesh& mesh);
+
 /// Position, direction and up finite, direction and up not zero in float32; the angle between up
 /// and direction's line more than 1e-9 radians; vertical_fov in (0, pi); focus, height and
 /// aspect_ratio positive; 0 <= near < far with near finite.

@@ -71,11 +71,9 @@ std::optional<Film> draw(const Scene& scene, const RenderOptions& options) {
 
 /// Path traced; if the file has no environment, with the studio or with its own lights only.
 void draw_lit(Scene& scene, bool studio) {
-  static RenderCache cache;  // the studio's tables
   const PathIntegrator path({.max_depth = 8});
   if (!scene.environment && studio) scene.environment = Environment{.content = Studio{}};
-  const std::optional<Film> film =
-      draw(scene, {.threads = 1, .integrator = &path, .samples = 2, .cache = &cache});
+  const std::optional<Film> film = draw(scene, {.threads = 1, .integrator = &path, .samples = 2});
   for (std::uint32_t y = 0; film && y < film->size().height; ++y) {
     for (const Vec3& pixel : film->row(y)) {
       expect(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z),

@@ -1,10 +1,10 @@
 /// Lights with extreme float32 parameters: minimum and maximum sizes, intensities and distances.
 #include "render/lights/light_tree.hpp"
-#include "render/lights/lighting.hpp"
+#include "render/prepared/content.hpp"
 #include "support/pictures.hpp"
 
-#include <microtrace/bvh.hpp>
 #include <microtrace/path.hpp>
+#include <microtrace/prepared_scene.hpp>
 #include <microtrace/render.hpp>
 
 #include <array>
@@ -198,10 +198,8 @@ TEST(ExtremeLights, SamplesAreFinite) {
   for (unsigned seed = 0; seed < 4000; ++seed) {
     Extremes random(seed);
     const Scene scene = scene_of(random);
-    const Bvh bvh(scene, {.threads = 1});
-    TexturePyramids pyramids(scene);
-    const Shading shading(scene, bvh.primitives(), pyramids);
-    const Lighting lighting(scene, shading);
+    const PreparedScene prepared(scene, {.threads = 1});
+    const Lighting lighting = prepared.content().lighting({});
     for (int i = 0; i < 30; ++i) {
       const LightSampleContext context{.p = random.place(), .n = random.direction()};
       const auto light = lighting.sample(context, {random.unit(), random.unit()}, random.unit());

@@ -1,10 +1,9 @@
 /// Compares directions from light sampling with their pdf.
-#include "render/lights/lighting.hpp"
-
+#include "render/prepared/content.hpp"
 #include "support/chi_square.hpp"
 #include "support/pictures.hpp"
 
-#include <microtrace/bvh.hpp>
+#include <microtrace/prepared_scene.hpp>
 
 #include <array>
 #include <cmath>
@@ -77,10 +76,10 @@ class Lamps : public testing::TestWithParam<bool> {};
 
 TEST_P(Lamps, SamplesHaveTheirPdf) {
   const Scene scene = lamps(GetParam());
-  const Bvh bvh(scene, {.threads = 1});
-  TexturePyramids pyramids(scene);
-  const Shading shading(scene, bvh.primitives(), pyramids);
-  const Lighting lighting(scene, shading);
+  const PreparedScene prepared(scene, {.threads = 1});
+  const Bvh& bvh = prepared.bvh();
+  const Shading& shading = prepared.content().shading();
+  const Lighting lighting = prepared.content().lighting({});
   for (const LightSampleContext& context :
        {LightSampleContext{.p = {0, 0, 0}, .n = {0, 1, 0}},
         LightSampleContext{.p = {0.5F, -0.9F, 0.25F}, .n = {0.6F, 0.8F, 0}}}) {
@@ -128,10 +127,8 @@ TEST(Lighting, PointsOfALampAreSpreadEvenly) {
   scene.objects.push_back(
       {.name = "lamp", .shape = parallelogram({0, 2, 0}, {2, 0, 0}, {1, 0, 3}), .material = 0});
   scene.environment = Environment{.content = Vec3(0)};
-  const Bvh bvh(scene, {.threads = 1});
-  TexturePyramids pyramids(scene);
-  const Shading shading(scene, bvh.primitives(), pyramids);
-  const Lighting lighting(scene, shading);
+  const PreparedScene prepared(scene, {.threads = 1});
+  const Lighting lighting = prepared.content().lighting({});
   const LightSampleContext context{.p = {1.5F, 0, 1.5F}, .n = {0, 1, 0}};
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);

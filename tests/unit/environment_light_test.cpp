@@ -1,6 +1,7 @@
 #include "render/lights/environment_light.hpp"
 
 #include "render/lights/studio.hpp"
+#include "render/prepared/shared_tables.hpp"
 #include "render/sampling/sobol.hpp"
 
 #include <cmath>
@@ -283,19 +284,17 @@ TEST(EnvironmentLight, KeepsDimLightBesideASun) {
   EXPECT_NEAR(dim, 0.01 * 4 * kPi, 0.001 * 4 * kPi * 0.3);
 }
 
-TEST(RenderCache, KeepsTheTablesOfOneMap) {
-  RenderCache cache;
+TEST(SharedTables, MakeThoseOfAMapOnce) {
+  SharedTables tables;
   const Environment studio{.content = Studio{}};
   const auto map = sunny_map(32, 16), other = sunny_map(32, 16);
-  const auto first = cache.tables_of({.content = map});
-  EXPECT_EQ(cache.tables_of({.content = map, .rotation = 1, .intensity = 3}), first);
-  EXPECT_NE(cache.tables_of({.content = other}), first);
-  const auto room = cache.tables_of(studio);
-  EXPECT_EQ(cache.tables_of(studio), room);
-  EXPECT_NE(cache.tables_of({.content = map}), room);
-  EXPECT_EQ(cache.tables_of({.content = map})->map, map);
-  const EnvironmentLight with({.content = map}, &cache), without({.content = map});
-  EXPECT_EQ(with.sample({0.3F, 0.6F}).wi, without.sample({0.3F, 0.6F}).wi);
+  const auto first = tables.of({.content = map});
+  EXPECT_EQ(first->map, map);
+  EXPECT_EQ(tables.of({.content = map, .rotation = 1, .intensity = 3}), first);
+  EXPECT_EQ(tables.of(studio), SharedTables().of(studio));
+  EXPECT_EQ(SharedTables(tables, Scene{}).of({.content = map}), first);
+  EXPECT_NE(tables.of({.content = other}), first);
+  EXPECT_EQ(tables.of({.content = Vec3(1)}), nullptr);
 }
 
 TEST(Studio, IsGreyAndTheSameOnBothSides) {

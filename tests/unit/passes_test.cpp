@@ -103,7 +103,11 @@ TEST(Passes, GoOnFromWhatIsThere) {
 TEST(Passes, StopWhenTimeIsUpAfterTheFirst) {
   SampleSums sums;
   double progress = 0;
-  const Film film = drawn({.progress = [&](double share) { progress = share; },
+  const Film film = drawn({.progress =
+                               [&](double share) {
+                                 progress = share;
+                                 return true;
+                               },
                            .samples = 4096,
                            .passes = Passes{.sums = &sums, .time_limit = 0}});
   EXPECT_EQ(sums.count(), 1U);

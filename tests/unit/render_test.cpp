@@ -1,8 +1,14 @@
+#include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <mutex>
+#include <set>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -45,6 +51,7 @@ TEST(Render, ProgressEndsAtOne) {
     EXPECT_LE(share, 1);
     last = std::max(last, share);
     ++calls;
+    return true;
   };
   (void)render(scene, PerspectiveCamera{}, {.width = 200, .height = 100},
                {.threads = 2, .progress = progress});
@@ -53,10 +60,54 @@ TEST(Render, ProgressEndsAtOne) {
 }
 
 TEST(Render, ExceptionsOfThreadsArrive) {
-  const auto progress = [](double) { throw std::runtime_error("stop"); };
+  const auto progress = [](double) -> bool { throw std::runtime_error("stop"); };
   EXPECT_THROW((void)render(Scene{}, PerspectiveCamera{}, {.width = 200, .height = 100},
                             {.threads = 2, .progress = progress}),
                std::runtime_error);
+}
+
+TEST(Render, EndsWhereProgressSaysSo) {
+  for (const unsigned threads : {1U, 3U}) {
+    int calls = 0;
+    const auto progress = [&](double) { return ++calls < 3; };
+    try {
+      (void)render(Scene{}, PerspectiveCamera{}, {.width = 400, .height = 300},
+                   {.threads = threads, .progress = progress});
+      FAIL() << "was not canceled";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::canceled);
+    }
+    // No call after the one that canceled.
+    EXPECT_EQ(calls, 3);
+  }
+}
+
+TEST(Render, RunsOnTheThreadsOfTheHost) {
+  Scene scene;
+  scene.objects.push_back({.name = "", .shape = Sphere{{0, 0, -5}, 1}});
+  const ImageSize size{.width = 60, .height = 40};
+  const Film own = render(scene, PerspectiveCamera{}, size, {.threads = 1});
+  const auto caller = std::this_thread::get_id();
+  std::set<std::thread::id> drew;
+  std::mutex mutex;
+  unsigned calls = 0;
+  RenderOptions options{.threads = 3};
+  options.run_threads = [&](unsigned threads, const std::function<void()>& work) {
+    ++calls;
+    EXPECT_EQ(threads, 3U);
+    std::vector<std::jthread> host;
+    for (unsigned i = 0; i < threads; ++i) host.emplace_back(work);
+  };
+  options.progress = [&](double) {
+    const std::scoped_lock lock(mutex);
+    drew.insert(std::this_thread::get_id());
+    return true;
+  };
+  const Film hosted = render(scene, PerspectiveCamera{}, size, options);
+  EXPECT_EQ(calls, 1U);
+  EXPECT_FALSE(drew.contains(caller));
+  for (std::uint32_t y = 0; y < size.height; ++y)
+    EXPECT_TRUE(std::ranges::equal(own.row(y), hosted.row(y))) << y;
 }
 
 }  // namespace

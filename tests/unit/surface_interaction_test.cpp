@@ -1,7 +1,6 @@
-#include "scene/surface_interaction.hpp"
-
 #include <microtrace/bvh.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <cmath>
 

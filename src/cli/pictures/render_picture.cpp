@@ -11,7 +11,9 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <utility>
 
 namespace microtrace::cli {
 namespace {
@@ -38,6 +40,15 @@ bool reports_files(const Arguments& arguments) {
          arguments.progress != Progress::json;
 }
 
+/// The program is ended by signals, not by its progress bar.
+std::function<bool(double)> shown_by(const std::function<void(double)>& progress) {
+  if (!progress) return nullptr;
+  return [&progress](double share) {
+    progress(share);
+    return true;
+  };
+}
+
 }  // namespace
 
 std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_t pictures) {
@@ -61,7 +72,7 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence) {
 }
 
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
+                    const PictureFiles& files, Tables& tables, Stopwatch& watch,
                     Warnings& warnings, const std::function<void(double)>& progress) {
   if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
@@ -69,14 +80,13 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   RenderCounts counts;
   RenderOptions options{
       .threads = arguments.threads != 0 ? arguments.threads : default_threads(),
-      .progress = progress,
+      .progress = shown_by(progress),
       .times = &times,
       .integrator = integrator.get(),
       .samples = arguments.sampling.samples,
       .filter = arguments.sampling.filter,
       .seed = arguments.sampling.seed,
       .counts = &counts,
-      .cache = &cache,
       .memory = arguments.load.memory,
       .crop = arguments.crop,
       .aovs = arguments.aovs.exact,
@@ -93,7 +103,13 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                             .time_limit = arguments.sampling.time_limit};
   }
   if (needs_ids_for_sidecar_only(arguments, files)) options.aovs.push_back(Aov::id);
-  Film film = render(scene, camera, size, options);
+  const auto start = std::chrono::steady_clock::now();
+  const PreparedScene prepared(
+      std::move(scene), {.threads = options.threads, .memory = options.memory, .tables = tables});
+  const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
+  tables = prepared.tables();
+  Film film = render(prepared, camera, size, options);
+  times.build += build.count();
   watch.rendered(times);
   apply_display(film, arguments.display);
   if (counts.invalid_samples > 0 && !arguments.quiet) {
@@ -108,10 +124,10 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
         counts.missing_threads, options.threads);
   }
   if (files.samples != nullptr) files.samples->save();
+  const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
-    warnings.report_picture(
-        picture_warning(view_of(film, scene, camera, options), arguments, scene));
-  if (!arguments.sampling.shard) save_picture(arguments, scene, camera, film, files);
+    warnings.report_picture(picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
+  if (!arguments.sampling.shard) save_picture(arguments, drawn, camera, film, files);
   watch.written();
   if (reports_files(arguments)) {
     report_written(
@@ -119,7 +135,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
          .sidecar = files.sidecar},
         film.size(), counts.samples_per_pixel, watch.seconds());
   }
-  watch.report(arguments.statistics, scene, film.size(), counts, options.threads, *options.memory);
+  watch.report(arguments.statistics, drawn, film.size(), counts, options.threads, *options.memory);
 }
 
 }  // namespace microtrace::cli

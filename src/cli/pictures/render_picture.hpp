@@ -29,11 +29,14 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence);
 [[nodiscard]] std::function<void(double)> progress_of(const Arguments& arguments,
                                                       std::uint32_t pictures);
 
+/// Shared by the pictures of a sequence: those of the last one.
+using Tables = std::shared_ptr<const SharedTables>;
+
 /// Renders a scene, to which apply_environment() was applied, and writes the picture and the
 /// sidecar; for a shard only its samples. Warns of a picture that shows nothing before it is
 /// written.
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, RenderCache& cache, Stopwatch& watch,
+                    const PictureFiles& files, Tables& tables, Stopwatch& watch,
                     Warnings& warnings, const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

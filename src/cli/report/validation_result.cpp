@@ -21,6 +21,7 @@ const char* result_of(ErrorKind kind) {
       return "beyond a limit";
     case ErrorKind::internal:
     case ErrorKind::usage:
+    case ErrorKind::canceled:
       break;
   }
   return "not checked";

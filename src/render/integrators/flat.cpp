@@ -44,7 +44,7 @@ Sample composite(const World& world, const Ray& ray, const Hit& first) {
   Depth depth(world, ray);
   while (hit) {
     if (depth.is_new(*hit)) {
-      const Vec4 surface = world.surfaces.look(ray, *hit);
+      const Vec4 surface = world.base_color(ray, *hit);
       const double alpha = surface.w;
       if (alpha > 0) color += through * alpha * DVec3(surface);
       through *= 1 - alpha;

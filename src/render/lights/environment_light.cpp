@@ -1,15 +1,14 @@
 #include "render/lights/environment_light.hpp"
 
-#include "base/memory_account.hpp"
-#include "float_environment.hpp"
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
 #include "scene/revolutions.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include <glm/common.hpp>
@@ -40,36 +39,27 @@ float part_of_turn(double radians) {
   return part < 1 ? part : 0;
 }
 
-/// Null for a uniform environment.
-std::shared_ptr<const MapTables> tables_of(const Environment& environment, RenderCache* cache) {
-  if (std::holds_alternative<Vec3>(environment.content)) return nullptr;
-  RenderCache own;
-  return (cache != nullptr ? *cache : own).tables_of(environment);
+std::shared_ptr<const MapTables> studio_tables() {
+  static const auto tables = std::make_shared<const MapTables>(
+      std::make_shared<const RadianceMap>(make_studio()), MemoryAccount(nullptr));
+  return tables;
 }
 
 }  // namespace
 
-RenderCache::RenderCache() = default;
-RenderCache::~RenderCache() = default;
-
-std::shared_ptr<const MapTables> RenderCache::tables_of(const Environment& environment) {
-  const FloatEnvironment float_environment;
+std::shared_ptr<const MapTables> tables_of(const Environment& environment) {
+  if (std::holds_alternative<Vec3>(environment.content)) return nullptr;
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  if (map == nullptr) return studio_tables();
   constexpr std::uint64_t bytes_of_pixel = 16;
-  if (map != nullptr) {
-    take_memory((*map)->pixels.size() * bytes_of_pixel, "the tables of the environment");
-  }
-  const bool is_same = map != nullptr ? last_ && last_->map == *map : is_studio_;
-  if (!is_same) {
-    last_ = std::make_shared<const MapTables>(
-        map != nullptr ? *map : std::make_shared<const RadianceMap>(make_studio()));
-    is_studio_ = map == nullptr;
-  }
-  return last_;
+  return std::make_shared<const MapTables>(
+      *map, temporary_memory((*map)->pixels.size() * bytes_of_pixel,
+                             "the sampling tables of the environment"));
 }
 
-EnvironmentLight::EnvironmentLight(const Environment& environment, RenderCache* cache)
-    : tables_(tables_of(environment, cache)),
+EnvironmentLight::EnvironmentLight(const Environment& environment,
+                                   std::shared_ptr<const MapTables> tables)
+    : tables_(std::move(tables)),
       intensity_(std::min(environment.intensity, kGreatestIntensity)),
       turn_(part_of_turn(environment.rotation)),
       back_turn_(part_of_turn(-std::numbers::pi - environment.rotation)) {

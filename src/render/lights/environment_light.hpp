@@ -1,31 +1,38 @@
 #pragma once
 /// Environment lights: radiance, and sampling of directions.
 
+#include "base/memory_account.hpp"
 #include "render/lights/map_distribution.hpp"
 
 #include <microtrace/environment.hpp>
 #include <microtrace/math.hpp>
-#include <microtrace/render_cache.hpp>
 
 #include <memory>
 #include <utility>
 
 namespace microtrace {
 
-/// A map and its sampling distribution.
+/// A radiance map with the tables that sample it.
 struct MapTables {
   std::shared_ptr<const RadianceMap> map;
+  MemoryAccount memory;  ///< of the tables, which several scenes may share
   MapDistribution distribution;
 
-  explicit MapTables(std::shared_ptr<const RadianceMap> m)
-      : map(std::move(m)), distribution(*map) {}
+  MapTables(std::shared_ptr<const RadianceMap> m, MemoryAccount account)
+      : map(std::move(m)), memory(std::move(account)), distribution(*map) {}
 };
 
-/// Directions are in world space, of approximately unit length, and point away from the shading
-/// point. Created once per picture; may be used by any number of threads.
+/// The tables of an environment's map; null for a uniform environment.
+[[nodiscard]] std::shared_ptr<const MapTables> tables_of(const Environment& environment);
+
+/// Directions are in world space, of about unit length, and point away from the surface. Any number
+/// of threads may use it.
 class EnvironmentLight {
  public:
-  explicit EnvironmentLight(const Environment& environment, RenderCache* cache = nullptr);
+  explicit EnvironmentLight(const Environment& environment)
+      : EnvironmentLight(environment, tables_of(environment)) {}
+  /// `tables` are those of the environment.
+  EnvironmentLight(const Environment& environment, std::shared_ptr<const MapTables> tables);
 
   /// Linear Rec. 709, in the environment's unit: W / (sr m^2) or cd / m^2.
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;

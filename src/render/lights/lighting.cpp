@@ -1,56 +1,18 @@
 #include "render/lights/lighting.hpp"
 
-#include "base/memory_account.hpp"
-#include "render/lights/area_light.hpp"
-#include "render/lights/punctual.hpp"
-#include "render/luminance.hpp"
+#include "render/bsdf/frame.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <utility>
 
 namespace microtrace {
-namespace {
 
-Vec3 corner_weights(const Vec2& u) {
-  const Vec2 w = sampling::triangle_weights(u);
-  return {w.x, w.y, std::max(1 - w.x - w.y, 0.0F)};
-}
-
-double area_of(const Triangle& t) {
-  const DVec3 n = glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
-  return std::sqrt(glm::dot(n, n)) / 2;
-}
-
-/// For each emitter: its entry, its bounds and its tree nodes, including unused capacity.
-constexpr std::uint64_t kBytesOfEmitter = 260;
-
-void take_memory_for_emitters(std::uint64_t count) {
-  take_memory(count * kBytesOfEmitter, "the lights of the scene");
-}
-
-}  // namespace
-
-Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cache)
-    : scene_(scene), shading_(shading) {
-  if (scene.environment) {
-    environment_.emplace(*scene.environment, cache);
-  } else if (scene.lights.empty()) {
-    environment_.emplace(Environment{.content = Studio{}}, cache);
-  }
-  std::vector<LightBounds> bounds;
-  add_surfaces(bounds);
-  add_lights(bounds);
-  if (!bounds.empty()) tree_.emplace(bounds);
+Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment,
+                   bool is_seen)
+    : emitters_(emitters), environment_(std::move(environment)), is_seen_(is_seen) {
   if (environment_)
     environment_light_ = double{environment_->sampled_luminance() / bsdf::kInversePi};
-  for (const std::uint32_t i : far_lights_) {
-    if (const auto light = of_punctual(scene.lights[i].light, Vec3(0)))
-      far_light_ += luminance(light->light);
-  }
 }
 
 // In proportion to the estimated contributions, with a minimum probability. A uniform environment
@@ -58,132 +20,17 @@ Lighting::Lighting(const Scene& scene, const Shading& shading, RenderCache* cach
 // lights contribute little. Its estimate is reduced, because indoors little of it may arrive.
 Lighting::Probabilities Lighting::probabilities(const LightSampleContext& context) const {
   constexpr float least = 0.1F;
-  const double tree = tree_ ? tree_->importance(context.p, context.n) : 0;
-  const double sum = environment_light_ + far_light_ + tree;
+  const double near = emitters_.near_light(context);
+  const double sum = environment_light_ + emitters_.far_light() + near;
   const auto part = [&](bool is_there, double light) {
     return is_there ? std::max(sum > 0 ? static_cast<float>(light / sum) : 0, least) : 0;
   };
   const Probabilities raw{.environment = part(environment_light_ > 0, environment_light_),
-                          .far = part(!far_lights_.empty(), far_light_),
-                          .tree = part(tree_.has_value(), tree)};
-  const float all = raw.environment + raw.far + raw.tree;
+                          .far = part(emitters_.has_far(), emitters_.far_light()),
+                          .near = part(emitters_.has_near(), near)};
+  const float all = raw.environment + raw.far + raw.near;
   if (all == 0) return {};
-  return {.environment = raw.environment / all, .far = raw.far / all, .tree = raw.tree / all};
-}
-
-void Lighting::add_surfaces(std::vector<LightBounds>& bounds) {
-  PrimitiveId id = 0;
-  for (const Object& object : scene_.objects) {
-    const auto count = static_cast<PrimitiveId>(primitive_count(object.shape));
-    const Material& material = material_of(scene_, object);
-    if (material.emissive != Vec3(0) && !material.unlit) {
-      take_memory_for_emitters(count);
-      if (const auto* mesh = std::get_if<Mesh>(&object.shape)) {
-        for (PrimitiveId i = 0; i < count; ++i) add_triangle(id + i, triangle_of(*mesh, i), bounds);
-      } else {
-        add_shape(id, object.shape, bounds);
-      }
-    }
-    id += count;
-  }
-  surfaces_ = emitters_.size();
-}
-
-void Lighting::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
-  const double area = area_of(t);
-  // Filtered over approximately the triangle.
-  const auto width = static_cast<float>(std::sqrt(area) * 0.75);
-  const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, width);
-  const double power = area * luminance(DVec3(shading_.emission(middle)));
-  if (!(power > 0)) return;
-  emitters_.push_back({.id = id, .area = area});
-  bounds.push_back({.low = glm::min(t.a, glm::min(t.b, t.c)),
-                    .high = glm::max(t.a, glm::max(t.b, t.c)),
-                    .power = power,
-                    .cone = {.axis = middle.at.n},
-                    .two_sided = has_back(*middle.look->material)});
-}
-
-void Lighting::add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBounds>& bounds) {
-  std::optional<LightBounds> light = shape_bounds(shape);
-  if (!light) return;
-  const ShadingPoint point = shading_.point_on(id, Vec3(0), true, 0);
-  light->power *= luminance(DVec3(shading_.emission(point)));
-  if (!(light->power > 0)) return;
-  light->two_sided = has_back(*point.look->material);
-  emitters_.push_back({.id = id, .shape = &shape});
-  bounds.push_back(*light);
-}
-
-void Lighting::add_lights(std::vector<LightBounds>& bounds) {
-  take_memory_for_emitters(scene_.lights.size());
-  for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
-    if (const auto light = punctual_bounds(scene_.lights[i].light)) {
-      if (!(light->power > 0)) continue;
-      emitters_.push_back({.light = i});
-      bounds.push_back(*light);
-    } else {
-      far_lights_.push_back(i);
-    }
-  }
-}
-
-std::optional<FoundLight> Lighting::of_triangle(const Emitter& emitter, const Vec3& p,
-                                                const Vec2& u) const {
-  const Vec3 weights = corner_weights(u);
-  ShadingPoint point = shading_.point_on(emitter.id, weights, true, 0);
-  const DVec3 to_light = DVec3(point.at.p) - DVec3(p);
-  const double square = glm::dot(to_light, to_light);
-  if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
-  const Vec3 wi(to_light / std::sqrt(square));
-  const float cosine = -glm::dot(wi, point.at.n);
-  point.at.front = cosine > 0;
-  if (cosine == 0) return std::nullopt;
-  return of_point(point, emitter.id, to_light, wi,
-                  square / (emitter.area * double{std::abs(cosine)}));
-}
-
-std::optional<FoundLight> Lighting::of_shape(const Emitter& emitter, const Vec3& p,
-                                             const Vec2& u) const {
-  const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
-  if (!sample) return std::nullopt;
-  const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
-  return of_point(point, emitter.id, sample->to_light, sample->wi, sample->pdf);
-}
-
-std::optional<FoundLight> Lighting::of_point(const ShadingPoint& point, PrimitiveId id,
-                                             const DVec3& to_light, const Vec3& wi,
-                                             double pdf) const {
-  const float coverage = shading_.coverage(point, false);
-  const Vec3 emission = shading_.emission(point);
-  if (coverage == 0 || emission == Vec3(0)) return std::nullopt;
-  return FoundLight{.to_light = to_light,
-                    .wi = wi,
-                    .light = DVec3(emission) * (double{coverage} / pdf),
-                    .pdf = pdf,
-                    .target = id};
-}
-
-std::optional<LightSample> Lighting::of_far(const LightSampleContext& context, float choice,
-                                            double probability) const {
-  const auto count = static_cast<float>(far_lights_.size());
-  const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
-  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, context.p);
-  if (!found) return std::nullopt;
-  return found->with_probability(probability / double{count});
-}
-
-std::optional<LightSample> Lighting::of_tree(const LightSampleContext& context, const Vec2& u,
-                                             float choice, double probability) const {
-  const std::optional<LightTree::Choice> chosen = tree_->choose(context.p, context.n, choice);
-  if (!chosen) return std::nullopt;
-  const Emitter& emitter = emitters_[chosen->light];
-  const std::optional<FoundLight> found =
-      emitter.light != kNone     ? of_punctual(scene_.lights[emitter.light].light, context.p)
-      : emitter.shape != nullptr ? of_shape(emitter, context.p, u)
-                                 : of_triangle(emitter, context.p, u);
-  if (!found) return std::nullopt;
-  return found->with_probability(probability * chosen->probability);
+  return {.environment = raw.environment / all, .far = raw.far / all, .near = raw.near / all};
 }
 
 std::optional<LightSample> Lighting::sample(const LightSampleContext& context, const Vec2& u,
@@ -197,12 +44,12 @@ std::optional<LightSample> Lighting::sample(const LightSampleContext& context, c
         .to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
   }
   choice -= probability.environment;
-  if (probability.tree == 0 || choice < probability.far) {
+  if (probability.near == 0 || choice < probability.far) {
     if (probability.far == 0) return std::nullopt;
-    return of_far(context, choice / probability.far, double{probability.far});
+    return emitters_.sample_far(context, choice / probability.far, double{probability.far});
   }
-  return of_tree(context, u, sampling::reused(choice, probability.far, probability.tree),
-                 double{probability.tree});
+  return emitters_.sample_near(context, u, sampling::reused(choice, probability.far, probability.near),
+                 double{probability.near});
 }
 
 EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,
@@ -215,16 +62,7 @@ EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context
 
 float Lighting::emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
                             float cosine) const {
-  const auto end = emitters_.begin() + static_cast<std::ptrdiff_t>(surfaces_);
-  const auto place = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
-  if (place == end || place->id != id || !(cosine > 0)) return 0;
-  const auto light = static_cast<std::size_t>(place - emitters_.begin());
-  const double length = distance;
-  const double pdf = place->shape != nullptr ? shape_pdf(*place->shape, context.p, distance, cosine)
-                                             : length * length / (place->area * double{cosine});
-  const double probability =
-      double{probabilities(context).tree} * tree_->probability(light, context.p, context.n);
-  return probability > 0 ? limited_pdf(pdf * probability) : 0;
+  return emitters_.pdf(id, context, distance, cosine, double{probabilities(context).near});
 }
 
 }  // namespace microtrace

@@ -41,8 +41,8 @@ float dispersed(float ior, float dispersion, int channel) {
 
 }  // namespace
 
-Shading::Shading(const Scene& scene, const Primitives& primitives, TexturePyramids& pyramids)
-    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, pyramids)) {
+Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables)
+    : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, tables)) {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
     look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&

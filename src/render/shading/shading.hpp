@@ -75,13 +75,14 @@ struct ShadingPoint {
   return m.double_sided || encloses_medium(m);
 }
 
+class SharedTables;
 class TextureMaps;
 
 /// Created once per picture; may be used by any number of threads.
 class Shading {
  public:
   /// All arguments must outlive this object.
-  Shading(const Scene& scene, const Primitives& primitives, TexturePyramids& pyramids);
+  Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables);
   ~Shading();
 
   /// `hit` must be a hit of `ray`. The width is set to 0.

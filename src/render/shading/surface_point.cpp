@@ -1,6 +1,6 @@
 #include "render/shading/surface_point.hpp"
 
-#include "scene/surface_interaction.hpp"
+#include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
 #include <cmath>

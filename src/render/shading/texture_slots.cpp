@@ -22,9 +22,13 @@ TextureSlot TextureMaps::slot(const std::optional<TextureUse>& use, ColorEncodin
   if (!use) return {};
   const Texture& texture = scene_.textures[use->texture];
   if (!texture.image || !scene_.images[*texture.image]) return {};
-  const auto made = maps_.try_emplace({use->texture, encoding},
-                                      pyramids_.of(*texture.image, encoding), texture.sampler);
-  return {.map = &made.first->second, .use = &*use};
+  const std::pair key(use->texture, encoding);
+  auto known = maps_.find(key);
+  if (known == maps_.end()) {
+    TextureMap map = tables_.texture_map(scene_.images[*texture.image], texture.sampler, encoding);
+    known = maps_.emplace(key, std::move(map)).first;
+  }
+  return {.map = &known->second, .use = &*use};
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #pragma once
 /// The textures of materials, ready for lookup.
 
+#include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
 #include "render/texture_map.hpp"
 
@@ -17,7 +18,7 @@ namespace microtrace {
 class TextureMaps {
  public:
   /// Both must outlive this object.
-  TextureMaps(const Scene& scene, TexturePyramids& pyramids) : scene_(scene), pyramids_(pyramids) {}
+  TextureMaps(const Scene& scene, SharedTables& tables) : scene_(scene), tables_(tables) {}
 
   /// All slots of a material. The material and this object must outlive the result.
   [[nodiscard]] TexturedMaterial slots(const Material& material);
@@ -26,7 +27,7 @@ class TextureMaps {
   [[nodiscard]] TextureSlot slot(const std::optional<TextureUse>& use, ColorEncoding encoding);
 
   const Scene& scene_;
-  TexturePyramids& pyramids_;
+  SharedTables& tables_;
   std::map<std::pair<std::uint32_t, ColorEncoding>, TextureMap> maps_;
 };
 

@@ -1,8 +1,4 @@
-#include "render/recentre.hpp"
-
-#include "base/memory_account.hpp"
-#include "scene/mesh_memory.hpp"
-#include "scene/translation_to_origin.hpp"
+#include "render/prepared/recentered.hpp"
 
 #include <algorithm>
 #include <type_traits>
@@ -41,32 +37,42 @@ bool for_each_point_of_shapes(AnyScene& scene, const F& f) {
 
 }  // namespace
 
-std::optional<PlacedScene> recentred(const Scene& scene, const Camera& camera) {
+std::optional<PointBounds> bounds_of_points(const Scene& scene) {
   PointBounds bounds;
-  std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
   if (!for_each_point_of_shapes(scene, [&](const Vec3& p) { bounds.add(DVec3(p)); }))
     return std::nullopt;
-  const DVec3 way = translation_to_origin(bounds);
-  if (way == DVec3(0)) return std::nullopt;
+  return bounds;
+}
 
-  take_memory(memory_of(scene), "the scene next to the origin");
-  PlacedScene moved{.scene = scene, .camera = camera};
+DVec3 translation_to_origin(const PointBounds& points, const Camera& camera) {
+  PointBounds bounds = points;
+  std::visit([&](const auto& c) { bounds.add(c.pose.position); }, camera);
+  return translation_to_origin(bounds);
+}
+
+std::optional<Scene> moved(const Scene& scene, const DVec3& by) {
+  Scene result = scene;
   bool is_exact = true;
-  for_each_point_of_shapes(moved.scene, [&](Vec3& p) {
-    const Vec3 there(DVec3(p) + way);
-    is_exact &= DVec3(there) - way == DVec3(p);
+  for_each_point_of_shapes(result, [&](Vec3& p) {
+    const Vec3 there(DVec3(p) + by);
+    is_exact &= DVec3(there) - by == DVec3(p);
     p = there;
   });
   if (!is_exact) return std::nullopt;
-  std::visit([&](auto& c) { c.pose.position += way; }, moved.camera);
-  for (NamedLight& light : moved.scene.lights) {
+  for (NamedLight& light : result.lights) {
     std::visit(
         [&](auto& l) {
-          if constexpr (requires { l.position; }) l.position += way;
+          if constexpr (requires { l.position; }) l.position += by;
         },
         light.light);
   }
-  return moved;
+  return result;
+}
+
+Camera moved(const Camera& camera, const DVec3& by) {
+  Camera result = camera;
+  std::visit([&](auto& c) { c.pose.position += by; }, result);
+  return result;
 }
 
 }  // namespace microtrace

@@ -1,0 +1,30 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+namespace microtrace {
+
+/// A value made on first use. Any number of threads may ask for it; one of them makes it.
+template <class T>
+class Lazy {
+ public:
+  /// make() returns a std::unique_ptr<T>. If it throws, the next call tries again.
+  template <class Make>
+  const T& get(const Make& make) const {
+    if (const T* made = value_.load(std::memory_order_acquire)) return *made;
+    const std::scoped_lock lock(mutex_);
+    if (!owner_) {
+      owner_ = make();
+      value_.store(owner_.get(), std::memory_order_release);
+    }
+    return *owner_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::unique_ptr<const T> owner_;
+  mutable std::atomic<const T*> value_{nullptr};
+};
+
+}  // namespace microtrace

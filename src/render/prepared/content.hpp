@@ -1,0 +1,78 @@
+#pragma once
+/// What is behind a PreparedScene.
+
+#include "base/lazy.hpp"
+#include "base/memory_account.hpp"
+#include "render/lights/lighting.hpp"
+#include "render/prepared/recentered.hpp"
+#include "render/prepared/shared_tables.hpp"
+#include "render/shading/shading.hpp"
+#include "render/surfaces.hpp"
+
+#include <microtrace/bvh.hpp>
+#include <microtrace/camera.hpp>
+#include <microtrace/prepared_scene.hpp>
+#include <microtrace/scene.hpp>
+#include <microtrace/segments.hpp>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace microtrace {
+
+/// All parts are made on first use.
+class PreparedScene::Content {
+ public:
+  /// The account has the memory of the scene, if that is to be counted.
+  Content(std::shared_ptr<const Scene> scene, const BvhOptions& options,
+          std::shared_ptr<SharedTables> tables, MemoryAccount account);
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const Bvh& bvh() const;
+  [[nodiscard]] const Surfaces& surfaces() const;
+  [[nodiscard]] const Shading& shading() const;
+  [[nodiscard]] const Emitters& emitters() const;
+  /// With that environment, if there is one, in place of the scene's. A scene with neither lights
+  /// nor an environment gets the studio.
+  [[nodiscard]] Lighting lighting(const std::optional<Environment>& in_place) const;
+  [[nodiscard]] const std::shared_ptr<SharedTables>& tables() const { return tables_; }
+
+  /// The same scene and the camera next to the origin, for integrators that are random; nothing if
+  /// they are near it already, or would have to be rounded.
+  struct Recentered {
+    std::shared_ptr<const Content> content;
+    Camera camera;
+  };
+  [[nodiscard]] std::optional<Recentered> recentered(const Camera& camera) const;
+
+  /// The scene with its points and lines widened for a camera.
+  [[nodiscard]] std::shared_ptr<const Content> widened(const Camera& camera, ImageSize size) const;
+
+ private:
+  /// A T of those arguments, its memory on this scene's account.
+  template <class T, class... Arguments>
+  [[nodiscard]] std::unique_ptr<T> make(Arguments&&... arguments) const;
+
+  std::shared_ptr<const Scene> scene_;
+  BvhOptions options_;
+  std::shared_ptr<SharedTables> tables_;
+  mutable std::mutex memory_mutex_;
+  mutable MemoryAccount memory_;
+  Lazy<Bvh> bvh_;
+  Lazy<Surfaces> surfaces_;
+  Lazy<Shading> shading_;
+  Lazy<Emitters> emitters_;
+  Lazy<std::optional<PointBounds>> bounds_;  // nothing: not all shapes can be moved
+  // The last one that was asked for: cameras of one scene are mostly near each other.
+  mutable std::mutex moved_mutex_;
+  mutable DVec3 moved_by_{0};
+  mutable std::shared_ptr<const Content> moved_;
+};
+
+/// A scene that the caller keeps alive and unchanged.
+[[nodiscard]] inline std::shared_ptr<const Scene> borrowed(const Scene& scene) {
+  return {std::shared_ptr<void>(), &scene};
+}
+
+}  // namespace microtrace

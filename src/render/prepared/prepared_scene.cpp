@@ -1,0 +1,97 @@
+#include "render/prepared/content.hpp"
+#include "scene/check_indices.hpp"
+
+#include <microtrace/prepared_scene.hpp>
+#include <microtrace/threads.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+std::shared_ptr<SharedTables> tables_for(const Scene& scene, const SharedTables* previous) {
+  return previous == nullptr ? std::make_shared<SharedTables>()
+                             : std::make_shared<SharedTables>(*previous, scene);
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(std::shared_ptr<const Content> content)
+    : content_(std::move(content)) {}
+
+PreparedScene::PreparedScene(Scene scene, const PrepareOptions& options)
+    : PreparedScene(std::make_shared<const Scene>(std::move(scene)), options) {}
+
+PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, const PrepareOptions& options) {
+  check_indices(*scene);
+  auto tables = tables_for(*scene, options.tables.get());
+  content_ = std::make_shared<const Content>(
+      std::move(scene),
+      BvhOptions{.fast_build = options.fast_build,
+                 .threads = options.threads != 0 ? options.threads : default_threads()},
+      std::move(tables), MemoryAccount(options.memory));
+  (void)content_->bvh();
+}
+
+const Scene& PreparedScene::scene() const {
+  return content_->scene();
+}
+
+const Bvh& PreparedScene::bvh() const {
+  return content_->bvh();
+}
+
+std::shared_ptr<const SharedTables> PreparedScene::tables() const {
+  return content_->tables();
+}
+
+Ray PreparedScene::in_scene(const Ray& ray) const {
+  const DVec3& origin = scene().origin;
+  if (origin == DVec3(0)) return ray;
+  Ray result = ray;
+  result.o = Vec3(DVec3(ray.o) - origin);
+  return result;
+}
+
+std::optional<Hit> PreparedScene::intersect(const Ray& ray) const {
+  return bvh().intersect(in_scene(ray));
+}
+
+std::optional<Hit> PreparedScene::next(const Ray& ray, const Hit& after) const {
+  return bvh().next(in_scene(ray), after);
+}
+
+bool PreparedScene::occluded(const Ray& ray) const {
+  return bvh().occluded(in_scene(ray));
+}
+
+namespace {
+
+/// f(rays in the scene's coordinates).
+template <class F>
+void with_rays_in_scene(const PreparedScene& scene, std::span<const Ray> rays, const F& f) {
+  if (scene.scene().origin == DVec3(0)) return f(rays);
+  std::vector<Ray> own;
+  own.reserve(rays.size());
+  for (const Ray& ray : rays) own.push_back(scene.in_scene(ray));
+  f(own);
+}
+
+}  // namespace
+
+void PreparedScene::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+  with_rays_in_scene(*this, rays, [&](std::span<const Ray> own) { bvh().intersect(own, hits); });
+}
+
+void PreparedScene::occluded(std::span<const Ray> rays, std::span<bool> results) const {
+  with_rays_in_scene(*this, rays, [&](std::span<const Ray> own) { bvh().occluded(own, results); });
+}
+
+SurfaceInteraction PreparedScene::surface(const Ray& ray, const Hit& hit) const {
+  SurfaceInteraction at = interact(bvh().primitives(), in_scene(ray), hit);
+  at.p += scene().origin;
+  return at;
+}
+
+}  // namespace microtrace

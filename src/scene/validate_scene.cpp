@@ -1,0 +1,97 @@
+#include "scene/check_indices.hpp"
+#include "scene/material_textures.hpp"
+#include "scene/validate.hpp"
+
+#include <microtrace/validate.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <variant>
+
+namespace microtrace {
+namespace {
+
+[[noreturn]] void refuse(const std::string& pointer, const BrokenRule& rule) {
+  Diagnostic where;
+  where.pointer = pointer;
+  if (!rule.field.empty()) where.pointer.append("/").append(rule.field);
+  where.message = rule.message;
+  throw Error(rule.kind, where);
+}
+
+std::string item(const char* array, std::size_t index) {
+  return std::string("/").append(array).append("/").append(std::to_string(index));
+}
+
+void check_index(const std::string& pointer, const char* field, std::size_t index,
+                 std::size_t size) {
+  if (index < size) return;
+  refuse(pointer, {.field = field,
+                   .message = "index " + std::to_string(index) + " is out of range: there are " +
+                              std::to_string(size)});
+}
+
+void check_image(const std::string& pointer, const Image& image) {
+  const std::size_t samples = std::visit([](const auto& s) { return s.size(); }, image.samples);
+  const bool is_right = image.width >= 1 && image.height >= 1 && image.channels >= 1 &&
+                        image.channels <= 4 &&
+                        std::size_t{image.width} * image.height <= samples / image.channels &&
+                        std::size_t{image.width} * image.height * image.channels == samples;
+  if (is_right) return;
+  refuse(pointer, {.field = "samples",
+                   .message = "must hold width x height x channels numbers, with 1 to 4 channels"});
+}
+
+void check_environment(const Environment& environment) {
+  const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
+  if (map == nullptr) return;
+  const bool is_right = *map != nullptr && (*map)->width >= 1 && (*map)->height >= 1 &&
+                        (*map)->width <= max_image_side && (*map)->height <= max_image_side &&
+                        (*map)->pixels.size() == std::size_t{(*map)->width} * (*map)->height;
+  if (!is_right)
+    refuse("/environment", {.field = "content",
+                            .message = "must be a map of width x height pixels, each side 1 to " +
+                                       std::to_string(max_image_side)});
+}
+
+}  // namespace
+
+void check_indices(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (object.material)
+      check_index(item("objects", i), "material", *object.material, scene.materials.size());
+    const auto* mesh = std::get_if<Mesh>(&object.shape);
+    if (mesh == nullptr) continue;
+    if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    for_each_texture(scene.materials[i], [&](const TextureUse& use, ColorEncoding) {
+      check_index(item("materials", i), "texture", use.texture, scene.textures.size());
+    });
+  }
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    if (scene.textures[i].image)
+      check_index(item("textures", i), "image", *scene.textures[i].image, scene.images.size());
+  }
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    if (scene.images[i]) check_image(item("images", i), *scene.images[i]);
+  }
+  if (scene.environment) check_environment(*scene.environment);
+}
+
+void validate(const Scene& scene) {
+  check_indices(scene);
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (const auto broken = validate(scene.objects[i].shape))
+      refuse(item("objects", i) + "/shape", *broken);
+  }
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    if (const auto broken = validate(scene.cameras[i].camera))
+      refuse(item("cameras", i) + "/camera", *broken);
+  }
+}
+
+}  // namespace microtrace
