@@ -66,7 +66,7 @@ class MICROTRACE_EXPORT PreparedScene {
   [[nodiscard]] Ray in_scene(const Ray& ray) const;
 
   /// For the library.
-  class Content;
+  class MICROTRACE_HIDDEN Content;
   explicit PreparedScene(std::shared_ptr<const Content> content);
   [[nodiscard]] const Content& content() const { return *content_; }
 

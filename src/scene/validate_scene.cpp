@@ -48,12 +48,12 @@ void check_environment(const Environment& environment) {
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
   if (map == nullptr) return;
   const bool is_right = *map != nullptr && (*map)->width >= 1 && (*map)->height >= 1 &&
-                        (*map)->width <= max_image_side && (*map)->height <= max_image_side &&
+                        (*map)->width <= kMaxImageSide && (*map)->height <= kMaxImageSide &&
                         (*map)->pixels.size() == std::size_t{(*map)->width} * (*map)->height;
   if (!is_right)
     refuse("/environment", {.field = "content",
                             .message = "must be a map of width x height pixels, each side 1 to " +
-                                       std::to_string(max_image_side)});
+                                       std::to_string(kMaxImageSide)});
 }
 
 }  // namespace

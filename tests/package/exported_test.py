@@ -16,6 +16,8 @@ symbols = [re.sub(r" [A-Za-z] [0-9a-f ]*$", "", line) for line in listed.splitli
 headers = "\n".join(path.read_text() for path in Path(sys.argv[2]).rglob("*.hpp"))
 headers = re.sub(r"//.*|^#.*", "", headers, flags=re.MULTILINE)
 classes = set(re.findall(r"\b(?:class|struct)\s+MICROTRACE_EXPORT\s+(\w+)", headers))
+c_functions = {name for path in Path(sys.argv[2]).rglob("*.h")
+               for name in re.findall(r"^MT_API\b[^;()]*?(\w+)\(", path.read_text(), flags=re.MULTILINE)}
 functions = set(re.findall(r"MICROTRACE_EXPORT\s+[^;()]*?(\w+)\(", headers)) - classes
 
 
@@ -29,11 +31,12 @@ def is_declared(symbol):
     return name[1] in classes and not is_nested or not name[2] and name[1] in functions
 
 
-leaked = [symbol for symbol in symbols if not is_declared(symbol)]
-missing = [name for name in functions | classes if not any(re.search(rf"\b{name}\b", symbol) for symbol in symbols)]
+leaked = [symbol for symbol in symbols if symbol not in c_functions and not is_declared(symbol)]
+missing = [*(c_functions - set(symbols)),
+           *(name for name in functions | classes if not any(re.search(rf"\b{name}\b", symbol) for symbol in symbols))]
 for symbol in leaked:
     print("exported without a declaration:", symbol)
 for name in missing:
     print("declared but not exported:", name)
-print(len(symbols), "symbols exported,", len(functions), "functions and", len(classes), "classes declared")
+print(len(symbols), "symbols exported,", len(functions) + len(c_functions), "functions and", len(classes), "classes declared")
 sys.exit(bool(leaked or missing or not symbols))

@@ -72,8 +72,8 @@ void check_outputs(const Arguments& arguments, const Sequence& sequence) {
 }
 
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, Tables& tables, Stopwatch& watch,
-                    Warnings& warnings, const std::function<void(double)>& progress) {
+                    const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
+                    const std::function<void(double)>& progress) {
   if (arguments.verbose) print_scene_summary(arguments, scene, size);
   const std::unique_ptr<Integrator> integrator = make_integrator(*arguments.integrator);
   RenderTimes times;
@@ -126,7 +126,8 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   if (files.samples != nullptr) files.samples->save();
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
-    warnings.report_picture(picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
+    warnings.report_picture(
+        picture_warning(view_of(film, drawn, camera, options), arguments, drawn));
   if (!arguments.sampling.shard) save_picture(arguments, drawn, camera, film, files);
   watch.written();
   if (reports_files(arguments)) {

@@ -36,7 +36,7 @@ using Tables = std::shared_ptr<const SharedTables>;
 /// sidecar; for a shard only its samples. Warns of a picture that shows nothing before it is
 /// written.
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
-                    const PictureFiles& files, Tables& tables, Stopwatch& watch,
-                    Warnings& warnings, const std::function<void(double)>& progress);
+                    const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
+                    const std::function<void(double)>& progress);
 
 }  // namespace microtrace::cli

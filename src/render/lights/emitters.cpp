@@ -139,7 +139,7 @@ std::optional<FoundLight> Emitters::of_point(const ShadingPoint& point, Primitiv
 }
 
 std::optional<LightSample> Emitters::sample_far(const LightSampleContext& context, float choice,
-                                            double probability) const {
+                                                double probability) const {
   const auto count = static_cast<float>(far_lights_.size());
   const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
   const auto found = of_punctual(scene_.lights[far_lights_[i]].light, context.p);
@@ -148,7 +148,7 @@ std::optional<LightSample> Emitters::sample_far(const LightSampleContext& contex
 }
 
 std::optional<LightSample> Emitters::sample_near(const LightSampleContext& context, const Vec2& u,
-                                             float choice, double probability) const {
+                                                 float choice, double probability) const {
   const std::optional<LightTree::Choice> chosen = tree_->choose(context.p, context.n, choice);
   if (!chosen) return std::nullopt;
   const Emitter& emitter = emitters_[chosen->light];

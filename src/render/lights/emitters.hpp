@@ -41,16 +41,17 @@ class Emitters {
   [[nodiscard]] double far_light() const { return far_light_; }
 
   /// A sample of the far lights; `choice` in [0, 1), `probability` that of sampling them at all.
-  [[nodiscard]] std::optional<LightSample> sample_far(const LightSampleContext& context, float choice,
-                                                      double probability) const;
+  [[nodiscard]] std::optional<LightSample> sample_far(const LightSampleContext& context,
+                                                      float choice, double probability) const;
   /// The same of the near lights: `choice` selects one of them, u a point on it.
-  [[nodiscard]] std::optional<LightSample> sample_near(const LightSampleContext& context, const Vec2& u,
-                                                       float choice, double probability) const;
+  [[nodiscard]] std::optional<LightSample> sample_near(const LightSampleContext& context,
+                                                       const Vec2& u, float choice,
+                                                       double probability) const;
   /// The pdf by solid angle with which sample_near() yields a point of an emissive surface, at that
   /// distance from the point and under that cosine of the angle to its normal; 0 for other
   /// surfaces.
-  [[nodiscard]] float pdf(PrimitiveId id, const LightSampleContext& context, float distance, float cosine,
-                          double probability) const;
+  [[nodiscard]] float pdf(PrimitiveId id, const LightSampleContext& context, float distance,
+                          float cosine, double probability) const;
 
  private:
   static constexpr std::uint32_t kNone = ~0U;

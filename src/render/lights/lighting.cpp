@@ -48,8 +48,9 @@ std::optional<LightSample> Lighting::sample(const LightSampleContext& context, c
     if (probability.far == 0) return std::nullopt;
     return emitters_.sample_far(context, choice / probability.far, double{probability.far});
   }
-  return emitters_.sample_near(context, u, sampling::reused(choice, probability.far, probability.near),
-                 double{probability.near});
+  return emitters_.sample_near(context, u,
+                               sampling::reused(choice, probability.far, probability.near),
+                               double{probability.near});
 }
 
 EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,

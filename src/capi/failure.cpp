@@ -1,0 +1,49 @@
+#include "capi/handles.hpp"
+
+#include <microtrace/version.h>
+
+#include <exception>
+#include <new>
+
+namespace microtrace::capi {
+namespace {
+
+thread_local std::string message;
+
+/// Without a message if there is no memory for it.
+void keep(const char* text) noexcept {
+  try {
+    message = text;
+  } catch (...) {
+    message.clear();
+  }
+}
+
+}  // namespace
+
+mt_status failed() noexcept {
+  try {
+    throw;
+  } catch (const Error& error) {
+    keep(error.what());
+    return static_cast<mt_status>(error.kind());
+  } catch (const std::bad_alloc&) {
+    keep("out of memory");
+    return MT_LIMIT;
+  } catch (const std::exception& error) {
+    keep(error.what());
+  } catch (...) {
+    keep("an exception of unknown type");
+  }
+  return MT_INTERNAL;
+}
+
+}  // namespace microtrace::capi
+
+const char* mt_last_error() {
+  return microtrace::capi::message.c_str();
+}
+
+const char* mt_version() {
+  return MICROTRACE_VERSION_TEXT;
+}

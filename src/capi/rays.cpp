@@ -1,0 +1,168 @@
+#include "base/start_threads.hpp"
+#include "capi/handles.hpp"
+#include "float_environment.hpp"
+
+#include <microtrace/threads.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <exception>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+#include <vector>
+
+namespace microtrace::capi {
+namespace {
+
+/// Rays that a thread takes at a time.
+constexpr std::size_t kBlock = 8192;
+
+Ray ray_of(const mt_ray& ray) {
+  const float* o = ray.origin;
+  const float* d = ray.direction;
+  return {.o = {o[0], o[1], o[2]}, .t_min = ray.t_min, .d = {d[0], d[1], d[2]}, .t_max = ray.t_max};
+}
+
+mt_hit hit_of(const std::optional<Hit>& hit) {
+  if (!hit) return {.primitive = MT_NO_HIT, .t = std::numeric_limits<float>::infinity()};
+  return {.primitive = hit->id, .t = hit->t};
+}
+
+/// f(first, last) for blocks that cover [0, count), on several threads.
+template <class F>
+void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    const FloatEnvironment environment;
+    try {
+      for (std::size_t first; (first = next.fetch_add(kBlock)) < count;)
+        f(first, std::min(first + kBlock, count));
+    } catch (...) {
+      next = count;
+      const std::scoped_lock lock(mutex);
+      failure = std::current_exception();
+    }
+  };
+  {
+    const std::size_t blocks = (count + kBlock - 1) / kBlock;
+    const std::size_t wanted =
+        std::min<std::size_t>(threads != 0 ? threads : default_threads(), blocks);
+    const auto started = start_threads(wanted > 1 ? static_cast<unsigned>(wanted - 1) : 0, work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Checks the arguments of a function on rays, then calls f(scene, i) for each.
+template <class F>
+mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
+                       std::uint32_t threads, const void* results, const F& f) {
+  return guarded([&] {
+    require(scene, "scene");
+    if (count == 0) return;
+    require(rays, "rays");
+    require(results, "the array of results");
+    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) f(scene->prepared, i);
+    });
+  });
+}
+
+/// The same in blocks: f(scene, rays, first).
+template <class F>
+mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t count,
+                         std::uint32_t threads, const void* results, const F& f) {
+  return guarded([&] {
+    require(scene, "scene");
+    if (count == 0) return;
+    require(rays, "rays");
+    require(results, "the array of results");
+    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
+      std::vector<Ray> own;
+      own.reserve(last - first);
+      for (std::size_t i = first; i < last; ++i) own.push_back(ray_of(rays[i]));
+      f(scene->prepared, std::span<const Ray>(own), first);
+    });
+  });
+}
+
+/// The caller's hit, which must be one of that ray.
+Hit known_hit(const PreparedScene& scene, const mt_hit& hit) {
+  if (hit.primitive < scene.bvh().primitives().count()) return {.id = hit.primitive, .t = hit.t};
+  throw Error(
+      ErrorKind::usage, "",
+      "a hit names primitive " + std::to_string(hit.primitive) + ", which the scene does not have");
+}
+
+mt_surface surface_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+  const SurfaceInteraction at = scene.surface(ray, hit);
+  mt_surface result{};
+  const DVec3 w = at.triangle ? at.triangle->barycentrics : DVec3(0);
+  for (int k = 0; k < 3; ++k) {
+    result.position[k] = at.p[k];
+    result.normal[k] = at.n[k];
+    result.shading_normal[k] = at.ns[k];
+    result.barycentrics[k] = w[k];
+  }
+  const DVec2 uv = at.uv(0).value_or(DVec2(0));
+  result.uv[0] = uv.x;
+  result.uv[1] = uv.y;
+  result.object = static_cast<std::uint32_t>(at.object);
+  result.primitive = at.primitive;
+  result.material = scene.scene().objects[at.object].material.value_or(MT_NO_MATERIAL);
+  result.front = at.front ? 1 : 0;
+  return result;
+}
+
+}  // namespace
+}  // namespace microtrace::capi
+
+using namespace microtrace;
+using namespace microtrace::capi;
+
+mt_status mt_intersect(const mt_scene* scene, const mt_ray* rays, size_t count, uint32_t threads,
+                       mt_hit* hits) {
+  const auto answer = [&](const PreparedScene& s, std::span<const Ray> own, std::size_t first) {
+    std::vector<std::optional<Hit>> found(own.size());
+    s.intersect(own, found);
+    std::ranges::transform(found, hits + first, hit_of);
+  };
+  return for_each_batch(scene, rays, count, threads, hits, answer);
+}
+
+mt_status mt_occluded(const mt_scene* scene, const mt_ray* rays, size_t count, uint32_t threads,
+                      uint8_t* results) {
+  const auto answer = [&](const PreparedScene& s, std::span<const Ray> own, std::size_t first) {
+    const auto found = std::make_unique<bool[]>(own.size());
+    s.occluded(own, std::span(found.get(), own.size()));
+    for (std::size_t i = 0; i < own.size(); ++i) results[first + i] = found[i] ? 1 : 0;
+  };
+  return for_each_batch(scene, rays, count, threads, results, answer);
+}
+
+mt_status mt_next(const mt_scene* scene, const mt_ray* rays, const mt_hit* after, size_t count,
+                  uint32_t threads, mt_hit* hits) {
+  const auto answer = [&](const PreparedScene& s, std::size_t i) {
+    hits[i] =
+        hit_of(after[i].primitive == MT_NO_HIT ? std::nullopt
+                                               : s.next(ray_of(rays[i]), known_hit(s, after[i])));
+  };
+  return for_each_ray(scene, rays, count, threads, after == nullptr ? nullptr : hits, answer);
+}
+
+mt_status mt_surfaces(const mt_scene* scene, const mt_ray* rays, const mt_hit* hits, size_t count,
+                      uint32_t threads, mt_surface* surfaces) {
+  const auto answer = [&](const PreparedScene& s, std::size_t i) {
+    surfaces[i] = hits[i].primitive == MT_NO_HIT
+                      ? mt_surface{}
+                      : surface_of(s, ray_of(rays[i]), known_hit(s, hits[i]));
+  };
+  return for_each_ray(scene, rays, count, threads, hits == nullptr ? nullptr : surfaces, answer);
+}

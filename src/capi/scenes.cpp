@@ -1,0 +1,167 @@
+#include "capi/handles.hpp"
+
+#include <microtrace/validate.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microtrace::capi {
+namespace {
+
+LoadOptions loading(const mt_load_options& options) {
+  LoadOptions result;
+  if (!std::isnan(options.time)) result.time = options.time;
+  if (options.animation != nullptr) result.animation = options.animation;
+  if (options.variant != nullptr) result.variant = options.variant;
+  return result;
+}
+
+mt_scene* prepared(LoadedScene loaded, std::uint32_t threads) {
+  std::string warnings;
+  for (const Diagnostic& warning : loaded.warnings) warnings.append(warning.text()).append("\n");
+  return new mt_scene{.prepared = PreparedScene(std::move(loaded.scene), {.threads = threads}),
+                      .format = loaded.format,
+                      .warnings = std::move(warnings)};
+}
+
+/// The values of an array, `Width` numbers each.
+template <class Value, int Width, class Number>
+std::vector<Value> copied(const Number* first, std::size_t count, std::size_t stride) {
+  static_assert(sizeof(Value) == Width * sizeof(Number));
+  std::vector<Value> values(count);
+  const std::size_t step = stride != 0 ? stride : sizeof(Value);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(first);
+  for (Value& value : values) {
+    std::memcpy(&value, bytes, sizeof value);
+    bytes += step;
+  }
+  return values;
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_of(const mt_mesh& mesh) {
+  if (mesh.indices != nullptr)
+    return copied<std::array<std::uint32_t, 3>, 3>(mesh.indices, mesh.triangle_count,
+                                                   mesh.index_stride);
+  if (mesh.triangle_count > mesh.position_count / 3)
+    throw Error(ErrorKind::invalid_scene, "", "a mesh has fewer than three vertices a triangle");
+  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.triangle_count);
+  std::uint32_t next = 0;
+  for (auto& corners : triangles) {
+    for (std::uint32_t& corner : corners) corner = next++;
+  }
+  return triangles;
+}
+
+Mesh mesh_of(const mt_mesh& from) {
+  if (from.position_count > 0) require(from.positions, "mt_mesh::positions");
+  if (from.position_count > std::numeric_limits<std::uint32_t>::max())
+    throw Error(ErrorKind::limit, "", "a mesh has 2^32 vertices or more");
+  const std::size_t count = from.position_count;
+  Mesh mesh{.positions = copied<Vec3, 3>(from.positions, count, from.position_stride),
+            .triangles = triangles_of(from)};
+  if (from.normals != nullptr)
+    mesh.normals = copied<Vec3, 3>(from.normals, count, from.normal_stride);
+  if (from.uvs != nullptr) mesh.uv_sets = {copied<Vec2, 2>(from.uvs, count, from.uv_stride)};
+  return mesh;
+}
+
+Material material_of(const mt_mesh& from) {
+  const float* c = from.base_color;
+  const float* e = from.emission;
+  return {.base_color = Vec4(c[0], c[1], c[2], c[3]),
+          .alpha_mode = c[3] < 1 ? AlphaMode::blend : AlphaMode::opaque,
+          .double_sided = from.double_sided != 0,
+          .metallic = from.metallic,
+          .roughness = from.roughness,
+          .emissive = Vec3(e[0], e[1], e[2])};
+}
+
+}  // namespace
+}  // namespace microtrace::capi
+
+using namespace microtrace;
+using capi::guarded, capi::require, capi::complete;
+
+void mt_load_options_init(mt_load_options* options) {
+  *options = {.size = sizeof *options,
+              .time = std::numeric_limits<double>::quiet_NaN(),
+              .animation = nullptr,
+              .variant = nullptr,
+              .threads = 0};
+}
+
+mt_status mt_scene_load(const char* path, const mt_load_options* options, mt_scene** scene) {
+  return guarded([&] {
+    require(path, "path");
+    require(scene, "scene");
+    const mt_load_options own = complete(options, mt_load_options_init);
+    *scene = capi::prepared(load_scene(path, capi::loading(own)), own.threads);
+  });
+}
+
+mt_status mt_scene_parse(const void* bytes, size_t byte_count, const char* folder,
+                         const mt_load_options* options, mt_scene** scene) {
+  return guarded([&] {
+    require(bytes, "bytes");
+    require(scene, "scene");
+    const mt_load_options own = complete(options, mt_load_options_init);
+    const std::string_view text(static_cast<const char*>(bytes), byte_count);
+    *scene = capi::prepared(
+        parse_scene(text, "memory", folder != nullptr ? folder : ".", capi::loading(own)),
+        own.threads);
+  });
+}
+
+void mt_mesh_init(mt_mesh* mesh) {
+  *mesh = {};
+  mesh->size = sizeof *mesh;
+  for (float& c : mesh->base_color) c = 1;
+  mesh->double_sided = 1;
+  mesh->roughness = 1;
+}
+
+mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t threads,
+                               mt_scene** scene) {
+  return guarded([&] {
+    if (count > 0) require(meshes, "meshes");
+    require(scene, "scene");
+    LoadedScene loaded;
+    // The caller's header may know a shorter mt_mesh.
+    const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
+    const std::size_t stride = count > 0 ? meshes->size : 0;
+    for (std::size_t i = 0; i < count; ++i, bytes += stride) {
+      const mt_mesh mesh = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
+      loaded.scene.objects.push_back(
+          {.name = "", .shape = capi::mesh_of(mesh), .material = static_cast<std::uint32_t>(i)});
+      loaded.scene.materials.push_back(capi::material_of(mesh));
+    }
+    validate(loaded.scene);
+    *scene = capi::prepared(std::move(loaded), threads);
+  });
+}
+
+void mt_scene_release(mt_scene* scene) {
+  delete scene;
+}
+
+uint32_t mt_scene_primitive_count(const mt_scene* scene) {
+  return scene->prepared.bvh().primitives().count();
+}
+
+size_t mt_scene_object_count(const mt_scene* scene) {
+  return scene->prepared.scene().objects.size();
+}
+
+const char* mt_scene_object_name(const mt_scene* scene, size_t object) {
+  const auto& objects = scene->prepared.scene().objects;
+  return object < objects.size() ? objects[object].name.c_str() : nullptr;
+}
+
+const char* mt_scene_warnings(const mt_scene* scene) {
+  return scene->warnings.c_str();
+}
