@@ -29,7 +29,7 @@ struct Traced {
 /// The diagonal of the mesh's bounding box, world units.
 [[nodiscard]] double extent(const Mesh& mesh);
 
-/// One ray through the centre of each pixel, tile by tile. Width and height are multiples of
+/// One ray through the center of each pixel, tile by tile. Width and height are multiples of
 /// kTileEdge.
 [[nodiscard]] std::vector<Ray> primary_rays(const Camera& camera, ImageSize size);
 
@@ -40,7 +40,7 @@ struct Traced {
 [[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
                                            float t_max, std::uint64_t seed);
 
-/// A fixed permutation: neighbours have nothing in common afterwards.
+/// A fixed permutation: neighbors have nothing in common afterwards.
 void shuffle(std::span<Ray> rays, std::uint64_t seed);
 
 /// Every `step`-th run of `length` rays: a sample with the coherence of the whole.

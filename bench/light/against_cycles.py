@@ -5,7 +5,7 @@ as shown: light / 0.6, three.js' ACES curve, 1 / 2.2.
 usage: against_cycles.py FOLDER MICROTRACE ASSET... [--spp N] [--size N] [--defaults]
 
 Needs Blender as a Python module (bpy 5.0) and numpy. Writes NAME.png for each asset: Cycles, microtrace, and four times
-their difference about grey.
+their difference about gray.
 """
 import argparse
 import math

@@ -35,14 +35,14 @@ def box(low, high):
     return [quad(low, y, x), quad(low, z, y), quad(low, x, z), quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x)]
 
 
-def ball(centre, radius, rows=64):
+def ball(center, radius, rows=64):
     v, u = np.meshgrid(np.linspace(0, np.pi, rows + 1), np.linspace(0, 2 * np.pi, 2 * rows + 1), indexing="ij")
     n = np.stack([np.sin(v) * np.sin(u), np.cos(v), np.sin(v) * np.cos(u)], -1).reshape(-1, 3)
     first = (np.arange(rows)[:, None] * (2 * rows + 1) + np.arange(2 * rows)).ravel()
     below = first + 2 * rows + 1
     triangles = np.concatenate([np.stack([first, below, below + 1], -1),
                                 np.stack([first, below + 1, first + 1], -1)])
-    positions = n * radius + centre
+    positions = n * radius + center
     corners = positions[triangles]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     return {"positions": positions, "normals": n, "uvs": np.zeros((len(n), 2)), "triangles": triangles[area > 1e-9]}

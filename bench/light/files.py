@@ -7,7 +7,7 @@ import numpy as np
 
 
 def write_png(path, pixels):
-    """pixels: uint8, rows x columns (grey) or rows x columns x 3."""
+    """pixels: uint8, rows x columns (gray) or rows x columns x 3."""
     height, width = pixels.shape[:2]
     channels = 1 if pixels.ndim == 2 else 3
     rows = pixels.reshape(height, width * channels)

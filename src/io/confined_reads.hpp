@@ -1,5 +1,5 @@
 #pragma once
-/// Files that a scene names lie in its folder, or in others that the user allows.
+/// Restricts the files that a scene names to its folder and to folders that the user allows.
 
 #include <filesystem>
 #include <optional>
@@ -7,13 +7,14 @@
 
 namespace microtrace::io {
 
-/// Whether the file lies in one of the folders or below, with ".." and symbolic links resolved in
-/// both, as far as there are such files.
+/// Whether the file is in one of the folders or below, with ".." and symbolic links resolved in
+/// both, as far as the files exist.
 [[nodiscard]] bool lies_within(const std::vector<std::filesystem::path>& folders,
                                const std::filesystem::path& path);
 
-/// While it lives, read_file() reads only files in these folders or below on this thread; whatever
-/// symbolic links lead out of them is refused. The last one made counts.
+/// During its lifetime, read_file() on this thread reads only files in these folders or below;
+/// symbolic links that lead elsewhere are refused. If there are several objects, the last one
+/// counts.
 class ConfinedReads {
  public:
   /// `own` is the scene's folder, empty for the current one.
@@ -23,9 +24,9 @@ class ConfinedReads {
   ConfinedReads(const ConfinedReads&) = delete;
   ConfinedReads& operator=(const ConfinedReads&) = delete;
 
-  /// Throws Error unless this thread may read the file, or is confined by nothing. To be called
-  /// before the file is opened, lest a device is, and then with its descriptor: another file may
-  /// have taken its place in between.
+  /// Throws Error unless this thread may read the file or has no restrictions. Must be called
+  /// before the file is opened, so that no device is opened, and again with its descriptor, because
+  /// the file may have been replaced in between.
   static void require(const std::filesystem::path& path, std::optional<int> descriptor);
 
  private:

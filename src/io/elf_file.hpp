@@ -1,14 +1,14 @@
 #pragma once
-/// Object files that the dynamic linker is to map.
+/// Checks object files before the dynamic linker maps them.
 
 #include <filesystem>
 #include <string>
 
 namespace microtrace::io {
 
-/// Why the file can't be mapped as a shared object of this machine's word size: it is no such file,
-/// or it ends before its parts do, and what touches the missing ones dies of SIGBUS. Empty if
-/// nothing is wrong.
+/// The reason why the file can't be mapped as a shared object of this machine's word size: it is
+/// not such a file, or it is truncated, which would cause SIGBUS on access to the missing part.
+/// Empty if the file is valid.
 [[nodiscard]] std::string damage_of_elf_file(const std::filesystem::path& path);
 
 }  // namespace microtrace::io

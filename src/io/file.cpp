@@ -18,7 +18,7 @@
 namespace microtrace::io {
 namespace {
 
-/// That of the thread's last ReadDigest, or null.
+/// The hash of the thread's last ReadDigest, or null.
 thread_local Digest* digest_of_reads = nullptr;
 /// The thread's last ReadFiles, or null.
 thread_local ReadFiles* files_read = nullptr;
@@ -59,7 +59,7 @@ Descriptor open_file(const std::filesystem::path& path, int flags) {
   return Descriptor(number);
 }
 
-/// Reads until `bytes` holds `wanted` or the file ends; true at its end.
+/// Reads until `bytes` has the size `wanted` or the file ends; returns true at its end.
 bool fill(int descriptor, const std::string& name, std::string& bytes, std::size_t wanted) {
   std::size_t have = bytes.size();
   take_memory(wanted - have, "the bytes of " + name);
@@ -89,7 +89,7 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   if (claimed > limit) fail_too_large(name, limit);
 
-  // One byte beyond the limit, or beyond the claim, tells whether there is more.
+  // Reading one byte beyond the limit, or beyond the reported size, shows whether there is more.
   std::string bytes;
   bool ended = fill(descriptor, name, bytes, std::min(chunk, limit + 1));
   if (inspect) inspect(bytes);
@@ -116,7 +116,7 @@ void note_unread_file(const std::filesystem::path& path) {
 
 std::string read_regular_file(const std::filesystem::path& path, std::size_t limit) {
   const std::string name = path.string();
-  // Opening a pipe would wait for its writer.
+  // Opening a pipe would block until it has a writer.
   const Descriptor descriptor = open_file(path, O_NONBLOCK);
   ConfinedReads::require(path, descriptor.number());
   struct stat status {};

@@ -1,5 +1,5 @@
 #pragma once
-/// Whole files into memory.
+/// Reads whole files into memory.
 
 #include <cstddef>
 #include <filesystem>
@@ -9,27 +9,27 @@
 
 namespace microtrace::io {
 
-/// No input file is larger; a scene of that size has long outgrown memory.
+/// Maximum size of an input file; a scene of this size exceeds any memory.
 inline constexpr std::size_t max_file_size = std::size_t{1} << 30;
 
-/// The bytes of a regular file, a pipe or a device. Throws Error: io for a file that is missing, a
-/// directory or unreadable, limit for one of more than `limit` bytes. The size that the file claims
-/// is checked before memory is taken, and a file without one grows with what was read. `inspect`
-/// sees the first bytes (64 KiB, or all of a smaller file) before the rest is read, and may throw
-/// to spare the reading of a file that can't be right.
+/// The bytes of a regular file, a pipe or a device. Throws Error: io for a missing file, a
+/// directory or an unreadable file, limit for more than `limit` bytes. The reported size is checked
+/// before memory is allocated; for files without a size the buffer grows. `inspect` receives the
+/// first bytes (64 KiB, or all of a smaller file) before the rest is read, and may throw to reject
+/// the file early.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect = {});
 
-/// The bytes of a regular file, for what another file names: a pipe could keep its reader waiting
-/// forever, and a device has no end. Throws Error: io for any other kind too.
+/// The bytes of a regular file, for files named by other files: a pipe could block forever, and a
+/// device has no end. Throws Error: io also for other kinds of files.
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path, std::size_t limit);
 
-/// The same as read_file for what is left in an open descriptor; `name` stands in messages.
+/// As read_file for the rest of an open descriptor; `name` is used in messages.
 [[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,
                                           std::size_t limit,
                                           const std::function<void(std::string_view)>& inspect);
 
-/// Tells ReadFiles of a file that a scene names, though it is not read.
+/// Records in ReadFiles a file that a scene names but that is not read.
 void note_unread_file(const std::filesystem::path& path);
 
 }  // namespace microtrace::io

@@ -1,5 +1,5 @@
 #pragma once
-/// Takes the time of one stage of loading after another.
+/// Measures the stages of loading one after another.
 
 #include <microtrace/io.hpp>
 
@@ -9,10 +9,10 @@ namespace microtrace::io {
 
 class LoadClock {
  public:
-  /// `times` may be null, and then nothing is noted.
+  /// With null `times`, nothing is recorded.
   explicit LoadClock(LoadTimes* times) : times_(times) {}
 
-  /// What has passed since the last call, or since the clock was made, was this stage.
+  /// Adds the time since the last call, or since construction, to this stage.
   void lap(double LoadTimes::*stage) {
     const auto now = std::chrono::steady_clock::now();
     if (times_ != nullptr) times_->*stage += std::chrono::duration<double>(now - last_).count();

@@ -28,17 +28,17 @@ std::string lower_case_ending(const std::filesystem::path& path) {
   return ending;
 }
 
-/// Formats that users of renderers try, by the endings of their files.
+/// Extensions of other common scene formats.
 constexpr std::array<std::string_view, 17> foreign_endings{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
-/// What follows white space and a byte order mark; empty where nothing does.
+/// The text after white space and a byte order mark.
 std::string_view behind_space(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size()));
 }
 
-/// Throws if the ending names another format and the bytes are neither JSON's nor a GLB file's.
+/// Throws if the extension is that of another format and the bytes are neither JSON nor GLB.
 void refuse_foreign_format(const std::string& ending, std::string_view first,
                            const std::string& name) {
   if (std::ranges::find(foreign_endings, ending) == foreign_endings.end()) return;
@@ -50,11 +50,11 @@ void refuse_foreign_format(const std::string& ending, std::string_view first,
                   ending + " out.glb)");
 }
 
-/// Throws if a JSON text can't start like this, as its whole would; garbage need not be read on.
+/// Throws if no JSON text can start like this, so that garbage is not read to its end.
 void require_start_of_json(std::string_view first, const std::string& name) {
   const std::string_view text = behind_space(first);
   if (text.empty()) return;
-  // Any other start is a first token that is no JSON, and complete within a chunk.
+  // Any other start is a token that is not JSON, and complete within a chunk.
   const bool may_go_on =
       std::string_view("{[\"-0123456789tfn").find(text[0]) != std::string_view::npos;
   if (!may_go_on) const io::JsonDocument document(first, name);
@@ -62,7 +62,8 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 
 using Reader = std::variant<io::JsonDocument, io::GltfFile>;
 
-/// `ending` is the file's in lower case: what it does not tell, the content does.
+/// `ending` is the file's extension in lower case; for other extensions the content selects the
+/// format.
 Reader open(std::string_view bytes, const std::string& ending, const std::string& name,
             const std::filesystem::path& folder, const LoadOptions& options) {
   if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(glb_magic)) {
@@ -71,7 +72,7 @@ Reader open(std::string_view bytes, const std::string& ending, const std::string
   io::LoadClock clock(options.times);
   io::JsonDocument document(bytes, name);
   clock.lap(&LoadTimes::validate);
-  // Every glTF asset has the member "asset", and no scene of our own has.
+  // Every glTF asset has the member "asset", and no scene of our format has.
   if (ending != ".json" && document.root().find("asset") != nullptr) {
     return io::GltfFile(bytes, name, folder, options);
   }

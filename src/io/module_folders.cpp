@@ -7,7 +7,7 @@
 #include <sys/auxv.h>
 #include <system_error>
 
-/// Defined in programs that are linked with the static library by CMake.
+/// Defined in programs that CMake links with the static library.
 extern "C" [[gnu::weak, gnu::visibility("hidden")]] const char microtrace_module_folder[];
 
 namespace microtrace::io {
@@ -15,17 +15,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Resolves symbolic links, for /usr/bin/microtrace may be one to another prefix. Empty if there is
-/// no such file.
+/// Resolves symbolic links, because /usr/bin/microtrace may be a link to another prefix. Empty if
+/// the file does not exist.
 fs::path folder_of(const char* file) {
   std::error_code error;
   const fs::path path = fs::canonical(file, error);
   return error ? fs::path() : path.parent_path();
 }
 
-/// At a fixed place relative to the program or the shared library that holds this function. The
-/// dynamic linker knows the name of the latter; that of the program it takes from argv, which may
-/// hold anything, while the kernel's is the one that was executed.
+/// A folder relative to the program or the shared library that contains this function. The dynamic
+/// linker knows the path of a shared library. For the program it uses argv, which is unreliable, so
+/// the path is taken from the kernel.
 fs::path beside_library() {
   Dl_info info{};
   link_map* object = nullptr;

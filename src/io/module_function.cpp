@@ -18,7 +18,7 @@ std::string last_complaint(const std::string& otherwise) {
 }  // namespace
 
 Module open_module(const char* file) {
-  const FloatEnvironment environment;  // libraries make tables when they are loaded
+  const FloatEnvironment environment;  // libraries compute tables when loaded
   Module result;
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path path = folder / file;

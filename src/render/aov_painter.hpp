@@ -1,5 +1,5 @@
 #pragma once
-/// Fills the film's channels tile by tile.
+/// Fills the film's AOV channels tile by tile.
 
 #include "render/camera_rays.hpp"
 
@@ -13,14 +13,14 @@
 
 namespace microtrace {
 
-/// Any number of threads may paint tiles that do not overlap.
+/// Any number of threads may paint disjoint tiles.
 class AovPainter {
  public:
-  /// Adds the channels to the film, which holds the pixels of `window`. All of these must outlive
-  /// it.
+  /// Adds the channels to the film, which has the pixels of `window`. All arguments must outlive
+  /// this object.
   AovPainter(const World& world, std::span<const Aov> aovs, const PixelRect& window, Film& film);
 
-  /// A tile of the window, at most kTileEdge pixels a side.
+  /// A tile of the window, at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The rays that pictures are made of.
+/// The camera rays of pictures.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/ray.hpp>
@@ -11,16 +11,16 @@
 
 namespace microtrace {
 
-/// Those of a camera, in the open interval (scene.epsilon, infinity): rays hold closed ones, so it
-/// begins at the next float32.
+/// The rays of a camera in the open interval (scene.epsilon, infinity). Rays have closed intervals,
+/// so t_min is the next float32.
 class CameraRays {
  public:
-  /// The camera must outlive it.
+  /// The camera must outlive this object.
   CameraRays(const RayGenerator& camera, const Scene& scene)
       : camera_(camera),
         t_min_(std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity())) {}
 
-  /// Through pixel coordinates, as RayGenerator's.
+  /// The ray through pixel coordinates, as in RayGenerator.
   [[nodiscard]] Ray operator()(double x, double y) const {
     Ray ray = camera_(x, y);
     ray.t_min = std::max(ray.t_min, t_min_);

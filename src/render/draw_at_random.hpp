@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures by integrators whose answers are random.
+/// Pictures by Monte Carlo integrators.
 
 #include "render/tiles.hpp"
 
@@ -18,12 +18,12 @@ struct RandomDrawing {
   const RenderOptions& options;
   const PixelRect& window;
   Threads& threads;
-  std::chrono::steady_clock::time_point start;  ///< from which a time limit counts
+  std::chrono::steady_clock::time_point start;  ///< start of the time limit
 };
 
-/// Fills the film, which holds the pixels of the window, and calls `beside` once for each tile.
-/// Throws Error: limit where memory for passes runs out, usage where their sums are another
-/// picture's.
+/// Fills the film, which has the pixels of the window, and calls `beside` once for each tile.
+/// Throws Error: limit if memory for passes runs out, usage if the given sums belong to another
+/// picture.
 void draw_at_random(const RandomDrawing& drawing, Film& film,
                     const std::function<void(const PixelRect&)>& beside);
 

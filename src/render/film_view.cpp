@@ -19,7 +19,7 @@ float greatest(const Vec3& color) {
   return std::max({color.x, color.y, color.z});
 }
 
-/// Whether 8 bits show a colour as 0 or 1 of 255.
+/// Whether 8 bits show a color as 0 or 1 of 255.
 class Blackness {
  public:
   explicit Blackness(const Display& display)
@@ -39,7 +39,7 @@ bool is_most(std::size_t black, std::size_t lit) {
   return black > 3 * lit;
 }
 
-/// For each pixel whether there is something at its centre.
+/// For each pixel whether there is a surface at its center.
 std::vector<bool> occupied(const Scene& scene, const Camera& camera, ImageSize whole,
                            const RenderOptions& options) {
   RenderOptions exact;

@@ -3,11 +3,11 @@
 
 namespace microtrace {
 
-/// Light beyond this counts as this, so that products with what surfaces make of it stay finite. A
-/// sample shows no more than 2^46 anyway.
+/// Maximum radiance, so that products with reflectances stay finite. A sample is clamped to 2^46
+/// anyway.
 inline constexpr float kBrightest = 0x1p100F;
 
-/// Of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
+/// Luminance of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
 inline float luminance(const Vec3& c) {
   return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
 }

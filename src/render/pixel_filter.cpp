@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kRadius = 1.5;  // pixels
 
-/// The part of the window's weight within t of its middle, where it is 1 wide: 0 at 0, 1 at 1/2.
-/// Its coefficients are those of F. J. Harris, On the use of windows for harmonic analysis with the
-/// discrete Fourier transform, 1978: "4-term, -92 dB".
+/// The part of the window's weight within t of its center, where the window has width 1: 0 at 0, 1
+/// at 1/2. The coefficients are those of F. J. Harris, On the use of windows for harmonic analysis
+/// with the discrete Fourier transform, 1978: "4-term, -92 dB".
 double weight_within(double t) {
   constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
   constexpr double pi = std::numbers::pi;
@@ -22,7 +22,7 @@ double weight_within(double t) {
   return 2 * t + waves / (pi * a0);
 }
 
-/// The t of that weight; weight_within rises, as the window is nowhere negative.
+/// The inverse of weight_within, which increases because the window is never negative.
 double reach_of(double weight) {
   double low = 0, high = 0.5;
   for (int halving = 0; halving < 40; ++halving) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of integrators whose answers are random.
+/// Samples of Monte Carlo integrators.
 
 #include "render/camera_rays.hpp"
 #include "render/kernels/kernel.hpp"
@@ -15,18 +15,18 @@
 
 namespace microtrace {
 
-/// Any number of threads may paint tiles that do not overlap.
+/// Any number of threads may paint disjoint tiles.
 class RandomPainter {
  public:
-  /// World and integrator must outlive it. Luminance is taken over that background.
+  /// World and integrator must outlive this object. Luminance is computed over this background.
   RandomPainter(const World& world, const Integrator& integrator, const RenderOptions& options,
                 const Vec3& background);
 
-  /// Adds the samples of that range to the sums of a tile's pixels, row by row. The tile is at most
-  /// kTileEdge pixels a side. Fast where the range is 16 samples or more.
+  /// Adds the samples of this range to the sums of a tile's pixels, row by row. The tile is at most
+  /// kTileEdge pixels per side. Fast for ranges of 16 samples or more.
   void add(const PixelRect& tile, const SampleRange& range, std::span<PixelSum> sums) const;
 
-  /// How many samples were taken, and how many of them were no numbers.
+  /// The number of samples, and how many of them were NaN.
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
   [[nodiscard]] std::uint64_t invalid_samples() const { return invalid_; }
 

@@ -9,13 +9,14 @@
 
 namespace microtrace {
 
-/// Rays on their way to the integrator, and the pixel that each belongs to.
+/// A batch of rays for the integrator, and the pixel of each.
 template <std::size_t Size>
 class RayBatch {
  public:
   [[nodiscard]] bool is_full() const { return count_ == Size; }
 
-  /// make_ray() makes the ray in its place: copying what was just written in parts is slow.
+  /// make_ray() creates the ray in place, because copying a value that was just written in parts is
+  /// slow.
   template <class MakeRay>
   void add(std::size_t pixel, const SampleId& id, const MakeRay& make_ray) {
     ::new (&rays_[count_]) Ray(make_ray());
@@ -23,7 +24,7 @@ class RayBatch {
     pixels_[count_++] = pixel;
   }
 
-  /// f(pixel, sample) in the order of the rays; leaves the batch empty.
+  /// Calls f(pixel, sample) in the order of the rays, and clears the batch.
   template <class F>
   void trace(const Integrator& integrator, const World& world, F&& f) {
     integrator.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),

@@ -13,7 +13,7 @@ namespace microtrace {
 bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
   const FloatEnvironment environment;
   ++count;
-  // Rays that hit nothing, which are many, add at most the background's luminance.
+  // Rays that hit nothing, which are common, add at most the background's luminance.
   if (sample == Vec3(0) && sample_alpha == 0) {
     if (background != Vec3(0)) {
       const double y = luminance(glm::min(DVec3(background), DVec3(kMaxSampleLight)));

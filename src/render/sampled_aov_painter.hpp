@@ -17,22 +17,22 @@
 
 namespace microtrace {
 
-/// Any number of threads may paint tiles and set pixels that do not overlap.
+/// Any number of threads may paint disjoint tiles and set different pixels.
 class SampledAovPainter {
  public:
-  /// Adds the channels that the options ask for to the film, which holds the pixels of `window`.
-  /// All of these must outlive it.
+  /// Adds the channels that the options request to the film, which has the pixels of `window`. All
+  /// arguments must outlive this object.
   SampledAovPainter(const World& world, const RenderOptions& options, const PixelRect& window,
                     Film& film);
 
-  /// What samples tell of a pixel, counted in the film.
+  /// Sets the values from a pixel's samples; `pixel` is an index in the film.
   void set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const;
 
-  /// What is seen in a tile of the window, at most kTileEdge pixels a side.
+  /// Computes the features of a tile of the window, at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:
-  /// The film's values of a channel.
+  /// A value of a channel of the film.
   [[nodiscard]] float& value(SampledAov aov, std::size_t channel, std::size_t pixel) const;
   [[nodiscard]] bool has(SampledAov aov) const {
     return first_[static_cast<std::size_t>(aov)] != kNone;
@@ -45,7 +45,7 @@ class SampledAovPainter {
   FilterSampler filter_;
   const PixelRect& window_;
   Film& film_;
-  std::array<std::size_t, kSampledAovs.size()> first_{};  ///< channel of the film, or kNone
+  std::array<std::size_t, kSampledAovs.size()> first_{};  ///< index in the film, or kNone
 };
 
 }  // namespace microtrace

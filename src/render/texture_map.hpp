@@ -1,5 +1,5 @@
 #pragma once
-/// Looking up images.
+/// Texture lookups.
 
 #include "render/texture_pyramid.hpp"
 
@@ -13,49 +13,50 @@
 
 namespace microtrace {
 
-/// How far texture coordinates go from one sample of the picture to the next, across and down.
+/// The change of the texture coordinates from one sample of the picture to the next, across and
+/// down.
 struct TextureFootprint {
   DVec2 dx{0}, dy{0};
 };
 
-/// An image with a sampler, ready for look-ups. Everything is filtered in linear light, alpha apart
-/// from colour.
+/// An image with a sampler, ready for lookups. All filtering is in linear light, with alpha
+/// separate from color.
 class TextureMap {
  public:
-  /// Has the pyramid make its mip maps if the sampler asks for them.
+  /// Makes the pyramid compute its mip maps if the sampler uses them.
   TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler);
 
-  /// With a pyramid of its own. The image must outlive this.
+  /// With its own pyramid. The image must outlive this object.
   TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding);
 
-  /// The colour at uv, of which (0, 0) is the upper left corner of the image and (1, 1) the lower
-  /// right one. Where the image's pixels look larger than the samples, by the magnification filter;
-  /// else by the others, from up to kMaxProbes places along the longer side of the footprint, so
-  /// that surfaces seen at a slant are not blurred more than they must.
+  /// The color at uv, where (0, 0) is the upper left corner of the image and (1, 1) the lower right
+  /// one. If texels are larger than the footprint, uses the magnification filter; else the
+  /// minification filter, with up to kMaxProbes lookups along the longer axis of the footprint, so
+  /// that oblique surfaces are not blurred too much.
   [[nodiscard]] DVec4 look_up(const DVec2& uv, const TextureFootprint& footprint) const;
 
-  /// The same in float32 by one bilinear look-up in the level whose pixels are nearest below
-  /// `width` in size, which is a part of the image's width and height: for random samples, which
-  /// together are the filter.
+  /// The same in float32 with one bilinear lookup in the mip level whose texels are just smaller
+  /// than `width`, a fraction of the image's width and height: for Monte Carlo samples, whose mean
+  /// is the filter.
   [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const { return sample(place(uv, width)); }
 
-  /// Between two pixels of a row or a column, and how far from the first to the second.
+  /// Two neighboring texels of a row or a column, and the interpolation weight of the second.
   struct Between {
     std::int32_t first, second;
     float share;
   };
-  /// Where sample() looks.
+  /// The texel address of a sample() call.
   struct Place {
     std::size_t level;
-    std::uint32_t columns;  ///< of that level
+    std::uint32_t columns;  ///< of the level
     Between x, y;
   };
   [[nodiscard]] Place place(const Vec2& uv, float width) const;
   [[nodiscard]] Vec4 sample(const Place& place) const;
-  /// Brings what sample() will look at nearer to the processor.
+  /// Prefetches the texels at this address.
   void fetch(const Place& place) const;
 
-  /// Whether both have the same places.
+  /// Whether both have the same texel addresses.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;
 
   static constexpr int kMaxProbes = 8;
@@ -64,15 +65,15 @@ class TextureMap {
   [[nodiscard]] std::size_t level_count() const { return levels_.size() + 1; }
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
-  /// At a footprint of so many pixels of the image, above 1.
+  /// For a footprint of this many texels, above 1.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
 
   std::shared_ptr<const TexturePyramid> pyramid_;
   const Image& image_;
   Sampler sampler_;
-  std::span<const float> color_table_, alpha_table_;  // the pyramid's
-  std::span<const TexturePyramid::Level> levels_;     // those the sampler asks for
-  const void* image_samples_;                         // of the image, 8 or 16 bits each
+  std::span<const float> color_table_, alpha_table_;  // tables of the pyramid
+  std::span<const TexturePyramid::Level> levels_;     // the levels that the sampler uses
+  const void* image_samples_;                         // the image's samples, 8 or 16 bits each
   bool is_wide_;
 };
 

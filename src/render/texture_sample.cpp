@@ -8,15 +8,15 @@ namespace {
 
 using Between = TextureMap::Between;
 
-/// The largest whole number up to x; |x| < 2^31.
+/// The largest integer up to x; |x| < 2^31.
 std::int32_t floor_of(float x) {
   const auto whole = static_cast<std::int32_t>(x);
   return whole - (static_cast<float>(whole) > x ? 1 : 0);
 }
 
-/// The coordinate in [0, 1]: of the image, or of its mirror image.
+/// The coordinate wrapped to [0, 1].
 float wrapped(float u, Wrap wrap) {
-  if (!(u > -0x1p22F && u < 0x1p22F)) return 0;  // beyond, float32 has no room for a fraction
+  if (!(u > -0x1p22F && u < 0x1p22F)) return 0;  // beyond this float32 has no fraction bits
   switch (wrap) {
     case Wrap::repeat:
       return u - static_cast<float>(floor_of(u));
@@ -39,16 +39,16 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
   const std::int32_t left = floor_of(position - 0.5F);
   const float share = position - 0.5F - static_cast<float>(left);
   std::int32_t first = left, second = left + 1;
-  // At the ends of a mirrored image its own pixels come again, as clamping has it.
+  // At the ends of a mirrored image its edge texels repeat, as with clamping.
   if (first < 0) first = wrap == Wrap::repeat ? size - 1 : 0;
   if (second >= size) second = wrap == Wrap::repeat ? 0 : size - 1;
   return {.first = std::min(first, size - 1), .second = second, .share = share};
 }
 
-/// Four numbers in one register: GLM's are computed one by one.
+/// Four floats in one register: GLM computes them one by one.
 typedef float FourFloats __attribute__((vector_size(16)));
 
-/// The four pixels around a place, weighed. fetch(index) is a pixel, row by row.
+/// The weighted mean of four texels. fetch(index) returns a texel, row by row.
 template <class Fetch>
 Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fetch& fetch) {
   const std::size_t top = static_cast<std::size_t>(y.first) * columns;
@@ -60,15 +60,15 @@ Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fet
   return {all[0], all[1], all[2], all[3]};
 }
 
-/// From an image's own pixels; `color` and `alpha` are the linear light of its numbers.
+/// Texels of the image itself; `color` and `alpha` are tables of linear light.
 template <typename Number>
 Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color, const float* alpha,
               const Between& x, const Between& y, std::size_t columns) {
   switch (channels) {
     case 1:
       return bilinear(x, y, columns, [=](std::size_t i) {
-        const float grey = color[samples[i]];
-        return FourFloats{grey, grey, grey, 1};
+        const float gray = color[samples[i]];
+        return FourFloats{gray, gray, gray, 1};
       });
     case 2:
       return bilinear(x, y, columns, [=](std::size_t i) {
@@ -94,7 +94,7 @@ TextureMap::Place TextureMap::place(const Vec2& uv, float width) const {
   std::size_t level = 0;
   const float pixels = width * static_cast<float>(std::max(image_.width, image_.height));
   if (pixels >= 2 && sampler_.mip != MipFilter::none) {
-    // The float's exponent is the whole part of its logarithm.
+    // The float's exponent is the integer part of its logarithm.
     const std::size_t exponent = (std::bit_cast<std::uint32_t>(pixels) >> 23U) - 127;
     level = std::min(exponent, levels_.size());
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Fills the film tile by tile with samples in fixed places.
+/// Renders the film tile by tile with samples at fixed positions.
 
 #include "render/camera_rays.hpp"
 #include "render/pixel_filter.hpp"
@@ -12,14 +12,14 @@
 
 namespace microtrace {
 
-/// Any number of threads may paint tiles that do not overlap.
+/// Any number of threads may paint disjoint tiles.
 class TilePainter {
  public:
-  /// All of these must outlive it; the film holds the pixels of `window`.
+  /// All arguments must outlive this object; the film has the pixels of `window`.
   TilePainter(const World& world, const Integrator& integrator, const RenderOptions& options,
               const PixelRect& window, Film& film);
 
-  /// A tile of the window, at most kTileEdge pixels a side.
+  /// A tile of the window, at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:

@@ -33,8 +33,8 @@ DVec3 khronos_pbr_neutral(const DVec3& light) {
   if (peak < start) return color;
   constexpr double room = 1 - start;
   const double shown = 1 - room * room / (peak + room - start);
-  const double grey = 1 - 1 / (desaturation * (peak - shown) + 1);
-  return glm::mix(color * (shown / peak), DVec3(shown), grey);
+  const double gray = 1 - 1 / (desaturation * (peak - shown) + 1);
+  return glm::mix(color * (shown / peak), DVec3(shown), gray);
 }
 
 /// S. Hill's fit of the reference rendering and output transforms (BakingLab, 2016), with the

@@ -210,7 +210,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_variants(self):
-        colour = lambda *rgb: {"pbrMetallicRoughness": {"baseColorFactor": [*rgb, 1]}}
+        color = lambda *rgb: {"pbrMetallicRoughness": {"baseColorFactor": [*rgb, 1]}}
         variants = "KHR_materials_variants"
         corners = struct.pack("<9f", -9, -9, 0, 9, -9, 0, 0, 9, 0)
         self.write("a.gltf", json.dumps({
@@ -218,7 +218,7 @@ class CommandLine(ProgramTest):
             "extensions": {variants: {"variants": [{"name": "leaf"}, {"name": "sea"}]}},
             "scenes": [{"nodes": [0, 1]}], "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}],
             "cameras": [{"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 1, "zfar": 9}}],
-            "materials": [colour(1, 0, 0), colour(0, 1, 0), colour(0, 0, 1)],
+            "materials": [color(1, 0, 0), color(0, 1, 0), color(0, 0, 1)],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0, "extensions": {variants: {
                 "mappings": [{"material": 1, "variants": [0]}, {"material": 2, "variants": [1]}]}}}]}],
             "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3,
@@ -267,7 +267,7 @@ class CommandLine(ProgramTest):
         many = [self.picture(SCENE, "--size", "64x48", "--spp", "16", "-t", t) for t in (1, 3)]
         self.assertEqual(many[0], many[1])
         colors = lambda rows: {row[i:i + 3] for row in rows for i in range(0, len(row), 3)}
-        self.assertLess(len(colors(one[2])), 10)  # flat colours alone
+        self.assertLess(len(colors(one[2])), 10)  # flat colors alone
         self.assertGreater(len(colors(many[0][2])), 30)  # and mixtures on the edges
 
     def test_statistics(self):

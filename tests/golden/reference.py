@@ -4,7 +4,7 @@
     reference.py DIFFERENCES NAME=PPM...      NAME: perspective1, perspective2 or perspective3
 
 Compares each binary PPM with the reference, pixel by pixel. A pixel may differ only if the picture's
-exact boundary passes within rounding of the pixel's centre, and only if it stands in the file
+exact boundary passes within rounding of the pixel's center, and only if it stands in the file
 DIFFERENCES as `NAME X Y`. The exit status is 1 if another pixel differs or a listed one does not.
 
 It shares no code with the renderer, and neither its formulas: numbers are as written in the
@@ -13,7 +13,7 @@ assignment, not rounded to float32, and every shape is met in a form made for on
 Rounding: the renderer rounds each component of a unit direction and each coordinate of the scene to
 float32. The first turns a ray by at most sqrt(3) 2^-25 < 2^-24; the second moves a surface by at most
 2^-24 of its coordinates, which are smaller than its distance from the eye, so again by less than 2^-24
-as seen from there. A boundary that passes farther than 2^-23 from a pixel's centre, as an angle in
+as seen from there. A boundary that passes farther than 2^-23 from a pixel's center, as an angle in
 radians, is therefore a disagreement.
 """
 import math
@@ -29,13 +29,13 @@ CAMERAS = {  # position, direction, up, full vertical angle in degrees
     "perspective2": ((-8, 3, 8), (1, -0.1, -1), (0, 1, 0), 45),
     "perspective3": ((-8, 3, 8), (1, -0.1, -1), (1, 1, 0), 45),
 }
-SPHERES = [  # centre, radius, colour
+SPHERES = [  # center, radius, color
     ((-2, 1.7, 0), 2, (255, 0, 0)),
     ((1, -1, 1), 2.2, (0, 255, 0)),
     ((3, 0.8, -2), 2, (0, 0, 255)),
 ]
-PLANES = [((0, -1, 0), (0, 1, 0), (255, 255, 0))]  # point, normal, colour
-TRIANGLES = [  # corners, colour
+PLANES = [((0, -1, 0), (0, 1, 0), (255, 255, 0))]  # point, normal, color
+TRIANGLES = [  # corners, color
     (((-2, 3.7, 0), (1, 2, 1), (3, 2.8, -2)), (0, 255, 255)),
     (((3, 2, 3), (3, 2, -3), (-3, 2, -3)), (255, 255, 255)),
 ]
@@ -72,20 +72,20 @@ class View:
         # Half the window's height at distance 1; its pixels are square.
         self.half = math.tan(math.radians(angle) / 2)
         # A point eye + t d lies on a sphere where |d|^2 t^2 - 2 (d.m) t + (m.m - r^2) = 0, m from the
-        # eye to the centre.
+        # eye to the center.
         self.spheres = []
-        for centre, radius, colour in SPHERES:
-            m = minus(centre, eye)
-            self.spheres.append((m, dot(m, m) - radius * radius, colour))
-        self.planes = [(n, dot(minus(p, eye), n), colour) for p, n, colour in PLANES]
+        for center, radius, color in SPHERES:
+            m = minus(center, eye)
+            self.spheres.append((m, dot(m, m) - radius * radius, color))
+        self.planes = [(n, dot(minus(p, eye), n), color) for p, n, color in PLANES]
         # A ray passes through a triangle if it lies on one side of the three planes through the eye
         # and an edge; those have the normals of `sides`.
         self.triangles = []
-        for corners, colour in TRIANGLES:
+        for corners, color in TRIANGLES:
             a, b, c = (minus(corner, eye) for corner in corners)
             sides = (cross(a, b), cross(b, c), cross(c, a))
             normal = cross(minus(b, a), minus(c, a))
-            self.triangles.append((sides, normal, dot(a, normal), colour))
+            self.triangles.append((sides, normal, dot(a, normal), color))
 
     def direction(self, x, y):
         """Towards pixel coordinates (x, y), (0, 0) the upper left corner; not of unit length."""
@@ -98,12 +98,12 @@ class View:
             f[2] + across * r[2] + above * u[2],
         )
 
-    def colour(self, d):
-        """The colour of the nearest surface along d."""
+    def color(self, d):
+        """The color of the nearest surface along d."""
         dx, dy, dz = d
         nearest, seen = math.inf, BLACK
         dd = dx * dx + dy * dy + dz * dz
-        for (mx, my, mz), c, colour in self.spheres:
+        for (mx, my, mz), c, color in self.spheres:
             half_b = dx * mx + dy * my + dz * mz
             discriminant = half_b * half_b - dd * c
             if discriminant < 0:
@@ -111,12 +111,12 @@ class View:
             # Every eye stands outside every sphere: c > 0, both roots have one sign.
             t = (half_b - math.sqrt(discriminant)) / dd
             if 0 < t < nearest:
-                nearest, seen = t, colour
-        for (nx, ny, nz), height, colour in self.planes:
+                nearest, seen = t, color
+        for (nx, ny, nz), height, color in self.planes:
             slope = dx * nx + dy * ny + dz * nz
             if slope != 0 and 0 < height / slope < nearest:
-                nearest, seen = height / slope, colour
-        for (p, q, r), (nx, ny, nz), height, colour in self.triangles:
+                nearest, seen = height / slope, color
+        for (p, q, r), (nx, ny, nz), height, color in self.triangles:
             first = dx * p[0] + dy * p[1] + dz * p[2]
             if (dx * q[0] + dy * q[1] + dz * q[2]) * first < 0:
                 continue
@@ -124,11 +124,11 @@ class View:
                 continue
             slope = dx * nx + dy * ny + dz * nz
             if slope != 0 and 0 < height / slope < nearest:
-                nearest, seen = height / slope, colour
+                nearest, seen = height / slope, color
         return seen
 
-    def distance_to(self, colour, d):
-        """The angle, a power of two in radians, by which d must turn to see another colour."""
+    def distance_to(self, color, d):
+        """The angle, a power of two in radians, by which d must turn to see another color."""
         d = unit(d)
         side = unit(cross(d, self.up))
         above = cross(side, d)
@@ -137,7 +137,7 @@ class View:
                 phi = step * math.pi / 16
                 s, c = (2.0 ** exponent * f(phi) for f in (math.sin, math.cos))
                 turned = tuple(d[i] + s * side[i] + c * above[i] for i in range(3))
-                if self.colour(turned) == colour:
+                if self.color(turned) == color:
                     return 2.0 ** exponent
         return math.inf
 
@@ -146,7 +146,7 @@ def render_rows(job):
     name, first, last = job
     view = View(name)
     return b"".join(
-        bytes(view.colour(view.direction(x + 0.5, y + 0.5)))
+        bytes(view.color(view.direction(x + 0.5, y + 0.5)))
         for y in range(first, last)
         for x in range(WIDTH)
     )

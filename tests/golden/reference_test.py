@@ -24,10 +24,10 @@ def compare(pixels, listed=()):
         return faults, out.getvalue()
 
 
-def with_pixel(x, y, colour):
+def with_pixel(x, y, color):
     pixels = bytearray(PICTURE)
     at = 3 * (y * reference.WIDTH + x)
-    pixels[at:at + 3] = bytes(colour)
+    pixels[at:at + 3] = bytes(color)
     return bytes(pixels)
 
 
@@ -57,12 +57,12 @@ class Reference(unittest.TestCase):
         self.assertIn("WRONG", text)
 
     def test_a_neighbour_of_an_edge_is_a_fault(self):
-        # The horizon passes half a pixel from row 240's centres: far more than rounding.
+        # The horizon passes half a pixel from row 240's centers: far more than rounding.
         faults, text = compare(with_pixel(10, 240, (0, 0, 0)))
         self.assertEqual(faults, 1)
         self.assertIn("WRONG", text)
 
-    def test_a_colour_of_no_surface_is_a_fault(self):
+    def test_a_color_of_no_surface_is_a_fault(self):
         self.assertEqual(compare(with_pixel(10, 10, (1, 2, 3)))[0], 1)
 
     def test_a_listed_pixel_must_differ(self):

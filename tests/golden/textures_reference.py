@@ -138,7 +138,7 @@ def main():
     picture = lambda x, y: pixels[3 * (WIDTH * y + x):][:3]
     wrong = differ = judged = 0
     *front, behind = [rectangle(asset, data, mesh) for mesh in asset["meshes"]]
-    grey = behind[2]["pbrMetallicRoughness"]["baseColorFactor"]
+    gray = behind[2]["pbrMetallicRoughness"]["baseColorFactor"]
     assert behind[0] == front[2][0], "stands behind the mask alone"
     inside = set()
     for (x0, y0, x1, y1), (u0, v0, du, dv), material in front:
@@ -148,19 +148,19 @@ def main():
             for x in range(x0, x1):
                 inside.add((x, y))
                 texel = texture.look_up(u0 + (x - x0 + 0.5) * du, v0 + (y - y0 + 0.5) * dv, du, dv)
-                colour = [a * b for a, b in zip(texel, surface["baseColorFactor"])]
+                color = [a * b for a, b in zip(texel, surface["baseColorFactor"])]
                 if "alphaCutoff" in material:
-                    above = colour[3] - material["alphaCutoff"]
+                    above = color[3] - material["alphaCutoff"]
                     if abs(above) < 1e-4:
                         continue
-                    colour = colour if above > 0 else grey
+                    color = color if above > 0 else gray
                 judged += 1
-                errors = [abs(p - srgb(c)) for p, c in zip(picture(x, y), colour)]
+                errors = [abs(p - srgb(c)) for p, c in zip(picture(x, y), color)]
                 differ += max(errors) > 0.5
                 if max(errors) > 1:
                     wrong += 1
                     if wrong < 10:
-                        print(f"pixel {x} {y} is {list(picture(x, y))}, wanted {[round(srgb(c), 2) for c in colour[:3]]}")
+                        print(f"pixel {x} {y} is {list(picture(x, y))}, wanted {[round(srgb(c), 2) for c in color[:3]]}")
     for y in range(HEIGHT):
         for x in range(WIDTH):
             if (x, y) not in inside and picture(x, y) != b"\0\0\0":

@@ -66,7 +66,7 @@ TEST(DecodeImage, PngOfFourChannels) {
 TEST(DecodeImage, PngOfSixteenBits) {
   const Image image = decode(tests::png_file({.width = 2,
                                               .depth = 16,
-                                              .color = PngColor::grey_alpha,
+                                              .color = PngColor::gray_alpha,
                                               .rows = {"\x12\x34\xFF\xFF"
                                                        "\xAB\xCD\x01\x02"}}));
   expect_size(image, 2, 1, 2);
@@ -89,7 +89,7 @@ TEST(DecodeImage, PngWithPaletteAndTransparency) {
 }
 
 TEST(DecodeImage, PngGammaAndProfilesChangeNothing) {
-  PngPicture picture{.color = PngColor::grey, .rows = {"\x40"}};
+  PngPicture picture{.color = PngColor::gray, .rows = {"\x40"}};
   const Image plain = decode(tests::png_file(picture));
   picture.before_pixels = {{"gAMA", std::string("\0\1\x86\xA0", 4)},
                            {"iCCP", std::string("no profile\0\0really", 18)}};

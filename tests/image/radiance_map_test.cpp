@@ -94,8 +94,8 @@ TEST(RadianceMapFile, GrayIsExpandedAndAlphaIgnored) {
   const Folder folder;
   save_image(panorama(), folder / "a.exr");
   const std::string in = (folder / "a.exr").string();
-  convert(in + " --ch B -o " + (folder / "grey.exr").string());
-  EXPECT_EQ(load_radiance_map(folder / "grey.exr").map->pixels[3], Vec3(100));
+  convert(in + " --ch B -o " + (folder / "gray.exr").string());
+  EXPECT_EQ(load_radiance_map(folder / "gray.exr").map->pixels[3], Vec3(100));
   convert(in + " --ch Z=0.5,R,G,B,A=0.25 -o " + (folder / "more.exr").string());
   expect_equal(*load_radiance_map(folder / "more.exr").map, panorama(), 0);
 }

@@ -57,7 +57,7 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   for (std::size_t batch = 0; batch < batches && !HasFatalFailure(); ++batch) {
     Vec3 o{0};
     for (std::size_t i = 0; i < kBatch; ++i) {
-      if (i % kTile == 0) o = closed.centre + random.on_grid(steps, closed.spacing);
+      if (i % kTile == 0) o = closed.center + random.on_grid(steps, closed.spacing);
       rays[i] = aimed_exactly(random, closed, o);
     }
     const Bvh& singly = next_tree();
@@ -95,7 +95,7 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
   const std::size_t paths = traversal::ray_count(0.005);
   std::size_t bounces = 0, ends = 0;
   for (std::size_t path = 0; path < paths; ++path) {
-    const Vec3 o = closed.centre + random.on_grid(steps, closed.spacing);
+    const Vec3 o = closed.center + random.on_grid(steps, closed.spacing);
     Ray ray = aimed_exactly(random, closed, o);
     if (random.one_in(2)) ray.d = random.jitter(ray.d, 4);
     for (int bounce = 0; bounce < 6; ++bounce) {

@@ -197,9 +197,9 @@ TEST(Spawn, RaysLeaveConvexBodies) {
   for (int round = 0; round < kCasesPerKind; ++round) {
     // Tetrahedra are always convex.
     const float size = random.power_of_two(-30, 30);
-    const Vec3 centre = random.in_cube(1) * (size * random.power_of_two(0, 22));
+    const Vec3 center = random.in_cube(1) * (size * random.power_of_two(0, 22));
     std::array<Vec3, 4> p;
-    for (Vec3& corner : p) corner = centre + random.in_cube(size);
+    for (Vec3& corner : p) corner = center + random.in_cube(size);
     Scene scene;
     for (const auto& [a, b, c] : {std::array{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}})
       scene.objects.push_back(
@@ -208,7 +208,7 @@ TEST(Spawn, RaysLeaveConvexBodies) {
                              p[static_cast<std::size_t>(c)]}});
     const Bvh bvh(scene);
     for (int i = 0; i < 4; ++i) {
-      const Vec3 o = centre + random.in_cube(3 * size);
+      const Vec3 o = center + random.in_cube(3 * size);
       const Vec3 target = random.one_in(2) ? p[0] : p[1] + (p[2] - p[1]) * 0.5F;
       const Ray ray{.o = o,
                     .d = random.one_in(2) ? target - o : random.jitter(target - o, 1 << 18)};

@@ -233,10 +233,10 @@ TEST(TraversalOfADeepTree, StreamsEqualSingleRays) {
                    })});
   std::vector<Ray> rays;
   for (int group = 0; group < 100; ++group) {
-    const Vec3 centre = random.in_cube(1);
+    const Vec3 center = random.in_cube(1);
     const float t_max = random.one_in(3) ? kInfinity : float(random.unit());
     for (int i = 0; i < 50; ++i)
-      rays.push_back({.o = centre + random.in_cube(0.05F), .d = random.in_cube(1), .t_max = t_max});
+      rays.push_back({.o = center + random.in_cube(0.05F), .d = random.in_cube(1), .t_max = t_max});
   }
   Answers expected;
   std::size_t found = 0;

@@ -24,9 +24,9 @@ TEST(Invariance, ClosedSurfacesLetNoLightIn) {
     scene.environment = Environment{.content = Vec3(1e9F), .is_background = true};
     scene.lights.push_back(
         {.name = "lamp",
-         .light = PointLight{.position = DVec3(closed.centre) + DVec3(0, 64 * closed.radius, 0),
+         .light = PointLight{.position = DVec3(closed.center) + DVec3(0, 64 * closed.radius, 0),
                              .intensity = 1e20F}});
-    const EnvironmentCamera camera{.pose = {.position = DVec3(closed.centre)}};
+    const EnvironmentCamera camera{.pose = {.position = DVec3(closed.center)}};
     const Film film =
         shoot(scene, camera,
               {.size = {.width = 32, .height = 16}, .samples = 32 * effort, .max_depth = 12});

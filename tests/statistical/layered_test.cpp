@@ -213,7 +213,7 @@ TEST(ThinFilm, ColorsVaryWithThickness) {
   const Vec3 thin = thin_film_reflectance(1, 1.33F, 300, Vec3(0.1F));
   const Vec3 thick = thin_film_reflectance(1, 1.33F, 400, Vec3(0.1F));
   EXPECT_GT(glm::distance(thin, thick), 0.02F);
-  EXPECT_GT(std::abs(thin.x - thin.z) + std::abs(thin.x - thin.y), 0.01F) << "has a colour";
+  EXPECT_GT(std::abs(thin.x - thin.z) + std::abs(thin.x - thin.y), 0.01F) << "has a color";
 }
 
 }  // namespace

@@ -62,13 +62,13 @@ const Material kMatt{.base_color = {0.6F, 0.6F, 0.6F, 1}, .roughness = 1};
 const Material kShiny{.base_color = {0.9F, 0.9F, 0.9F, 1}, .metallic = 1, .roughness = 0.4F};
 
 /// Triangles whose vertices are on the sphere.
-Mesh ball(const DVec3& centre, double radius) {
+Mesh ball(const DVec3& center, double radius) {
   constexpr std::uint32_t rows = 40, columns = 80;
   Mesh mesh;
   for (std::uint32_t j = 0; j <= rows; ++j) {
     for (std::uint32_t i = 0; i < columns; ++i) {
       const double theta = kPi * j / rows, phi = 2 * kPi * i / columns;
-      mesh.positions.emplace_back(centre + radius * DVec3(std::sin(theta) * std::sin(phi),
+      mesh.positions.emplace_back(center + radius * DVec3(std::sin(theta) * std::sin(phi),
                                                           std::cos(theta),
                                                           std::sin(theta) * std::cos(phi)));
     }

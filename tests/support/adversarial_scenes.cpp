@@ -195,10 +195,10 @@ Ray random_ray(Random& random, const Scene& scene, const Vec3& o) {
 std::vector<Ray> unrelated_rays(Random& random, const Scene& scene, int count) {
   std::vector<Ray> rays;
   const bool near_each_other = random.one_in(3);
-  const Vec3 centre = origin(random, scene);
+  const Vec3 center = origin(random, scene);
   const float t_max = random.one_in(2) ? kInfinity : float(random.unit() * 2);
   while (static_cast<int>(rays.size()) < count) {
-    const Vec3 o = near_each_other ? centre + random.in_cube(0.1F) : origin(random, scene);
+    const Vec3 o = near_each_other ? center + random.in_cube(0.1F) : origin(random, scene);
     Ray ray = random_ray(random, scene, o);
     if (near_each_other) ray.t_max = std::max(ray.t_min, t_max);
     if (random.one_in(60)) ray.d *= 0x1p60F;

@@ -13,7 +13,7 @@ namespace microtrace::adversarial {
 struct ClosedMesh {
   const char* name;
   Mesh mesh;
-  Vec3 centre;    ///< inside
+  Vec3 center;    ///< inside
   float radius;   ///< of a ball inside around it
   float spacing;  ///< of the grid of all vertices
 };

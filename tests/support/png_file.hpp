@@ -8,10 +8,10 @@
 namespace microtrace::tests {
 
 enum class PngColor : std::uint8_t {
-  grey = 0,
+  gray = 0,
   rgb = 2,
   palette = 3,
-  grey_alpha = 4,
+  gray_alpha = 4,
   rgb_alpha = 6
 };
 

@@ -65,7 +65,7 @@ DVec3 direction_to(std::size_t pixel, const Camera& camera) {
 
 TEST(Aov, NamesRoundTrip) {
   for (const Aov aov : kAovs) EXPECT_EQ(aov_named(name_of(aov)), aov);
-  EXPECT_EQ(aov_named("colour"), std::nullopt);
+  EXPECT_EQ(aov_named("color"), std::nullopt);
 }
 
 // A wall at z = -4, seen by a camera at distance 1 behind the origin: depth is 5 everywhere.

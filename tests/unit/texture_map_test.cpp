@@ -11,18 +11,18 @@ namespace {
 constexpr TextureFootprint kNear{};  // footprint below a pixel
 
 /// Gray levels from left to right.
-Image strip(std::vector<std::uint8_t> greys) {
-  return {.width = static_cast<std::uint32_t>(greys.size()),
+Image strip(std::vector<std::uint8_t> grays) {
+  return {.width = static_cast<std::uint32_t>(grays.size()),
           .height = 1,
           .channels = 1,
-          .samples = std::move(greys)};
+          .samples = std::move(grays)};
 }
 
 Sampler sampler(Wrap wrap, Filter filter) {
   return {.wrap_s = wrap, .wrap_t = wrap, .magnification = filter, .mip = MipFilter::none};
 }
 
-double grey(const Image& image, const Sampler& how, double u,
+double gray(const Image& image, const Sampler& how, double u,
             const TextureFootprint& size = kNear) {
   const DVec4 color = TextureMap(image, how, ColorEncoding::linear).look_up({u, 0.5}, size);
   EXPECT_EQ(color.x, color.y);
@@ -34,25 +34,25 @@ double grey(const Image& image, const Sampler& how, double u,
 TEST(TextureMap, NearestSelectsTheContainingPixel) {
   const Image image = strip({10, 20, 30, 40});
   const Sampler nearest = sampler(Wrap::clamp_to_edge, Filter::nearest);
-  EXPECT_NEAR(grey(image, nearest, 0), 10, 1e-5);
-  EXPECT_NEAR(grey(image, nearest, 0.2499), 10, 1e-5);
-  EXPECT_NEAR(grey(image, nearest, 0.25), 20, 1e-5);
-  EXPECT_NEAR(grey(image, nearest, 1), 40, 1e-5);
+  EXPECT_NEAR(gray(image, nearest, 0), 10, 1e-5);
+  EXPECT_NEAR(gray(image, nearest, 0.2499), 10, 1e-5);
+  EXPECT_NEAR(gray(image, nearest, 0.25), 20, 1e-5);
+  EXPECT_NEAR(gray(image, nearest, 1), 40, 1e-5);
 }
 
 TEST(TextureMap, LinearInterpolatesBetweenCenters) {
   const Image image = strip({10, 20, 30, 40});
   const Sampler linear = sampler(Wrap::clamp_to_edge, Filter::linear);
-  EXPECT_NEAR(grey(image, linear, 0.125), 10, 1e-5);
-  EXPECT_NEAR(grey(image, linear, 0.25), 15, 1e-5);
-  EXPECT_NEAR(grey(image, linear, 0.03125 + 0.125), 11.25, 1e-5);
-  EXPECT_NEAR(grey(image, linear, 0), 10, 1e-5);
+  EXPECT_NEAR(gray(image, linear, 0.125), 10, 1e-5);
+  EXPECT_NEAR(gray(image, linear, 0.25), 15, 1e-5);
+  EXPECT_NEAR(gray(image, linear, 0.03125 + 0.125), 11.25, 1e-5);
+  EXPECT_NEAR(gray(image, linear, 0), 10, 1e-5);
 }
 
 TEST(TextureMap, WrapModesContinueTheImage) {
   const Image image = strip({10, 20, 30, 40});
   const auto pixel = [&](Wrap wrap, double u) {
-    return std::round(grey(image, sampler(wrap, Filter::nearest), u));
+    return std::round(gray(image, sampler(wrap, Filter::nearest), u));
   };
   EXPECT_EQ(pixel(Wrap::repeat, 1.3), 20);
   EXPECT_EQ(pixel(Wrap::repeat, -0.1), 40);
@@ -62,7 +62,7 @@ TEST(TextureMap, WrapModesContinueTheImage) {
   EXPECT_EQ(pixel(Wrap::mirrored_repeat, 2.3), 20);
   EXPECT_EQ(pixel(Wrap::clamp_to_edge, 7), 40);
   EXPECT_EQ(pixel(Wrap::clamp_to_edge, -7), 10);
-  const auto edge = [&](Wrap wrap) { return grey(image, sampler(wrap, Filter::linear), 0); };
+  const auto edge = [&](Wrap wrap) { return gray(image, sampler(wrap, Filter::linear), 0); };
   EXPECT_NEAR(edge(Wrap::repeat), 25, 1e-5);
   EXPECT_NEAR(edge(Wrap::mirrored_repeat), 10, 1e-5);
 }
@@ -72,9 +72,9 @@ TEST(TextureMap, HugeCoordinatesStayInTheImage) {
   for (const Wrap wrap : {Wrap::repeat, Wrap::mirrored_repeat, Wrap::clamp_to_edge}) {
     for (const double u : {1e300, -1e300, 1e17, std::numeric_limits<double>::infinity(),
                            std::numeric_limits<double>::quiet_NaN()}) {
-      const double value = grey(image, sampler(wrap, Filter::linear), u);
+      const double value = gray(image, sampler(wrap, Filter::linear), u);
       EXPECT_TRUE(value >= 9.99 && value <= 20.01) << u;
-      (void)grey(image, Sampler{}, 0.3, {.dx = {u, 0}, .dy = {0, u}});
+      (void)gray(image, Sampler{}, 0.3, {.dx = {u, 0}, .dy = {0, u}});
     }
   }
 }
@@ -142,9 +142,9 @@ TEST(TextureMap, ObliqueSurfacesAreFilteredAnisotropically) {
 
 TEST(TextureMap, MipMapsOfOddSizesWeightAllPixelsEqually) {
   const Image image = strip({0, 0, 0, 0, 255});
-  EXPECT_NEAR(grey(image, Sampler{}, 0.5, {.dx = {100, 0}, .dy = {0, 100}}), 51, 0.01);
+  EXPECT_NEAR(gray(image, Sampler{}, 0.5, {.dx = {100, 0}, .dy = {0, 100}}), 51, 0.01);
   const Image three = strip({255, 0, 0});
-  EXPECT_NEAR(grey(three, Sampler{}, 0.5, {.dx = {100, 0}, .dy = {0, 100}}), 85, 0.01);
+  EXPECT_NEAR(gray(three, Sampler{}, 0.5, {.dx = {100, 0}, .dy = {0, 100}}), 85, 0.01);
 }
 
 }  // namespace

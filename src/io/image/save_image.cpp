@@ -50,9 +50,9 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
                 "." + ending + message);
   };
   if (contents.channels && format.has_channels == 0)
-    refuse(" holds colours alone; write further channels to an .exr file");
+    refuse(" stores only colors; write further channels to an .exr file");
   if (contents.alpha && format.has_alpha == 0)
-    refuse(" has no alpha; write .png or .exr, or give the background a colour");
+    refuse(" has no alpha; write .png or .exr, or give the background a color");
 }
 
 /// The writer for files with one extension; loads its module if necessary.

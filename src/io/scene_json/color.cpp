@@ -36,8 +36,8 @@ Vec3 read_color(const JsonReader& json, const Colors& colors, double most) {
   if (found != colors.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& [name, color] : colors) names.push_back(name);
-  if (names.empty()) json.fail("is a name, but the scene names no colours in /colors");
-  json.fail_unknown("colour name", json.string(), names);
+  if (names.empty()) json.fail("is a name, but the scene names no colors in /colors");
+  json.fail_unknown("color name", json.string(), names);
 }
 
 float read_at_least(const JsonReader& json, double least) {

@@ -16,8 +16,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A colour for a number, none of them dark: a mixer of bits makes neighbours differ
-/// (S. Vigna's SplitMix64).
+/// A color for an id, never dark; a bit mixer gives consecutive ids different colors (S. Vigna's
+/// SplitMix64).
 Vec3 color_of_id(std::uint32_t id) {
   std::uint64_t x = id * std::uint64_t{0x9E3779B97F4A7C15};
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9;
@@ -50,11 +50,11 @@ Display of_lengths(const Film& film) {
   return {.srgb = false, .scale = Vec3(scale), .offset = Vec3(offset)};
 }
 
-/// The bounding box to [0, 1].
+/// Maps the bounding box to [0, 1].
 Display of_positions(const Film& film) {
   Vec3 low(kInfinity), high(-kInfinity);
   for_each_pixel(film, [&](const Vec3& value) {
-    if (value == Vec3(0)) return;  // most likely nothing at all
+    if (value == Vec3(0)) return;  // most likely no surface
     low = glm::min(low, value);
     high = glm::max(high, value);
   });
@@ -88,7 +88,7 @@ void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
                           .hit = *hit,
                           .at = interact(world.bvh.primitives(), rays[i], *hit)});
     }
-    const bool is_number = channels_of(aov_).size() == 1;  // shown grey
+    const bool is_number = channels_of(aov_).size() == 1;  // shown in gray
     samples[i] = {.color = is_number ? Vec3(v[0]) : Vec3(v[0], v[1], v[2]),
                   .alpha = hit ? 1.0F : 0.0F};
   }

@@ -1,6 +1,5 @@
 #pragma once
-/// Rays that leave surfaces, before their origins are found: all of a wave at once, which is
-/// faster.
+/// Rays that leave surfaces, whose origins are computed in batches, which is faster.
 
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
@@ -16,24 +15,24 @@
 
 namespace microtrace {
 
-/// Each path leaves a surface at most once to a light and once to go on. Large.
+/// Each path has at most one shadow ray and one next ray. A large object.
 class Departures {
  public:
-  /// `ray` stays until set_off(), and hits there.
+  /// `ray` must remain valid until set_off(), and must have this hit.
   void add_shadow(const Ray& ray, const Hit& hit, const LightSample& light, const Vec3& color,
                   std::size_t slot) {
     shadows_[shadow_count_++] = {
         .light = light, .color = color, .slot = slot, .spawn = spawn(ray, hit, light.to_light)};
   }
 
-  /// The path that goes on in that direction, to be filled in.
+  /// The state of the path that continues in this direction, to be filled in.
   [[nodiscard]] PathState& add_path(const Ray& ray, const Hit& hit, const Vec3& direction) {
     path_spawns_[path_count_] = spawn(ray, hit, direction);
     return paths_[path_count_++];
   }
 
-  /// Gives them origins; those that have no room to leave end. Returns how many rays of paths there
-  /// are.
+  /// Computes the origins; rays without an origin are dropped. Returns the number of remaining path
+  /// rays.
   std::size_t set_off(const Bvh& bvh, ShadowRays& shadow_rays, std::span<Ray> rays,
                       std::span<PathState> paths);
 

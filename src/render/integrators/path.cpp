@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// Those that no thread uses at present: making one takes as long as a tenth of its work.
+/// Wavefronts that no thread uses at present: creating one takes as long as a tenth of its work.
 class PathIntegrator::Waves {
  public:
   std::unique_ptr<Wave> take() {

@@ -11,35 +11,35 @@
 
 namespace microtrace {
 
-/// One path on its way.
+/// The state of one path.
 struct PathState {
   sampling::Sobol sobol{};
-  std::size_t slot = 0;  ///< in the batch
+  std::size_t slot = 0;  ///< index in the batch
   Vec3 throughput{1};
-  float pdf = 0;                ///< with which its last direction was chosen; 0: by the camera
-  LightSampleContext from{};    ///< the surface that it leaves
-  Vec3 absorption{0};           ///< of the medium that it is in, in powers of two per length
-  int channel = 3;              ///< of a path through a dispersing medium, 0 to 2; 3: all
-  float begin = 0, spread = 0;  ///< the width of what it stands for, at and from its origin
+  float pdf = 0;                ///< pdf of its last direction; 0: from the camera
+  LightSampleContext from{};    ///< the previous vertex
+  Vec3 absorption{0};           ///< of the current medium, in powers of two per length
+  int channel = 3;              ///< color channel in a dispersive medium, 0 to 2; 3: all
+  float begin = 0, spread = 0;  ///< footprint width at the origin, and growth with distance
 };
 
-/// What all paths of a wave have in common at one of their vertices.
+/// Common to all paths of a wavefront at one bounce.
 struct WaveStep {
-  std::uint32_t depth = 1;  ///< straight parts so far, the one under way among them
-  float sample_width = 1;   ///< of a pixel
+  std::uint32_t depth = 1;  ///< number of the current path segment, from 1
+  float sample_width = 1;   ///< distance between samples, in pixels
 
-  /// The number of that pair of random numbers.
+  /// The number of this pair of random numbers at this bounce.
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {
     return sampling::kFirstVertexPair + (depth - 1) * sampling::kVertexPairs + which;
   }
-  /// With which a path goes on at most; 1 where it always does.
+  /// Maximum survival probability of Russian roulette; 1: no roulette.
   [[nodiscard]] float most_survival() const { return depth >= kFirstRoulette ? 0.95F : 1; }
-  /// How much wider what a path stands for becomes by scattering: samples of such a pdf are
-  /// about so far apart, and a quarter blurs nothing that is seen.
+  /// Growth of the path's footprint after scattering with this pdf: a quarter of the mean sample
+  /// spacing, too small to blur visibly.
   [[nodiscard]] float spread(float pdf) const { return sample_width * 0.25F / std::sqrt(pdf); }
 
  private:
-  /// Paths at least this long end at random if they carry little.
+  /// Russian roulette starts at this path length.
   static constexpr std::uint32_t kFirstRoulette = 4;
 };
 

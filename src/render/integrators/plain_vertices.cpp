@@ -37,7 +37,7 @@ PlainVertices::PlainVertices() : kernels_(&best_shading_kernels()) {}
 
 void PlainVertices::begin(const Lighting& lighting) {
   lighting_ = &lighting;
-  // Where no light is asked, none may be left over from another scene.
+  // Without light sampling, no light of another scene may be left over.
   std::memset(scatter_.light, 0, sizeof scatter_.light);
 }
 

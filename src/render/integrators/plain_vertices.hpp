@@ -1,6 +1,6 @@
 #pragma once
-/// Vertices of paths on surfaces of the metallic-roughness model without more, as most are: sixteen
-/// at a time by the shading kernels.
+/// Path vertices on metallic-roughness surfaces without further properties, the most common kind:
+/// sixteen at a time by the shading kernels.
 
 #include "render/integrators/departures.hpp"
 #include "render/integrators/path_state.hpp"
@@ -15,7 +15,7 @@
 
 namespace microtrace {
 
-/// Of all paths of a step.
+/// The parameters of all paths of a bounce.
 [[nodiscard]] ScatterSetup scatter_setup(const WaveStep& step);
 
 class PlainVertices {
@@ -24,10 +24,11 @@ class PlainVertices {
 
   void begin(const Lighting& lighting);
 
-  /// All of a step are on shading.is_plain(); `path` and `ray` stay until finish().
+  /// All vertices of a bounce must have shading.is_plain(); `path` and `ray` must remain valid
+  /// until finish().
   void add(const WaveStep& step, const Shading& shading, const Ray& ray, const Hit& hit,
            const ShadingPoint& point, const PathState& path, Departures& departures);
-  /// Ends the step.
+  /// Finishes the bounce.
   void finish(const WaveStep& step, Departures& departures);
 
  private:

@@ -7,7 +7,7 @@ namespace microtrace {
 void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& color,
                      std::size_t slot) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  // A light without size stands at t = 1; a triangle that shines is met about there.
+  // A punctual light is at t = 1; an emissive triangle is hit approximately there.
   const float t_max = light.is_far || light.target ? infinity : 1;
   Group& group = light.target ? aimed_ : free_;
   group.add({.o = origin, .t_min = 0, .d = light.to_light, .t_max = t_max}, color, slot,
@@ -24,15 +24,15 @@ void ShadowRays::Group::add(const Ray& ray, const Vec3& color, std::size_t slot,
 
 namespace {
 
-/// The share of the light that passes all that is before t_max or the target; `beyond` counts the
-/// hits behind hits.
+/// The fraction of the light that passes all surfaces before t_max or the target; `beyond` counts
+/// the calls of Bvh::next.
 float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
                     std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
                     std::uint64_t& beyond) {
   float transmittance = 1;
   while (hit && hit->id != target) {
     const ShadingPoint point = shading.point(ray, *hit);
-    // What the ray meets from the front the light meets from behind.
+    // What the ray hits from the front, the light hits from behind.
     if (!(passes_backs && Shading::lets_light_in(point)))
       transmittance *= 1 - shading.coverage(point, false);
     if (transmittance == 0) return 0;

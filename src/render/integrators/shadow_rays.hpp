@@ -1,5 +1,5 @@
 #pragma once
-/// Light on its way to surfaces, and whether it arrives.
+/// Shadow rays, and the light that arrives.
 
 #include "render/lights/light_sample.hpp"
 #include "render/shading/shading.hpp"
@@ -16,22 +16,22 @@
 
 namespace microtrace {
 
-/// Rays from surfaces to lights, asked together.
+/// Shadow rays, traced in batches.
 class ShadowRays {
  public:
-  /// From a spawned origin. `light` is for colors[slot] if nothing is in between. At most
-  /// kRandomBatch.
+  /// Adds a ray with a spawned origin. `light` is added to colors[slot] if it is not occluded. At
+  /// most kRandomBatch rays.
   void add(const Vec3& origin, const LightSample& light, const Vec3& color, std::size_t slot);
 
   [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
 
-  /// Adds what arrives to the colours and forgets the rays. Returns how many hits behind hits were
-  /// asked for.
+  /// Adds the light that arrives to the colors and clears the rays. Returns the number of calls of
+  /// Bvh::next.
   std::uint64_t arrive(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
                        std::span<Vec3> colors);
 
  private:
-  /// Those that end at a triangle that shines, or those that end nowhere else.
+  /// Rays that end at an emissive triangle, or rays without such an end.
   struct Group {
     std::size_t count = 0;
     std::array<Ray, kRandomBatch> rays;
@@ -47,7 +47,7 @@ class ShadowRays {
                                    Group& group, std::span<Vec3> colors);
 
   Group free_, aimed_;
-  Group met_;  ///< of the free ones those that meet something that may let light through
+  Group met_;  ///< rays without a target that hit a surface which may transmit light
 };
 
 }  // namespace microtrace

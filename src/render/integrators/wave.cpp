@@ -12,14 +12,14 @@
 namespace microtrace {
 namespace {
 
-/// Whether a direction is on one side of the surface, that of the ray if `above`, by the geometric
-/// normal as it is by the shading normal.
+/// Whether a direction is on one side of the surface, the ray's side if `above`, by both the
+/// geometric and the shading normal.
 bool agrees(const ShadingPoint& point, const Vec3& wi, bool above) {
   const float cosine = glm::dot(wi, point.at.n);
   return point.at.front == above ? cosine > 0 : cosine < 0;
 }
 
-/// Of light after a way through a medium.
+/// Transmittance of a medium.
 Vec3 transmittance(const Vec3& absorption, float distance) {
   Vec3 left(1);
   for (int c = 0; c < 3; ++c) {
@@ -29,7 +29,7 @@ Vec3 transmittance(const Vec3& absorption, float distance) {
   return left;
 }
 
-/// Counts rays, and the time until its end.
+/// Counts rays, and measures the time of its lifetime.
 class RayTimer {
  public:
   RayTimer(RayCounts::Kind& kind, std::size_t rays) : kind_(kind) { kind.rays += rays; }
@@ -99,7 +99,7 @@ void Wave::escape(const Ray& ray, const PathState& path) {
   if (path.pdf > 0) {
     const EnvironmentLight::Lookup light = lighting_->environment(path.from, wi);
     colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, light.pdf);
-  } else if (lighting_->is_seen()) {  // else the background is the picture's business
+  } else if (lighting_->is_seen()) {  // otherwise the background is composited later
     colors_[path.slot] += path.throughput * lighting_->environment(wi);
     alphas_[path.slot] = 1;
   }
@@ -183,7 +183,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
   const int channel = channel_of(*point.look->material, path);
   const bsdf::Frame frame = shading_->frame(point, -d);
   Vec3 wo = frame.to_local(-d);
-  wo.z = std::max(wo.z, 1e-5F);  // above, whatever rounding does
+  wo.z = std::max(wo.z, 1e-5F);  // above the surface, despite rounding
   const bsdf::Scattering bsdf(shading_->parameters(point, frame, channel),
                               shading_->layers(point, frame, -d), wo);
   const Vertex vertex{

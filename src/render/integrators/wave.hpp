@@ -1,6 +1,5 @@
 #pragma once
-/// Many paths that go on together, a straight part of each at a time, so that their rays make
-/// batches.
+/// A wavefront of paths that advance one bounce at a time, so that rays are traced in batches.
 
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/scattering.hpp"
@@ -24,60 +23,62 @@
 
 namespace microtrace {
 
-/// Large: made once for many batches.
+/// A large object: created once for many batches.
 class Wave {
  public:
   Wave();
 
-  /// Follows a path for each ray to its end; at most kRandomBatch.
+  /// Traces a path for each ray to its end; at most kRandomBatch.
   void trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
              std::span<const SampleId> ids, std::span<Sample> samples);
 
-  /// Of the rays since it was last called.
+  /// The counts since the last call.
   [[nodiscard]] RayCounts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
-  /// Where a path stands.
+  /// A path vertex.
   struct Vertex {
     const Ray& ray;
     Hit hit;
     const ShadingPoint& point;
     const bsdf::Frame& frame;
     const bsdf::Scattering& bsdf;
-    int channel;  ///< for which a dispersing surface bends the path
+    int channel;  ///< color channel for refraction by a dispersive surface
   };
-  /// Gives the point its width and looks for its textures.
+  /// Sets the point's footprint and texel address.
   void prepare(std::size_t i, ShadingPoint& point);
-  /// Whether the path ends its present part at a point, by chance where not all of it is there.
+  /// Whether the path's current segment ends at a point, chosen at random for partial opacity.
   [[nodiscard]] bool stops(const PathState& path, const ShadingPoint& point,
                            std::uint32_t layer) const;
-  /// What path i's ray meets behind a hit; the point becomes that one's.
+  /// The next hit of path i behind `hit`; updates the point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
-  /// Where light comes from that arrives through the backs of what path i's ray meets.
+  /// The source of light that arrives through the backs of surfaces that path i's ray hits.
   struct Behind {
     bool is_open = false;      ///< the environment
-    std::optional<Hit> hit{};  ///< a surface that shines
-    ShadingPoint point{};      ///< there
+    std::optional<Hit> hit{};  ///< an emissive surface
+    ShadingPoint point{};      ///< its shading point
   };
-  /// Nothing if none comes. The ray meets the front of a one-sided surface, `layer` of its layers.
+  /// Nothing if no light arrives. The ray hits the front of a one-sided surface, the layer with
+  /// number `layer`.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
-  /// What becomes of path i, whose ray meets what it meets at `point`, if anything.
+  /// Advances path i, whose ray hits `point`, if anything.
   void step(std::size_t i, ShadingPoint& point);
-  /// Steps all paths.
+  /// Advances all paths.
   void step();
-  /// Gives a path from the camera its width.
+  /// Sets the footprint of a camera path.
   void widen(const Ray& ray, PathState& path) const;
   void escape(const Ray& ray, const PathState& path);
   void ask_light(const Vertex& vertex, const PathState& path);
   void scatter(const Vertex& vertex, const PathState& path);
-  /// The channel for which a path goes on through the surface, chosen at random if it is of all.
+  /// The color channel with which a path continues through the surface, chosen at random if it has
+  /// all channels.
   [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
-  /// What is left of light when a path of all channels becomes one of one.
+  /// The weight of a path that is reduced from all channels to one.
   [[nodiscard]] static Vec3 one_channel(const Vertex& vertex, const PathState& path);
 
-  // Of the present batch:
+  // State of the current batch:
   RayCounts counts_{};
   const World* world_ = nullptr;
   const Shading* shading_ = nullptr;

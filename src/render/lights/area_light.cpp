@@ -123,8 +123,8 @@ std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u)
   const auto [cos_phi, sin_phi] = sampling::unit_pair(u.x);
   const Vec3 local(DVec3(sine * double{cos_phi}, sine * double{sin_phi}, 1 - h));
   const Vec3 wi = bsdf::Frame::about(cone.axis).to_world(local);
-  const double off_centre = cone.distance * sine, r = s.radius;
-  const double half_chord = std::sqrt(std::max(r * r - off_centre * off_centre, 0.0));
+  const double off_center = cone.distance * sine, r = s.radius;
+  const double half_chord = std::sqrt(std::max(r * r - off_center * off_center, 0.0));
   return ShapeSample{
       .to_light = DVec3(wi) * (cone.distance * (1 - h) - half_chord), .wi = wi, .pdf = cone.pdf()};
 }

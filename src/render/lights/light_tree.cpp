@@ -131,14 +131,14 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
     trails_[order[begin]] = trail;
     return;
   }
-  const auto centre = [&](std::uint32_t i) {
+  const auto center = [&](std::uint32_t i) {
     return (DVec3(lights[i].low) + DVec3(lights[i].high)) * 0.5;
   };
-  DVec3 low = centre(order[begin]), high = low;
+  DVec3 low = center(order[begin]), high = low;
   for (std::size_t i = begin + 1; i < end; ++i) {
     nodes_[place].bounds = united(nodes_[place].bounds, lights[order[i]]);
-    low = glm::min(low, centre(order[i]));
-    high = glm::max(high, centre(order[i]));
+    low = glm::min(low, center(order[i]));
+    high = glm::max(high, center(order[i]));
   }
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
@@ -148,7 +148,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   if (extent[axis] > 0 && depth < kDeepest) {
     const double scale = kBuckets / extent[axis];
     const auto bucket_of = [&](std::uint32_t i) {
-      return std::min(static_cast<int>((centre(i)[axis] - low[axis]) * scale), kBuckets - 1);
+      return std::min(static_cast<int>((center(i)[axis] - low[axis]) * scale), kBuckets - 1);
     };
     std::array<Bucket, kBuckets> buckets;
     for (std::size_t i = begin; i < end; ++i)

@@ -80,9 +80,9 @@ RadianceMap make_studio() {
     const double r = sin_radians(theta), y = cos_radians(theta);
     Vec3* line = &map.pixels[std::size_t{row} * kWidth];
     for (std::uint32_t i = 0; i < kWidth / 2; ++i) {
-      const Vec3 grey(static_cast<float>(radiance(r * cosines[i], y, r * sines[i])));
-      line[kWidth / 4 + i] = grey;
-      line[(kWidth / 4 - 1 - i + kWidth) % kWidth] = grey;
+      const Vec3 gray(static_cast<float>(radiance(r * cosines[i], y, r * sines[i])));
+      line[kWidth / 4 + i] = gray;
+      line[(kWidth / 4 - 1 - i + kWidth) % kWidth] = gray;
     }
   }
   return map;
