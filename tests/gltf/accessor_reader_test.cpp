@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// A reader over an asset with one buffer, and all that must outlive it.
+/// A reader of an asset with one buffer, and all objects that must outlive it.
 class Reading {
  public:
   explicit Reading(const AssetBuilder& asset)
@@ -90,7 +90,7 @@ TEST(GltfAccessorReader, MatricesAreReadByColumns) {
 
 TEST(GltfAccessorReader, SomeElementsAreThoseOfAll) {
   AssetBuilder asset;
-  std::vector<std::int16_t> numbers;  // interleaved: three of four are the accessor's
+  std::vector<std::int16_t> numbers;  // interleaved: the accessor uses three of four
   for (int i = 0; i < 400; ++i) numbers.push_back(static_cast<std::int16_t>(i * 80));
   const int accessor = add<std::int16_t>(asset, 5122, "VEC3", true, numbers, 100, 8);
   const std::size_t changed = asset.add_view(bytes_of<std::uint8_t>({0, 7, 50, 99}));
@@ -140,7 +140,7 @@ TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndNotTooMany) {
   }
 }
 
-/// The padding after the last column of the last matrix is no part of an accessor (glTF 2.0,
+/// The padding after the last column of the last matrix does not belong to an accessor (glTF 2.0,
 /// section 3.6.2.4).
 TEST(GltfAccessorReader, MatricesOfSmallNumbersEndWithTheirLastNumber) {
   struct Case {

@@ -40,7 +40,7 @@ void point(AssetBuilder& asset, const char* pointer, const char* shape, const Nu
   point(asset, pointer, asset.add_numbers<float>(shape, values), interpolation);
 }
 
-/// Texture 0, and coordinates for it.
+/// Texture 0, and texture coordinates.
 void add_texture(AssetBuilder& asset) {
   asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
       asset.add_numbers<float>("VEC2", {0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1});
@@ -291,7 +291,7 @@ TEST(GltfAnimationPointer, ValuesOfAnotherShapeAreIgnored) {
   }
 }
 
-// As a sequence of frames has it.
+// As for a sequence of frames.
 TEST(GltfAnimationPointer, AFileIsReadOnceAndPosedOften) {
   AssetBuilder asset = cube();
   point(asset, "/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});

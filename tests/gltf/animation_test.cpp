@@ -26,7 +26,7 @@ void expect_near(const Vec3& value, const Vec3& wanted) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], wanted[i], 1e-6) << i;
 }
 
-/// A cube that turns once about z from 1 to 3 seconds, in four quarters, and moves by 10 in x.
+/// A cube that rotates once about z from 1 to 3 seconds, in four quarters, and moves by 10 in x.
 AssetBuilder turning_cube() {
   AssetBuilder asset = cube();
   const float half = std::sqrt(0.5F);
@@ -126,7 +126,7 @@ TEST(GltfAnimation, IsChosenByNameOrIndexOrAllTogether) {
   EXPECT_EQ(corner_at(asset, 3, "grow"), Vec3(1, 1, 5));
   EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(1, 1, 5));
   EXPECT_EQ(corner_at(asset, 3, "all"), Vec3(11, 1, 5));
-  asset.json["animations"][0]["name"] = "1";  // names go before numbers
+  asset.json["animations"][0]["name"] = "1";  // names take precedence over numbers
   EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(11, 1, 1));
   for (const char* wrong : {"run", "2", "-1", "0x0", " 1", "99999999999999999999999"}) {
     try {
@@ -160,7 +160,7 @@ TEST(GltfAnimation, ChannelsThatCannotBePlayedAreWarnedOf) {
               testing::Contains(AllOf(HasSubstr("/animations/0/channels/0/target/path"),
                                       HasSubstr("\"colour\" is not supported"))));
   channels[0]["target"]["path"] = "rotation";
-  channels[0]["target"].erase("node");  // as the specification says: ignored
+  channels[0]["target"].erase("node");  // ignored, as the specification requires
   EXPECT_THAT(texts(load(asset, {.time = 3}).warnings), IsEmpty());
   EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));
 }
@@ -191,12 +191,13 @@ TEST(GltfAnimation, PointersToNodesAreFollowed) {
 
 TEST(GltfAnimation, AChannelThatCannotBePlayedIsLeftOut) {
   AssetBuilder asset = turning_cube();
-  const std::size_t first = asset.json["accessors"].size() - 4;  // times, turns, ends, moves
+  const std::size_t first =
+      asset.json["accessors"].size() - 4;  // times, rotations, ends, translations
   const auto with = [&](std::size_t accessor, const char* key, const Json& value) {
     AssetBuilder broken = asset;
     broken.json["accessors"][first + accessor][key] = value;
     const LoadedScene loaded = load(broken, {.time = 3});
-    // The other channel is played: the cube turns or moves, not both.
+    // The other channel is played: the cube either rotates or moves.
     EXPECT_EQ(corner(loaded).x, accessor < 2 ? 11 : 1) << accessor << key;
     return texts(loaded.warnings);
   };
@@ -215,7 +216,7 @@ TEST(GltfAnimation, AChannelThatCannotBePlayedIsLeftOut) {
   EXPECT_EQ(corner_at(broken, 2), Vec3(1));
 }
 
-/// The cube moved to each of the places, at those times; its x at a time, less 1.
+/// The cube moved to these positions at these times; returns its x at a time, minus 1.
 float x_at(const std::vector<float>& times, const std::vector<float>& places, double time) {
   AssetBuilder asset = cube();
   std::vector<float> moves;
@@ -274,7 +275,7 @@ TEST(GltfAnimation, PointersMustLeadSomewhere) {
   Json both = pointer("/nodes/0/translation");
   both["node"] = 0;
   EXPECT_THAT(complaint(both), HasSubstr("/target/node: must be absent"));
-  EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));  // the pointer holds
+  EXPECT_EQ(corner_at(asset, 3), Vec3(11, 1, 1));  // the pointer takes precedence
   both.erase("node");
   both["path"] = "translation";
   EXPECT_THAT(complaint(both), HasSubstr("/target/path: must be \"pointer\""));

@@ -1,5 +1,5 @@
 #pragma once
-/// Small glTF assets made in memory, and what tests ask of them.
+/// Small glTF assets created in memory, and helpers for tests.
 
 #include "support/json.hpp"
 
@@ -35,13 +35,13 @@ constexpr int component_type_of(float) {
   return f32;
 }
 
-/// The bytes of a list of numbers as they lie in memory.
+/// The bytes of a list of numbers.
 template <typename Number>
 std::string bytes_of(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-/// Grows the JSON of an asset with one buffer, and the buffer.
+/// Builds the JSON of an asset with one buffer, and the buffer.
 struct AssetBuilder {
   Json json = {{"asset", {{"version", "2.0"}}}};
   std::string buffer;
@@ -52,8 +52,8 @@ struct AssetBuilder {
   std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
   std::size_t add_positions(const std::vector<Vec3>& positions);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, ComponentType type);
-  /// Numbers in a view of their own, with min and max where they are scalars; `shape` is as in
-  /// glTF: "SCALAR", "VEC3", "MAT4".
+  /// Numbers in a view of their own, with min and max for scalars; `shape` is as in glTF: "SCALAR",
+  /// "VEC3", "MAT4".
   template <typename Number>
   std::size_t add_numbers(const char* shape, const std::vector<Number>& numbers,
                           bool normalized = false) {
@@ -61,10 +61,10 @@ struct AssetBuilder {
   }
   std::size_t add_accessor(const char* shape, const std::string& bytes, int component_type,
                            bool normalized);
-  /// A sampler in animation `index`, which may be new, and a channel from it.
+  /// A sampler in animation `index`, which is created if necessary, and a channel that uses it.
   void animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
                std::size_t output, const char* interpolation = "LINEAR");
-  /// A mesh of one primitive on a node of its own in the default scene; the node's index.
+  /// A mesh with one primitive on a new node of the default scene; returns the node's index.
   std::size_t add_object(Json primitive);
 
   /// The asset with its buffer as a data URI, and as a GLB file.
@@ -79,7 +79,7 @@ struct GlbChunk {
 };
 inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 
-/// A GLB file with these chunks as they are.
+/// A GLB file with these chunks, unchanged.
 [[nodiscard]] std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version = 2);
 [[nodiscard]] std::string padded(std::string bytes, char filler);
 [[nodiscard]] std::string base64(std::string_view bytes);
@@ -87,19 +87,19 @@ inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
 /// The cube [-1, 1]^3: 8 vertices, 12 triangles with u16 indices, a red material, a node "Cube".
 [[nodiscard]] AssetBuilder cube();
 
-/// The asset with one change: the value at the JSON pointer `where` set, or removed if `value` is
-/// empty; where the pointer is empty, `value` is a JSON merge patch (RFC 7396) to the whole.
+/// The asset with one change: sets the value at the JSON pointer `where`, or removes it if `value`
+/// is empty; if the pointer is empty, `value` is a JSON merge patch (RFC 7396) to the whole.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
-/// Loads bytes as "test.gltf" from an empty folder name.
+/// Loads bytes as "test.gltf" in an empty folder name.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);
 
-/// The base colour factor of an object's material.
+/// The base color factor of an object's material.
 [[nodiscard]] Vec4 color_of(const LoadedScene& loaded, std::size_t object);
 
-/// The corners of an object's triangles, one after another.
+/// The vertices of an object's triangles, one after another.
 [[nodiscard]] std::vector<std::array<Vec3, 3>> triangles_of(const Object& object);
 
 /// The texts "/pointer: message" of warnings.

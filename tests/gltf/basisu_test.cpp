@@ -23,7 +23,7 @@ std::string ktx2_file(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The cube with a texture of image 0, which is KTX2, and of image 1, which is PNG.
+/// The cube with a texture of image 0 (KTX2) and of image 1 (PNG).
 AssetBuilder textured(const std::string& ktx2) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
@@ -37,7 +37,7 @@ AssetBuilder textured(const std::string& ktx2) {
   return asset;
 }
 
-/// The one image that is drawn.
+/// The only decoded image.
 const Image& image_of(const Scene& scene) {
   const Texture& texture = scene.textures.at(0);
   EXPECT_EQ(texture.image, 0U);

@@ -1,4 +1,4 @@
-// Makes draco.glb and meshopt.glb, a sphere each, which none but the module of its name can read.
+// Writes draco.glb and meshopt.glb, a sphere each, which only the module of that name can read.
 //
 // usage: compressed_assets FOLDER
 
@@ -86,7 +86,7 @@ std::string word(std::size_t number) {
   return bytes;
 }
 
-/// A GLB of that JSON without its braces and of that buffer.
+/// A GLB file with this JSON, given without its braces, and this buffer.
 void save(const std::filesystem::path& path, const std::string& extension, const std::string& rest,
           std::string binary) {
   std::string json =
@@ -120,7 +120,7 @@ void save_draco(const std::filesystem::path& path, const Sphere& sphere) {
   save(path, "KHR_draco_mesh_compression", rest, bytes);
 }
 
-/// A view that lies uncompressed in the second buffer, which is nowhere.
+/// A view whose uncompressed data is in the second buffer, which has no data.
 std::string view(const std::string& offset, const std::string& length, const char* mode,
                  std::size_t from, std::size_t size, std::size_t count, const char* stride) {
   const std::string step = std::string(R"("byteStride":)") + stride + ",";

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// A change to the numbers of the rig, and the complaint.
+/// A change to the numbers of the rig, and the expected message.
 struct Poke {
   std::function<void(AssetBuilder&)> change;
   const char* pointer;

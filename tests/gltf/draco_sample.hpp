@@ -1,6 +1,6 @@
 #pragma once
-/// A mesh as Draco's own library encodes and decodes it. In a module of its own: the library holds
-/// another tinygltf than ours, and the two must not meet in one program.
+/// A mesh encoded and decoded by Draco's own library. In a module of its own, because the library
+/// contains another tinygltf, and the two must not be linked into one program.
 
 #include <microtrace/math.hpp>
 
@@ -20,8 +20,8 @@ struct DracoSample {
 
 inline constexpr std::uint32_t draco_rows = 9, draco_columns = 30;  // of vertices
 
-/// Makes a bowl of 14 bits with normals and colours (2 i, 7, 255, 255), sequential or by
-/// edgebreaker.
+/// Creates a bowl with 14 bits, normals and the colors (2 i, 7, 255, 255), with sequential or
+/// edgebreaker encoding.
 using MakeDracoSample = void (*)(bool sequential, DracoSample& sample);
 
 }  // namespace microtrace::tests

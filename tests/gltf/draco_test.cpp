@@ -99,7 +99,7 @@ TEST(GltfDraco, AllThatTheBytesHoldIsDrawnWhateverTheAccessorsSay) {
     };
     for (std::size_t i = 0; i < 2; ++i) add(i, vertices);
     add(3, indices);
-    // Of an attribute that the bytes do not have there are as many as its accessor says.
+    // For an attribute that the data lacks, the number is taken from its accessor.
     const std::size_t uvs = add(2, vertices);
     asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
         asset.add_numbers<float>("VEC2", std::vector<float>(2 * uvs, 0.5F));

@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 using Corners = std::array<Vec3, 3>;
 
-/// Six vertices that tell each other apart: (0, 0, 0), (1, 1, 0), (2, 4, 0), ...
+/// Distinct vertices: (0, 0, 0), (1, 1, 0), (2, 4, 0), ...
 std::vector<Vec3> points(int count) {
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) result.emplace_back(i, i * i, 0);
@@ -133,7 +133,7 @@ TEST(GltfGeometry, PointsAndLinesAreSegmentsOfTheMesh) {
   using Segments = std::vector<std::array<std::uint32_t, 2>>;
   const std::vector<Segments> expected = {
       {{1, 1}, {2, 2}, {0, 0}, {2, 2}, {1, 1}},  // POINTS
-      {{1, 2}, {0, 2}},                          // LINES: the fifth vertex is left over
+      {{1, 2}, {0, 2}},                          // LINES: the fifth vertex is ignored
       {{1, 2}, {2, 0}, {0, 2}, {2, 1}, {1, 1}},  // LINE_LOOP
       {{1, 2}, {2, 0}, {0, 2}, {2, 1}},          // LINE_STRIP
   };
@@ -215,7 +215,7 @@ TEST(GltfGeometry, PositionsThatAreNotFiniteInTheWorldStayAndAreWarnedOf) {
               ElementsAre(HasSubstr("/meshes/0/primitives/0: has vertices that are not finite")));
 }
 
-/// NaN and infinity, where JSON says nothing of the accessor's bounds.
+/// NaN and infinity in accessors without bounds.
 TEST(GltfGeometry, VerticesThatAreNotFiniteAreLeftOutWithWhatTheyMake) {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   AssetBuilder asset;

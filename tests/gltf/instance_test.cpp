@@ -12,7 +12,7 @@ using ::testing::SizeIs;
 
 constexpr const char* extension = "EXT_mesh_gpu_instancing";
 
-/// One triangle, (0,0,0) (1,0,0) (0,1,0), on a node that stands at x = 100.
+/// The triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
 AssetBuilder triangle() {
   AssetBuilder asset;
   asset.json["extensionsUsed"] = {extension};

@@ -54,7 +54,7 @@ TEST(GltfKeyframes, TimesAreClampedToTheKeys) {
     EXPECT_THAT(value_at(sampler, 1e300), ElementsAre(20));
     EXPECT_THAT(value_at(sampler, HUGE_VAL), ElementsAre(20));
   }
-  // The tangents before the first key and after the last play no part.
+  // The tangents before the first key and after the last have no effect.
   const Keyframes cubic = keys(Interpolation::cubic_spline, {1, 2}, {9, 10, 9, 9, 20, 9});
   EXPECT_THAT(value_at(cubic, 0.5), ElementsAre(10));
   EXPECT_THAT(value_at(cubic, 7), ElementsAre(20));
@@ -87,7 +87,7 @@ TEST(GltfKeyframes, RotationsTurnAtConstantSpeed) {
 TEST(GltfKeyframes, RotationsTakeTheShorterWay) {
   const Quaternion a = about_z(0), b = about_z(0.5);
   EXPECT_LT(distance(slerp(a, -b, 0.5), about_z(0.25)), 1e-15);
-  // More than half a turn one way is less than half a turn the other way.
+  // A rotation of more than 180 degrees is shorter in the other direction.
   const Quaternion c = about_z(1.5 * std::numbers::pi);
   EXPECT_LT(distance(slerp(a, c, 0.5), about_z(-0.25 * std::numbers::pi)), 1e-15);
 }
@@ -105,7 +105,7 @@ TEST(GltfKeyframes, SlerpKeepsUnitLengthAndSmallAngles) {
     const double t = 0.05 * (i % 21);
     const Quaternion q = slerp(a, b, t);
     ASSERT_NEAR(glm::length(q), 1, 1e-14);
-    // Its angle to a is t times that from a to b: compared by chords, which lose nothing.
+    // Its angle to a is t times that from a to b, compared by chord lengths, which are precise.
     const double whole =
         std::asin(std::min(1.0, glm::length(glm::dot(a, b) < 0 ? a + b : a - b) / 2));
     ASSERT_NEAR(glm::length(q - a), 2 * std::sin(t * whole), 2e-15);

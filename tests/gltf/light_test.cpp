@@ -15,13 +15,13 @@ using ::testing::SizeIs;
 
 constexpr const char* extension = "KHR_lights_punctual";
 
-/// The cube, with the lights on nodes of their own that are all turned and scaled alike.
+/// The cube, with each light on its own node; all nodes have the same rotation and scale.
 AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {extension};
   asset.json["extensions"][extension]["lights"] = lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    // A quarter turn about x: -z becomes +y.
+    // A rotation of 90 degrees about x maps -z to +y.
     const std::size_t node =
         asset.add("nodes", {{"translation", {1, 2, 3}},
                             {"rotation", {0.7071067811865476, 0, 0, 0.7071067811865476}},
@@ -97,7 +97,7 @@ TEST(GltfLights, BrokenOnesAreRefused) {
   }
 }
 
-/// The light of that JSON, which is drawn with a warning.
+/// The light with this JSON, which is loaded with a warning.
 template <typename Kind>
 Kind repaired(const Json& light) {
   const LoadedScene scene = load(lit(Json::array({light})));

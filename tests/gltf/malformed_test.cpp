@@ -19,10 +19,10 @@ struct Mutation {
   const char* where;
   const char* value;
   ErrorKind kind = invalid;
-  const char* pointer = nullptr;  ///< of the complaint, if not `where`
+  const char* pointer = nullptr;  ///< of the message, if not `where`
 };
 
-// Accessor 0 of the cube holds 8 positions (96 bytes), accessor 1 36 indices (72 bytes).
+// Accessor 0 of the cube has 8 positions (96 bytes), accessor 1 has 36 indices (72 bytes).
 const Mutation mutations[] = {
     // The asset as a whole.
     {"/asset", "", invalid, ""},
@@ -147,7 +147,7 @@ const Mutation mutations[] = {
     {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1}}])", invalid,
      "/cameras/0/perspective"},
 
-    // Where the data comes from.
+    // Sources of data.
     {"/buffers/0/uri", "\"cube.bin\""},
     {"/buffers/0/uri", "\".\""},
     {"/buffers/0/uri", "\"../cube.bin\""},
@@ -192,7 +192,7 @@ TEST(GltfMalformed, IndexOfNoVertexIsRefused) {
     AssetBuilder asset;
     const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
     const std::size_t indices = asset.add_indices({0, 1, last}, type);
-    // Points and lines are not drawn, but checked.
+    // Points and lines are checked too.
     asset.add_object(
         {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", 3}});
     try {
@@ -234,7 +234,7 @@ TEST(GltfMalformed, InstancesBeyondTheLimitAreRefusedBeforeTheyFillMemory) {
   }
 }
 
-/// Any single wrong byte is read or refused, never anything else.
+/// A file with any single wrong byte is read or refused without crashing.
 TEST(GltfMalformed, EveryByteOfABinaryFileMayBeWrong) {
   const std::string good = cube().glb();
   std::size_t refused = 0;

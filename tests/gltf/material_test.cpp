@@ -12,8 +12,8 @@ namespace {
 
 using testing::ElementsAre;
 
-/// The cube with a material of this JSON, all of whose extensions are declared, and 24 textures
-/// that each have an image of their own.
+/// The cube with a material of this JSON, whose extensions are all declared, and 24 textures with
+/// different images.
 AssetBuilder with_material(const char* material) {
   AssetBuilder asset = cube();
   asset.json["materials"][0] = Json::parse(material);
@@ -35,7 +35,7 @@ Material material(const char* json) {
   return load(with_material(json)).scene.materials.at(0);
 }
 
-/// A material of all extensions but the archived one, with no two numbers and textures alike.
+/// A material with all extensions except the archived one, with different numbers and textures.
 constexpr const char* everything = R"({
   "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
                            "metallicRoughnessTexture": {"index": 1}},
@@ -201,7 +201,7 @@ TEST(GltfMaterial, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
       EXPECT_EQ(own.specular_glossiness.value().specular, m.specular_glossiness->specular);
     }
   }
-  // Of what it leaves out its own defaults hold.
+  // Omitted members have their defaults.
   Json& own = both.json["materials"][0]["extensions"];
   own["KHR_materials_pbrSpecularGlossiness"] = Json::object();
   EXPECT_EQ(load(both).scene.materials.at(0).base_color, Vec4(1));

@@ -114,7 +114,7 @@ std::vector<unsigned> grid_triangles() {
   return result;
 }
 
-/// A grid of triangles, or with indices of mode 2 a strip of lines.
+/// A grid of triangles, or for index mode 2 a line strip.
 CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& spoil = {}) {
   CompressedAsset result;
   const std::vector<std::int16_t> positions = grid_positions();
@@ -143,7 +143,7 @@ TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
   const std::vector<unsigned> corners = grid_triangles();
   ASSERT_EQ(mesh.triangles.size() * 3, corners.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    // The codec may turn the corners of a triangle around.
+    // The codec may rotate the vertices of a triangle.
     std::array<unsigned, 3> expected = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
     for (int k = 0; k < 3 && expected != mesh.triangles[i]; ++k) {
       expected = {expected[1], expected[2], expected[0]};
@@ -195,19 +195,19 @@ TEST(GltfMeshopt, OctahedralVectorsAreUnfolded) {
   const auto decode8 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 4); };
   EXPECT_THAT(filtered<std::int8_t>({0, 0, 127, 5, 127, 0, 127, 6, 0, -127, 127, -7}, decode8),
               ElementsAre(0, 0, 127, 5, 127, 0, 0, 6, 0, -127, 0, -7));
-  // The lower pole lies at the square's corners; half way to a corner lies the equator.
+  // The lower pole is at the square's corners; the equator is halfway to a corner.
   EXPECT_THAT(filtered<std::int8_t>({7, 7, 7, 0, -7, 7, 7, 0}, decode8),
               ElementsAre(0, 0, -127, 0, 0, 0, -127, 0));
   const auto decode16 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 8); };
   EXPECT_THAT(filtered<std::int16_t>({0, 0, 511, 3, 0, 511, 511, -4}, decode16),
               ElementsAre(0, 0, 32767, 3, 0, 32767, 0, -4));
-  // What means nothing is still some number.
+  // Meaningless input still gives some number.
   (void)filtered<std::int16_t>({1, -1, 0, 3, -32768, 32767, -1, 0, 0, 0, 0, 0}, decode16);
 }
 
 TEST(GltfMeshopt, QuaternionsRegainTheirGreatestComponent) {
-  // The last number is 2047, the greatest of 12 bits, with the place of the greatest component, 3
-  // and 1, in its low bits.
+  // The last number is 2047, the maximum of 12 bits, with the index of the largest component, 3 and
+  // 1, in its low bits.
   const std::vector<std::int16_t> stored = {0, 0, 0, 2047, 2047, 0, 0, 2045, 0, 0, 0, 0};
   const auto decoded = filtered<std::int16_t>(stored, io::gltf::decode_quaternions);
   EXPECT_THAT(std::vector(decoded.begin(), decoded.begin() + 4), ElementsAre(0, 0, 0, 32767));

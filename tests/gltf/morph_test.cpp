@@ -61,7 +61,7 @@ TEST(GltfMorph, AnimationsSetWeights) {
                 asset.add_numbers<float>("SCALAR", {0, 1, 1, 0}));
   EXPECT_THAT(first_mesh(load(asset, {.time = 0.25})).positions,
               ElementsAre(Vec3(0.75F, 0, 1), Vec3(1.75F, 0, 0), Vec3(0.75F, 3, 0)));
-  // Each key of a cubic spline: in-tangents, values, out-tangents, each of all weights.
+  // Each key of a cubic spline has in-tangents, values and out-tangents for all weights.
   asset.json.erase("animations");
   asset.animate(0, 0, "weights", asset.add_numbers<float>("SCALAR", {0, 1}),
                 asset.add_numbers<float>("SCALAR", {9, 9, 0, 1, 0, 0, 0, 0, 1, 0, 9, 9}),
@@ -130,7 +130,7 @@ TEST(GltfMorph, TargetsMayBeQuantised) {
 
 TEST(GltfMorph, EachVertexIsRoundedOnce) {
   AssetBuilder asset = morphed_triangle();
-  // 2^24 + 1 is no float32; the node brings the sum back to 1.
+  // 2^24 + 1 is not representable in float32; the node's transform brings the sum back to 1.
   asset.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] =
       asset.add_positions({Vec3(0x1p24F, 0, 0), Vec3(0x1p24F, 0, 0), Vec3(0x1p24F, 0, 0)});
   asset.json["meshes"][0]["weights"] = {1, 0};
@@ -141,7 +141,8 @@ TEST(GltfMorph, EachVertexIsRoundedOnce) {
 
 TEST(GltfMorph, TooManyDisplacementsAreALimit) {
   AssetBuilder asset = morphed_triangle();
-  // Many instances of many targets of one accessor with many vertices: a small file, endless work.
+  // Many instances of many targets of one accessor with many vertices: a small file that would
+  // cause excessive work.
   constexpr std::size_t vertices = 3 * 4096, targets = 2048, nodes = 32;
   Json position = {{"componentType", f32},
                    {"count", vertices},

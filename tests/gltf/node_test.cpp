@@ -47,13 +47,13 @@ TEST(GltfNode, MatrixIsColumnMajorAndEqualsItsParts) {
   AssetBuilder matrix = triangle();
   matrix.json["nodes"][0]["matrix"] = {0, 0.3, 0, 0, 0, 0, 2, 0, -5, 0, 0, 0, 0.1, -7, 1e5, 1};
   EXPECT_EQ(first_object(load(parts)), first_object(load(matrix)));
-  // The scale mirrors, so the corners 1 and 2 change places.
+  // The scale mirrors, so vertices 1 and 2 are swapped.
   EXPECT_EQ(first_object(load(matrix))[0][2], Vec3(0.1F, static_cast<float>(-7 + 0.3), 1e5F));
 }
 
 TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
   AssetBuilder asset = triangle();
-  // Two steps far away that cancel: float32 would lose the 0.125.
+  // Two distant translations that cancel: float32 would lose the 0.125.
   asset.json["nodes"][0]["translation"] = {-1e9, 0.125, 0};
   asset.json["nodes"].push_back(
       {{"children", {0}}, {"translation", {1e9 + 0.125, 0, 0}}, {"name", "above"}});
@@ -66,7 +66,7 @@ TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
   EXPECT_EQ(loaded.scene.objects[0].name, "top/above/node0/mesh0");
 }
 
-// 6 000 km away float32 has a number every half metre.
+// At a distance of 6 000 km float32 numbers are half a meter apart.
 TEST(GltfNode, FarFromTheOriginNothingIsCoarser) {
   AssetBuilder asset = triangle();
   const DVec3 far(-2694044.4111565403, -4266368.805493665, 3888310.602231939);

@@ -1,5 +1,5 @@
 #pragma once
-/// An asset that has a part of almost every kind, to break one at a time.
+/// An asset with almost every kind of object, for breaking one at a time.
 
 #include "gltf/asset_builder.hpp"
 
@@ -24,11 +24,11 @@ enum RigAccessor : std::size_t {
   rig_morph_weights,
 };
 
-/// Its nodes: 0 the mesh, 1 and 2 the joints, 1 above 2, 3 the light. Its views: that of an
-/// accessor has the accessor's number, the image's is the last.
+/// Its nodes: 0 the mesh, 1 and 2 the joints, 2 a child of 1, 3 the light. The view of an accessor
+/// has the accessor's number; the last view is the image's.
 [[nodiscard]] AssetBuilder rig();
 
-/// Writes a number over the one in place `number` of an accessor of the rig.
+/// Overwrites element `number` of an accessor of the rig.
 template <typename Number>
 void poke(AssetBuilder& asset, std::size_t accessor, std::size_t number, Number value) {
   const std::size_t offset =

@@ -9,7 +9,7 @@ using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
 
-/// The rig with one change, as `mutated` makes it; where the pointer is not given, it is `where`.
+/// The rig with one change, as `mutated` makes it; the default pointer is `where`.
 struct Change {
   const char* where;
   const char* value;
@@ -135,7 +135,7 @@ const Change survived[] = {
 };
 
 TEST(GltfSemantics, TheRigItselfIsGood) {
-  // All that is left are features that are not drawn.
+  // All remaining warnings are about unsupported features.
   EXPECT_THAT(texts(load(rig()).warnings),
               Each(testing::AnyOf(HasSubstr("not drawn"), HasSubstr("ignored"), HasSubstr("yet"),
                                   HasSubstr("not supported"))));
@@ -158,7 +158,7 @@ TEST(GltfSemantics, WhatCanBeDrawnThroughIsWarnedOfAtItsPlace) {
   for (const Change& change : survived) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     AssetBuilder asset = rig();
-    // 14: an application's own attribute of a type that vertices may not have.
+    // 14: an application-specific attribute with a type that vertices may not have.
     asset.add("accessors", {{"componentType", u32}, {"count", 3}, {"type", "SCALAR"}});
     EXPECT_THAT(texts(load(mutated(asset, change.where, change.value)).warnings),
                 Contains(HasSubstr(change.place() + ": ")));

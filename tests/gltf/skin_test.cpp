@@ -25,8 +25,9 @@ void expect_near(const std::vector<Vec3>& values, const std::vector<Vec3>& wante
 
 const double half = std::sqrt(0.5);
 
-/// An arm along x from 0 to 2 in the plane z = 0: a shoulder (node 1) at 0 moves what is at x = 0,
-/// an elbow (node 2) at 1 what is at x = 2, both half of what is at x = 1. Node 0 has the mesh.
+/// An arm along x from 0 to 2 in the plane z = 0: a shoulder (node 1) at 0 moves the vertices at x
+/// = 0, an elbow (node 2) at 1 those at x = 2, and both move those at x = 1 with equal weights.
+/// Node 0 has the mesh.
 template <typename Joint = std::uint8_t>
 AssetBuilder arm() {
   AssetBuilder asset;

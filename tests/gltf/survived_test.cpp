@@ -11,8 +11,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// What breaks the specification, and is drawn with a warning. `where` and `value` are those of
-/// `mutated`.
+/// A violation of the specification that is rendered with a warning. `where` and `value` are those
+/// of `mutated`.
 struct Survived {
   const char* where;
   const char* value;
@@ -45,7 +45,7 @@ const Survived mutations[] = {
              "nodes": [{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}]})",
      "/nodes/0/extensions/KHR_lights_punctual/light", "absent"},
 
-    // Values that are none of the known ones.
+    // Unknown enumeration values.
     {"/bufferViews/0/target", "1", "/bufferViews/0/target", "must be one of"},
     {"/materials/0/alphaMode", "\"GLASS\"", "/materials/0/alphaMode", "must be one of"},
     {"/samplers", R"([{"wrapS": 1, "minFilter": 2}])", "/samplers/0/wrapS", "must be one of"},

@@ -8,8 +8,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A square that faces +z with u to the right and v down, and a second one to its right whose u
-/// goes back; of a material with a normal texture. Their common vertices are 1 and 4.
+/// A square facing +z with u to the right and v down, and a second one to its right with reversed
+/// u; the material has a normal texture. They share vertices 1 and 4.
 AssetBuilder folded() {
   AssetBuilder asset;
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0},
