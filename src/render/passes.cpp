@@ -11,8 +11,8 @@
 namespace microtrace {
 namespace {
 
-/// 64 pixels with so many samples fill the batches of a random integrator. The first passes are
-/// shorter: a picture comes soon, and a time limit that is short is kept.
+/// 64 pixels with this many samples fill the batches of a Monte Carlo integrator. The first passes
+/// are shorter, so that a first picture appears early and short time limits are kept.
 constexpr std::uint32_t kSamplesPerPass = kRandomBatch / (kTileEdge * kTileEdge);
 
 void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleRange& range,
@@ -25,7 +25,7 @@ void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleR
   }
 }
 
-/// Which tiles take no more samples.
+/// Tiles that take no more samples.
 class Stops {
  public:
   Stops(const SampleSums& sums, double target)
@@ -38,7 +38,7 @@ class Stops {
     }
   }
 
-  /// Asks for the error, if it is time to.
+  /// Evaluates the error if it is time for a check.
   void update(const SampleSums& sums) {
     const std::uint32_t count = sums.count();
     if (target_ <= 0 || count < kFirstCheck || !std::has_single_bit(count) ||
@@ -48,7 +48,7 @@ class Stops {
     for (std::size_t i = 0; i < stopped_.size(); ++i) stopped_[i] = stopped_[i] || good[i];
   }
 
-  /// The range without what comes after the next check.
+  /// The part of the range before the next check.
   [[nodiscard]] SampleRange until_check(SampleRange range) const {
     if (target_ > 0) range.last = std::min(range.last, std::bit_ceil(range.first + 1));
     return range;

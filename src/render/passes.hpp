@@ -1,5 +1,5 @@
 #pragma once
-/// Samples that come a few at a time over the whole picture.
+/// Rendering in passes that add a few samples per pixel to the whole picture.
 
 #include "render/random_painter.hpp"
 #include "render/tiles.hpp"
@@ -13,8 +13,8 @@
 
 namespace microtrace {
 
-/// Adds to the sums those samples of `wanted` that are not there, as `passes` says, from which time
-/// is counted since `start`. `progress` is told as by for_each_tile.
+/// Adds the missing samples of `wanted` to the sums, with the limits of `passes`; time limits count
+/// from `start`. `progress` is called as by for_each_tile.
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
                 std::chrono::steady_clock::time_point start, Threads& threads,
                 const std::function<bool(double)>& progress, SampleSums& sums);

@@ -19,12 +19,12 @@
 namespace microtrace {
 namespace {
 
-/// Of each pixel's samples so many are looked at for what they see: edges need no more.
+/// The number of samples per pixel whose first surface is evaluated: edges need no more.
 constexpr std::uint32_t kMaxSights = 32;
 
 struct Row {
   std::string_view name;
-  std::string_view channels;  ///< a letter each
+  std::string_view channels;  ///< one letter each
 };
 
 const Row& row_of(SampledAov aov) {

@@ -58,8 +58,8 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
   const auto& m = use.texture_from_uv;
   const auto linear = [&m](const DVec2& v) { return DVec2(m[0]) * v.x + DVec2(m[1]) * v.y; };
 
-  // Where the rays of the next samples meet the plane of the surface (H. Igehy, Tracing ray
-  // differentials, 1999).
+  // The points where the rays of the neighboring samples meet the plane of the surface (H. Igehy,
+  // Tracing ray differentials, 1999).
   const RayDifferential step = world.camera.differential(ray);
   const double sample_width = 1 / std::sqrt(static_cast<double>(world.samples));  // in pixels
   const DVec3 d(ray.d);
@@ -102,7 +102,7 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
   if (mesh == nullptr) return false;
   const PrimitiveId first = primitives_.first_id(a.id);
   const Triangle one = triangle_of(*mesh, a.id - first), other = triangle_of(*mesh, b.id - first);
-  // By place: at seams of texture coordinates vertices of different numbers meet.
+  // Compares positions, because vertices with different indices coincide at texture seams.
   const auto is_corner = [&other](const Vec3& p) {
     return p == other.a || p == other.b || p == other.c;
   };

@@ -30,8 +30,8 @@ class Surfaces {
   /// See World::base_color.
   [[nodiscard]] Vec4 look(const World& world, const Ray& ray, const Hit& hit) const;
 
-  /// The same where it takes no textures and vertex colours, and the ray need go no further; in
-  /// most pictures most hits. Sooner. Null elsewhere.
+  /// The same for surfaces without textures and vertex colors where the ray ends, the most common
+  /// case, and faster. Null for others.
   [[nodiscard]] const Vec3* plain_look(const Ray& ray, const Hit& hit) const {
     const Entry& entry = entries_[primitives_.object_index(hit.id)];
     if (entry.kind == Kind::various) return nullptr;
@@ -39,8 +39,8 @@ class Surfaces {
     return &entry.color;
   }
 
-  /// Whether two hits of one ray are one point of one surface: on the edge or corner that two
-  /// triangles of a mesh share, with the same side to the ray.
+  /// Whether two hits of a ray are the same point of one surface: on an edge or vertex shared by
+  /// two triangles of a mesh that face the ray with the same side.
   [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;
 
   /// See World::first_visible.

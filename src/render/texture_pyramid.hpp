@@ -14,7 +14,7 @@
 
 namespace microtrace {
 
-/// An image whose numbers are read in one way.
+/// An image with a color encoding.
 class TexturePyramid {
  public:
   TexturePyramid(std::shared_ptr<const Image> image, ColorEncoding encoding);
@@ -26,15 +26,15 @@ class TexturePyramid {
   };
 
   [[nodiscard]] const Image& image() const { return *image_; }
-  /// The linear light of the image's numbers.
+  /// The table from the image's numbers to linear light.
   [[nodiscard]] std::span<const float> color_table() const { return color_table_; }
   [[nodiscard]] std::span<const float> alpha_table() const { return alpha_table_; }
 
-  /// The mip maps, from the second level on; made at the first call, by one thread at a time. Each
-  /// pixel is the mean of the part of the finer level that it covers.
+  /// The mip maps, from the second level on, computed at the first call by one thread. Each pixel
+  /// is the mean of the part of the finer level that it covers.
   [[nodiscard]] const std::vector<Level>& levels();
 
-  /// Of level 0, the image, or of one that levels() has made.
+  /// A pixel of level 0, the image, or of a level computed by levels().
   [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
 
  private:

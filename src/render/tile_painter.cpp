@@ -13,7 +13,8 @@ namespace {
 
 static_assert(kTilePixels <= kMaxBatch);
 
-/// Float64, so that equal samples give their own colour: a sum of 65536 equal float32 is exact.
+/// Float64, so that equal samples give exactly their own color: a sum of 65536 equal float32 is
+/// exact.
 struct Sum {
   DVec3 color{0};
   double alpha = 0;
@@ -47,8 +48,8 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
                                        : options.background.value_or(world.scene.background)),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
-  // The rays of a batch should go nearly the same way, so few pixels make one where each has many
-  // samples.
+  // The rays of a batch should be coherent, so if pixels have many samples, few pixels form a
+  // batch.
   while (block_width_ * block_height_ > 1 &&
          std::size_t{block_width_} * block_height_ * pattern_.size() > kMaxBatch) {
     (block_height_ == block_width_ ? block_height_ : block_width_) /= 2;

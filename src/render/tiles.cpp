@@ -43,12 +43,12 @@ void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<bool(double)>& progress) {
   const std::uint64_t count = tile_count(window);
-  // A thread takes a run of tiles at a time: long enough that the counter is no bottleneck, short
-  // enough to share evenly.
+  // A thread takes several consecutive tiles at a time: enough to avoid contention on the counter,
+  // few enough to balance the load.
   const std::uint64_t run =
       std::clamp<std::uint64_t>(count / (std::uint64_t{threads.wanted} * 32), 1, 64);
   std::atomic<std::uint64_t> next{0}, done{0};
-  std::atomic<bool> ended = false;  // before all is drawn
+  std::atomic<bool> ended = false;  // stopped early
   std::mutex report;
   std::exception_ptr failure;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A picture cut into tiles, shared among threads.
+/// Division of a picture into tiles, and their distribution to threads.
 
 #include <microtrace/film.hpp>
 #include <microtrace/stage_counts.hpp>
@@ -10,30 +10,30 @@
 
 namespace microtrace {
 
-/// Small enough that its rays make one bundle and go the same way.
+/// The rays of a tile form one packet of coherent rays.
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
-/// How many tiles the window has, and how many of them lie side by side.
+/// The number of tiles of the window, and of tiles per row.
 [[nodiscard]] std::size_t tile_count(const PixelRect& window);
 [[nodiscard]] std::size_t tile_columns(const PixelRect& window);
 
-/// Tiles in their order: row by row from the upper left.
+/// The tile with this index: row by row from the upper left.
 [[nodiscard]] PixelRect tile_at(std::size_t index, const PixelRect& window);
 
-/// The number of a tile of the window.
+/// The index of a tile of the window.
 [[nodiscard]] inline std::size_t tile_index(const PixelRect& tile, const PixelRect& window) {
   return std::size_t{(tile.y0 - window.y0) / kTileEdge} * tile_columns(window) +
          (tile.x0 - window.x0) / kTileEdge;
 }
 
-/// Threads that share the tiles, the caller's among them.
+/// The threads that share the tiles, including the calling one.
 struct Threads {
   unsigned wanted = 1;  ///< at least 1
   std::function<void(unsigned, const std::function<void()>&)>
       run{};             ///< RenderOptions::run_threads
-  unsigned missing = 0;  ///< the most of them that the system ever refused to start
-  StageCounts stages{};  ///< of what they drew
+  unsigned missing = 0;  ///< maximum number of threads that the system refused to start
+  StageCounts stages{};  ///< counts of the rendered tiles
 };
 
 /// Calls draw once for every tile of the window, on those threads; then progress with the fraction
