@@ -1,5 +1,5 @@
 #pragma once
-/// The nearest hit of a ray with a scene, by a bounding volume hierarchy.
+/// Nearest hits of rays with a scene, by a bounding volume hierarchy.
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -15,81 +15,80 @@
 namespace microtrace {
 
 struct BvhOptions {
-  bool fast_build = false;  ///< a tree that is made sooner and traced slower, for previews
+  bool fast_build = false;  ///< faster build and slower tracing, for previews
   unsigned threads = 0;     ///< for the build; 0: default_threads()
 };
 
-/// Immutable; any number of threads may use one at a time.
+/// Immutable; may be used by any number of threads.
 ///
-/// Every answer is the hit that is least by (t, PrimitiveId) over the real numbers, for the float32
-/// numbers that scene and ray hold. Options, instruction set, the order of the work and the way of
-/// asking can't change it; docs/exactness.md says why.
+/// Every answer is the hit with the least (t, PrimitiveId) over the real numbers, for the float32
+/// numbers of the scene and the ray. It does not depend on options, the instruction set, the order
+/// of work or the function used; see docs/exactness.md.
 class MICROTRACE_EXPORT Bvh {
  public:
-  /// The scene must outlive this and stay as it is. Throws Error (limit) where memory or primitive
-  /// numbers run out.
+  /// The scene must outlive this object and must not change. Throws Error (limit) if memory or
+  /// primitive numbers run out.
   explicit Bvh(const Scene& scene, const BvhOptions& options = {});
   explicit Bvh(const Scene&& scene, const BvhOptions& options = {}) = delete;  // it would dangle
   ~Bvh();
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;
 
-  /// Nothing if the ray hits nothing or is not valid (see Ray).
+  /// Nothing if the ray hits nothing or is invalid (see Ray).
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
 
-  /// The hit that follows `after` in the order (t, PrimitiveId) of the ray's hits: by repeating it
-  /// all are found, nearest first, none lost where several lie at one t. Each primitive counts with
-  /// its one first hit in [t_min, t_max]; so a sphere comes once.
-  /// Of `after` only the number is used: t is found anew, exactly. Nothing follows a primitive that
-  /// the ray does not hit.
+  /// The hit that follows `after` in the order (t, PrimitiveId) of the ray's hits. Repeated calls
+  /// enumerate all hits, nearest first, including several at the same t. Each primitive counts
+  /// once, with its first hit in [t_min, t_max]; a sphere is therefore returned once. Only the id
+  /// of `after` is used: its exact t is computed again. Nothing follows a primitive that the ray
+  /// does not hit.
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
 
-  /// The origin of a ray that leaves the hit of `ray` into `direction`: as spawn_origin of
-  /// spawn.hpp has it, with the other surfaces taken into account. All that is promised there holds
-  /// but nearness: the origin may be some 2^10 representable numbers away.
+  /// The origin of a ray that leaves the hit of `ray` in `direction`: as spawn_origin in spawn.hpp,
+  /// but taking the other surfaces into account. All guarantees there hold except the distance: the
+  /// origin may be some 2^10 float32 steps away.
   ///
-  /// Let w be the point of `ray` just before the hit, if the new ray goes back to that side of the
-  /// surface, else the point just behind it. The straight way from w to the origin, w itself left
-  /// out, meets no triangle that has an area, no disc and no plane, and of each sphere and quadric
-  /// the origin is on the side where w is. So a path leaves a closed mesh only where it passes
-  /// through a surface on purpose, not in creases and corners. Exceptions:
+  /// Let w be the point of `ray` just before the hit, if the new ray returns to that side of the
+  /// surface, else the point just behind it. The segment from w to the origin, excluding w, meets
+  /// no triangle that has an area, no disc and no plane, and of each sphere and quadric the origin
+  /// is on the same side as w. A path therefore leaves a closed mesh only where it passes through a
+  /// surface on purpose, not in creases and corners. Exceptions:
   ///
   /// - If `ray` runs within a surface, w is a point of it, and there is no side to keep: the origin
   ///   may be on either side of that surface.
-  /// - Triangles without area bound nothing: the way may cross them.
+  /// - Triangles without area bound nothing: the segment may cross them.
   ///
-  /// Nothing if there is no such float32 point: between walls closer together than that. The answer
-  /// does not depend on BvhOptions, and no coordinate is -0.
+  /// Nothing if there is no such float32 point, because the walls are too close together. The
+  /// answer does not depend on BvhOptions, and no coordinate is -0.
   [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
                                                  const Vec3& direction) const;
 
   /// A ray that leaves a hit.
   struct Spawn {
-    const Ray* ray;  ///< that hit
-    Hit hit;         ///< one of its hits, as intersect and next give them
+    const Ray* ray;  ///< the ray of the hit
+    Hit hit;         ///< a hit of this ray, as returned by intersect and next
     Vec3 direction;  ///< of the new ray
   };
 
-  /// origins[i] is spawn_origin's answer to spawns[i] bit for bit, whatever is asked together; both
-  /// have one length. Much faster than asking one by one, most so where those of one hit follow
-  /// each other.
+  /// origins[i] is spawn_origin's answer to spawns[i], bit for bit, in any batch; both spans have
+  /// the same size. Much faster than single calls, especially if the spawns of one hit are
+  /// consecutive.
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
-  /// Whether intersect(ray) would find something; sooner.
+  /// True if the ray hits anything. Faster than intersect.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// hits[i] answers rays[i]; both have one length. Sooner than asking ray by ray; fastest where
-  /// runs of rays start at one point and go nearly the same way, as those of neighbouring pixels
-  /// do.
+  /// hits[i] is the answer for rays[i]; both spans have the same size. Faster than single calls;
+  /// fastest for runs of coherent rays with a common origin, such as those of neighboring pixels.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
-  /// results[i] says whether rays[i] hits something; both have one length. Sooner than asking ray
-  /// by ray, in any order of the rays.
+  /// results[i] tells whether rays[i] hits anything; both spans have the same size. Faster than
+  /// single calls, for any order of the rays.
   void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
   [[nodiscard]] const Primitives& primitives() const;
 
-  /// Bytes that the tree takes, beside the scene.
+  /// Size of the tree in bytes, without the scene.
   [[nodiscard]] std::size_t memory() const;
 
  private:

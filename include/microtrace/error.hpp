@@ -1,5 +1,5 @@
 #pragma once
-/// The one error type, and the place in a file that it speaks of.
+/// The error type, and diagnostics with positions in files.
 
 #include <microtrace/export.hpp>
 
@@ -9,33 +9,33 @@
 
 namespace microtrace {
 
-/// What went wrong; the number is the exit code of the program.
+/// Kinds of errors; the values are exit codes of the program.
 enum class ErrorKind {
-  internal = 1,       ///< a failure inside
-  usage = 2,          ///< a request that makes no sense
-  invalid_scene = 3,  ///< the scene file breaks its format's rules
-  unsupported = 4,    ///< the scene requires a feature that is not there
+  internal = 1,       ///< an internal failure
+  usage = 2,          ///< an invalid request
+  invalid_scene = 3,  ///< the scene file violates its format
+  unsupported = 4,    ///< the scene requires an unsupported feature
   io = 5,             ///< a file can't be read or written
-  limit = 6,          ///< a documented limit was reached
+  limit = 6,          ///< a documented limit was exceeded
   canceled = 7,       ///< a callback asked to stop; never an exit code of the program
 };
 
 enum class Severity {
-  warning,  ///< an oddity, or a feature without effect
-  error,    ///< the file breaks a rule of its format
+  warning,  ///< an oddity, or an ignored feature
+  error,    ///< a violation of the file's format
 };
 
-/// One message about one place. Parts that are unknown are empty or 0.
+/// A message about a position in a file. Unknown members are empty or 0.
 struct MICROTRACE_EXPORT Diagnostic {
   std::string file;        ///< as the user named it
   std::size_t line = 0;    ///< from 1
   std::size_t column = 0;  ///< in bytes, from 1
   std::string pointer;     ///< JSON pointer (RFC 6901)
-  std::string message;     ///< what is wrong and what to do
-  std::string excerpt;     ///< the line itself, at most a screen wide, then a line with a caret
-  Severity severity = Severity::warning;  ///< of a diagnostic that is returned, not thrown
+  std::string message;     ///< the problem and the remedy
+  std::string excerpt;     ///< the source line, at most a screen wide, then a line with a caret
+  Severity severity = Severity::warning;  ///< for diagnostics that are returned, not thrown
 
-  /// `file:line:col: /json/pointer: message`, then the excerpt on lines of its own.
+  /// `file:line:col: /json/pointer: message`, then the excerpt on separate lines.
   [[nodiscard]] std::string text() const;
 };
 

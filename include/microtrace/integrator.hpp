@@ -1,6 +1,5 @@
 #pragma once
-/// What a camera ray brings back. This is the open seam of the renderer: whatever answers rays is
-/// an Integrator.
+/// The extension point of the renderer: an Integrator computes the color of camera rays.
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -50,57 +49,58 @@ struct MICROTRACE_EXPORT World {
   [[nodiscard]] std::optional<Hit> first_visible(const Ray& ray, std::optional<Hit> hit) const;
 };
 
-/// Which of a picture's samples a ray is. With the seed it settles all that is random about it.
+/// Identifies a sample of a picture. Together with the seed it determines all random numbers.
 struct SampleId {
-  std::uint32_t x = 0, y = 0;  ///< pixel of the whole picture
-  std::uint32_t index = 0;     ///< in the pixel, from 0
-  std::uint32_t key = 0;       ///< a random number of seed and pixel
+  std::uint32_t x = 0, y = 0;  ///< pixel in the whole picture
+  std::uint32_t index = 0;     ///< index within the pixel, from 0
+  std::uint32_t key = 0;       ///< hash of seed and pixel
 };
 
-/// The light of one ray without the scene's background.
+/// The radiance along one ray, without the scene's background.
 struct Sample {
-  Vec3 color{0};    ///< linear Rec. 709, multiplied with alpha
-  float alpha = 0;  ///< the part of the background that is hidden: 0 none of it, 1 all
+  Vec3 color{0};    ///< linear Rec. 709, premultiplied with alpha
+  float alpha = 0;  ///< opacity in front of the background: 0 transparent, 1 opaque
 };
 
-/// Rays by what they were for, and the seconds of processor time that they took in all threads.
+/// Numbers of rays by purpose, and their processor time in seconds, summed over threads.
 struct MICROTRACE_EXPORT RayCounts {
   struct Kind {
     std::uint64_t rays = 0;
     double seconds = 0;
   };
   Kind camera{};
-  Kind path{};               ///< on from surfaces
-  Kind shadow{};             ///< from surfaces to lights; with the seconds of what these meet
-  std::uint64_t beyond = 0;  ///< hits behind hits, where surfaces let paths or light through
+  Kind path{};    ///< from surfaces, to continue paths
+  Kind shadow{};  ///< from surfaces to lights; the seconds include evaluation of the surfaces hit
+  std::uint64_t beyond = 0;  ///< calls of Bvh::next, for surfaces that transmit paths or light
 
   RayCounts& operator+=(const RayCounts& other);
 };
 
-/// The most rays that an integrator is asked about at once, if its answers are random and if not.
+/// The maximum number of rays per call of an integrator, for Monte Carlo integrators and for
+/// others.
 inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
 
 class MICROTRACE_EXPORT Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// samples[i] answers rays[i], which is ids[i]; all have one length, at most kMaxBatch, or
-  /// kRandomBatch if is_random(). Runs of rays are neighbours, such that they make bundles for
-  /// Bvh::intersect. Each answer depends on its own ray and id alone. Any number of threads call it
-  /// at a time.
+  /// samples[i] is the result for rays[i] with ids[i]; all spans have the same size, at most
+  /// kMaxBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors, so that they form
+  /// packets for Bvh::intersect. Each result must depend only on its own ray and id. Called
+  /// concurrently by any number of threads.
   virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 
-  /// Whether the samples are numbers of any kind rather than light: then they are not filtered, and
-  /// not put over the background.
+  /// Whether the samples are arbitrary data instead of radiance: data is not filtered, and not
+  /// composited over the background.
   [[nodiscard]] virtual bool is_data() const { return false; }
 
-  /// Whether answers are random: then rays go through random places of their pixels too, and as
-  /// many come at a time as can.
+  /// True for Monte Carlo integrators: pixel positions are jittered and batches hold up to
+  /// kRandomBatch rays.
   [[nodiscard]] virtual bool is_random() const { return false; }
 
-  /// The rays of all calls of trace() so far; none where they are not counted. The numbers depend
-  /// on the picture alone, the seconds do not.
+  /// The rays of all calls of trace() so far; zero if they are not counted. The numbers only depend
+  /// on the picture, the seconds do not.
   [[nodiscard]] virtual RayCounts ray_counts() const { return {}; }
 
   /// How 8-bit formats should show the finished film.
@@ -112,7 +112,7 @@ class MICROTRACE_EXPORT Integrator {
   Integrator& operator=(const Integrator&) = default;
 };
 
-/// The colour of what the ray hits first, without light.
+/// The color of the first surface, without light.
 class MICROTRACE_EXPORT FlatIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,

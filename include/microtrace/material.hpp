@@ -1,7 +1,7 @@
 #pragma once
-/// What a surface is made of: the metallic-roughness model of glTF 2.0, section 3.9, and the
-/// extensions KHR_materials_*, each a struct by the extension's name. One that has no effect,
-/// whatever its textures say, is left out.
+/// Surface materials: the metallic-roughness model of glTF 2.0, section 3.9, and the extensions
+/// KHR_materials_*, each in a struct with the extension's name. Extensions without effect, whatever
+/// their textures contain, are omitted.
 
 #include <microtrace/math.hpp>
 #include <microtrace/texture.hpp>
@@ -12,47 +12,48 @@
 
 namespace microtrace {
 
-/// What the alpha of a base colour means (glTF 2.0, section 3.9.4).
+/// The use of the base color's alpha (glTF 2.0, section 3.9.4).
 enum class AlphaMode {
-  opaque,  ///< nothing
-  mask,    ///< the surface is there where alpha is at least the cutoff
-  blend,   ///< the share of the surface's colour; what lies behind shows through
+  opaque,  ///< ignored
+  mask,    ///< the surface exists where alpha is at least the cutoff
+  blend,   ///< opacity; surfaces behind are visible through it
 };
 
-/// How much a dielectric reflects (KHR_materials_specular).
+/// The reflectance of a dielectric (KHR_materials_specular).
 struct Specular {
-  float factor = 1;                           ///< of the reflection, in [0, 1]
-  std::optional<TextureUse> texture{};        ///< linear; alpha: factor
-  Vec3 color{1};                              ///< of the reflection head on, not negative
+  float factor = 1;                     ///< of the reflection, in [0, 1]
+  std::optional<TextureUse> texture{};  ///< linear; alpha: factor
+  Vec3 color{1};                        ///< of the reflection at normal incidence, not negative
   std::optional<TextureUse> color_texture{};  ///< sRGB
 };
 
-/// Light that goes through the surface of a dielectric (KHR_materials_transmission).
+/// Transmission through the surface of a dielectric (KHR_materials_transmission).
 struct Transmission {
-  float factor = 0;                     ///< share of what is not reflected, in [0, 1]
+  float factor = 0;  ///< transmitted fraction of the light that is not reflected, in [0, 1]
   std::optional<TextureUse> texture{};  ///< linear; r
 };
 
-/// The surface encloses a medium (KHR_materials_volume); without, it is a thin wall that bends no
-/// light. Light is absorbed along its real way, so that only whether there is thickness matters.
+/// The surface encloses a medium (KHR_materials_volume); otherwise it is a thin wall without
+/// refraction. Absorption uses the actual path length, so only whether the thickness is zero
+/// matters.
 struct Volume {
   float thickness = 0;                  ///< mesh's own space, not negative; 0: a thin wall
   std::optional<TextureUse> texture{};  ///< linear; g: thickness
-  /// World space, positive; after it white light has the colour below.
+  /// World space, positive: the distance after which white light has the attenuation color.
   float attenuation_distance = std::numeric_limits<float>::infinity();
   Vec3 attenuation_color{1};  ///< linear Rec. 709, each in [0, 1]
 };
 
-/// A smooth or rough coat of index 1.5 over all else (KHR_materials_clearcoat).
+/// A smooth or rough coat with index 1.5 over all other layers (KHR_materials_clearcoat).
 struct Clearcoat {
   float factor = 0, roughness = 0;                ///< each in [0, 1]
   std::optional<TextureUse> texture{};            ///< linear; r: factor
   std::optional<TextureUse> roughness_texture{};  ///< linear; g: roughness
-  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: no bumps
+  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: flat
   float normal_scale = 1;                         ///< of the texture's x and y
 };
 
-/// Fibres over all but the coat (KHR_materials_sheen).
+/// Fibers over all layers except the coat (KHR_materials_sheen).
 struct Sheen {
   Vec3 color{0};                                  ///< linear Rec. 709, each in [0, 1]
   float roughness = 0;                            ///< in [0, 1]
@@ -60,50 +61,51 @@ struct Sheen {
   std::optional<TextureUse> roughness_texture{};  ///< linear; alpha: roughness
 };
 
-/// Highlights longer one way than the other (KHR_materials_anisotropy).
+/// Elongated highlights (KHR_materials_anisotropy).
 struct Anisotropy {
   float strength = 0;  ///< in [0, 1]
-  float rotation =
-      0;  ///< of the long way, anticlockwise from the tangent, radians, in (-2 pi, 2 pi)
-  std::optional<TextureUse> texture{};  ///< linear; rg: the long way from [-1, 1], b: strength
+  float rotation = 0;  ///< of the direction of highlights, counterclockwise from the tangent,
+                       ///< radians, in (-2 pi, 2 pi)
+  std::optional<TextureUse> texture{};  ///< linear; rg: direction in [-1, 1], b: strength
 };
 
 /// A thin film over the surface (KHR_materials_iridescence).
 struct Iridescence {
   float factor = 0;                                        ///< in [0, 1]
   float ior = 1.3F;                                        ///< of the film, at least 1
-  float thickness_minimum = 100, thickness_maximum = 400;  ///< nanometres, not negative
+  float thickness_minimum = 100, thickness_maximum = 400;  ///< nanometers, not negative
   std::optional<TextureUse> texture{};                     ///< linear; r: factor
-  /// Linear; g: 0 means the minimum, 1 the maximum. Without, the film has the maximum.
+  /// Linear; g: 0 is the minimum, 1 the maximum. Without a texture the film has the maximum
+  /// thickness.
   std::optional<TextureUse> thickness_texture{};
 };
 
-/// Diffuse light that goes through the surface (KHR_materials_diffuse_transmission).
+/// Diffuse transmission through the surface (KHR_materials_diffuse_transmission).
 struct DiffuseTransmission {
-  float factor = 0;                           ///< share of the diffuse light, in [0, 1]
-  std::optional<TextureUse> texture{};        ///< linear; alpha: factor
-  Vec3 color{1};                              ///< linear Rec. 709, each in [0, 1]
+  float factor = 0;                     ///< transmitted fraction of the diffuse light, in [0, 1]
+  std::optional<TextureUse> texture{};  ///< linear; alpha: factor
+  Vec3 color{1};                        ///< linear Rec. 709, each in [0, 1]
   std::optional<TextureUse> color_texture{};  ///< sRGB
 };
 
-/// Stands for metallic and roughness; the base colour is then the diffuse one
+/// Replaces metallic and roughness; the base color is then the diffuse color
 /// (KHR_materials_pbrSpecularGlossiness, archived).
 struct SpecularGlossiness {
-  Vec3 specular{1};                     ///< reflection head on, linear Rec. 709, each in [0, 1]
-  float glossiness = 1;                 ///< 1 - roughness, in [0, 1]
+  Vec3 specular{1};      ///< reflectance at normal incidence, linear Rec. 709, each in [0, 1]
+  float glossiness = 1;  ///< 1 - roughness, in [0, 1]
   std::optional<TextureUse> texture{};  ///< rgb, sRGB: specular; alpha, linear: glossiness
 };
 
-/// The defaults make a white surface, seen from both sides. Factors multiply what textures say.
-/// A flat picture shows the base colour; all below `unlit` is for pictures with light.
+/// The defaults are a white two-sided surface. Factors are multiplied with textures. Flat pictures
+/// show the base color; members after `unlit` only affect path-traced pictures.
 struct Material {
   std::string name{};
   Vec4 base_color{1};                              ///< linear Rec. 709 and alpha, each in [0, 1]
   std::optional<TextureUse> base_color_texture{};  ///< sRGB, alpha linear
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5F;
-  bool double_sided = true;  ///< if not, nothing is seen from the back
-  bool unlit = false;        ///< light does not change its colour (KHR_materials_unlit)
+  bool double_sided = true;  ///< if false, back faces are culled
+  bool unlit = false;        ///< the base color is shown without lighting (KHR_materials_unlit)
 
   float metallic = 0, roughness = 1;                       ///< each in [0, 1]
   std::optional<TextureUse> metallic_roughness_texture{};  ///< linear; g: roughness, b: metallic
@@ -111,11 +113,12 @@ struct Material {
   float normal_scale = 1;                                  ///< of the texture's x and y
   std::optional<TextureUse> occlusion_texture{};           ///< linear; r
   float occlusion_strength = 1;                            ///< in [0, 1]
-  /// Linear Rec. 709, not negative; KHR_materials_emissive_strength is multiplied in.
+  /// Linear Rec. 709, not negative; includes the factor of KHR_materials_emissive_strength.
   Vec3 emissive{0};
   std::optional<TextureUse> emissive_texture{};  ///< sRGB
 
-  /// Index of refraction, at least 1, or 0: infinite, so that all is reflected (KHR_materials_ior).
+  /// Index of refraction, at least 1, or 0 for infinity, where all light is reflected
+  /// (KHR_materials_ior).
   float ior = 1.5F;
   float dispersion = 0;  ///< 20 / Abbe number, not negative (KHR_materials_dispersion)
   std::optional<Specular> specular{};

@@ -1,5 +1,5 @@
 #pragma once
-/// From a scene to a picture.
+/// Rendering of pictures.
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
@@ -24,44 +24,44 @@ namespace microtrace {
 
 inline constexpr std::uint32_t kMaxSamples = 65536;
 
-/// Where the time of a rendering went, in seconds.
+/// The time of each step of a rendering, in seconds.
 struct RenderTimes {
-  double build = 0;  ///< making the tree
-  double trace = 0;  ///< drawing
+  double build = 0;  ///< building the tree
+  double trace = 0;  ///< tracing and shading
 };
 
-/// What was done.
+/// Statistics of a rendering.
 struct RenderCounts {
-  std::uint64_t samples = 0;            ///< camera rays traced, of all pixels
-  std::uint64_t invalid_samples = 0;    ///< of random integrators, no numbers: counted as black
-  std::uint32_t samples_per_pixel = 0;  ///< the most that a pixel of the picture has
-  RayCounts rays{};                     ///< the integrator's, of all its pictures so far
-  StageCounts stages{};                 ///< where visibility was decided
+  std::uint64_t samples = 0;            ///< camera rays of all pixels
+  std::uint64_t invalid_samples = 0;    ///< NaN samples, which count as black
+  std::uint32_t samples_per_pixel = 0;  ///< maximum over the pixels
+  RayCounts rays{};                     ///< of the integrator, for all its pictures so far
+  StageCounts stages{};                 ///< visibility queries by stage
   std::uint32_t missing_threads = 0;    ///< threads that the system refused to start
 };
 
-/// How the samples around a pixel's centre weigh in its colour. They lie as dense as the filter is
-/// high, so that all weigh the same and no pixel depends on another's samples.
+/// The pixel filter. Samples are distributed with the density of the filter, so all have the same
+/// weight and no pixel depends on another pixel's samples.
 enum class PixelFilter {
-  box,              ///< the pixel's square, evenly
+  box,              ///< uniform over the pixel's square
   blackman_harris,  ///< a bell, 3 pixels wide in x and in y (radius 1.5)
 };
 
-/// Samples of a random integrator taken a few at a time over the whole picture, so that it may be
-/// looked at, stopped and gone on with. How passes are cut has no influence on the picture.
+/// Adds a few samples per pass to the whole picture, so that the picture can be displayed, stopped
+/// and resumed. The division into passes has no effect on the result.
 struct Passes {
-  /// Goes on from these, which may have any samples of this window of this picture, and leaves all
-  /// there; null: from none. Of no use where render throws.
+  /// Continues from these sums, which may have any samples of this window of this picture, and
+  /// stores all samples there; null: starts without samples. Must not be used after render throws.
   SampleSums* sums = nullptr;
   /// Takes only these of the samples; nothing: all.
   std::optional<SampleRange> part{};
-  /// If above 0, tiles of 8 x 8 pixels whose error (docs/outputs.md) is not above it, nor that of
-  /// the eight around them, take no more samples. Asked at 32, 64, 128, ... samples. Not with a
-  /// part.
+  /// If above 0, tiles of 8 x 8 pixels take no more samples when their error (docs/outputs.md) and
+  /// those of the eight neighboring tiles are at most this. Evaluated at 32, 64, 128, ... samples.
+  /// Not with a part.
   double target_error = 0;
-  /// No pass begins so many seconds after the call, but the first does.
+  /// No pass starts later than this many seconds after the call, except the first.
   double time_limit = std::numeric_limits<double>::infinity();
-  /// Told what there is after each pass, on the caller's thread.
+  /// Called after each pass with the samples so far, on the caller's thread.
   std::function<void(const SampleSums&)> after_each{};
 };
 
@@ -76,29 +76,28 @@ struct RenderOptions {
   std::function<bool(double)> progress{};
   RenderTimes* times = nullptr;            ///< if given, set at the end
   const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
-  /// Rays for each pixel, 1 to kMaxSamples. One goes through its centre. More are spread over its
-  /// square, in the same places in each pixel, and weigh the same: sample k of n lies at x = (k +
-  /// 1/2) / n, y = (r(k) + 1/2) / n, where r puts the numbers 0 to n - 1 in the order of van der
-  /// Corput's sequence. Integrators whose answers are random get rays through random places, even
-  /// if there is one.
+  /// Samples per pixel, 1 to kMaxSamples. A single ray goes through the pixel's center. Several are
+  /// distributed over its square, at the same positions in each pixel and with the same weight:
+  /// sample k of n is at x = (k + 1/2) / n, y = (r(k) + 1/2) / n, where r is the order of the
+  /// numbers 0 to n - 1 in van der Corput's sequence. Monte Carlo integrators get random positions,
+  /// even for a single ray.
   std::uint32_t samples = 1;
-  PixelFilter filter = PixelFilter::box;  ///< another moves samples from where they lie for a box
-  std::uint32_t seed = 0;                 ///< of all that is random; another one gives other noise
-  /// Takes passes over the picture. They need 88 bytes a pixel; nothing: tiles are finished one by
-  /// one.
+  PixelFilter filter = PixelFilter::box;  ///< others move the samples of the box
+  std::uint32_t seed = 0;                 ///< random seed; another seed gives other noise
+  /// Renders in passes, which need 88 bytes per pixel; nothing: finishes tile by tile.
   std::optional<Passes> passes{};
   RenderCounts* counts = nullptr;  ///< if given, set at the end
-  MemoryBudget* memory = nullptr;  ///< if given, counts what the call takes until it returns
-  std::optional<Environment> environment{};  ///< in place of the scene's
-  std::optional<Vec3> background{};          ///< in place of the scene's; linear Rec. 709
-  /// Draws only this part, with the same pixels that it has in the whole. Not empty, within the
-  /// size.
+  MemoryBudget* memory = nullptr;  ///< if given, counts the memory of the call until it returns
+  std::optional<Environment> environment{};  ///< replaces the scene's
+  std::optional<Vec3> background{};          ///< replaces the scene's; linear Rec. 709
+  /// Renders only this part, with the same pixels as in the whole. Not empty, within the size.
   std::optional<PixelRect> crop{};
-  /// Channels of the film beside the colours, in this order; each once.
+  /// Channels of the film in addition to the colors, in this order, without duplicates.
   std::vector<Aov> aovs{};
-  /// Means over the samples of a random integrator as further channels behind these; each once.
+  /// Means over the samples of a Monte Carlo integrator, as further channels after these, without
+  /// duplicates.
   std::vector<SampledAov> sampled_aovs{};
-  bool transparent = false;  ///< leaves the background out and gives the film alpha
+  bool transparent = false;  ///< omits the background and gives the film alpha
 };
 
 /// Draws a picture: colors by the integrator, composited over scene.background; rays hit only in

@@ -1,6 +1,6 @@
 #pragma once
-/// What is known of a picture whose samples come in parts: from several passes over it, several
-/// runs of the program, several machines.
+/// Sample sums of a picture that is rendered in parts: in several passes, several runs of the
+/// program, or on several machines.
 
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
@@ -14,29 +14,29 @@
 
 namespace microtrace {
 
-/// Light beyond this counts as this. A pixel has at most 2^16 samples: their sum stays below 2^62.
+/// Maximum value of a sample. A pixel has at most 2^16 samples, so their sum stays below 2^62.
 inline constexpr double kMaxSampleLight = 0x1p46;
 
-/// The samples of one pixel together. Sums are exact on multiples of 2^-64 (alpha 2^-46, squares
-/// 2^-80), so that the same samples give the same bits in any order and grouping.
+/// The sums of one pixel's samples. Sums of multiples of 2^-64 (alpha 2^-46, squares 2^-80) are
+/// exact, so the same samples give the same bits in any order and grouping.
 struct MICROTRACE_EXPORT PixelSum {
   std::array<FixedSum<2, 64>, 3> color{};
   FixedSum<1, 46> alpha{};
-  FixedSum<3, 80> square{};  ///< of the luminance that is shown
-  std::uint32_t count = 0;   ///< of samples
+  FixedSum<3, 80> square{};  ///< of the displayed luminance
+  std::uint32_t count = 0;   ///< number of samples
 
-  /// A sample as an integrator gives it, over that background. Returns false, and counts it as
-  /// black, if it is not a number.
+  /// Adds an integrator's sample over this background. Returns false, and counts it as black, if it
+  /// is NaN.
   bool add(const Vec3& sample, float sample_alpha, const Vec3& background);
 
   PixelSum& operator+=(const PixelSum& other);
 
-  [[nodiscard]] Vec3 mean_color() const;   ///< black if there is no sample
-  [[nodiscard]] float mean_alpha() const;  ///< 0 if there is no sample
-  /// The estimated variance of the mean of the luminance shown, from the samples' own: what
-  /// independent samples would have, more than that of well-spread ones. 0 for less than two.
+  [[nodiscard]] Vec3 mean_color() const;   ///< black without samples
+  [[nodiscard]] float mean_alpha() const;  ///< 0 without samples
+  /// The estimated variance of the mean displayed luminance. The estimate is for independent
+  /// samples; low-discrepancy samples have a smaller variance. 0 for less than two samples.
   [[nodiscard]] double variance(const Vec3& background) const;
-  [[nodiscard]] double mean_luminance(const Vec3& background) const;  ///< that is shown
+  [[nodiscard]] double mean_luminance(const Vec3& background) const;  ///< as displayed
 
   [[nodiscard]] bool operator==(const PixelSum&) const = default;
 };
@@ -53,12 +53,12 @@ struct SampleRange {
 class MICROTRACE_EXPORT SampleSums {
  public:
   SampleSums() = default;
-  /// No samples yet of the pixels of `window`. Throws std::bad_alloc.
+  /// No samples of the pixels of `window` yet. Throws std::bad_alloc.
   SampleSums(ImageSize whole, const PixelRect& window, const Vec3& background);
 
-  ImageSize whole;     ///< the picture
-  PixelRect window;    ///< the part of it whose sums these are
-  Vec3 background{0};  ///< over which luminance is taken; black where the picture has alpha
+  ImageSize whole;                 ///< size of the whole picture
+  PixelRect window;                ///< the part with these sums
+  Vec3 background{0};              ///< for luminance; black if the picture has alpha
   std::vector<PixelSum> pixels{};  ///< of the window, row by row from the upper left
 
   [[nodiscard]] PixelSum& at(std::uint32_t x, std::uint32_t y) { return pixels[index(x, y)]; }
@@ -66,22 +66,22 @@ class MICROTRACE_EXPORT SampleSums {
     return pixels[index(x, y)];
   }
 
-  /// Which samples are there; in order, with gaps between. Pixels that needed no more have only
-  /// the first of them.
+  /// The samples that were added, in order, possibly with gaps. Pixels that have converged only
+  /// have the first of them.
   [[nodiscard]] const std::vector<SampleRange>& ranges() const { return ranges_; }
-  /// Their number.
+  /// The number of samples.
   [[nodiscard]] std::uint32_t count() const;
-  /// The parts of `wanted` that are not there, in order.
+  /// The missing parts of `wanted`, in order.
   [[nodiscard]] std::vector<SampleRange> missing(const SampleRange& wanted) const;
   [[nodiscard]] bool overlaps(const SampleRange& range) const;
-  /// Notes that samples were added, which do not overlap those that are there.
+  /// Records samples that were added; they must not overlap others.
   void note(const SampleRange& range);
 
-  /// Adds the samples of the same window of the same picture, of which none is here yet.
+  /// Adds the samples of the same window of the same picture; none of them may be present.
   SampleSums& operator+=(const SampleSums& other);
 
  private:
-  /// x and y are the whole picture's.
+  /// x and y are coordinates in the whole picture.
   [[nodiscard]] std::size_t index(std::uint32_t x, std::uint32_t y) const {
     return std::size_t{y - window.y0} * window.size().width + (x - window.x0);
   }
@@ -89,7 +89,7 @@ class MICROTRACE_EXPORT SampleSums {
   std::vector<SampleRange> ranges_;
 };
 
-/// The picture of the samples that are there, with alpha or over the background.
+/// The picture of the samples so far, with alpha or over the background.
 [[nodiscard]] MICROTRACE_EXPORT Film develop(const SampleSums& sums, Film::Alpha alpha);
 
 }  // namespace microtrace

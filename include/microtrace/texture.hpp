@@ -1,5 +1,5 @@
 #pragma once
-/// Images on surfaces.
+/// Textures.
 
 #include <microtrace/math.hpp>
 
@@ -11,22 +11,22 @@
 
 namespace microtrace {
 
-/// Pixels as their file holds them, row by row from the upper left. What the numbers mean, sRGB or
-/// linear, is said by the use that a material makes of them.
+/// Pixels as stored in the file, row by row from the upper left. Whether they are sRGB or linear is
+/// defined by the material that uses them.
 struct Image {
   std::string name{};
   std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
-  std::uint32_t channels = 4;           ///< 1: grey, 2: grey and alpha, 3: rgb, 4: rgb and alpha
-  /// width * height * channels numbers of 8 or 16 bits; the greatest one stands for 1. Alpha is not
-  /// multiplied into the colour.
+  std::uint32_t channels = 4;           ///< 1: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha
+  /// width * height * channels integers of 8 or 16 bits; the maximum means 1. Alpha is not
+  /// premultiplied.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
 };
 
 enum class Wrap { repeat, mirrored_repeat, clamp_to_edge };
 enum class Filter { nearest, linear };
-enum class MipFilter { none, nearest, linear };  ///< none: the image itself, however small it looks
+enum class MipFilter { none, nearest, linear };  ///< none: always the base level
 
-/// How an image is continued and what lies between its pixels (glTF 2.0, section 3.8.4).
+/// Wrapping and filtering of an image (glTF 2.0, section 3.8.4).
 struct Sampler {
   Wrap wrap_s = Wrap::repeat, wrap_t = Wrap::repeat;
   Filter magnification = Filter::linear;
@@ -40,13 +40,13 @@ struct Texture {
   Sampler sampler{};
 };
 
-/// What the numbers of an image mean. Alpha is linear in both.
+/// The encoding of an image's colors. Alpha is linear in both.
 enum class ColorEncoding { srgb, linear };
 
-/// A texture where a material uses it.
+/// A use of a texture by a material.
 struct TextureUse {
   std::uint32_t texture = 0;  ///< index into Scene::textures
-  std::uint32_t uv_set = 0;   ///< of Mesh::uv_sets; (0, 0) everywhere where the mesh lacks it
+  std::uint32_t uv_set = 0;   ///< of Mesh::uv_sets; (0, 0) if the mesh doesn't have it
   Mat3x2 texture_from_uv{1};  ///< applied to the mesh's coordinates (KHR_texture_transform)
 };
 
