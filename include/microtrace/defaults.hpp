@@ -47,14 +47,13 @@ struct RenderSettings {
   Camera camera{};   ///< default_camera
   ImageSize size{};  ///< Scene::size
   std::shared_ptr<const Integrator> integrator{};
-  RenderOptions options{};  ///< has the integrator and its samples
+  RenderOptions options{};  ///< with the integrator, its samples and the default background
 };
 
-/// The settings for a loaded scene, and for a given integrator if it is not the default one. Sets
-/// the scene's background to the default one, if there is one. An environment needs no default: the
-/// renderer lights a scene that has neither lights nor an environment by the studio.
-[[nodiscard]] MICROTRACE_EXPORT RenderSettings apply_defaults(Scene& scene, SceneFormat format);
-[[nodiscard]] MICROTRACE_EXPORT RenderSettings apply_defaults(Scene& scene, SceneFormat format,
-                                                              const IntegratorOptions& integrator);
+/// The settings for a loaded scene, and for a given integrator if it is not the default one.
+[[nodiscard]] MICROTRACE_EXPORT RenderSettings default_settings(const Scene& scene,
+                                                                SceneFormat format);
+[[nodiscard]] MICROTRACE_EXPORT RenderSettings
+default_settings(const Scene& scene, SceneFormat format, const IntegratorOptions& integrator);
 
 }  // namespace microtrace

@@ -37,19 +37,19 @@ std::optional<Vec3> default_background(SceneFormat format, const IntegratorOptio
   return std::nullopt;
 }
 
-RenderSettings apply_defaults(Scene& scene, SceneFormat format,
-                              const IntegratorOptions& integrator) {
-  scene.background = default_background(format, integrator).value_or(scene.background);
+RenderSettings default_settings(const Scene& scene, SceneFormat format,
+                                const IntegratorOptions& integrator) {
   RenderSettings settings{.camera = default_camera(scene, scene.size),
                           .size = scene.size,
                           .integrator = make_integrator(integrator)};
   settings.options.integrator = settings.integrator.get();
   settings.options.samples = default_samples(integrator);
+  settings.options.background = default_background(format, integrator);
   return settings;
 }
 
-RenderSettings apply_defaults(Scene& scene, SceneFormat format) {
-  return apply_defaults(scene, format, default_integrator(format));
+RenderSettings default_settings(const Scene& scene, SceneFormat format) {
+  return default_settings(scene, format, default_integrator(format));
 }
 
 }  // namespace microtrace

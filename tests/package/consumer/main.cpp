@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
       "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "color": [1, 0, 0]}]
     })",
                                                              "memory.json", ".");
-    const auto settings = microtrace::apply_defaults(scene, format);
+    const auto settings = microtrace::default_settings(scene, format);
     const auto film = microtrace::render(scene, settings.camera, {9, 9}, settings.options);
     for (int i = 1; i < argc; ++i) microtrace::save_image(film, argv[i]);
     const microtrace::Vec3 middle = film.row(4)[4], corner = film.row(0)[0];
