@@ -1,5 +1,5 @@
 #pragma once
-/// What the command line asks for.
+/// The parsed command line.
 
 #include "cli/options/values.hpp"
 #include "cli/pictures/frames.hpp"

@@ -27,8 +27,7 @@ namespace {
 
 using namespace microtrace;
 
-/// The steps from a scene file to its pictures, for each frame of a sequence. Returns the exit
-/// code.
+/// Reads the scene file, renders and writes its pictures. Returns the exit code.
 int render_pictures(cli::Arguments arguments) {
   MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
   cli::Stopwatch watch;

@@ -51,7 +51,7 @@ void handle_signals() {
 }
 
 void end_after(double seconds) {
-  // The kernel's clock takes no more, and 0 would mean never.
+  // The kernel's timer takes no more, and 0 would disable it.
   constexpr double kMost = 1e8, kLeast = 1e-6;
   const double time = std::clamp(seconds, kLeast, kMost);
   handle(SIGALRM, end_at_limit);

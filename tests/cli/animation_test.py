@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Animated assets as the program's users meet them.
+"""Animated assets from the command line.
 
 usage: animation_test.py PROGRAM [unittest arguments]
 """
@@ -89,14 +89,14 @@ class Animation(ProgramTest):
         self.assertEqual(self.square_at("--time", "1e2"), (4, 0))
         self.assertEqual(self.square_at("--time=-3"), (0, 0))
 
-    def test_animation_by_name_or_number_or_all(self):
+    def test_animation_by_name_index_or_all(self):
         self.assertEqual(self.square_at("--time", "1", "--animation", "up"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "1"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "0"), (2, 0))
         # Of two channels with one target the later one holds.
         self.assertEqual(self.square_at("--time", "1", "--animation", "all"), (0, 2))
 
-    def test_wrong_requests_are_usage_errors(self):
+    def test_invalid_animation_options_are_usage_errors(self):
         for arguments, fragment in (
             (["--time", "soon"], "--time"), (["--time", "nan"], "--time"), (["--time", "inf"], "--time"),
             (["--time", ""], "--time"), (["--time", "1s"], "--time"),
@@ -111,7 +111,7 @@ class Animation(ProgramTest):
     def frames(self, *arguments):
         return self.run_program("move.gltf", *FLAT, "--size", "80x60", *arguments)
 
-    def test_frames_are_the_pictures_of_their_times(self):
+    def test_frames_equal_stills_at_their_times(self):
         result = self.frames("--frames", "2:5", "--fps", "4", "-o", "out_%03d.ppm")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual([line.split(b":")[0] for line in result.stderr.splitlines()],
@@ -122,7 +122,7 @@ class Animation(ProgramTest):
             single = self.frames("--time", k / 4, "-o", "-").stdout
             self.assertEqual((self.folder / f"out_{k:03}.ppm").read_bytes(), single, k)
 
-    def test_frames_by_default(self):
+    def test_default_frame_names(self):
         self.assertEqual(self.frames("--frames", "24:24").returncode, 0)
         self.assertEqual(sorted(os.listdir(self.folder)), ["move.gltf", "move_0024.png"])
         self.frames("--time", "1", "-o", "single.png")
@@ -148,7 +148,7 @@ class Animation(ProgramTest):
             self.assertEqual((result.returncode, result.stdout.decode()), (code, f"{name}: {verdict}\n"))
         self.assertEqual(len(os.listdir(self.folder)), 4)
 
-    def test_wrong_frames_are_usage_errors(self):
+    def test_invalid_frame_options_are_usage_errors(self):
         for arguments, fragment in (
             (["--frames", "0:1", "-o", "out.ppm"], "out_%04d.png"),
             (["--frames", "0:1", "-o", "%d_%d.ppm"], "%d_%d.ppm"),
@@ -169,18 +169,18 @@ class Animation(ProgramTest):
             self.assertIn(fragment, result.stderr.decode(), arguments)
             self.assertEqual(os.listdir(self.folder), ["move.gltf"], arguments)
 
-    def test_a_percent_sign_may_stand_in_names(self):
+    def test_percent_signs_in_file_names(self):
         self.assertEqual(self.frames("--frames", "7:7", "-o", "100%%_%d.ppm").returncode, 0)
         self.assertIn("100%_7.ppm", os.listdir(self.folder))
 
-    def test_warnings_are_shown_once(self):
+    def test_warnings_are_printed_once(self):
         asset = json.loads((self.folder / "move.gltf").read_text())
         asset["extensionsUsed"] = ["VENDOR_unknown"]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
         result = self.frames("--frames", "0:3")
         self.assertEqual(result.stderr.count(b"VENDOR_unknown"), 2)  # with its line
 
-    def test_one_framing_holds_all_frames(self):
+    def test_one_camera_frames_all_poses(self):
         asset = json.loads((self.folder / "move.gltf").read_text())
         asset["scenes"][0]["nodes"] = [0]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
@@ -191,7 +191,7 @@ class Animation(ProgramTest):
         self.assertAlmostEqual(left[1] - left[0], 31, delta=1)
         self.assertAlmostEqual(left[2] - left[1], 31, delta=1)
 
-    def test_a_camera_stands_still_while_far_things_move(self):
+    def test_static_camera_far_from_the_origin(self):
         asset = json.loads(moving_square(start=1e6, way=64))
         asset["scenes"][0]["nodes"] = [0]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
@@ -204,13 +204,13 @@ class Animation(ProgramTest):
             self.assertAlmostEqual(left[2] - left[1], left[1] - left[0], delta=1)
             self.assertGreater(left[2], 65)
 
-    def test_progress_is_that_of_all_frames(self):
+    def test_progress_covers_all_frames(self):
         result = self.frames("--frames", "0:9", "--progress", "json")
         shares = [json.loads(line)["progress"] for line in result.stderr.splitlines()]
         self.assertEqual(shares, sorted(shares))
         self.assertEqual(shares[-1], 1)
 
-    def test_an_interrupt_leaves_whole_frames_only(self):
+    def test_interrupt_leaves_only_complete_frames(self):
         process = subprocess.Popen([PROGRAM, "move.gltf", *FLAT, "--size", "800x600", "--frames", "0:9999",
                                     "-o", "move_%04d.ppm"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
@@ -223,7 +223,7 @@ class Animation(ProgramTest):
             self.assertRegex(name, r"^move_\d{4}\.ppm$")
             self.assertEqual((self.folder / name).stat().st_size, 15 + 800 * 600 * 3)
 
-    def test_a_json_scenes_meshes_are_posed(self):
+    def test_meshes_of_json_scenes_are_posed(self):
         camera = {"type": "orthographic", "position": [2, 2, 10], "direction": [0, 0, -1], "height": 6}
         (self.folder / "scene.json").write_text(json.dumps({
             "version": 1, "cameras": [camera], "objects": [{"type": "mesh", "file": "move.gltf"}]}))

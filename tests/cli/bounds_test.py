@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What hostile input may cost: memory is counted before it is taken, and nothing is waited for.
+"""The cost of hostile input: memory is counted before it is allocated, and nothing blocks.
 
 usage: bounds_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -37,7 +37,7 @@ class Bounds(ProgramTest):
         (self.folder / "out.ppm").unlink()
         return json.loads(said)["counted_memory_mib"]
 
-    def test_limits_are_numbers_of_bytes(self):
+    def test_memory_limit_values(self):
         scene = SOURCE / "scenes/perspective1.json"
         for text in ("1G", "300M", "400000K", "1000000000"):
             self.draw(scene, "--memory-limit", text)
@@ -46,7 +46,7 @@ class Bounds(ProgramTest):
             said = self.draw(scene, "--memory-limit", text, code=2)
             self.assertIn("--memory-limit", said)
 
-    def test_what_needs_too_much_is_refused_before_it_is_taken(self):
+    def test_allocations_beyond_the_limit_are_refused(self):
         limit = 64
         cases = [("zeros", 3 << 24), ("zeros_with_attributes", 3 << 24), ("sparse_zeros", 3 << 24),
                  ("points", 3 << 23), ("instances", 1 << 22), ("pixels", 1 << 26), ("wide_nodes", 1 << 17)]
@@ -67,7 +67,7 @@ class Bounds(ProgramTest):
                     self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())
 
-    def test_pictures_are_counted(self):
+    def test_pictures_count_against_the_limit(self):
         scene = SOURCE / "scenes/perspective1.json"
         self.draw(scene, "--size", "4000x4000", "--memory-limit", "100M", code=6)
         self.draw(scene, "--integrator", "path", "--spp", "1", "--size", "2000x2000", "--time-limit", "9",
@@ -77,7 +77,7 @@ class Bounds(ProgramTest):
         one, many = (self.counted(self.write("textures", n), "--integrator", "path", "--spp", "1") for n in (1, 128))
         self.assertLess(many - one, 2)
 
-    def test_costs_grow_as_files_do(self):
+    def test_cost_is_linear_in_file_size(self):
         for name in hostile.ALL:
             with self.subTest(name):
                 if name in ("equal_extensions_used",):
@@ -86,7 +86,7 @@ class Bounds(ProgramTest):
                                 if name in hostile.GLTF else self.counted(self.write(name, n)) for n in (400, 1600))
                 self.assertLess(large - 1, 4.5 * small, f"{small} MiB, {large} MiB")
 
-    def test_only_regular_files_are_read_for_other_files(self):
+    def test_only_regular_files_are_read_beside_the_scene(self):
         os.mkfifo(self.folder / "pipe.glb")
         os.mkfifo(self.folder / "pipe.hdr")
         (self.folder / "zero.glb").symlink_to("/dev/zero")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program as its users meet it: exit codes, messages, what is left behind.
+"""The command line: exit codes, messages, files that are written.
 
 usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -38,7 +38,7 @@ def minimal(**changes):
 
 
 class CommandLine(ProgramTest):
-    def run_and_weigh(self, *arguments):
+    def run_and_measure(self, *arguments):
         """The exit code, standard error, and peak memory in KiB."""
         with open(self.folder.parent / f"{self.folder.name}.err", "w+b") as errors:
             os.unlink(errors.name)
@@ -54,7 +54,7 @@ class CommandLine(ProgramTest):
         return path
 
     def assert_refused(self, scene_text, code, *fragments, name="scene.json"):
-        """The scene fails with that code, one message with all fragments, and no file but itself."""
+        """The scene fails with this code, one message with all fragments, and no other file."""
         self.write(name, scene_text)
         result = self.run_program(name, "-o", "out.ppm")
         message = result.stderr.decode(errors="replace")
@@ -66,7 +66,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), [name])
         return message
 
-    # The main job
+    # Rendering
 
     def test_renders_to_the_named_file(self):
         result = self.run_program(SCENE, "-o", "a.ppm")
@@ -94,7 +94,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(tokens[:4], [b"P3", b"40", b"30", b"255"])
         self.assertEqual(bytes(map(int, tokens[4:])), binary[len(b"P6\n40 30\n255\n"):])
 
-    def test_cameras_by_name_and_number(self):
+    def test_cameras_by_name_and_index(self):
         cameras = [{"name": name, "type": "orthographic", "position": [x, 0, 10],
                     "direction": [0, 0, -1], "height": 2} for name, x in (("near", 0), ("far", 50))]
         self.write("two.json", minimal(cameras=cameras))
@@ -112,7 +112,7 @@ class CommandLine(ProgramTest):
                     for threads in (1, 2, 3, 16)}
         self.assertEqual(len(pictures), 1)
 
-    def test_crop_holds_the_bytes_of_its_part(self):
+    def test_crop_has_the_pixels_of_the_whole_picture(self):
         for samples in (1, 5):
             options = [SCENE, "--size", "100x60", "--spp", samples]
             _, _, whole = self.picture(*options)
@@ -174,7 +174,7 @@ class CommandLine(ProgramTest):
         self.assert_near(position, [t + r * a for t, a in zip(target, away)])
         self.assertGreater(up[1], 0)
         self.assertAlmostEqual(focal, 0.5 / math.tan(math.radians(30)), places=9)
-        # Without a target the middle of the box, by any way to say the view.
+        # The default target is the center of the box, for any notation of the view.
         middle = self.camera(cube, "--view", "90,0,7")[0]
         self.assert_near(self.camera(cube, "--view", "-270,0,9")[0], [middle[0] + 2, *middle[1:]])
 
@@ -235,7 +235,7 @@ class CommandLine(ProgramTest):
         self.assertIn(b"0 (leaf), 1 (sea)", wrong.stderr)
         self.assertEqual(os.listdir(self.folder), ["a.gltf"])
 
-    def test_gltf_is_drawn_with_light_and_json_flat(self):
+    def test_gltf_is_path_traced_and_json_is_flat(self):
         cube = SOURCE / "scenes/gltf/cube.glb"
         lit = self.picture(cube, "--size", "40x30")
         self.assertEqual(self.picture(cube, "--size", "40x30", "--integrator", "path", "--spp", "64",
@@ -306,7 +306,7 @@ class CommandLine(ProgramTest):
         text = self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--spp", "1", "--integrator", "path", "-q", "--stats").stderr
         self.assertIn(b"\n  shadow ", text)
 
-    def test_verbose_tells_what_is_drawn(self):
+    def test_verbose_describes_the_scene(self):
         result = self.run_program(SOURCE / "scenes/gltf/textures.glb", "-o", "a.ppm", "-v", "--integrator", "flat")
         self.assertEqual(result.returncode, 0, result.stderr)
         lines = result.stderr.decode().splitlines()
@@ -342,7 +342,7 @@ class CommandLine(ProgramTest):
         self.assertLessEqual(loading, numbers["load_s"])
         self.assertLessEqual(numbers["build_s"] + numbers["trace_s"], numbers["render_s"])
 
-    def test_progress_for_programs(self):
+    def test_progress_as_json(self):
         result = self.run_program(SCENE, "-o", "a.ppm", "--progress", "json")
         lines = [json.loads(line) for line in result.stderr.splitlines()]
         shares = [line["progress"] for line in lines]
@@ -352,20 +352,20 @@ class CommandLine(ProgramTest):
         self.assertNotIn(b"%", self.run_program(SCENE, "-o", "a.ppm", "--progress=none").stderr)
         self.assertEqual(self.run_program(SCENE, "-o", "a.ppm", "--progress=dots").returncode, 2)
 
-    def test_says_what_was_written(self):
+    def test_reports_written_files(self):
         result = self.run_program(SCENE, "-o", "a.png", "--sidecar", "b.json", "--size", "20x10")
         self.assertRegex(result.stderr.decode(),
                          r"^wrote a\.png and b\.json: 20 x 10 pixels, 1 sample each, in \d+\.\d+ s\n$")
         for quiet in (["-q", "-o", "a.png"], ["-o", "-"]):
             self.assertEqual(self.run_program(SCENE, "--size", "20x10", *quiet).stderr, b"", quiet)
 
-    def test_mistyped_options_get_the_nearest_one(self):
+    def test_mistyped_options_suggest_the_nearest_one(self):
         for wrong, right in (("--smaples", "--samples"), ("--smaples=4", "--samples"), ("--treads", "--threads"),
                              ("--outptu", "--output")):
             result = self.run_program(SCENE, wrong, "4")
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"error: unknown option {wrong.split('=')[0]}; did you mean {right}?\n", result.stderr.decode())
-        # Without SCENE too, which CLI11 would complain of first.
+        # Also without SCENE, which CLI11 would report first.
         self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
                                    (["b.json"], 'error: unexpected argument "b.json"\n'),
@@ -378,7 +378,7 @@ class CommandLine(ProgramTest):
             self.assertTrue(result.stderr.decode().startswith(message), result.stderr)
             self.assertEqual(os.listdir(self.folder), [])
 
-    def test_other_formats_get_a_word_of_what_to_do(self):
+    def test_other_formats_get_advice(self):
         obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
         for name, content in (("a.obj", obj), ("a.OBJ", obj), ("a.stl", b"solid a\nendsolid a\n"), ("a.ply", b"ply\n"),
                               ("a.usd", b"PXR-USDC"), ("a.fbx", b"Kaydara FBX Binary  \0"), ("a.obj", b"")):
@@ -387,17 +387,17 @@ class CommandLine(ProgramTest):
             self.assertEqual(result.returncode, 4, name)
             message = result.stderr.decode()
             self.assertIn(f"error: {name}: microtrace reads JSON scenes and glTF (.gltf, .glb), not .{name[2:].lower()}; convert", message)
-        # What is a scene all the same is drawn.
+        # A scene with a foreign extension is rendered.
         self.write("scene.obj", minimal())
         self.assertEqual(self.run_program("scene.obj", "-q", "-o", "a.ppm").returncode, 0)
 
-    def test_validate_prints_the_verdict_and_draws_nothing(self):
+    def test_validate_prints_the_result_and_renders_nothing(self):
         result = self.run_program(SCENE, "--validate")
         self.assertEqual(result.returncode, 0)
         self.assertEqual(result.stdout.decode(), f"{SCENE}: valid\n")
         self.assertEqual(os.listdir(self.folder), [])
         asset = {"asset": {"version": "2.1"}, "scenes": []}
-        for change, code, verdict in (({"scenes": [{}]}, 0, "valid, 2 warnings"),
+        for change, code, expected in (({"scenes": [{}]}, 0, "valid, 2 warnings"),
                                       ({}, 3, "invalid, but drawable: 1 error, 2 warnings"),
                                       ({"scene": 0}, 3, "invalid"),
                                       ({"asset": {"version": "3.0"}}, 4, "unsupported"),
@@ -405,7 +405,7 @@ class CommandLine(ProgramTest):
             self.write("asset.gltf", json.dumps({**asset, **change}))
             result = self.run_program("asset.gltf", "--validate")
             self.assertEqual(result.returncode, code)
-            self.assertEqual(result.stdout.decode(), f"asset.gltf: {verdict}\n")
+            self.assertEqual(result.stdout.decode(), f"asset.gltf: {expected}\n")
         self.write("asset.gltf", json.dumps(asset))
         result = self.run_program("asset.gltf", "--validate", "--strict")
         self.assertEqual((result.returncode, result.stdout), (3, b"asset.gltf: invalid\n"))
@@ -425,7 +425,7 @@ class CommandLine(ProgramTest):
             "materials": [material],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "mode": 1, "material": 0}]}]}))
 
-    def test_the_box_of_a_line_is_without_the_width_at_which_it_is_drawn(self):
+    def test_the_box_of_a_line_excludes_its_rendered_width(self):
         self.write_line({})
         result = self.run_program("line.gltf", "--size", "8x6", "--integrator", "flat", "-o", "a.ppm", "--sidecar", "a.json")
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -457,7 +457,7 @@ class CommandLine(ProgramTest):
         self.assertIn(b"Exit codes", self.run_program("--help").stdout)
 
     def test_missing_modules(self):
-        """What an asset requires and no module can do is refused, with the package to install."""
+        """A required extension without its module is refused; the message names the package to install."""
         asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
                  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
                               + "A" * 48}],
@@ -510,7 +510,7 @@ class CommandLine(ProgramTest):
         self.assert_refused(b'{"version": 1, "a": "\xff"}', 3, "UTF-8")
         self.assert_refused('{"version": 1', 3, "scene.json:1:")
 
-    def test_bad_values_name_their_place(self):
+    def test_invalid_values_name_their_json_pointer(self):
         sphere = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
         camera = {"type": "perspective", "position": [0, 0, 10], "direction": [0, 0, -1],
                   "vertical_fov": 60}
@@ -543,7 +543,7 @@ class CommandLine(ProgramTest):
     def test_huge_picture(self):
         text = minimal(image={"width": 10**9, "height": 10**9})
         self.write("scene.json", text)
-        code, message, peak_kib = self.run_and_weigh("scene.json")
+        code, message, peak_kib = self.run_and_measure("scene.json")
         self.assertIn(code, (3, 6))
         self.assertIn("/image/width: ", message)
         self.assertLess(peak_kib, 400 * 1024)
@@ -552,10 +552,10 @@ class CommandLine(ProgramTest):
         text = minimal(objects=[{"type": "mesh", "file": "not/there.glb"}])
         self.assert_refused(text, 5, "/objects/0/file: ", "not/there.glb")
 
-    def test_garbage_of_100_mb(self):
+    def test_100_mb_of_garbage(self):
         with open(self.folder / "scene.json", "wb") as file:
             file.write(os.urandom(1 << 20) * 100)
-        code, message, peak_kib = self.run_and_weigh("scene.json", "-o", "out.ppm")
+        code, message, peak_kib = self.run_and_measure("scene.json", "-o", "out.ppm")
         self.assertEqual(code, 3, message)
         self.assertLess(peak_kib, 400 * 1024)
         self.assertEqual(os.listdir(self.folder), ["scene.json"])
@@ -600,7 +600,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.returncode, 5)
 
     def test_interrupt_leaves_nothing(self):
-        # Far longer than any test, where it is not interrupted.
+        # Takes far longer than any test unless it is interrupted.
         process = subprocess.Popen([PROGRAM, SCENE, "--size", "8000x8000", "--spp", "256", "-t", "1", "--progress", "json"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
         self.assertIn(b"progress", process.stderr.readline())
@@ -611,7 +611,7 @@ class CommandLine(ProgramTest):
 
     # Start-up
 
-    def test_json_to_ppm_maps_no_picture_library_and_png_one(self):
+    def test_json_to_ppm_loads_no_picture_library_and_png_only_libpng(self):
         for picture, others in (("/dev/null", (b"libpng", b"libjpeg")), ("a.png", ())):
             result = self.run_program(SCENE, "-o", picture, env=environment(LD_DEBUG="files"))
             self.assertEqual(result.returncode, 0)

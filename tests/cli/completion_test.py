@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Completion as the shells do it.
+"""Completion in the shells themselves.
 
 usage: completion_test.py PROGRAM [unittest arguments]
 """
@@ -70,7 +70,7 @@ class Completion(ProgramTest):
         for option in self.help_options():
             self.assertRegex(text, rf"'(\([^)]*\)|\*){option}[=[]")
 
-    def test_offered_words_are_taken(self):
+    def test_completed_words_are_accepted(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",
                        "--progress", "--backfaces"):
             words = self.complete_in_bash("microtrace", option, "") - {"script.bash"}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How runs end: by limits and signals, on full disks; what stands in messages.
+"""How runs end: limits, signals, full disks; escaping in messages.
 
 usage: ends_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -83,7 +83,7 @@ class Ends(ProgramTest):
 
     # Standard output
 
-    def test_a_full_standard_output_is_an_error(self):
+    def test_full_standard_output_is_an_error(self):
         for arguments in [[SCENE, "--validate"], ["--help"], ["--version"], ["merge", "--help"]]:
             with open("/dev/full", "w") as full:
                 result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE,
@@ -131,7 +131,7 @@ class Ends(ProgramTest):
         result = self.run_program(SCENE, "--spp", "010", "--size", "4x4", "--stats=json", "-q", "-o", "a.ppm")
         self.assertEqual(json.loads(result.stderr)["samples_per_pixel"], 10)
 
-    def test_resuming_with_fewer_samples_says_so(self):
+    def test_resuming_with_fewer_samples_prints_a_warning(self):
         options = [SCENE, "--integrator", "path", "--size", "8x6", "-o", "a.ppm"]
         warning = b"warning: the checkpoints contain samples up to number 4 of each pixel, more than --spp 2"
         for spp, says in [("4", False), ("4", False), ("2", True), ("5", False)]:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Which files the program reads and which it writes: never one over the other, and none outside the scene's folder.
+"""Files: no output replaces an input, and nothing is read outside the scene's folder.
 
 usage: files_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -61,7 +61,7 @@ class Files(ProgramTest):
             self.assertIn(part, message)
         self.assertEqual(self.contents(), before)
 
-    # What was read is not written over
+    # Inputs are not overwritten
 
     def test_outputs_over_parts_of_the_asset(self):
         os.symlink("asset/data.bin", self.folder / "link.ppm")
@@ -124,11 +124,11 @@ class Files(ProgramTest):
         self.assert_refused(2, *draw, "--checkpoint", "ck", says=["--output", "--checkpoint"])
         self.assert_refused(2, *draw, "--resume", "ck", says=["link.ppm", "--output"])
         self.assert_refused(2, "merge", "ck", "-o", "link.ppm", says=["link.ppm", "ck"])
-        # Samples that are taken over are kept in the file that they came from.
+        # A resumed checkpoint is not changed.
         draw[-1] = "a.ppm"
         self.assertEqual(self.draw(*draw, "--resume", "ck", "--checkpoint", "ck").returncode, 0)
 
-    def test_two_outputs_that_are_one_file(self):
+    def test_two_outputs_with_one_file(self):
         os.symlink("b.ppm", self.folder / "link.ppm")  # leads to no file yet
         draw = ["asset/model.gltf", "--spp", "1", "-o", "b.ppm"]
         for path in ["b.ppm", "./b.ppm", "asset/../b.ppm", "link.ppm"]:
@@ -136,7 +136,7 @@ class Files(ProgramTest):
             self.assert_refused(2, *draw, "--checkpoint", path, says=["--output", "--checkpoint"])
         self.assert_refused(2, *draw, "--checkpoint", "c", "--sidecar", "./c", says=["--sidecar", "--checkpoint"])
 
-    # What lies outside the scene's folder is not read
+    # Files outside the scene's folder are not read
 
     def test_links_out_of_the_folder(self):
         outside = self.folder / "outside"
@@ -150,7 +150,7 @@ class Files(ProgramTest):
             os.remove(self.folder / "a.ppm")
             os.remove(self.asset / part)
             shutil.move(outside / part, self.asset / part)
-        # By a folder's link too, and from a JSON scene.
+        # Also by a link to a folder, and from a JSON scene.
         os.symlink("../outside", self.asset / "more")
         shutil.move(self.asset / "data.bin", outside / "data.bin")
         self.gltf["buffers"][0]["uri"] = "more/data.bin"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Options for light and its display: what is accepted, what is refused with which exit code.
+"""Options for light and display: accepted values, exit codes of refused ones, warnings about dark pictures.
 
 usage: light_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -50,7 +50,7 @@ class Environments(ProgramTest):
         for integrator in ("flat", "normal"):
             self.assert_refused(2, "--integrator path", "--background", "env", "--integrator", integrator)
 
-    def test_the_environment_behind_the_scene(self):
+    def test_environment_as_background(self):
         corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",
                                                "none", *options)[2][0][:3]
         self.assertEqual(corner("--env", "0.5,0,1"), b"\xcb\xcb\xcb")  # of 0.6
@@ -92,14 +92,14 @@ class Exposure(ProgramTest):
         pixels = {self.corner("--tonemap", name) for name in ("none", "khronos-pbr-neutral", "aces", "agx")}
         self.assertEqual(len(pixels), 4)
 
-    def test_float_formats_hold_the_light_itself(self):
+    def test_float_formats_contain_linear_light(self):
         for options, name in (((), "a.exr"), (("--exposure", "2", "--tonemap", "agx"), "b.exr")):
             self.run_program(CUBE, "--size", "40x30", "-o", name, *options)
         difference = subprocess.run(["idiff", "-fail", "0", self.folder / "a.exr", self.folder / "b.exr"],
                                     stdout=subprocess.DEVNULL)
         self.assertEqual(difference.returncode, 0)
 
-    def test_files_tell_what_was_done(self):
+    def test_files_name_exposure_and_tone_map(self):
         def notes(name, *options):
             self.run_program(CUBE, "--size", "8x6", "-o", name, *options)
             info = subprocess.run(["oiiotool", "--info", "-v", self.folder / name], stdout=subprocess.PIPE)
@@ -122,7 +122,7 @@ class Exposure(ProgramTest):
 
 
 class DarkPictures(ProgramTest):
-    """What warnings say where a picture shows next to nothing."""
+    """Warnings about pictures that show next to nothing."""
 
     def warnings(self, document, *options, code=0):
         (self.folder / "scene.json").write_text(json.dumps({
@@ -144,7 +144,7 @@ class DarkPictures(ProgramTest):
         place = {"direction": [0, 0, -1]} if kind == "directional" else {"position": [0, 0, 4]}
         return {"name": f"{kind} {intensity}", "type": kind, "intensity": intensity, **place, **more}
 
-    def test_lights_without_light(self):
+    def test_lights_of_intensity_zero(self):
         for lights, words in (([self.lamp(0)], "1 light of intensity 0, no environment"),
                               ([self.lamp(0), self.lamp(0, "directional")], "2 lights of intensity 0, no environment"),
                               ([self.lamp(0), self.lamp(1e-9)], "2 lights (1 of intensity 0), no environment")):
@@ -156,7 +156,7 @@ class DarkPictures(ProgramTest):
         self.assertIn("0 lights, a black environment; add light",
                       self.warnings({"environment": {"type": "uniform", "color": [0, 0, 0]}}))
 
-    def test_the_exposure_that_is_named_shows_it(self):
+    def test_the_suggested_exposure_brightens_the_picture(self):
         document = {"lights": [self.lamp(1e-5, "directional")]}
         stops = re.search(r"--exposure (\d+)\n", self.warnings(document)).group(1)
         self.assertEqual(self.warnings(document, "--exposure", stops), "")
@@ -174,7 +174,7 @@ class DarkPictures(ProgramTest):
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "-q"), "")
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--integrator", "flat"), "")
 
-    def test_behind_other_backgrounds(self):
+    def test_other_backgrounds(self):
         for options in (("--background", "#808080"), ("--background", "transparent")):
             self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, *options))
             self.assertEqual(self.warnings({}, *options), "")
@@ -192,7 +192,7 @@ class DarkPictures(ProgramTest):
         self.assertIn("most of the visible scene is black", self.warnings({"lights": [self.lamp(0)]}, "--strict", code=3))
         self.assertIn("sees nothing", self.warnings({}, "--strict", "-q", "--camera", "away", code=3))
 
-    def test_verbose_says_what_lights_the_scene(self):
+    def test_verbose_lists_the_lights(self):
         for document, words in (({}, "light: the built-in studio"),
                                 ({"lights": [self.lamp(3)]}, "light: 1 light, no environment"),
                                 ({"environment": {"type": "studio"}}, "light: 0 lights, an environment")):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the table of options says of each: its default, and whether samples depend on it.
+"""The table of options: defaults, and whether samples depend on an option.
 
 usage: options_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -39,7 +39,7 @@ class Options(ProgramTest):
         self.assertEqual(result.returncode, 0, (arguments, result.stderr))
         return (self.folder / picture).read_bytes()
 
-    def test_defaults_are_what_the_program_does_without_the_option(self):
+    def test_listed_defaults_are_true(self):
         count = 0
         for option in self.options():
             default = option.default.split(";")[0]
@@ -57,7 +57,7 @@ class Options(ProgramTest):
                 self.assertEqual(pictures[0], pictures[1])
         self.assertGreater(count, 10)
 
-    def test_samples_that_differ_are_not_put_together(self):
+    def test_samples_of_different_options_are_not_combined(self):
         self.render(*LIGHT, "--spp", "2", "--checkpoint", "c")
         checkpoint = (self.folder / "c").read_bytes()
         known = {name for option in self.options() for name in option.names}
@@ -82,7 +82,7 @@ class Options(ProgramTest):
             self.render(*quiet, *more, option, *([value] if value else []), "--checkpoint", "c", picture=picture)
             self.assertEqual(self.render(*LIGHT, "--spp", "3", "--resume", "c"), whole, option)
 
-    def test_options_are_given_once(self):
+    def test_messages(self):
         for arguments, message in ((["--spp", "3", "--spp", "4"], b"error: --spp is given twice\n"),
                                    (["--fov", "30"], b"error: --fov requires --view or --eye\n"),
                                    (["--stats=xml"], b"error: --stats: expects text or json, not xml\n"),

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program where the system starts few threads, and where a preloaded library has set other floating-point rules.
+"""The program with few threads, and with a preloaded library that changes the floating-point environment.
 
 usage: preload_test.py PROGRAM SOURCE_FOLDER FEW_THREADS HOST_RULES [unittest arguments]; the last two are libraries
 """
@@ -20,7 +20,7 @@ FEW_THREADS, HOST_RULES = sys.argv[3:5]
 
 
 def hills(n=110):
-    """A glTF asset of so many triangles that several threads make its tree."""
+    """A glTF asset with enough triangles for several threads to build its tree."""
     points = [(4 * i / n - 2, 4 * j / n - 2, 0.3 * math.sin(0.3 * i) * math.cos(0.2 * j)) for i in range(n) for j in range(n)]
     corners = [k for i in range(n - 1) for j in range(n - 1) for k in
                (i * n + j, i * n + n + j, i * n + j + 1, i * n + j + 1, i * n + n + j, i * n + n + j + 1)]
@@ -48,13 +48,13 @@ class Preloaded(ProgramTest):
         (self.folder / "hills.gltf").write_text(hills())
 
     def draw(self, name, *arguments, **variables):
-        """The result of drawing hills, the picture's bytes, and what is said."""
+        """The exit code, the bytes of the picture of hills, and standard error."""
         result = self.run_program("hills.gltf", "--size", "48x36", "-o", name, *arguments,
                                   env=environment(**variables))
         path = self.folder / name
         return result.returncode, path.read_bytes() if path.exists() else None, result.stderr.decode()
 
-    def test_fewer_threads_draw_the_same_picture_with_a_warning(self):
+    def test_fewer_threads_render_the_same_picture_with_a_warning(self):
         for name in ["hills.ppm", "hills.png"]:
             code, expected, _ = self.draw(name, "--spp", "2", "-t", "4")
             self.assertEqual(code, 0)
@@ -66,13 +66,13 @@ class Preloaded(ProgramTest):
                 warning = f"warning: the system refused to start {3 - most} of 4 threads"
                 self.assertEqual(warning in said, most < 3, said)
 
-    def test_quantities_need_no_threads(self):
+    def test_quantities_render_with_few_threads(self):
         code, picture, said = self.draw("normal.ppm", "--integrator", "normal", "-t", "9",
                                         LD_PRELOAD=FEW_THREADS, MOST_THREADS="2")
         self.assertEqual(code, 0, said)
         self.assertIn("refused to start 6 of 9 threads", said)
 
-    def test_formats_whose_libraries_need_threads_are_refused_at_once(self):
+    def test_formats_whose_libraries_need_threads_are_refused(self):
         few = {"LD_PRELOAD": FEW_THREADS, "MOST_THREADS": "1"}
         code, picture, said = self.draw("hills.tif", **few)
         if "MICROTRACE_MODULE_PATH" in said:
@@ -85,7 +85,7 @@ class Preloaded(ProgramTest):
         self.assertEqual((code, picture), (6, None), said)
         self.assertIn("error: hills.hdr: needs OpenImageIO", said)
 
-    def test_rules_of_a_preloaded_library_change_no_byte(self):
+    def test_a_preloaded_library_changes_no_byte(self):
         for name, *arguments in [("hills.ppm", "--exposure", "0.3", "--spp", "2"), ("hills.png", "--view", "31.7,12.3", "--spp", "2"),
                                  ("depth.ppm", "--integrator", "depth"), ("hills.hdr", "--spp", "2")]:
             code, expected, said = self.draw(name, *arguments)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Samples that are taken in parts: checkpoints, interruptions, shards, time limits.
+"""Checkpoints, interruptions, shards, time limits and target errors.
 
 usage: samples_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -34,13 +34,13 @@ class Samples(ProgramTest):
         self.render("-o", "whole.ppm", *arguments)
         return self.bytes_of("whole.ppm")
 
-    def test_seed_changes_the_noise_alone_and_threads_nothing(self):
+    def test_seed_changes_the_noise_and_threads_change_nothing(self):
         pictures = [self.whole("--spp", "3", "--seed", seed, "-t", threads)
                     for seed, threads in ((1, 1), (1, 3), (2, 2))]
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
-    def test_checkpoints_are_gone_on_from(self):
+    def test_rendering_continues_from_checkpoints(self):
         whole = self.whole("--spp", "37")
         self.render("-o", "a.ppm", "--spp", "5", "--checkpoint", "c")
         self.render("-o", "b.ppm", "--spp", "20", "--checkpoint", "c", "-t", "3")
@@ -48,11 +48,11 @@ class Samples(ProgramTest):
         self.assertEqual(self.bytes_of("d.ppm"), whole)
         self.assertEqual(self.bytes_of("a.ppm"), self.whole("--spp", "5"))
         self.assertEqual(self.bytes_of("b.ppm"), self.whole("--spp", "20"))
-        # Nothing is left to do.
+        # Nothing remains to be rendered.
         self.render("-o", "d.ppm", "--spp", "20", "--checkpoint", "c", "--resume", "c")
         self.assertEqual(self.bytes_of("d.ppm"), self.bytes_of("b.ppm"))
 
-    def test_killed_runs_lose_nothing_that_was_saved(self):
+    def test_killed_runs_keep_saved_samples(self):
         options = ["--spp", "3000"]
         arguments = [SCENE, *LIGHT, *options, "-o", "out.ppm", "--checkpoint", "c", "--save-every", "0"]
         kills = 0
@@ -75,7 +75,7 @@ class Samples(ProgramTest):
         self.assertLess(stats["rays"], 3000 * 32 * 20)
         self.assertEqual(self.bytes_of("out.ppm"), self.whole(*options))
 
-    def test_interrupted_runs_leave_whole_files(self):
+    def test_interrupted_runs_leave_complete_files(self):
         process = subprocess.Popen(
             [PROGRAM, SCENE, *LIGHT, "--spp", "65536", "-o", "out.ppm", "--checkpoint", "c", "--progressive",
              "--save-every", "0"], cwd=self.folder, env=environment())
@@ -98,7 +98,7 @@ class Samples(ProgramTest):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stderr, rb"^wrote merged\.ppm: 32 x 20 pixels, 50 samples each, in [0-9.]+ s\n$")
             self.assertEqual(self.bytes_of("merged.ppm"), whole)
-        # Shown in another way.
+        # With other display options.
         self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
         self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
         # One is missing: no picture unless --partial asks for it; a run can fill the gap.
@@ -136,7 +136,7 @@ class Samples(ProgramTest):
         scene.write_text(scene.read_text() + "\n")
         refused("made with scene files ")
 
-    def test_files_that_a_scene_names_count(self):
+    def test_files_of_the_scene_are_part_of_the_identity(self):
         vertices = b"".join(x.to_bytes(4, "little") for x in
                             (0, 0, 0, 0x3F800000, 0, 0, 0, 0x3F800000, 0))
         (self.folder / "a.bin").write_bytes(vertices)
@@ -155,7 +155,7 @@ class Samples(ProgramTest):
         message = self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "3", code=2, scene=scene)
         self.assertIn("made with scene files ", message)
 
-    def test_damaged_checkpoints_are_errors_of_input(self):
+    def test_damaged_checkpoints_are_refused(self):
         self.render("-o", "a.ppm", "--spp", "2", "--checkpoint", "c")
         good = self.bytes_of("c")
         flipped = bytearray(good)
@@ -171,7 +171,7 @@ class Samples(ProgramTest):
         self.assertIn("missing", self.render("-o", "b.ppm", "--resume", "missing", code=5))
         self.assertFalse((self.folder / "b.ppm").exists())
 
-    def test_a_time_limit_keeps_what_is_there(self):
+    def test_time_limit_keeps_the_samples_taken(self):
         stats = json.loads(self.render("-o", "a.ppm", "--spp", "65536", "--time-limit", "0.3", "--stats=json"))
         taken = stats["samples_per_pixel"]
         self.assertGreaterEqual(taken, 1)
@@ -179,7 +179,7 @@ class Samples(ProgramTest):
         self.assertEqual(stats["rays"], taken * 32 * 20)
         self.assertEqual(self.bytes_of("a.ppm"), self.whole("--spp", taken))
 
-    def test_a_target_error_stops_where_it_is_reached(self):
+    def test_target_error_stops_sampling(self):
         options = ["--spp", "512", "--target-error", "0.15", "--stats=json"]
         stats = json.loads(self.render("-o", "a.ppm", *options, "-t", "1"))
         self.assertLess(stats["rays"], 512 * 32 * 20)
@@ -190,7 +190,7 @@ class Samples(ProgramTest):
         self.assertEqual(again["samples_per_pixel"], stats["samples_per_pixel"])
         self.assertEqual(self.bytes_of("a.ppm"), self.bytes_of("b.ppm"))
 
-    def test_what_makes_no_sense_is_refused(self):
+    def test_contradictory_options_are_refused(self):
         for arguments in (["--shard", "1/2"], ["--shard", "0/2", "--checkpoint", "c", "--spp", "4"],
                           ["--shard", "3/2", "--checkpoint", "c", "--spp", "4"],
                           ["--shard", "1/5", "--checkpoint", "c", "--spp", "4"],

@@ -25,7 +25,7 @@ def transformed(rows, point):
 
 class Sidecar(ProgramTest):
     def draw(self, scene, *options):
-        """The sidecar and the picture, after the checks that hold for every scene."""
+        """The sidecar and the picture, after the checks for every scene."""
         result = self.run_program(SOURCE / "scenes" / scene, "--aov", ALL, "-o", "a.exr", "--size", "60x45", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.exr", "a.exr.json"])

@@ -37,7 +37,7 @@ class Threads(ProgramTest):
         self.assert_same(JSON, *FLAT, "--spp", "5", "--filter", "blackman-harris")
         self.assert_same(GLTF, *FLAT[2:], "--integrator", "normal")
 
-    def test_lit(self):
+    def test_path(self):
         for scene in (JSON, GLTF, SCENES / "gltf/knot.glb"):
             self.assert_same(scene, *LIT)
 
@@ -49,7 +49,7 @@ class Threads(ProgramTest):
             (self.folder / "c").unlink()
         self.assert_same(GLTF, *LIT[:-1], "64", "--target-error", "0.1")
 
-    def test_going_on_from_a_checkpoint(self):
+    def test_resuming_a_checkpoint(self):
         for threads in THREADS:
             self.draw(GLTF, *LIT[:-1], "2", "--checkpoint", "c", threads=threads)
             gone_on = self.draw(GLTF, *LIT, "--resume", "c", threads=threads)

@@ -33,7 +33,7 @@ Examples:
   microtrace merge CHECKPOINT... -o picture.png
 )";
 
-/// The words of the text in lines of the right column; all but the first are indented.
+/// Breaks the text into lines of the right column; all but the first are indented.
 std::string wrapped(const std::string& text) {
   std::istringstream words(text);
   std::string result;

@@ -2,9 +2,10 @@
 /// The options of the command line, one row each. Parsing, --help, the manual page, completion,
 /// suggestions for mistyped names and the identity of checkpoints are all made from these rows.
 ///
-/// To add an option: a row in one of src/cli/options/*_options.cpp, and the code that uses the
-/// value. Tests name the option where docs/command-line.md or the manual page lacks it;
-/// `tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update` writes it into the manual page.
+/// To add an option: a row in one of src/cli/options/*_options.cpp, and the code that uses its
+/// value, which is stored in Arguments or in an options struct of the library that is part of it.
+/// Tests name an option that docs/command-line.md or the manual page doesn't describe;
+/// `tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update` adds it to the manual page.
 
 #include "cli/options/option_value.hpp"
 
@@ -21,29 +22,29 @@ struct Arguments;
 /// The commands that take an option.
 enum class Command { render, merge };
 
-/// Whether the samples of a random integrator depend on an option. Samples are put together only
-/// if all such options have the same values.
+/// Whether the samples of a random integrator depend on an option. Samples of several runs can be
+/// combined only if these options are the same.
 enum class Samples { undecided, change, keep };
 
-/// What a shell offers as a value, beside Option::words.
+/// Values that shells complete, besides Option::words.
 enum class Completion { none, files, folders };
 
 struct Option {
-  /// With commas between, short ones first: "-o,--output"; a positional argument has no dashes.
+  /// Comma-separated, short ones first: "-o,--output". A positional argument has no dashes.
   std::string_view names;
-  std::string_view metavar{};  ///< the value in --help: "FILE"; empty: a flag, which has no value
+  std::string_view metavar{};  ///< placeholder of the value: "FILE"; empty: a flag
   std::string_view help;
-  std::string_view default_value{};  ///< in words or as it would be given; empty: none
-  std::string_view implied_value{};  ///< of an option that may be given without a value
+  std::string_view default_value{};  ///< a value or a description; empty: none
+  std::string_view implied_value{};  ///< if the value is omitted; empty: it is required
   Samples samples = Samples::undecided;
   Completion completion = Completion::none;
-  std::vector<std::string> (*words)() = nullptr;  ///< values with names; null: none
+  std::vector<std::string> (*words)() = nullptr;  ///< named values; null: none
   bool is_required = false;
   bool is_repeatable = false;
-  std::string_view needs{};     ///< an option that must be given too
-  std::string_view excludes{};  ///< options that can't be given too, with spaces between
-  /// Stores the value, or of a flag the fact that it is given. Throws Error (usage). Rows of one
-  /// command are called in the table's order. Null for --help and --version, which end the program.
+  std::string_view needs{};     ///< an option that must also be given
+  std::string_view excludes{};  ///< options that must not be given, space-separated
+  /// Stores the value; of a flag, that it is given. Throws Error (usage). Called in the order of
+  /// the table. Null for --help and --version, which end the program.
   void (*set)(Arguments&, const OptionValue&) = nullptr;
 
   /// "--output": the first long name, or the positional argument's.
@@ -62,7 +63,7 @@ struct OptionGroup {
 /// All options of a command, in the order of --help.
 [[nodiscard]] std::vector<OptionGroup> option_groups(Command command);
 
-// The tables.
+// The tables, one for each heading.
 [[nodiscard]] std::span<const Option> picture_options();
 [[nodiscard]] std::span<const Option> camera_options();
 [[nodiscard]] std::span<const Option> light_options();
@@ -75,7 +76,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> common_options();
 [[nodiscard]] std::span<const Option> merge_options();
 
-/// Whether a table's rows have what none can go without.
+/// Whether every row has names and a help text and says if samples depend on it.
 constexpr bool is_complete(std::span<const Option> options) {
   return std::ranges::all_of(options, [](const Option& option) {
     return !option.names.empty() && !option.help.empty() && option.samples != Samples::undecided;

@@ -12,7 +12,7 @@
 namespace microtrace::cli {
 namespace {
 
-/// All of the text as a number.
+/// Converts the whole text.
 template <typename Number>
 std::optional<Number> read(std::string_view text) {
   Number value{};

@@ -1,5 +1,5 @@
 #pragma once
-/// The text of an option's value, and what it can be read as.
+/// The text of an option's value, and its conversions.
 
 #include <microtrace/math.hpp>
 
@@ -14,10 +14,10 @@
 
 namespace microtrace::cli {
 
-/// Decimal digits alone, without sign.
+/// Accepts only decimal digits, without a sign.
 [[nodiscard]] std::optional<std::uint32_t> whole_number(std::string_view text);
 
-/// Finite numbers with commas between; none where the text is something else.
+/// Comma-separated finite numbers; empty if the text is anything else.
 [[nodiscard]] std::vector<double> numbers_of(std::string_view text);
 
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
@@ -51,7 +51,7 @@ struct OptionValue {
   [[nodiscard]] double positive_number() const;
   [[nodiscard]] double seconds() const { return number(0, std::numeric_limits<double>::max()); }
   [[nodiscard]] DVec3 point() const;
-  /// A whole number of bytes, or of KiB, MiB or GiB with K, M or G behind it; above 0.
+  /// A number of bytes above 0; the suffix K, M or G stands for KiB, MiB or GiB.
   [[nodiscard]] std::uint64_t bytes() const;
 
   template <class Choices>
@@ -66,7 +66,7 @@ struct OptionValue {
   [[noreturn]] void refuse(const std::string& accepted) const;
 };
 
-/// An error of the command line.
+/// Throws Error (usage).
 [[noreturn]] void refuse_usage(const std::string& message);
 
 }  // namespace microtrace::cli

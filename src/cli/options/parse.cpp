@@ -78,7 +78,7 @@ class Parser {
     }
     if (option.is_required) added->required();
     if (option.is_repeatable) {
-      // A positional argument takes all words that are left, an option one each time.
+      // A positional argument takes all remaining words, an option one at each occurrence.
       added->expected(option.is_positional() ? -1 : 1);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
@@ -97,7 +97,7 @@ std::string identity_of(const std::vector<Given>& given) {
     char before = '\t';
     for (const std::string& value : values) {
       identity += before;
-      // Names may hold any bytes; these two separate entries.
+      // Values may contain any bytes; these two separate entries.
       for (const char c : value) identity += c == '\n' || c == '\t' ? ' ' : c;
       before = ' ';
     }
@@ -111,7 +111,7 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
   return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
 }
 
-/// Rules for several options, and values that depend on others.
+/// Checks rules that involve several options and sets values that depend on others.
 void complete(Arguments& a) {
   const CameraOptions& camera = a.camera;
   const bool has_position = camera.eye || (camera.orbit && camera.orbit->distance);

@@ -10,8 +10,8 @@ class ParseError;
 
 namespace microtrace::cli {
 
-/// What is wrong with a command line that CLI11 refuses; unknown options come first, with the
-/// nearest name that is known.
+/// The message for a command line that CLI11 refuses. Unknown options come first, with the nearest
+/// known name.
 [[nodiscard]] std::string message_of(Command command, const CLI::App& app,
                                      const CLI::ParseError& error);
 

@@ -40,7 +40,7 @@ std::optional<Vec3> parse_hex_color(std::string_view digits) {
   return color;
 }
 
-/// A number as the nearest float32, without rounding to float64 before.
+/// Rounds once, to float32, not first to float64.
 std::optional<float> parse_float(std::string_view text) {
   float value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -1,5 +1,5 @@
 #pragma once
-/// Values that options are given in a notation of their own.
+/// Values with a notation of their own.
 
 #include "cli/options/option_value.hpp"
 
@@ -36,18 +36,19 @@ struct OrbitView {
 /// What is visible behind all objects.
 struct Background {
   enum class Kind { color, transparent, environment } kind = Kind::color;
-  Vec3 color{0};  ///< linear Rec. 709; black unless it is of that kind
+  Vec3 color{0};  ///< linear Rec. 709; black for the other kinds
 };
 
 /// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent" or "env"
 [[nodiscard]] Background parse_background(const OptionValue& value);
-/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; else nothing
+/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; absent if it is
+/// neither
 [[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
 
 [[nodiscard]] IntegratorOptions parse_integrator(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> integrator_names();
 
-/// What --aov names.
+/// The channels of --aov.
 struct Channels {
   std::vector<Aov> exact{};
   std::vector<SampledAov> sampled{};
@@ -55,7 +56,7 @@ struct Channels {
   [[nodiscard]] bool empty() const { return exact.empty() && sampled.empty(); }
 };
 
-/// Names of quantities with commas between, each once
+/// Comma-separated names of quantities, each once
 [[nodiscard]] Channels parse_aovs(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> aov_names();
 

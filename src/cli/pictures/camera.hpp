@@ -22,12 +22,12 @@ namespace microtrace::cli {
 [[nodiscard]] Camera choose_camera(const Scene& scene, const CameraOptions& options,
                                    ImageSize size);
 
-/// The camera at rest that frames all pictures of a sequence of several, unless that is a camera of
-/// the scene; in the world's coordinates. Poses the scene for each.
+/// The static camera that frames all pictures of a sequence, in world coordinates; absent if the
+/// sequence uses a camera of the scene or is a single picture. Poses the scene for every picture.
 [[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
                                                          const Arguments& arguments);
 
-/// The same camera in the scene's coordinates instead of the world's.
+/// Converts a camera from world coordinates to the scene's (see Scene::origin).
 [[nodiscard]] PerspectiveCamera in_coordinates_of(const Scene& scene, PerspectiveCamera camera);
 
 }  // namespace microtrace::cli

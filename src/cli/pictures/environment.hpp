@@ -19,12 +19,12 @@ namespace microtrace::cli {
                                                           std::vector<Diagnostic>& warnings,
                                                           MemoryBudget& memory);
 
-/// Gives the scene that environment, if there is one, and applies the other options. Where the
-/// options need an environment and there is none, it is the studio.
+/// Replaces the scene's environment, if one is given, and applies the other options. Options about
+/// an environment that the scene doesn't have apply to the studio.
 void apply_environment(Scene& scene, const std::optional<Environment>& environment,
                        const EnvironmentOptions& options);
 
-/// Changes how the film is shown, unless it shows numbers rather than light.
+/// Applies exposure and tone map, unless the film shows numbers rather than light.
 void apply_display(Film& film, const DisplayOptions& options);
 
 }  // namespace microtrace::cli

@@ -15,7 +15,7 @@ class Sequence {
   explicit Sequence(const Arguments& arguments) : arguments_(arguments) {}
 
   [[nodiscard]] std::uint32_t count() const;
-  /// When picture `index`, from 0, shows the scene; nothing: in the pose without animation.
+  /// Seconds into the animation at picture `index`, from 0; absent: the pose without animation.
   [[nodiscard]] std::optional<double> time(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path picture(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path sidecar(std::uint32_t index) const;
