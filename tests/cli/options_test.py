@@ -84,6 +84,7 @@ class Options(ProgramTest):
 
     def test_messages(self):
         for arguments, message in ((["--spp", "3", "--spp", "4"], b"error: --spp is given twice\n"),
+                                   (["--frames", "0:1", "--time", "2"], b"error: --time can't be combined with --frames\n"),
                                    (["--fov", "30"], b"error: --fov requires --view or --eye\n"),
                                    (["--stats=xml"], b"error: --stats: expects text or json, not xml\n"),
                                    (["--filter", "gauss"], b"error: --filter: expects box or blackman-harris, not gauss\n")):

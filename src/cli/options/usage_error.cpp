@@ -56,7 +56,11 @@ std::string message_of(Command command, const CLI::App& app, const CLI::ParseErr
     const CLI::Option* known = app.get_option_no_throw(name);
     return name + (known != nullptr && known->count() > 1 ? " is given twice" : " expects a value");
   }
-  return printable(error.what());
+  std::string text = error.what();
+  const std::string excludes = " excludes ";
+  if (dynamic_cast<const CLI::ExcludesError*>(&error) != nullptr)
+    text.replace(text.find(excludes), excludes.size(), " can't be combined with ");
+  return printable(text);
 }
 
 int report_usage_error(Command command, const std::string& message) {
