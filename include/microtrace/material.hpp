@@ -25,12 +25,16 @@ struct Specular {
   std::optional<TextureUse> texture{};  ///< linear; alpha: factor
   Vec3 color{1};                        ///< of the reflection at normal incidence, not negative
   std::optional<TextureUse> color_texture{};  ///< sRGB
+
+  bool operator==(const Specular&) const = default;
 };
 
 /// Transmission through the surface of a dielectric (KHR_materials_transmission).
 struct Transmission {
   float factor = 0;  ///< transmitted fraction of the light that is not reflected, in [0, 1]
   std::optional<TextureUse> texture{};  ///< linear; r
+
+  bool operator==(const Transmission&) const = default;
 };
 
 /// The surface encloses a medium (KHR_materials_volume); otherwise it is a thin wall without
@@ -42,6 +46,8 @@ struct Volume {
   /// World space, positive: the distance after which white light has the attenuation color.
   float attenuation_distance = std::numeric_limits<float>::infinity();
   Vec3 attenuation_color{1};  ///< linear Rec. 709, each in [0, 1]
+
+  bool operator==(const Volume&) const = default;
 };
 
 /// A smooth or rough coat with index 1.5 over all other layers (KHR_materials_clearcoat).
@@ -51,6 +57,8 @@ struct Clearcoat {
   std::optional<TextureUse> roughness_texture{};  ///< linear; g: roughness
   std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: flat
   float normal_scale = 1;                         ///< of the texture's x and y
+
+  bool operator==(const Clearcoat&) const = default;
 };
 
 /// Fibers over all layers except the coat (KHR_materials_sheen).
@@ -59,6 +67,8 @@ struct Sheen {
   float roughness = 0;                            ///< in [0, 1]
   std::optional<TextureUse> color_texture{};      ///< sRGB
   std::optional<TextureUse> roughness_texture{};  ///< linear; alpha: roughness
+
+  bool operator==(const Sheen&) const = default;
 };
 
 /// Elongated highlights (KHR_materials_anisotropy).
@@ -67,6 +77,8 @@ struct Anisotropy {
   float rotation = 0;  ///< of the direction of highlights, counterclockwise from the tangent,
                        ///< radians, in (-2 pi, 2 pi)
   std::optional<TextureUse> texture{};  ///< linear; rg: direction in [-1, 1], b: strength
+
+  bool operator==(const Anisotropy&) const = default;
 };
 
 /// A thin film over the surface (KHR_materials_iridescence).
@@ -78,6 +90,8 @@ struct Iridescence {
   /// Linear; g: 0 is the minimum, 1 the maximum. Without a texture the film has the maximum
   /// thickness.
   std::optional<TextureUse> thickness_texture{};
+
+  bool operator==(const Iridescence&) const = default;
 };
 
 /// Diffuse transmission through the surface (KHR_materials_diffuse_transmission).
@@ -86,6 +100,8 @@ struct DiffuseTransmission {
   std::optional<TextureUse> texture{};  ///< linear; alpha: factor
   Vec3 color{1};                        ///< linear Rec. 709, each in [0, 1]
   std::optional<TextureUse> color_texture{};  ///< sRGB
+
+  bool operator==(const DiffuseTransmission&) const = default;
 };
 
 /// Replaces metallic and roughness; the base color is then the diffuse color
@@ -94,6 +110,8 @@ struct SpecularGlossiness {
   Vec3 specular{1};      ///< reflectance at normal incidence, linear Rec. 709, each in [0, 1]
   float glossiness = 1;  ///< 1 - roughness, in [0, 1]
   std::optional<TextureUse> texture{};  ///< rgb, sRGB: specular; alpha, linear: glossiness
+
+  bool operator==(const SpecularGlossiness&) const = default;
 };
 
 /// The defaults are a white two-sided surface. Factors are multiplied with textures. Flat pictures
@@ -130,6 +148,8 @@ struct Material {
   std::optional<Iridescence> iridescence{};
   std::optional<DiffuseTransmission> diffuse_transmission{};
   std::optional<SpecularGlossiness> specular_glossiness{};
+
+  bool operator==(const Material&) const = default;
 };
 
 }  // namespace microtrace

@@ -48,6 +48,8 @@ struct TextureUse {
   std::uint32_t texture = 0;  ///< index into Scene::textures
   std::uint32_t uv_set = 0;   ///< of Mesh::uv_sets; (0, 0) if the mesh doesn't have it
   Mat3x2 texture_from_uv{1};  ///< applied to the mesh's coordinates (KHR_texture_transform)
+
+  bool operator==(const TextureUse&) const = default;
 };
 
 }  // namespace microtrace

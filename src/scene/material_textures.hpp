@@ -4,48 +4,84 @@
 #include <microtrace/material.hpp>
 #include <microtrace/texture.hpp>
 
+#include <cstddef>
+
 namespace microtrace {
 
-/// Calls visit(TextureUse&, ColorEncoding) for each texture of the material. The reference is const
-/// if the material is.
+/// The textures that a material may have.
+enum class MaterialTexture {
+  base_color,
+  metallic_roughness,
+  normal,
+  occlusion,
+  emissive,
+  specular,
+  specular_color,
+  transmission,
+  thickness,
+  clearcoat,
+  clearcoat_roughness,
+  clearcoat_normal,
+  sheen_color,
+  sheen_roughness,
+  anisotropy,
+  iridescence,
+  iridescence_thickness,
+  diffuse_transmission,
+  diffuse_transmission_color,
+  specular_glossiness,
+};
+inline constexpr std::size_t material_texture_count =
+    static_cast<std::size_t>(MaterialTexture::specular_glossiness) + 1;
+
+/// Calls visit(MaterialTexture, TextureUse&, ColorEncoding) for each texture that the material has.
+/// The reference is const if the material is.
+template <typename AnyMaterial, typename Visit>
+void for_each_named_texture(AnyMaterial& material, const Visit& visit) {
+  using enum MaterialTexture;
+  const auto srgb = [&](MaterialTexture name, auto& use) {
+    if (use) visit(name, *use, ColorEncoding::srgb);
+  };
+  const auto linear = [&](MaterialTexture name, auto& use) {
+    if (use) visit(name, *use, ColorEncoding::linear);
+  };
+  srgb(base_color, material.base_color_texture);
+  linear(metallic_roughness, material.metallic_roughness_texture);
+  linear(normal, material.normal_texture);
+  linear(occlusion, material.occlusion_texture);
+  srgb(emissive, material.emissive_texture);
+  if (auto& layer = material.specular) {
+    linear(specular, layer->texture);
+    srgb(specular_color, layer->color_texture);
+  }
+  if (auto& layer = material.transmission) linear(transmission, layer->texture);
+  if (auto& layer = material.volume) linear(thickness, layer->texture);
+  if (auto& layer = material.clearcoat) {
+    linear(clearcoat, layer->texture);
+    linear(clearcoat_roughness, layer->roughness_texture);
+    linear(clearcoat_normal, layer->normal_texture);
+  }
+  if (auto& layer = material.sheen) {
+    srgb(sheen_color, layer->color_texture);
+    linear(sheen_roughness, layer->roughness_texture);
+  }
+  if (auto& layer = material.anisotropy) linear(anisotropy, layer->texture);
+  if (auto& layer = material.iridescence) {
+    linear(iridescence, layer->texture);
+    linear(iridescence_thickness, layer->thickness_texture);
+  }
+  if (auto& layer = material.diffuse_transmission) {
+    linear(diffuse_transmission, layer->texture);
+    srgb(diffuse_transmission_color, layer->color_texture);
+  }
+  if (auto& layer = material.specular_glossiness) srgb(specular_glossiness, layer->texture);
+}
+
+/// The same without the name: visit(TextureUse&, ColorEncoding).
 template <typename AnyMaterial, typename Visit>
 void for_each_texture(AnyMaterial& material, const Visit& visit) {
-  const auto srgb = [&](auto& use) {
-    if (use) visit(*use, ColorEncoding::srgb);
-  };
-  const auto linear = [&](auto& use) {
-    if (use) visit(*use, ColorEncoding::linear);
-  };
-  srgb(material.base_color_texture);
-  linear(material.metallic_roughness_texture);
-  linear(material.normal_texture);
-  linear(material.occlusion_texture);
-  srgb(material.emissive_texture);
-  if (auto& specular = material.specular) {
-    linear(specular->texture);
-    srgb(specular->color_texture);
-  }
-  if (auto& transmission = material.transmission) linear(transmission->texture);
-  if (auto& volume = material.volume) linear(volume->texture);
-  if (auto& clearcoat = material.clearcoat) {
-    linear(clearcoat->texture);
-    linear(clearcoat->roughness_texture);
-    linear(clearcoat->normal_texture);
-  }
-  if (auto& sheen = material.sheen) {
-    srgb(sheen->color_texture);
-    linear(sheen->roughness_texture);
-  }
-  if (auto& anisotropy = material.anisotropy) linear(anisotropy->texture);
-  if (auto& iridescence = material.iridescence) {
-    linear(iridescence->texture);
-    linear(iridescence->thickness_texture);
-  }
-  if (auto& diffuse = material.diffuse_transmission) {
-    linear(diffuse->texture);
-    srgb(diffuse->color_texture);
-  }
-  if (auto& archived = material.specular_glossiness) srgb(archived->texture);
+  for_each_named_texture(
+      material, [&](MaterialTexture, auto& use, ColorEncoding encoding) { visit(use, encoding); });
 }
 
 }  // namespace microtrace

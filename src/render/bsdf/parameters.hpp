@@ -18,6 +18,8 @@ struct ThinFilm {
   float share = 1;        ///< covered fraction, in [0, 1]
   float ior = 1.3F;       ///< at least 1
   float thickness = 400;  ///< nanometers
+
+  bool operator==(const ThinFilm&) const = default;
 };
 
 /// The material parameters at one point, from textures and factors.
@@ -41,9 +43,21 @@ struct Parameters {
   Vec2 along{1, 0};
   std::optional<ThinFilm> film{};
 
-  /// Whether Bsdf implements these parameters.
+  bool operator==(const Parameters&) const = default;
+
+  /// Whether Bsdf implements these parameters: the first four below. The other three have no effect
+  /// alone. A parameter that is not listed here is not plain.
   [[nodiscard]] bool is_plain() const {
-    return !film && anisotropy == 0 && transmission == 0 && diffuse_transmission == 0;
+    const Parameters standard;
+    Parameters rest = *this;
+    rest.base_color = standard.base_color;
+    rest.metallic = standard.metallic;
+    rest.roughness = standard.roughness;
+    rest.dielectric = standard.dielectric;
+    rest.eta = standard.eta;
+    rest.diffuse_transmission_color = standard.diffuse_transmission_color;
+    rest.along = standard.along;
+    return rest == standard;
   }
 };
 

@@ -52,7 +52,7 @@ void PlainVertices::add(const WaveStep& step, const Shading& shading, const Ray&
   put(normals_.n, lane, point.at.n);
   put(normals_.ns, lane, point.at.ns);
   normals_.side[lane] = side;
-  const TextureSlot& normal_map = point.look->normal;
+  const TextureSlot& normal_map = (*point.look)[MaterialTexture::normal];
   if (normal_map.map != nullptr) {
     put_tangents(normals_, lane, point.at);
     put(normals_.texel, lane, Vec3(normal_map.at(point)));

@@ -17,8 +17,8 @@ void Shading::add_anisotropy(const ShadingPoint& point, const bsdf::Frame& frame
   if (tangent.w == 0) return;
   Vec2 along(1, 0);
   float strength = a.strength;
-  if (point.look->anisotropy.map != nullptr) {
-    const Vec4 texel = point.look->anisotropy.at(point);
+  if ((*point.look)[MaterialTexture::anisotropy].map != nullptr) {
+    const Vec4 texel = (*point.look)[MaterialTexture::anisotropy].at(point);
     along = 2.0F * Vec2(texel) - Vec2(1);
     strength *= texel.z;
   }
@@ -43,13 +43,15 @@ std::optional<bsdf::Layers> Shading::layers(const ShadingPoint& point, const bsd
     result.side = point.at.front ? bsdf::Layers::Side::above : bsdf::Layers::Side::below;
   }
   if (const auto& sheen = m.sheen) {
-    result.sheen = sheen->color * Vec3(look.sheen_color.at(point));
-    result.sheen_roughness = sheen->roughness * look.sheen_roughness.at(point).w;
+    result.sheen = sheen->color * Vec3(look[MaterialTexture::sheen_color].at(point));
+    result.sheen_roughness = sheen->roughness * look[MaterialTexture::sheen_roughness].at(point).w;
   }
   if (const auto& coat = m.clearcoat) {
-    result.coat = coat->factor * look.clearcoat.at(point).x;
-    result.coat_roughness = coat->roughness * look.clearcoat_roughness.at(point).y;
-    const Vec3 n = mapped_normal(point, look.clearcoat_normal, coat->normal_scale);
+    result.coat = coat->factor * look[MaterialTexture::clearcoat].at(point).x;
+    result.coat_roughness =
+        coat->roughness * look[MaterialTexture::clearcoat_roughness].at(point).y;
+    const Vec3 n =
+        mapped_normal(point, look[MaterialTexture::clearcoat_normal], coat->normal_scale);
     const float side = point.at.front ? 1.0F : -1.0F;
     result.coat_normal = frame.to_local(usable_normal(side * n, side * point.at.n, wo));
   }

@@ -85,14 +85,15 @@ void Shading::find_place(ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   if (look.layout.map == nullptr) return;
   point.place = look.layout.place(point);
-  for (const TextureSlot* slot :
-       {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {
-    if (slot->shares_place) slot->map->fetch(*point.place);
+  for (const MaterialTexture texture : TexturedMaterial::frequent) {
+    const TextureSlot& slot = look[texture];
+    if (slot.shares_place) slot.map->fetch(*point.place);
   }
 }
 
 Vec4 Shading::base_color(const ShadingPoint& point) const {
-  return point.look->material->base_color * point.at.color() * point.look->base_color.at(point);
+  return point.look->material->base_color * point.at.color() *
+         (*point.look)[MaterialTexture::base_color].at(point);
 }
 
 float Shading::coverage(const ShadingPoint& point, bool from_camera) const {
@@ -109,7 +110,8 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
   const Vec3 unlit = look.material->unlit ? Vec3(base_color(point)) : Vec3(0);
   const Vec3 color = look.material->emissive;
   if (color == Vec3(0) || (!look.material->unlit && is_missing_back(point))) return unlit;
-  return unlit + glm::min(color, Vec3(kBrightest)) * Vec3(look.emissive.at(point));
+  return unlit +
+         glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
 bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
@@ -118,20 +120,20 @@ bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
                      .metallic = m.metallic,
                      .roughness = m.roughness};
-  if (look.metallic_roughness.map != nullptr) {
-    const Vec4 t = look.metallic_roughness.at(point);
+  if (look[MaterialTexture::metallic_roughness].map != nullptr) {
+    const Vec4 t = look[MaterialTexture::metallic_roughness].at(point);
     p.roughness *= t.y;
     p.metallic *= t.z;
   }
   if (m.ior != 1.5F) p.dielectric.f0 = Vec3(head_on_reflectance(m.ior));
   if (const auto& s = m.specular) {
-    const float factor = s->factor * look.specular.at(point).w;
-    const Vec3 color = s->color * Vec3(look.specular_color.at(point));
+    const float factor = s->factor * look[MaterialTexture::specular].at(point).w;
+    const Vec3 color = s->color * Vec3(look[MaterialTexture::specular_color].at(point));
     p.dielectric.f0 = glm::min(p.dielectric.f0 * color, Vec3(1)) * factor;
     p.dielectric.f90 = factor;
   }
   if (const auto& archived = m.specular_glossiness) {
-    const Vec4 t = look.specular_glossiness.at(point);
+    const Vec4 t = look[MaterialTexture::specular_glossiness].at(point);
     p.metallic = 0;
     p.roughness = 1 - archived->glossiness * t.w;
     p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
@@ -146,7 +148,7 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Fram
   bsdf::Parameters p = plain_parameters(point);
   if (m.anisotropy) add_anisotropy(point, frame, p);
   if (const auto& t = m.transmission) {
-    p.transmission = t->factor * look.transmission.at(point).x;
+    p.transmission = t->factor * look[MaterialTexture::transmission].at(point).x;
     if (encloses_medium(m)) {
       float ior = m.ior == 0 ? 1e6F : m.ior;
       if (channel < 3) ior = dispersed(ior, m.dispersion, channel);
@@ -154,15 +156,17 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Fram
     }
   }
   if (const auto& i = m.iridescence) {
-    const bsdf::ThinFilm film{.share = i->factor * look.iridescence.at(point).x,
-                              .ior = i->ior,
-                              .thickness = glm::mix(i->thickness_minimum, i->thickness_maximum,
-                                                    look.iridescence_thickness.at(point).y)};
+    const bsdf::ThinFilm film{
+        .share = i->factor * look[MaterialTexture::iridescence].at(point).x,
+        .ior = i->ior,
+        .thickness = glm::mix(i->thickness_minimum, i->thickness_maximum,
+                              look[MaterialTexture::iridescence_thickness].at(point).y)};
     if (film.share > 0 && film.thickness > 0) p.film = film;
   }
   if (const auto& d = m.diffuse_transmission) {
-    p.diffuse_transmission = d->factor * look.diffuse_transmission.at(point).w;
-    p.diffuse_transmission_color = d->color * Vec3(look.diffuse_transmission_color.at(point));
+    p.diffuse_transmission = d->factor * look[MaterialTexture::diffuse_transmission].at(point).w;
+    p.diffuse_transmission_color =
+        d->color * Vec3(look[MaterialTexture::diffuse_transmission_color].at(point));
   }
   return p;
 }
@@ -174,7 +178,8 @@ Vec3 Shading::absorption(const ShadingPoint& point) const {
 }
 
 bsdf::Frame Shading::frame(const ShadingPoint& point, const Vec3& wo) const {
-  const Vec3 n = mapped_normal(point, point.look->normal, point.look->material->normal_scale);
+  const Vec3 n = mapped_normal(point, (*point.look)[MaterialTexture::normal],
+                               point.look->material->normal_scale);
   const float side = point.at.front ? 1.0F : -1.0F;
   return bsdf::Frame::about(usable_normal(side * n, side * point.at.n, wo));
 }

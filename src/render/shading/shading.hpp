@@ -7,10 +7,12 @@
 #include "render/kernels/kernel.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/texture_map.hpp"
+#include "scene/material_textures.hpp"
 
 #include <microtrace/material.hpp>
 #include <microtrace/scene.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -38,20 +40,27 @@ struct TextureSlot {
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
 };
 
-/// A material with its textures. To add a texture: a slot here and its line in texture_slots.cpp.
+/// A material with its textures.
 struct TexturedMaterial {
+  /// Those that most materials have.
+  static constexpr std::array frequent = {MaterialTexture::base_color,
+                                          MaterialTexture::metallic_roughness,
+                                          MaterialTexture::normal, MaterialTexture::emissive};
+
   const Material* material = nullptr;
-  TextureSlot base_color{}, metallic_roughness{}, normal{}, emissive{};
-  TextureSlot specular{}, specular_color{}, transmission{};
-  TextureSlot diffuse_transmission{}, diffuse_transmission_color{};
-  TextureSlot clearcoat{}, clearcoat_roughness{}, clearcoat_normal{};
-  TextureSlot sheen_color{}, sheen_roughness{}, anisotropy{};
-  TextureSlot iridescence{}, iridescence_thickness{}, specular_glossiness{};
+  std::array<TextureSlot, material_texture_count> slots{};
   /// The slot whose texel address is reused by every slot with shares_place; often by all.
   TextureSlot layout{};
   Vec3 absorption{0};          ///< of the enclosed medium, in powers of two per length
   bool is_plain = false;       ///< whether plain_parameters() is complete
   bool has_open_back = false;  ///< whether Backfaces::pass lets light through the back
+
+  [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
+    return slots[static_cast<std::size_t>(texture)];
+  }
+  [[nodiscard]] const TextureSlot& operator[](MaterialTexture texture) const {
+    return slots[static_cast<std::size_t>(texture)];
+  }
 
   [[nodiscard]] bool shines() const { return material->emissive != Vec3(0) && !material->unlit; }
 };

@@ -18,17 +18,16 @@ Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
   return map->sample(shares_place && point.place ? *point.place : place(point));
 }
 
-TextureSlot TextureMaps::slot(const std::optional<TextureUse>& use, ColorEncoding encoding) {
-  if (!use) return {};
-  const Texture& texture = scene_.textures[use->texture];
+TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
+  const Texture& texture = scene_.textures[use.texture];
   if (!texture.image || !scene_.images[*texture.image]) return {};
-  const std::pair key(use->texture, encoding);
+  const std::pair key(use.texture, encoding);
   auto known = maps_.find(key);
   if (known == maps_.end()) {
     TextureMap map = tables_.texture_map(scene_.images[*texture.image], texture.sampler, encoding);
     known = maps_.emplace(key, std::move(map)).first;
   }
-  return {.map = &known->second, .use = &*use};
+  return {.map = &known->second, .use = &use};
 }
 
 namespace {
@@ -43,51 +42,53 @@ Vec3 absorption_of(const Volume& volume) {
   return result;
 }
 
+/// Whether it has an effect on light: paths find occlusion by themselves, and of thickness only
+/// whether there is any matters.
+bool is_shaded(MaterialTexture texture) {
+  return texture != MaterialTexture::occlusion && texture != MaterialTexture::thickness;
+}
+
+/// Whether Shading::plain_parameters() say all. A property that is not here is not plain.
+bool is_plain(const Material& m) {
+  return m == Material{.name = m.name,
+                       .base_color = m.base_color,
+                       .base_color_texture = m.base_color_texture,
+                       .alpha_mode = m.alpha_mode,
+                       .alpha_cutoff = m.alpha_cutoff,
+                       .double_sided = m.double_sided,
+                       .unlit = m.unlit,
+                       .metallic = m.metallic,
+                       .roughness = m.roughness,
+                       .metallic_roughness_texture = m.metallic_roughness_texture,
+                       .normal_texture = m.normal_texture,
+                       .normal_scale = m.normal_scale,
+                       .occlusion_texture = m.occlusion_texture,
+                       .occlusion_strength = m.occlusion_strength,
+                       .emissive = m.emissive,
+                       .emissive_texture = m.emissive_texture,
+                       .ior = m.ior,
+                       .dispersion = m.dispersion,  // of what is refracted
+                       .specular = m.specular,
+                       .volume = m.volume,  // behind what transmits
+                       .specular_glossiness = m.specular_glossiness};
+}
+
 }  // namespace
 
 TexturedMaterial TextureMaps::slots(const Material& m) {
-  constexpr auto srgb = ColorEncoding::srgb, linear = ColorEncoding::linear;
-  TexturedMaterial look{.material = &m,
-                        .base_color = slot(m.base_color_texture, srgb),
-                        .metallic_roughness = slot(m.metallic_roughness_texture, linear),
-                        .normal = slot(m.normal_texture, linear),
-                        .emissive = slot(m.emissive_texture, srgb)};
-  if (const auto& s = m.specular) {
-    look.specular = slot(s->texture, linear);
-    look.specular_color = slot(s->color_texture, srgb);
-  }
-  if (const auto& t = m.transmission) look.transmission = slot(t->texture, linear);
-  if (const auto& d = m.diffuse_transmission) {
-    look.diffuse_transmission = slot(d->texture, linear);
-    look.diffuse_transmission_color = slot(d->color_texture, srgb);
-  }
-  if (const auto& c = m.clearcoat) {
-    look.clearcoat = slot(c->texture, linear);
-    look.clearcoat_roughness = slot(c->roughness_texture, linear);
-    look.clearcoat_normal = slot(c->normal_texture, linear);
-  }
-  if (const auto& s = m.sheen) {
-    look.sheen_color = slot(s->color_texture, srgb);
-    look.sheen_roughness = slot(s->roughness_texture, linear);
-  }
-  if (const auto& a = m.anisotropy) look.anisotropy = slot(a->texture, linear);
-  if (const auto& i = m.iridescence) {
-    look.iridescence = slot(i->texture, linear);
-    look.iridescence_thickness = slot(i->thickness_texture, linear);
-  }
-  if (const auto& archived = m.specular_glossiness) {
-    look.specular_glossiness = slot(archived->texture, srgb);
-  }
+  TexturedMaterial look{.material = &m, .is_plain = is_plain(m)};
+  for_each_named_texture(
+      m, [&](MaterialTexture texture, const TextureUse& use, ColorEncoding encoding) {
+        if (is_shaded(texture)) look[texture] = slot(use, encoding);
+      });
   if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
-  look.is_plain = !m.transmission && !m.diffuse_transmission && !m.clearcoat && !m.sheen &&
-                  !m.anisotropy && !m.iridescence;
-  for (TextureSlot* slot :
-       {&look.base_color, &look.metallic_roughness, &look.normal, &look.emissive}) {
-    if (slot->map == nullptr) continue;
-    if (look.layout.map == nullptr) look.layout = *slot;
-    slot->shares_place = slot->map->is_laid_out_as(*look.layout.map) &&
-                         slot->use->uv_set == look.layout.use->uv_set &&
-                         slot->use->texture_from_uv == look.layout.use->texture_from_uv;
+  for (const MaterialTexture texture : TexturedMaterial::frequent) {
+    TextureSlot& slot = look[texture];
+    if (slot.map == nullptr) continue;
+    if (look.layout.map == nullptr) look.layout = slot;
+    slot.shares_place = slot.map->is_laid_out_as(*look.layout.map) &&
+                        slot.use->uv_set == look.layout.use->uv_set &&
+                        slot.use->texture_from_uv == look.layout.use->texture_from_uv;
   }
   return look;
 }

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <utility>
 
 namespace microtrace {
@@ -24,7 +23,7 @@ class TextureMaps {
   [[nodiscard]] TexturedMaterial slots(const Material& material);
 
  private:
-  [[nodiscard]] TextureSlot slot(const std::optional<TextureUse>& use, ColorEncoding encoding);
+  [[nodiscard]] TextureSlot slot(const TextureUse& use, ColorEncoding encoding);
 
   const Scene& scene_;
   SharedTables& tables_;
