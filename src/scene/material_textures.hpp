@@ -30,9 +30,8 @@ enum class MaterialTexture {
   diffuse_transmission,
   diffuse_transmission_color,
   specular_glossiness,
+  count,  ///< of them
 };
-inline constexpr std::size_t material_texture_count =
-    static_cast<std::size_t>(MaterialTexture::specular_glossiness) + 1;
 
 /// Calls visit(MaterialTexture, TextureUse&, ColorEncoding) for each texture that the material has.
 /// The reference is const if the material is.

@@ -48,7 +48,7 @@ struct TexturedMaterial {
                                           MaterialTexture::normal, MaterialTexture::emissive};
 
   const Material* material = nullptr;
-  std::array<TextureSlot, material_texture_count> slots{};
+  std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};
   /// The slot whose texel address is reused by every slot with shares_place; often by all.
   TextureSlot layout{};
   Vec3 absorption{0};          ///< of the enclosed medium, in powers of two per length
