@@ -122,11 +122,11 @@ Rule check_indices(const char* field, const std::vector<Primitive>& primitives,
 }
 
 Rule check(const Mesh& mesh) {
-  if (Rule rule = broken_index(mesh)) return rule;
+  if (Rule rule = check_attributes(mesh)) return rule;
   for (const Vec3& position : mesh.positions) {
     if (Rule rule = finite("positions", position)) return rule;
   }
-  return {};
+  return broken_index(mesh);
 }
 
 Rule check(const Pose& pose) {
