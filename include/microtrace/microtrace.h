@@ -174,8 +174,8 @@ typedef struct mt_camera {
 typedef struct mt_render_options {
   size_t size;
   uint32_t width, height; /* pixels; 0: those of the scene */
-  mt_integrator integrator;
-  uint32_t samples; /* for each pixel; 0: 1 for MT_FLAT, 64 for MT_PATH */
+  int32_t integrator;     /* an mt_integrator */
+  uint32_t samples;       /* for each pixel; 0: 1 for MT_FLAT, 64 for MT_PATH */
   uint32_t max_depth;
   uint32_t seed;
   uint32_t threads;        /* 0: one for each processor */

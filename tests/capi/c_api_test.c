@@ -198,7 +198,7 @@ static void pictures(const mt_scene* scene, const char* folder) {
   options.aovs = "depth,weight";
   CHECK(mt_render(scene, &options, &film) == MT_USAGE && strstr(mt_last_error(), "weight") != NULL);
   options.aovs = NULL;
-  options.integrator = (mt_integrator)77;
+  options.integrator = 77;
   CHECK(mt_render(scene, &options, &film) == MT_USAGE);
   options.integrator = MT_PATH;
   options.samples = 2;
