@@ -60,37 +60,41 @@ void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   if (failure) std::rethrow_exception(failure);
 }
 
-/// Checks the arguments of a function on rays, then calls f(scene, i) for each.
+/// Checks the arguments of a function on rays, then calls f(scene, first, last) for blocks of them.
 template <class F>
-mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
-                       std::uint32_t threads, const void* results, const F& f) {
+mt_status for_rays(const mt_scene* scene, const mt_ray* rays, std::size_t count,
+                   std::uint32_t threads, const void* results, const F& f) {
   return guarded([&] {
     require(scene, "scene");
     if (count == 0) return;
     require(rays, "rays");
     require(results, "the array of results");
-    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last; ++i) f(scene->prepared, i);
-    });
+    for_each_block(count, threads,
+                   [&](std::size_t first, std::size_t last) { f(scene->prepared, first, last); });
   });
 }
 
-/// The same in blocks: f(scene, rays, first).
+/// f(scene, i) for each ray.
+template <class F>
+mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
+                       std::uint32_t threads, const void* results, const F& f) {
+  const auto answer = [&](const PreparedScene& s, std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) f(s, i);
+  };
+  return for_rays(scene, rays, count, threads, results, answer);
+}
+
+/// f(scene, rays, first) for batches of rays.
 template <class F>
 mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                          std::uint32_t threads, const void* results, const F& f) {
-  return guarded([&] {
-    require(scene, "scene");
-    if (count == 0) return;
-    require(rays, "rays");
-    require(results, "the array of results");
-    for_each_block(count, threads, [&](std::size_t first, std::size_t last) {
-      std::vector<Ray> own;
-      own.reserve(last - first);
-      for (std::size_t i = first; i < last; ++i) own.push_back(ray_of(rays[i]));
-      f(scene->prepared, std::span<const Ray>(own), first);
-    });
-  });
+  const auto answer = [&](const PreparedScene& s, std::size_t first, std::size_t last) {
+    std::vector<Ray> own;
+    own.reserve(last - first);
+    for (std::size_t i = first; i < last; ++i) own.push_back(ray_of(rays[i]));
+    f(s, std::span<const Ray>(own), first);
+  };
+  return for_rays(scene, rays, count, threads, results, answer);
 }
 
 /// The caller's hit, which must be one of that ray.
