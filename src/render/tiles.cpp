@@ -76,7 +76,6 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   };
 
   const auto work = [&] {
-    const FloatEnvironment environment;
     const StageCounts before = stage_counts();
     draw_some();
     const std::scoped_lock lock(report);
@@ -85,7 +84,10 @@ void for_each_tile(const PixelRect& window, Threads& threads,
 
   const auto wanted = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count));
   if (threads.run) {
-    threads.run(wanted, work);
+    threads.run(wanted, [&] {
+      const FloatEnvironment environment;  // start_threads() does it for its own
+      work();
+    });
   } else {
     const std::vector<std::jthread> started = start_threads(wanted - 1, work);
     threads.missing = std::max(threads.missing, wanted - 1 - static_cast<unsigned>(started.size()));

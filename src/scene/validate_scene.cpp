@@ -25,23 +25,25 @@ std::string item(const char* array, std::size_t index) {
   return std::string("/").append(array).append("/").append(std::to_string(index));
 }
 
-void check_index(const std::string& pointer, const char* field, std::size_t index,
+/// A pointer is made for errors alone: scenes may have millions of objects.
+void check_index(const char* array, std::size_t place, const char* field, std::size_t index,
                  std::size_t size) {
   if (index < size) return;
-  refuse(pointer, {.field = field,
-                   .message = "index " + std::to_string(index) + " is out of range: there are " +
-                              std::to_string(size)});
+  refuse(item(array, place), {.field = field,
+                              .message = "index " + std::to_string(index) +
+                                         " is out of range: there are " + std::to_string(size)});
 }
 
-void check_image(const std::string& pointer, const Image& image) {
+void check_image(std::size_t place, const Image& image) {
   const std::size_t samples = std::visit([](const auto& s) { return s.size(); }, image.samples);
   const bool is_right = image.width >= 1 && image.height >= 1 && image.channels >= 1 &&
                         image.channels <= 4 &&
                         std::size_t{image.width} * image.height <= samples / image.channels &&
                         std::size_t{image.width} * image.height * image.channels == samples;
   if (is_right) return;
-  refuse(pointer, {.field = "samples",
-                   .message = "must hold width x height x channels numbers, with 1 to 4 channels"});
+  refuse(item("images", place),
+         {.field = "samples",
+          .message = "must hold width x height x channels numbers, with 1 to 4 channels"});
 }
 
 void check_environment(const Environment& environment) {
@@ -62,22 +64,22 @@ void check_indices(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (object.material)
-      check_index(item("objects", i), "material", *object.material, scene.materials.size());
+      check_index("objects", i, "material", *object.material, scene.materials.size());
     const auto* mesh = std::get_if<Mesh>(&object.shape);
     if (mesh == nullptr) continue;
     if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     for_each_texture(scene.materials[i], [&](const TextureUse& use, ColorEncoding) {
-      check_index(item("materials", i), "texture", use.texture, scene.textures.size());
+      check_index("materials", i, "texture", use.texture, scene.textures.size());
     });
   }
   for (std::size_t i = 0; i < scene.textures.size(); ++i) {
     if (scene.textures[i].image)
-      check_index(item("textures", i), "image", *scene.textures[i].image, scene.images.size());
+      check_index("textures", i, "image", *scene.textures[i].image, scene.images.size());
   }
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    if (scene.images[i]) check_image(item("images", i), *scene.images[i]);
+    if (scene.images[i]) check_image(i, *scene.images[i]);
   }
   if (scene.environment) check_environment(*scene.environment);
 }
