@@ -160,15 +160,20 @@ std::optional<LightSample> Emitters::sample_near(const LightSampleContext& conte
   return found->with_probability(probability * chosen->probability);
 }
 
-float Emitters::pdf(PrimitiveId id, const LightSampleContext& context, float distance, float cosine,
-                    double probability) const {
+std::optional<std::size_t> Emitters::find(PrimitiveId id) const {
   const auto end = emitters_.begin() + static_cast<std::ptrdiff_t>(surfaces_);
-  const auto place = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
-  if (place == end || place->id != id || !(cosine > 0)) return 0;
-  const auto light = static_cast<std::size_t>(place - emitters_.begin());
+  const auto found = std::ranges::lower_bound(emitters_.begin(), end, id, {}, &Emitter::id);
+  if (found == end || found->id != id) return std::nullopt;
+  return static_cast<std::size_t>(found - emitters_.begin());
+}
+
+float Emitters::pdf(std::size_t light, const LightSampleContext& context, float distance,
+                    float cosine, double probability) const {
+  const Emitter& emitter = emitters_[light];
   const double length = distance;
-  const double pdf = place->shape != nullptr ? shape_pdf(*place->shape, context.p, distance, cosine)
-                                             : length * length / (place->area * double{cosine});
+  const double pdf = emitter.shape != nullptr
+                         ? shape_pdf(*emitter.shape, context.p, distance, cosine)
+                         : length * length / (emitter.area * double{cosine});
   probability *= tree_->probability(light, context.p, context.n);
   return probability > 0 ? limited_pdf(pdf * probability) : 0;
 }

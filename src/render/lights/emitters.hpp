@@ -47,10 +47,11 @@ class Emitters {
   [[nodiscard]] std::optional<LightSample> sample_near(const LightSampleContext& context,
                                                        const Vec2& u, float choice,
                                                        double probability) const;
-  /// The pdf by solid angle with which sample_near() yields a point of an emissive surface, at that
-  /// distance from the point and under that cosine of the angle to its normal; 0 for other
-  /// surfaces.
-  [[nodiscard]] float pdf(PrimitiveId id, const LightSampleContext& context, float distance,
+  /// The place of an emissive surface among the lights; nothing for other primitives.
+  [[nodiscard]] std::optional<std::size_t> find(PrimitiveId id) const;
+  /// The pdf by solid angle with which sample_near() yields a point of that surface, at that
+  /// distance from the context's point; `cosine`, above 0, is that of the angle to its normal.
+  [[nodiscard]] float pdf(std::size_t light, const LightSampleContext& context, float distance,
                           float cosine, double probability) const;
 
  private:

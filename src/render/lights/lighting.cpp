@@ -63,7 +63,9 @@ EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context
 
 float Lighting::emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
                             float cosine) const {
-  return emitters_.pdf(id, context, distance, cosine, double{probabilities(context).near});
+  const std::optional<std::size_t> light = emitters_.find(id);
+  if (!light || !(cosine > 0)) return 0;
+  return emitters_.pdf(*light, context, distance, cosine, double{probabilities(context).near});
 }
 
 }  // namespace microtrace
