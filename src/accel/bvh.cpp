@@ -67,8 +67,8 @@ Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scen
     return;
   }
   // Upper bound during the build, including pieces of split triangles.
-  constexpr std::uint64_t bytes_of_primitive = 120;
-  take_memory(primitives.count() * bytes_of_primitive, "the tree of primitives");
+  constexpr std::uint64_t kBytesOfPrimitive = 120;
+  take_memory(primitives.count() * kBytesOfPrimitive, "the tree of primitives");
   tree = build_tree(primitives, {.fast = options.fast_build, .threads = options.threads});
   outside = std::move(tree.unbounded);
   has_tree = !tree.blocks.empty() || !tree.others.empty();

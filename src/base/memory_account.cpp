@@ -14,13 +14,13 @@ thread_local MemoryAccount* current = nullptr;
 
 /// For example "1.5 GiB".
 std::string readable(std::uint64_t bytes) {
-  constexpr std::array<const char*, 4> units = {"KiB", "MiB", "GiB", "TiB"};
+  constexpr std::array<const char*, 4> kUnits = {"KiB", "MiB", "GiB", "TiB"};
   double number = static_cast<double>(bytes) / 1024;
   std::size_t unit = 0;
-  for (; number >= 1024 && unit + 1 < units.size(); ++unit) number /= 1024;
+  for (; number >= 1024 && unit + 1 < kUnits.size(); ++unit) number /= 1024;
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.1f ", number);
-  return std::string(text.data()) + units[unit];
+  return std::string(text.data()) + kUnits[unit];
 }
 
 }  // namespace

@@ -34,10 +34,10 @@ bool is_dangerous(char32_t c) {
 }
 
 void show_bytes(std::string_view bytes, PrintableText& out) {
-  constexpr std::string_view digits = "0123456789abcdef";
+  constexpr std::string_view kDigits = "0123456789abcdef";
   for (const char c : bytes) {
     const auto byte = static_cast<unsigned char>(c);
-    out.text += {'\\', 'x', digits[byte >> 4U], digits[byte & 15U]};
+    out.text += {'\\', 'x', kDigits[byte >> 4U], kDigits[byte & 15U]};
     out.columns += 4;
   }
 }
@@ -76,10 +76,10 @@ std::string_view whole_characters(std::string_view text) {
 }
 
 std::string in_quotes(std::string_view name) {
-  constexpr std::size_t limit = 60;
+  constexpr std::size_t kLimit = 60;
   std::string out = "\"";
-  if (name.size() <= limit) return out.append(make_printable(name).text).append("\"");
-  return out.append(make_printable(whole_characters(name.substr(0, limit))).text).append("...\"");
+  if (name.size() <= kLimit) return out.append(make_printable(name).text).append("\"");
+  return out.append(make_printable(whole_characters(name.substr(0, kLimit))).text).append("...\"");
 }
 
 std::string printable(std::string_view text) {

@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Whether the file is in one of the folders or below, with ".." and symbolic links resolved in
+/// True if the file is in one of the folders or below. Symbolic links and ".." are resolved in
 /// both, as far as the files exist.
 [[nodiscard]] bool lies_within(const std::vector<std::filesystem::path>& folders,
                                const std::filesystem::path& path);

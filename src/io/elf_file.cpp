@@ -63,9 +63,9 @@ class File {
 };
 
 bool is_of_this_machine(const Header& header) {
-  constexpr int word_size = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+  constexpr int kWordSize = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
   return std::memcmp(header.e_ident, ELFMAG, SELFMAG) == 0 &&
-         header.e_ident[EI_CLASS] == word_size && header.e_type == ET_DYN &&
+         header.e_ident[EI_CLASS] == kWordSize && header.e_type == ET_DYN &&
          header.e_phentsize == sizeof(Segment) && header.e_shentsize == sizeof(Section);
 }
 
@@ -90,8 +90,8 @@ std::string damage_of_elf_file(const std::filesystem::path& path) {
   const auto holds_section = [&](const Section& section) {
     return section.sh_type == SHT_NOBITS || file.holds(section.sh_offset, section.sh_size);
   };
-  // Only the first section has no type; if others have none, the end of the file was overwritten by
-  // zeros.
+  // Only the first section has no type. Others without a type mean that zeros overwrote the end of
+  // the file.
   const auto is_null = [](const Section& section) { return section.sh_type == SHT_NULL; };
   const bool is_whole = !segments.empty() && std::ranges::all_of(segments, holds_segment) &&
                         std::ranges::count_if(sections, is_null) == 1 &&

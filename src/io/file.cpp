@@ -28,7 +28,7 @@ std::optional<FileIdentity> identity_of(const struct stat& status) {
   return FileIdentity{status.st_dev, status.st_ino};
 }
 
-constexpr std::size_t chunk = std::size_t{64} * 1024;
+constexpr std::size_t kChunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail(const std::string& name, std::string what, int code) {
   throw Error(ErrorKind::io, name, what.append(": ").append(std::generic_category().message(code)));
@@ -91,7 +91,7 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
 
   // Reading one byte beyond the limit, or beyond the reported size, shows whether there is more.
   std::string bytes;
-  bool ended = fill(descriptor, name, bytes, std::min(chunk, limit + 1));
+  bool ended = fill(descriptor, name, bytes, std::min(kChunk, limit + 1));
   if (inspect) inspect(bytes);
   if (!ended && claimed > bytes.size()) ended = fill(descriptor, name, bytes, claimed + 1);
   while (!ended && bytes.size() <= limit) {

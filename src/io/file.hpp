@@ -9,8 +9,8 @@
 
 namespace microtrace::io {
 
-/// Maximum size of an input file; a scene of this size exceeds any memory.
-inline constexpr std::size_t max_file_size = std::size_t{1} << 30;
+/// Maximum size of an input file. Larger scenes would not fit in memory.
+inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 
 /// The bytes of a regular file, a pipe or a device. Throws Error: io for a missing file, a
 /// directory or an unreadable file, limit for more than `limit` bytes. The reported size is checked

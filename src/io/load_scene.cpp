@@ -18,7 +18,7 @@
 namespace microtrace {
 namespace {
 
-constexpr std::string_view glb_magic = "glTF";
+constexpr std::string_view kGlbMagic = "glTF";
 
 std::string lower_case_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -29,7 +29,7 @@ std::string lower_case_ending(const std::filesystem::path& path) {
 }
 
 /// Extensions of other common scene formats.
-constexpr std::array<std::string_view, 17> foreign_endings{
+constexpr std::array<std::string_view, 17> kForeignEndings{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
@@ -41,8 +41,8 @@ std::string_view behind_space(std::string_view text) {
 /// Throws if the extension is that of another format and the bytes are neither JSON nor GLB.
 void refuse_foreign_format(const std::string& ending, std::string_view first,
                            const std::string& name) {
-  if (std::ranges::find(foreign_endings, ending) == foreign_endings.end()) return;
-  if (first.starts_with(glb_magic) || behind_space(first).starts_with('{')) return;
+  if (std::ranges::find(kForeignEndings, ending) == kForeignEndings.end()) return;
+  if (first.starts_with(kGlbMagic) || behind_space(first).starts_with('{')) return;
   throw Error(ErrorKind::unsupported, name,
               "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + ending +
                   "; convert the file, for example with Blender (File > Export > glTF 2.0) or with "
@@ -66,7 +66,7 @@ using Reader = std::variant<io::JsonDocument, io::GltfFile>;
 /// format.
 Reader open(std::string_view bytes, const std::string& ending, const std::string& name,
             const std::filesystem::path& folder, const LoadOptions& options) {
-  if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(glb_magic)) {
+  if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(kGlbMagic)) {
     return io::GltfFile(bytes, name, folder, options);
   }
   io::LoadClock clock(options.times);
@@ -115,15 +115,15 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const std::string name = standard_input ? "(standard input)" : path.string();
   const auto inspect = [&](std::string_view first) {
     refuse_foreign_format(ending, first, name);
-    if (ending != ".glb" && !first.starts_with(glb_magic)) require_start_of_json(first, name);
+    if (ending != ".glb" && !first.starts_with(kGlbMagic)) require_start_of_json(first, name);
   };
   content_ = std::make_unique<Content>(path, std::move(options));
   Content& content = *content_;
   const MemoryScope scope(content.memory);
   io::LoadClock clock(content.options.times);
   content.bytes = standard_input
-                      ? io::read_descriptor(STDIN_FILENO, name, io::max_file_size, inspect)
-                      : io::read_file(path, io::max_file_size, inspect);
+                      ? io::read_descriptor(STDIN_FILENO, name, io::kMaxFileSize, inspect)
+                      : io::read_file(path, io::kMaxFileSize, inspect);
   clock.lap(&LoadTimes::read);
   content.reader.emplace(open(content.bytes, ending, name, content.folder, content.options));
 }

@@ -15,11 +15,11 @@ constexpr double kRadius = 1.5;  // pixels
 /// at 1/2. The coefficients are those of F. J. Harris, On the use of windows for harmonic analysis
 /// with the discrete Fourier transform, 1978: "4-term, -92 dB".
 double weight_within(double t) {
-  constexpr double a0 = 0.35875, a1 = 0.48829, a2 = 0.14128, a3 = 0.01168;
-  constexpr double pi = std::numbers::pi;
-  const double waves = a1 * sin_radians(2 * pi * t) + a2 / 2 * sin_radians(4 * pi * t) +
-                       a3 / 3 * sin_radians(6 * pi * t);
-  return 2 * t + waves / (pi * a0);
+  constexpr double kA0 = 0.35875, kA1 = 0.48829, kA2 = 0.14128, kA3 = 0.01168;
+  constexpr double kPi = std::numbers::pi;
+  const double waves = kA1 * sin_radians(2 * kPi * t) + kA2 / 2 * sin_radians(4 * kPi * t) +
+                       kA3 / 3 * sin_radians(6 * kPi * t);
+  return 2 * t + waves / (kPi * kA0);
 }
 
 /// The inverse of weight_within, which increases because the window is never negative.

@@ -36,8 +36,8 @@ double seconds(Clock::time_point from, Clock::time_point to) {
 
 /// Numbers of 32 bits that a film has for each pixel, with the channels beside its colours.
 std::uint64_t numbers_of_pixel(const RenderOptions& options) {
-  constexpr std::uint64_t most_of_aov = 4;
-  return 4 + most_of_aov * (options.aovs.size() + options.sampled_aovs.size());
+  constexpr std::uint64_t kMostOfAov = 4;
+  return 4 + kMostOfAov * (options.aovs.size() + options.sampled_aovs.size());
 }
 
 Film make_film(ImageSize whole, const PixelRect& window, Film::Alpha alpha, std::uint64_t numbers) {

@@ -152,8 +152,8 @@ void TexturePyramid::halve(std::size_t finer, Level& level) const {
           const auto add = [=](std::size_t x, std::size_t y, FourDoubles& sum) {
             const auto* s = from + (y * columns + x) * channels;
             const double a = channels % 2 == 0 ? alpha[s[channels - 1]] : 1;
-            constexpr int green = channels < 3 ? 0 : 1, blue = channels < 3 ? 0 : 2;
-            sum += kPart * FourDoubles{color[s[0]], color[s[green]], color[s[blue]], a};
+            constexpr int kGreen = channels < 3 ? 0 : 1, kBlue = channels < 3 ? 0 : 2;
+            sum += kPart * FourDoubles{color[s[0]], color[s[kGreen]], color[s[kBlue]], a};
           };
           halve_lines(level.width, level.height, add, level.samples);
         };

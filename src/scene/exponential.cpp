@@ -20,8 +20,8 @@ double power_of_two(double x) {
 double binary_logarithm(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   auto exponent = static_cast<std::int64_t>(bits >> 52U) - 1023;
-  constexpr std::uint64_t fraction = (std::uint64_t{1} << 52U) - 1;
-  double m = std::bit_cast<double>((bits & fraction) | std::uint64_t{1023} << 52U);
+  constexpr std::uint64_t kFraction = (std::uint64_t{1} << 52U) - 1;
+  double m = std::bit_cast<double>((bits & kFraction) | std::uint64_t{1023} << 52U);
   if (m > std::numbers::sqrt2) {
     m /= 2;
     ++exponent;

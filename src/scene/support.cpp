@@ -24,8 +24,8 @@ std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
 }
 
 std::optional<Extent> extent_of(const Shape& shape) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Extent extent{.low = DVec3(infinity), .high = DVec3(-infinity)};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extent extent{.low = DVec3(kInfinity), .high = DVec3(-kInfinity)};
   visit_extent(
       shape,
       [&](const DVec3& p) {

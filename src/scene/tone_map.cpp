@@ -25,15 +25,15 @@ DVec3 each(const DVec3& v, F&& f) {
 /// of a surface of reflectance 0.04; the upper part compresses the largest channel from 0.76 toward
 /// 1 and desaturates much brighter colors.
 DVec3 khronos_pbr_neutral(const DVec3& light) {
-  constexpr double start = 0.8 - 0.04, desaturation = 0.15;
+  constexpr double kStart = 0.8 - 0.04, kDesaturation = 0.15;
   const double least = std::min({light.x, light.y, light.z});
   const double offset = least < 0.08 ? least - 6.25 * least * least : 0.04;
   const DVec3 color = light - offset;
   const double peak = std::max({color.x, color.y, color.z});
-  if (peak < start) return color;
-  constexpr double room = 1 - start;
-  const double shown = 1 - room * room / (peak + room - start);
-  const double gray = 1 - 1 / (desaturation * (peak - shown) + 1);
+  if (peak < kStart) return color;
+  constexpr double kRoom = 1 - kStart;
+  const double shown = 1 - kRoom * kRoom / (peak + kRoom - kStart);
+  const double gray = 1 - 1 / (kDesaturation * (peak - shown) + 1);
   return glm::mix(color * (shown / peak), DVec3(shown), gray);
 }
 
@@ -73,9 +73,10 @@ DVec3 agx(const DVec3& light) {
       matrix({1.1271005818144368, -0.11060664309660323, -0.016493938717834573},
              {-0.1413297634984383, 1.157823702216272, -0.016493938717834257},
              {-0.14132976349843826, -0.11060664309660294, 1.2519364065950405});
-  constexpr double least = -12.47393, greatest = 4.026069;  // log2 of 0.18 with -10 and +6.5 stops
+  constexpr double kLeast = -12.47393,
+                   kGreatest = 4.026069;  // log2 of 0.18 with -10 and +6.5 stops
   const DVec3 shown = each(inset * (rec2020_from_rec709 * light), [](double v) {
-    const double stops = (binary_logarithm(std::max(v, 1e-10)) - least) / (greatest - least);
+    const double stops = (binary_logarithm(std::max(v, 1e-10)) - kLeast) / (kGreatest - kLeast);
     return agx_contrast(std::clamp(stops, 0.0, 1.0));
   });
   const DVec3 linear = each(outset * shown, [](double v) {

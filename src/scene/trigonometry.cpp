@@ -53,9 +53,10 @@ int quadrant_of(double quarter_turns) {
 // Cody and Waite's reduction: pi/2 in three parts of 33 bits, so that the first two products with n
 // are exact.
 Reduced reduce_radians(double x) {
-  constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
+  constexpr double kPart1 = 0x1.921fb544p+0, kPart2 = 0x1.0b4611a6p-34,
+                   kPart3 = 0x1.3198a2e037073p-69;
   const double n = std::floor(x * (2 / std::numbers::pi) + 0.5);
-  return {.angle = ((x - n * part1) - n * part2) - n * part3, .quadrant = quadrant_of(n)};
+  return {.angle = ((x - n * kPart1) - n * kPart2) - n * kPart3, .quadrant = quadrant_of(n)};
 }
 
 // fmod is exact.

@@ -134,10 +134,10 @@ Rule check(const Pose& pose) {
                     not_zero("up", pose.up));
   if (rule) return rule;
   // Closer to parallel, rounding would rotate the picture about the direction.
-  constexpr double least_sine = 1e-9;
+  constexpr double kLeastSine = 1e-9;
   const double sine =
       glm::length(glm::cross(glm::normalize(pose.direction), glm::normalize(pose.up)));
-  if (sine > least_sine) return {};
+  if (sine > kLeastSine) return {};
   return broken("up", "must not be parallel to direction");
 }
 

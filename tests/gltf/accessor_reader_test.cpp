@@ -54,10 +54,10 @@ int add(AssetBuilder& asset, int type, const char* shape, bool normalized,
 
 TEST(GltfAccessorReader, NormalizedIntegersFillTheUnitRange) {
   AssetBuilder asset;
-  const int i8_ = add<std::int8_t>(asset, i8, "SCALAR", true, {-128, -127, 0, 1, 127}, 5);
-  const int u8_ = add<std::uint8_t>(asset, u8, "SCALAR", true, {0, 1, 255}, 3);
-  const int i16_ = add<std::int16_t>(asset, i16, "SCALAR", true, {-32768, -32767, 32767}, 3);
-  const int u16_ = add<std::uint16_t>(asset, u16, "SCALAR", true, {0, 13107, 65535}, 3);
+  const int i8_ = add<std::int8_t>(asset, kInt8, "SCALAR", true, {-128, -127, 0, 1, 127}, 5);
+  const int u8_ = add<std::uint8_t>(asset, kUint8, "SCALAR", true, {0, 1, 255}, 3);
+  const int i16_ = add<std::int16_t>(asset, kInt16, "SCALAR", true, {-32768, -32767, 32767}, 3);
+  const int u16_ = add<std::uint16_t>(asset, kUint16, "SCALAR", true, {0, 13107, 65535}, 3);
   Reading reading(asset);
   EXPECT_THAT(reading.reader.read<float>(i8_), ElementsAre(-1, -1, 0, 1 / 127.0F, 1));
   EXPECT_THAT(reading.reader.read<float>(u8_), ElementsAre(0, 1 / 255.0F, 1));
@@ -68,8 +68,8 @@ TEST(GltfAccessorReader, NormalizedIntegersFillTheUnitRange) {
 TEST(GltfAccessorReader, OtherIntegersKeepTheirValues) {
   AssetBuilder asset;
   const int bytes = add<std::int8_t>(asset, 5120, "VEC2", false, {-128, 127, 3, -4}, 2);
-  const int shorts = add<std::uint16_t>(asset, u16, "VEC4", false, {65535, 0, 1, 2}, 1);
-  const int joints = add<std::uint8_t>(asset, u8, "VEC4", false, {255, 0, 1, 2}, 1);
+  const int shorts = add<std::uint16_t>(asset, kUint16, "VEC4", false, {65535, 0, 1, 2}, 1);
+  const int joints = add<std::uint8_t>(asset, kUint8, "VEC4", false, {255, 0, 1, 2}, 1);
   Reading reading(asset);
   EXPECT_THAT(reading.reader.read<glm::vec2>(bytes),
               ElementsAre(glm::vec2(-128, 127), glm::vec2(3, -4)));
@@ -77,18 +77,18 @@ TEST(GltfAccessorReader, OtherIntegersKeepTheirValues) {
   EXPECT_THAT(reading.reader.read<glm::uvec4>(joints), ElementsAre(glm::uvec4(255, 0, 1, 2)));
 }
 
-TEST(GltfAccessorReader, MatricesAreReadByColumns) {
+TEST(GltfAccessorReader, MatricesAreColumnMajor) {
   AssetBuilder asset;
   std::vector<float> numbers;
   for (int i = 0; i < 32; ++i) numbers.push_back(static_cast<float>(i));
-  const int matrices = add<float>(asset, f32, "MAT4", false, numbers, 2);
+  const int matrices = add<float>(asset, kFloat32, "MAT4", false, numbers, 2);
   Reading reading(asset);
   const std::vector<glm::mat4> read = reading.reader.read<glm::mat4>(matrices);
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[1][2], glm::vec4(24, 25, 26, 27));
 }
 
-TEST(GltfAccessorReader, SomeElementsAreThoseOfAll) {
+TEST(GltfAccessorReader, SelectedElementsEqualThoseOfAFullRead) {
   AssetBuilder asset;
   std::vector<std::int16_t> numbers;  // interleaved: the accessor uses three of four
   for (int i = 0; i < 400; ++i) numbers.push_back(static_cast<std::int16_t>(i * 80));
@@ -98,7 +98,7 @@ TEST(GltfAccessorReader, SomeElementsAreThoseOfAll) {
       asset.add_view(bytes_of<std::int16_t>({-1, -2, -3, -4, -5, -6, -7, -8, -9, -10, -11, -12}));
   asset.json["accessors"][static_cast<std::size_t>(accessor)]["sparse"] = {
       {"count", 4},
-      {"indices", {{"bufferView", changed}, {"componentType", u8}}},
+      {"indices", {{"bufferView", changed}, {"componentType", kUint8}}},
       {"values", {{"bufferView", values}}}};
   Reading reading(asset);
   const std::vector<Vec3> all = reading.reader.read<Vec3>(accessor);
@@ -114,20 +114,21 @@ TEST(GltfAccessorReader, SomeElementsAreThoseOfAll) {
   EXPECT_EQ(reading.reader.read<Vec3>(accessor, each), all);
 }
 
-TEST(GltfAccessorReader, ReplacedElementsStandForTheAccessors) {
+TEST(GltfAccessorReader, ReplacedElementsAreRead) {
   AssetBuilder asset;
   const int accessor =
-      add<std::uint8_t>(asset, u8, "VEC4", false, std::vector<std::uint8_t>(16), 2, 8);
+      add<std::uint8_t>(asset, kUint8, "VEC4", false, std::vector<std::uint8_t>(16), 2, 8);
   Reading reading(asset);
   reading.reader.replace(accessor, bytes_of<std::uint8_t>({1, 2, 3, 4, 5, 6, 7, 8}));
   EXPECT_THAT(reading.reader.read<glm::uvec4>(accessor),
               ElementsAre(glm::uvec4(1, 2, 3, 4), glm::uvec4(5, 6, 7, 8)));
 }
 
-TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndNotTooMany) {
+TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndLimited) {
   AssetBuilder asset;
-  asset.add("accessors", {{"componentType", f32}, {"count", 3}, {"type", "VEC2"}});
-  asset.add("accessors", {{"componentType", f32}, {"count", (1U << 27) + 1}, {"type", "VEC2"}});
+  asset.add("accessors", {{"componentType", kFloat32}, {"count", 3}, {"type", "VEC2"}});
+  asset.add("accessors",
+            {{"componentType", kFloat32}, {"count", (1U << 27) + 1}, {"type", "VEC2"}});
   Reading reading(asset);
   EXPECT_THAT(reading.reader.read<glm::vec2>(0),
               ElementsAre(glm::vec2(0), glm::vec2(0), glm::vec2(0)));
@@ -142,14 +143,15 @@ TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndNotTooMany) {
 
 /// The padding after the last column of the last matrix does not belong to an accessor (glTF 2.0,
 /// section 3.6.2.4).
-TEST(GltfAccessorReader, MatricesOfSmallNumbersEndWithTheirLastNumber) {
+TEST(GltfAccessorReader, LastMatrixOfSmallIntegersNeedsNoPadding) {
   struct Case {
     const char* type;
     int component_type;
     std::size_t bytes;  // of two matrices
   };
-  for (const Case& c : {Case{"MAT2", u8, 14}, Case{"MAT2", i16, 16}, Case{"MAT3", i8, 23},
-                        Case{"MAT3", u16, 46}, Case{"MAT4", u8, 32}, Case{"MAT2", f32, 32}}) {
+  for (const Case& c :
+       {Case{"MAT2", kUint8, 14}, Case{"MAT2", kInt16, 16}, Case{"MAT3", kInt8, 23},
+        Case{"MAT3", kUint16, 46}, Case{"MAT4", kUint8, 32}, Case{"MAT2", kFloat32, 32}}) {
     const auto fits = [&](std::size_t size, std::size_t stride) {
       AssetBuilder asset;
       asset.add("accessors", {{"bufferView", asset.add_view(std::string(size, '\0'), stride)},
@@ -170,7 +172,7 @@ TEST(GltfAccessorReader, MatricesOfSmallNumbersEndWithTheirLastNumber) {
 
 TEST(GltfAccessorReader, ElementsBeyondTheEndAreZeros) {
   AssetBuilder asset;
-  const int accessor = add<float>(asset, f32, "SCALAR", false, {1, 2, 3}, 3);
+  const int accessor = add<float>(asset, kFloat32, "SCALAR", false, {1, 2, 3}, 3);
   Reading reading(asset);
   const std::vector<std::uint32_t> some = {1, 2, 3, 9}, other = {0, 1, 2, 3, 3};
   EXPECT_THAT(reading.reader.read<float>(accessor, some), ElementsAre(2, 3, 0, 0));

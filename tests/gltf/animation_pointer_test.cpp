@@ -97,7 +97,7 @@ TEST(GltfAnimationPointer, ValuesStayInTheRangeOfTheirProperty) {
   EXPECT_EQ(material_at(asset, 2).ior, 2);
 }
 
-TEST(GltfAnimationPointer, LayersMayAppear) {
+TEST(GltfAnimationPointer, InvisibleLayersMayAppear) {
   AssetBuilder asset = cube();
   for (const char* name : {"KHR_materials_transmission", "KHR_materials_anisotropy"}) {
     use(asset, name);
@@ -187,7 +187,7 @@ TEST(GltfAnimationPointer, RepairedCamerasKeepTheirOtherProperties) {
   EXPECT_EQ(camera.find("yfov")->number, 3);
 }
 
-TEST(GltfAnimationPointer, CamerasNeverLookThroughAHalfSpace) {
+TEST(GltfAnimationPointer, FieldOfViewStaysBelowPi) {
   AssetBuilder asset = cube();
   asset.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
   asset.json["scenes"][0]["nodes"].push_back(asset.add("nodes", {{"camera", 0}}));
@@ -238,7 +238,7 @@ TEST(GltfAnimationPointer, NodesAppearAndDisappear) {
   EXPECT_TRUE(load(asset).scene.objects.empty());
 }
 
-TEST(GltfAnimationPointer, IntegersStandForThemselvesOrForShares) {
+TEST(GltfAnimationPointer, IntegersMayBeNormalizedOrNot) {
   AssetBuilder asset = cube();
   point(asset, "/materials/0/pbrMetallicRoughness/metallicFactor",
         asset.add_numbers<std::uint8_t>("SCALAR", {0, 51}, true));
@@ -247,7 +247,7 @@ TEST(GltfAnimationPointer, IntegersStandForThemselvesOrForShares) {
   EXPECT_EQ(material_at(asset, 1).alpha_cutoff, 2);
 }
 
-TEST(GltfAnimationPointer, PointersToNothingAreWarnedOf) {
+TEST(GltfAnimationPointer, PointersToNothingGiveWarnings) {
   for (const char* pointer :
        {"/materials/1/alphaCutoff", "/materials/0/alphaMode", "/materials/0/doubleSided",
         "/materials/0/normalTexture/scale", "/materials/0/extensions/KHR_materials_ior/ior",
@@ -265,11 +265,12 @@ TEST(GltfAnimationPointer, PointersToNothingAreWarnedOf) {
   }
 }
 
-TEST(GltfAnimationPointer, ValuesOfAnotherShapeAreIgnored) {
+TEST(GltfAnimationPointer, IgnoresValuesOfAnotherSize) {
   const auto expect_ignored = [](const AssetBuilder& asset) {
     const LoadedScene loaded = load(asset, {.time = 1});
     EXPECT_THAT(texts(loaded.warnings),
-                ElementsAre(HasSubstr("/animations/0/samplers/0/output: has not the type")));
+                ElementsAre(HasSubstr(
+                    "/animations/0/samplers/0/output: has a type or number of elements")));
     EXPECT_EQ(color_of(loaded, 0), Vec4(1, 0.25F, 0.125F, 1));
   };
   const char* color = "/materials/0/pbrMetallicRoughness/baseColorFactor";
@@ -292,7 +293,7 @@ TEST(GltfAnimationPointer, ValuesOfAnotherShapeAreIgnored) {
 }
 
 // As for a sequence of frames.
-TEST(GltfAnimationPointer, AFileIsReadOnceAndPosedOften) {
+TEST(GltfAnimationPointer, OneFileGivesManyPoses) {
   AssetBuilder asset = cube();
   point(asset, "/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});
   const std::string bytes = asset.glb();

@@ -40,7 +40,7 @@ AssetBuilder turning_cube() {
   return asset;
 }
 
-TEST(GltfAnimation, ACubeTurnsAboutZWhileItMoves) {
+TEST(GltfAnimation, CubeRotatesAboutZWhileItMoves) {
   const AssetBuilder asset = turning_cube();
   for (double time = 1; time <= 3; time += 0.0625) {
     const double angle = (time - 1) * std::numbers::pi, move = 5 * (time - 1);
@@ -50,7 +50,7 @@ TEST(GltfAnimation, ACubeTurnsAboutZWhileItMoves) {
   EXPECT_THAT(texts(load(asset, {.time = 2}).warnings), IsEmpty());
 }
 
-TEST(GltfAnimation, WithoutATimeTheFilesOwnPoseIsDrawn) {
+TEST(GltfAnimation, WithoutATimeNothingIsAnimated) {
   AssetBuilder asset = turning_cube();
   asset.json["nodes"][0]["translation"] = {0, 0, 3};
   const LoadedScene rest = load(asset);
@@ -65,7 +65,7 @@ TEST(GltfAnimation, TimesAreClamped) {
   EXPECT_EQ(corner_at(asset, 1e30), Vec3(11, 1, 1));
 }
 
-TEST(GltfAnimation, WhatAChannelLeavesOutIsAsTheFileHasIt) {
+TEST(GltfAnimation, PropertiesWithoutAChannelKeepTheFilesValues) {
   AssetBuilder asset = cube();
   asset.json["nodes"][0].update({{"translation", {5, 0, 0}}, {"rotation", {0, 0, 1, 0}}});
   const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
@@ -99,7 +99,7 @@ TEST(GltfAnimation, StepAndCubicSplineAreRead) {
   EXPECT_FLOAT_EQ(p.y, 0.5F + 0.5F);  // the same and 4 (t^3 - 2 t^2 + t)
 }
 
-TEST(GltfAnimation, NormalizedIntegersAreRotations) {
+TEST(GltfAnimation, RotationsMayBeNormalizedIntegers) {
   const auto turned = [](auto one, auto zero) {
     AssetBuilder asset = cube();
     using Integer = decltype(one);
@@ -115,7 +115,7 @@ TEST(GltfAnimation, NormalizedIntegersAreRotations) {
   expect_near(turned(std::uint16_t{65535}, std::uint16_t{0}), Vec3(-1, 1, 1));
 }
 
-TEST(GltfAnimation, IsChosenByNameOrIndexOrAllTogether) {
+TEST(GltfAnimation, IsSelectedByNameOrIndexOrAll) {
   AssetBuilder asset = turning_cube();
   const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1});
   asset.animate(1, 0, "scale", input, asset.add_numbers<float>("VEC3", {1, 1, 1, 1, 1, 5}));
@@ -139,11 +139,11 @@ TEST(GltfAnimation, IsChosenByNameOrIndexOrAllTogether) {
   }
 }
 
-TEST(GltfAnimation, ATimeWithoutAnimationsIsWarnedOf) {
+TEST(GltfAnimation, TimeWithoutAnimationsGivesAWarning) {
   EXPECT_THAT(texts(load(cube(), {.time = 1}).warnings), ElementsAre(HasSubstr("no animation")));
 }
 
-TEST(GltfAnimation, AFileIsReadOnceAndPosedOften) {
+TEST(GltfAnimation, OneFileGivesManyPoses) {
   const std::string bytes = turning_cube().glb();
   io::GltfFile file(bytes, "test.glb", "");
   EXPECT_EQ(corner(file.at(3)), Vec3(11, 1, 1));
@@ -152,7 +152,7 @@ TEST(GltfAnimation, AFileIsReadOnceAndPosedOften) {
   EXPECT_EQ(corner(file.at(3)), Vec3(11, 1, 1));
 }
 
-TEST(GltfAnimation, ChannelsThatCannotBePlayedAreWarnedOf) {
+TEST(GltfAnimation, UnplayableChannelsGiveWarnings) {
   AssetBuilder asset = turning_cube();
   Json& channels = asset.json["animations"][0]["channels"];
   channels[0]["target"]["path"] = "colour";
@@ -189,7 +189,7 @@ TEST(GltfAnimation, PointersToNodesAreFollowed) {
   }
 }
 
-TEST(GltfAnimation, AChannelThatCannotBePlayedIsLeftOut) {
+TEST(GltfAnimation, IgnoresUnplayableChannels) {
   AssetBuilder asset = turning_cube();
   const std::size_t first =
       asset.json["accessors"].size() - 4;  // times, rotations, ends, translations
@@ -233,7 +233,7 @@ float x_at(const std::vector<float>& times, const std::vector<float>& places, do
   return corner_at(asset, time).x - 1;
 }
 
-TEST(GltfAnimation, KeysThatDoNotAscendAreLeftOut) {
+TEST(GltfAnimation, IgnoresKeysOutOfOrder) {
   EXPECT_EQ(x_at({0, 1, 1, 2}, {0, 10, 70, 20}, 1), 10);
   EXPECT_EQ(x_at({0, 1, 1, 2}, {0, 10, 70, 20}, 1.5), 15);
   EXPECT_EQ(x_at({0, 2, 1, 4}, {0, 20, 70, 40}, 3), 30);
@@ -243,7 +243,7 @@ TEST(GltfAnimation, KeysThatDoNotAscendAreLeftOut) {
   EXPECT_EQ(x_at({-1, 1}, {0, 10}, 0), 5);
 }
 
-TEST(GltfAnimation, KeysWhoseValuesAreNotFiniteAreLeftOut) {
+TEST(GltfAnimation, IgnoresKeysWithNonFiniteValues) {
   AssetBuilder asset = cube();
   const std::size_t input = asset.add_numbers<float>("SCALAR", {0, 1, 2});
   asset.animate(0, 0, "translation", input,
@@ -251,7 +251,7 @@ TEST(GltfAnimation, KeysWhoseValuesAreNotFiniteAreLeftOut) {
   EXPECT_EQ(corner_at(asset, 1), Vec3(2, 1, 1));
 }
 
-TEST(GltfAnimation, PointersMustLeadSomewhere) {
+TEST(GltfAnimation, InvalidPointersGiveWarnings) {
   AssetBuilder asset = turning_cube();
   asset.json["extensionsUsed"] = {"KHR_animation_pointer"};
   Json& target = asset.json["animations"][0]["channels"][1]["target"];

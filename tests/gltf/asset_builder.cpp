@@ -46,7 +46,7 @@ std::size_t AssetBuilder::add_positions(const std::vector<Vec3>& positions) {
     greatest = glm::max(greatest, p);
   }
   return add("accessors", {{"bufferView", view},
-                           {"componentType", f32},
+                           {"componentType", kFloat32},
                            {"count", positions.size()},
                            {"type", "VEC3"},
                            {"min", {least.x, least.y, least.z}},
@@ -55,9 +55,9 @@ std::size_t AssetBuilder::add_positions(const std::vector<Vec3>& positions) {
 
 std::size_t AssetBuilder::add_indices(const std::vector<std::uint32_t>& indices,
                                       ComponentType type) {
-  const std::string bytes = type == u8    ? narrowed<std::uint8_t>(indices)
-                            : type == u16 ? narrowed<std::uint16_t>(indices)
-                                          : bytes_of(indices);
+  const std::string bytes = type == kUint8    ? narrowed<std::uint8_t>(indices)
+                            : type == kUint16 ? narrowed<std::uint16_t>(indices)
+                                              : bytes_of(indices);
   const std::size_t view = add_view(bytes);
   return add("accessors", {{"bufferView", view},
                            {"componentType", type},
@@ -69,13 +69,13 @@ std::size_t AssetBuilder::add_accessor(const char* shape, const std::string& byt
                                        int component_type, bool normalized) {
   const std::string_view kind = shape;
   const std::size_t width = kind == "SCALAR" ? 1 : kind == "MAT4" ? 16 : kind.back() - '0';
-  const std::size_t size = component_type <= u8 ? 1 : component_type <= u16 ? 2 : 4;
+  const std::size_t size = component_type <= kUint8 ? 1 : component_type <= kUint16 ? 2 : 4;
   Json accessor = {{"bufferView", add_view(bytes)},
                    {"componentType", component_type},
                    {"count", bytes.size() / (width * size)},
                    {"type", shape}};
   if (normalized) accessor["normalized"] = true;
-  if (component_type == f32 && width == 1) {
+  if (component_type == kFloat32 && width == 1) {
     std::vector<float> numbers(bytes.size() / size);
     std::memcpy(numbers.data(), bytes.data(), bytes.size());
     accessor["min"] = {*std::ranges::min_element(numbers)};
@@ -120,7 +120,7 @@ std::string AssetBuilder::embedded() const {
 
 std::string AssetBuilder::glb() const {
   return glb_file(
-      {{json_chunk, padded(with_buffer(nullptr).dump(), ' ')}, {bin_chunk, padded(buffer, '\0')}});
+      {{kJsonChunk, padded(with_buffer(nullptr).dump(), ' ')}, {kBinChunk, padded(buffer, '\0')}});
 }
 
 std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version) {
@@ -139,7 +139,7 @@ std::string padded(std::string bytes, char filler) {
 }
 
 std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
+  constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -149,7 +149,7 @@ std::string base64(std::string_view bytes) {
       group = group << 8 | (k < count ? static_cast<unsigned char>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+      text += k <= count ? kDigits[group >> (18 - 6 * k) & 63] : '=';
     }
   }
   return text;
@@ -165,7 +165,7 @@ AssetBuilder cube() {
   const std::size_t indices =
       asset.add_indices({0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                          2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5},
-                        u16);
+                        kUint16);
   asset.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0.25, 0.125, 1}}}}});
   const std::size_t node = asset.add_object(
       {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 0}});

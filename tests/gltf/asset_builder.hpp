@@ -14,25 +14,32 @@
 
 namespace microtrace::tests {
 
-enum ComponentType { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+enum ComponentType {
+  kInt8 = 5120,
+  kUint8 = 5121,
+  kInt16 = 5122,
+  kUint16 = 5123,
+  kUint32 = 5125,
+  kFloat32 = 5126
+};
 
 constexpr int component_type_of(std::int8_t) {
-  return i8;
+  return kInt8;
 }
 constexpr int component_type_of(std::uint8_t) {
-  return u8;
+  return kUint8;
 }
 constexpr int component_type_of(std::int16_t) {
-  return i16;
+  return kInt16;
 }
 constexpr int component_type_of(std::uint16_t) {
-  return u16;
+  return kUint16;
 }
 constexpr int component_type_of(std::uint32_t) {
-  return u32;
+  return kUint32;
 }
 constexpr int component_type_of(float) {
-  return f32;
+  return kFloat32;
 }
 
 /// The bytes of a list of numbers.
@@ -77,7 +84,7 @@ struct GlbChunk {
   std::uint32_t type;
   std::string data;
 };
-inline constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
+inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
 /// A GLB file with these chunks, unchanged.
 [[nodiscard]] std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version = 2);

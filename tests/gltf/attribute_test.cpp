@@ -31,7 +31,7 @@ struct AttributeAsset : AssetBuilder {
   [[nodiscard]] Mesh mesh() const { return std::get<Mesh>(load(*this).scene.objects.at(0).shape); }
 };
 
-TEST(GltfAttributes, AbsentOnesTakeNoMemory) {
+TEST(GltfAttributes, AbsentAttributesUseNoMemory) {
   const Mesh mesh = AttributeAsset().mesh();
   EXPECT_THAT(mesh.normals, IsEmpty());
   EXPECT_THAT(mesh.tangents, IsEmpty());
@@ -42,8 +42,8 @@ TEST(GltfAttributes, AbsentOnesTakeNoMemory) {
 TEST(GltfAttributes, NormalsAndTangentsFollowAMirroredNode) {
   AttributeAsset asset;
   const float h = std::sqrt(0.5F);
-  asset.add_attribute<float>("NORMAL", "VEC3", f32, {h, h, 0, 0, 0, 1, 0, 0, 0});
-  asset.add_attribute<float>("TANGENT", "VEC4", f32, {h, -h, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1});
+  asset.add_attribute<float>("NORMAL", "VEC3", kFloat32, {h, h, 0, 0, 0, 1, 0, 0, 0});
+  asset.add_attribute<float>("TANGENT", "VEC4", kFloat32, {h, -h, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1});
   asset.json["nodes"][0]["scale"] = {-2, 1, 1};
   const Mesh mesh = asset.mesh();
   // The normal is interpolated between surfaces along (1, -1) and (-2, -1).
@@ -60,57 +60,58 @@ TEST(GltfAttributes, NormalsAndTangentsFollowAMirroredNode) {
   EXPECT_EQ(mesh.tangents[1], Vec4(-1, 0, 0, 1));
 }
 
-TEST(GltfAttributes, NormalsOfAFlattenedNodeFaceItsPlane) {
+TEST(GltfAttributes, NormalsOfAFlattenedNodeArePerpendicularToItsPlane) {
   AttributeAsset asset;
-  asset.add_attribute<float>("NORMAL", "VEC3", f32, {0, 0, 1, 0.6F, 0, 0.8F, 1, 0, 0});
+  asset.add_attribute<float>("NORMAL", "VEC3", kFloat32, {0, 0, 1, 0.6F, 0, 0.8F, 1, 0, 0});
   asset.json["nodes"][0]["scale"] = {3, 5, 0};
   EXPECT_THAT(asset.mesh().normals, ElementsAre(Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0)));
 }
 
 TEST(GltfAttributes, ColorsMayBeBytesWithoutAlpha) {
   AttributeAsset asset;
-  asset.add_attribute<std::uint8_t>("COLOR_0", "VEC4", u8,
+  asset.add_attribute<std::uint8_t>("COLOR_0", "VEC4", kUint8,
                                     {255, 0, 51, 102, 0, 0, 0, 0, 255, 255, 255, 255}, true);
   EXPECT_THAT(asset.mesh().colors, ElementsAre(Vec4(1, 0, 0.2F, 0.4F), Vec4(0), Vec4(1)));
   AttributeAsset opaque;
-  opaque.add_attribute<float>("COLOR_0", "VEC3", f32, {1, 0, 0, 0, 1, 0, 0, 0, 0.5F});
+  opaque.add_attribute<float>("COLOR_0", "VEC3", kFloat32, {1, 0, 0, 0, 1, 0, 0, 0, 0.5F});
   EXPECT_THAT(opaque.mesh().colors,
               ElementsAre(Vec4(1, 0, 0, 1), Vec4(0, 1, 0, 1), Vec4(0, 0, 0.5F, 1)));
 }
 
-TEST(GltfAttributes, TextureCoordinatesKeepTheNumberOfTheirSet) {
+TEST(GltfAttributes, TextureCoordinatesKeepTheirSetNumber) {
   AttributeAsset asset;
-  asset.add_attribute<float>("TEXCOORD_0", "VEC2", f32, {0, 1, 2, 3, 4, 5});
-  asset.add_attribute<std::uint16_t>("TEXCOORD_1", "VEC2", u16, {0, 65535, 13107, 0, 0, 0}, true);
+  asset.add_attribute<float>("TEXCOORD_0", "VEC2", kFloat32, {0, 1, 2, 3, 4, 5});
+  asset.add_attribute<std::uint16_t>("TEXCOORD_1", "VEC2", kUint16, {0, 65535, 13107, 0, 0, 0},
+                                     true);
   const Mesh mesh = asset.mesh();
   ASSERT_EQ(mesh.uv_sets.size(), 2U);
   EXPECT_THAT(mesh.uv_sets[0], ElementsAre(Vec2(0, 1), Vec2(2, 3), Vec2(4, 5)));
   EXPECT_THAT(mesh.uv_sets[1], ElementsAre(Vec2(0, 1), Vec2(0.2F, 0), Vec2(0)));
 }
 
-TEST(GltfAttributes, OnlyVerticesOfTrianglesKeepThem) {
+TEST(GltfAttributes, OnlyVerticesOfTrianglesHaveAttributes) {
   AttributeAsset asset;
-  asset.add_attribute<float>("TEXCOORD_0", "VEC2", f32, {0, 1, 2, 3, 4, 5});
-  asset.json["meshes"][0]["primitives"][0]["indices"] = asset.add_indices({2, 0, 2}, u16);
+  asset.add_attribute<float>("TEXCOORD_0", "VEC2", kFloat32, {0, 1, 2, 3, 4, 5});
+  asset.json["meshes"][0]["primitives"][0]["indices"] = asset.add_indices({2, 0, 2}, kUint16);
   const Mesh mesh = asset.mesh();
   EXPECT_EQ(mesh.positions.size(), 2U);
   EXPECT_THAT(mesh.uv_sets.at(0), ElementsAre(Vec2(0, 1), Vec2(4, 5)));
 }
 
-TEST(GltfAttributes, OfAnotherTypeAreLeftOut) {
+TEST(GltfAttributes, IgnoresAttributesOfAnotherType) {
   AttributeAsset asset;
-  asset.add_attribute<float>("TEXCOORD_0", "VEC3", f32, {0, 1, 2, 3, 4, 5, 6, 7, 8});
+  asset.add_attribute<float>("TEXCOORD_0", "VEC3", kFloat32, {0, 1, 2, 3, 4, 5, 6, 7, 8});
   EXPECT_THAT(texts(load(asset).warnings),
               testing::Contains(testing::HasSubstr(
-                  "/meshes/0/primitives/0/attributes/TEXCOORD_0: names an accessor of VEC3")));
+                  "/meshes/0/primitives/0/attributes/TEXCOORD_0: refers to an accessor of VEC3")));
   EXPECT_THAT(asset.mesh().uv_sets, IsEmpty());
 }
 
-TEST(GltfAttributes, AFlatPictureTakesOnlyWhatItShows) {
+TEST(GltfAttributes, FlatPicturesReadOnlyVisibleAttributes) {
   AttributeAsset asset;
-  asset.add_attribute<float>("NORMAL", "VEC3", f32, {0, 0, 1, 0, 0, 1, 0, 0, 1});
-  asset.add_attribute<float>("TEXCOORD_0", "VEC2", f32, {0, 1, 2, 3, 4, 5});
-  asset.add_attribute<float>("COLOR_0", "VEC3", f32, {1, 0, 0, 0, 1, 0, 0, 0, 1});
+  asset.add_attribute<float>("NORMAL", "VEC3", kFloat32, {0, 0, 1, 0, 0, 1, 0, 0, 1});
+  asset.add_attribute<float>("TEXCOORD_0", "VEC2", kFloat32, {0, 1, 2, 3, 4, 5});
+  asset.add_attribute<float>("COLOR_0", "VEC3", kFloat32, {1, 0, 0, 0, 1, 0, 0, 0, 1});
   const LoadedScene loaded =
       parse_scene(asset.embedded(), "test.gltf", "", {.detail = SurfaceDetail::color});
   const Mesh& mesh = std::get<Mesh>(loaded.scene.objects.at(0).shape);

@@ -29,7 +29,7 @@ AssetBuilder textured(const std::string& ktx2) {
   asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
   asset.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
-      asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "VEC2"}});
+      asset.add("accessors", {{"componentType", kFloat32}, {"count", 8}, {"type", "VEC2"}});
   asset.add("textures", {{"source", 1}, {"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}});
   asset.add("images", {{"mimeType", "image/ktx2"}, {"bufferView", asset.add_view(ktx2)}});
   asset.add("images", {{"mimeType", "image/png"},
@@ -45,7 +45,7 @@ const Image& image_of(const Scene& scene) {
   return *scene.images.at(0);
 }
 
-TEST(GltfBasisu, Ktx2ComesBeforeItsFallbackAndMayBeRequired) {
+TEST(GltfBasisu, Ktx2IsPreferredToItsFallbackAndMayBeRequired) {
   AssetBuilder asset = textured(ktx2_file("etc1s_runs_100x36"));
   asset.json["extensionsRequired"] = {"KHR_texture_basisu"};
   const LoadedScene loaded = load(asset);
@@ -60,25 +60,25 @@ TEST(GltfBasisu, Ktx2ComesBeforeItsFallbackAndMayBeRequired) {
   EXPECT_EQ(image_of(load(asset).scene).samples, image_of(loaded.scene).samples);
 }
 
-TEST(GltfBasisu, TheMaterialDecidesWhatNumbersMean) {
+TEST(GltfBasisu, TheMaterialDeterminesTheColorEncoding) {
   AssetBuilder color = textured(ktx2_file("uastc_linear_4x4"));
   EXPECT_THAT(texts(load(color).warnings),
-              ElementsAre(HasSubstr("/images/0: says that its numbers are linear, but materials "
-                                    "take them for sRGB")));
+              ElementsAre(HasSubstr("/images/0: declares its values linear, but materials "
+                                    "use them as sRGB")));
   AssetBuilder normal = textured(ktx2_file("etc1s_runs_100x36"));
   Json& material = normal.json["materials"][0];
   material["normalTexture"] = material["pbrMetallicRoughness"]["baseColorTexture"];
   EXPECT_THAT(texts(load(normal).warnings), IsEmpty()) << "it is both";
   material["pbrMetallicRoughness"].erase("baseColorTexture");
   EXPECT_THAT(texts(load(normal).warnings),
-              ElementsAre(HasSubstr("numbers are sRGB, but materials take them for linear")));
+              ElementsAre(HasSubstr("values sRGB, but materials use them as linear")));
   material.erase("normalTexture");
   EXPECT_THAT(texts(load(normal).warnings), IsEmpty()) << "nobody looks";
 
   std::string premultiplied = ktx2_file("etc1s_runs_100x36");
   premultiplied[static_cast<unsigned char>(premultiplied[48]) + 15] = 1;
   EXPECT_THAT(texts(load(textured(premultiplied)).warnings),
-              ElementsAre(HasSubstr("alpha is multiplied")));
+              ElementsAre(HasSubstr("premultiplied alpha")));
 }
 
 TEST(GltfBasisu, SidesShouldBeMultiplesOfFour) {
@@ -87,7 +87,7 @@ TEST(GltfBasisu, SidesShouldBeMultiplesOfFour) {
   EXPECT_EQ(image_of(loaded.scene).height, 5U);
 }
 
-TEST(GltfBasisu, DamagedAndOtherTexturesAreErrorsWithTheirPlace) {
+TEST(GltfBasisu, DamagedAndUnsupportedTexturesAreErrorsWithAPointer) {
   const auto expect = [](const std::string& ktx2, const char* words) {
     try {
       (void)load(textured(ktx2));
@@ -103,7 +103,7 @@ TEST(GltfBasisu, DamagedAndOtherTexturesAreErrorsWithTheirPlace) {
   ktx2[36] = 6;
   expect(ktx2, "can't be decoded: is KTX2 with 6 faces");
   ktx2[20] = 0;
-  expect(ktx2, "header says no size");
+  expect(ktx2, "header has no size");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(GltfCamera, NamesAreUniqueAndInTreeOrder) {
   EXPECT_THAT(names, ElementsAre("Eye", "Inner", "Lens", "Eye (2)"));
 }
 
-TEST(GltfCamera, WithoutOrientationIsLeftOut) {
+TEST(GltfCamera, IgnoresCamerasWithoutOrientation) {
   AssetBuilder asset = with_camera(perspective());
   asset.json["nodes"][1]["scale"] = {1, 0, 1};
   const LoadedScene loaded = load(asset);

@@ -17,7 +17,7 @@ void expect_same_cube(const LoadedScene& loaded) {
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
-TEST(GltfContainer, EmbeddedAndBinaryFilesHoldTheSameCube) {
+TEST(GltfContainer, EmbeddedAndBinaryFilesGiveTheSameCube) {
   const LoadedScene loaded = load(cube().embedded());
   ASSERT_EQ(loaded.scene.objects.size(), 1U);
   const auto triangles = triangles_of(loaded.scene.objects[0]);
@@ -29,23 +29,23 @@ TEST(GltfContainer, EmbeddedAndBinaryFilesHoldTheSameCube) {
 
 TEST(GltfContainer, UnknownChunksAreSkipped) {
   const std::string json = padded(cube().with_buffer(nullptr).dump(), ' ');
-  expect_same_cube(load(glb_file({{json_chunk, json},
-                                  {bin_chunk, padded(cube().buffer, '\0')},
+  expect_same_cube(load(glb_file({{kJsonChunk, json},
+                                  {kBinChunk, padded(cube().buffer, '\0')},
                                   {0x12345678, "whatever"},
                                   {0x12345678, ""}})));
 }
 
-TEST(GltfContainer, PercentEncodedDataUriHoldsTheSameCube) {
+TEST(GltfContainer, PercentEncodedDataUriGivesTheSameCube) {
   std::string encoded = "data:application/gltf-buffer,";
   for (const char byte : cube().buffer) {
-    constexpr std::string_view digits = "0123456789aBcDeF";
+    constexpr std::string_view kDigits = "0123456789aBcDeF";
     const auto value = static_cast<unsigned char>(byte);
-    encoded += {'%', digits[value / 16], digits[value % 16]};
+    encoded += {'%', kDigits[value / 16], kDigits[value % 16]};
   }
   expect_same_cube(load(cube().with_buffer(encoded.c_str()).dump()));
 }
 
-TEST(GltfContainer, MessagesAboutABinaryFileNameItsJsonChunk) {
+TEST(GltfContainer, ErrorsInABinaryFileNameItsJsonChunk) {
   AssetBuilder asset = cube();
   asset.json["scene"] = 7;
   try {
@@ -58,18 +58,18 @@ TEST(GltfContainer, MessagesAboutABinaryFileNameItsJsonChunk) {
   }
 }
 
-TEST(GltfContainer, BytesAfterTheEndAreIgnoredWithAWarning) {
+TEST(GltfContainer, TrailingBytesAreIgnoredWithAWarning) {
   EXPECT_THAT(texts(load(cube().glb() + "xyz").warnings),
               testing::ElementsAre(": 3 bytes after the end of the GLB file are ignored"));
 }
 
-TEST(GltfContainer, ChunksOfUnalignedLengthAreReadWithAWarning) {
+TEST(GltfContainer, UnalignedChunksGiveAWarning) {
   std::string json = cube().with_buffer(nullptr).dump();
   json.resize(json.size() / 4 * 4 + 5, ' ');
   const std::string bin = padded(cube().buffer, '\0');
-  const LoadedScene loaded = load(glb_file({{json_chunk, json}, {bin_chunk, bin}}));
+  const LoadedScene loaded = load(glb_file({{kJsonChunk, json}, {kBinChunk, bin}}));
   EXPECT_EQ(loaded.scene.objects.size(), 1U);
-  EXPECT_THAT(texts(loaded.warnings), testing::Contains(HasSubstr("no multiples of 4")));
+  EXPECT_THAT(texts(loaded.warnings), testing::Contains(HasSubstr("not multiples of 4")));
 }
 
 struct BadFile {
@@ -89,30 +89,30 @@ std::vector<BadFile> bad_files() {
   no_length.replace(8, 4, 4, '\0');
   std::string long_chunk = good;
   long_chunk[15] = 0x7F;
-  constexpr auto invalid = ErrorKind::invalid_scene;
+  constexpr auto kInvalid = ErrorKind::invalid_scene;
   return {
-      {"empty", "", invalid, "empty"},
-      {"magic only", "glTF", invalid, "cut off"},
-      {"header only", good.substr(0, 12), invalid, "cut off"},
-      {"half", good.substr(0, good.size() / 2), invalid, "cut off"},
-      {"last byte missing", good.substr(0, good.size() - 1), invalid, "cut off"},
-      {"container version 1", glb_file({{json_chunk, json}}, 1), ErrorKind::unsupported, "version"},
-      {"length beyond the file", wrong_length, invalid, "cut off"},
-      {"length less than the header", no_length, invalid, "less than"},
-      {"chunk longer than the file", long_chunk, invalid, "claims"},
-      {"BIN first", glb_file({{bin_chunk, bin}, {json_chunk, json}}), invalid, "first chunk"},
-      {"BIN third", glb_file({{json_chunk, json}, {7, "1234"}, {bin_chunk, bin}}), invalid,
+      {"empty", "", kInvalid, "empty"},
+      {"magic only", "glTF", kInvalid, "truncated"},
+      {"header only", good.substr(0, 12), kInvalid, "truncated"},
+      {"half", good.substr(0, good.size() / 2), kInvalid, "truncated"},
+      {"last byte missing", good.substr(0, good.size() - 1), kInvalid, "truncated"},
+      {"container version 1", glb_file({{kJsonChunk, json}}, 1), ErrorKind::unsupported, "version"},
+      {"length beyond the file", wrong_length, kInvalid, "truncated"},
+      {"length less than the header", no_length, kInvalid, "less than"},
+      {"chunk longer than the file", long_chunk, kInvalid, "states"},
+      {"BIN first", glb_file({{kBinChunk, bin}, {kJsonChunk, json}}), kInvalid, "first chunk"},
+      {"BIN third", glb_file({{kJsonChunk, json}, {7, "1234"}, {kBinChunk, bin}}), kInvalid,
        "second"},
-      {"two BIN", glb_file({{json_chunk, json}, {bin_chunk, bin}, {bin_chunk, bin}}), invalid,
+      {"two BIN", glb_file({{kJsonChunk, json}, {kBinChunk, bin}, {kBinChunk, bin}}), kInvalid,
        "second"},
-      {"two JSON", glb_file({{json_chunk, json}, {json_chunk, json}}), invalid, "two JSON"},
-      {"empty JSON", glb_file({{json_chunk, ""}, {bin_chunk, bin}}), invalid, "empty"},
-      {"byte order mark", "\xEF\xBB\xBF" + json, invalid, "byte order mark"},
-      {"byte order mark in a chunk", glb_file({{json_chunk, "\xEF\xBB\xBF " + json}}), invalid,
+      {"two JSON", glb_file({{kJsonChunk, json}, {kJsonChunk, json}}), kInvalid, "two JSON"},
+      {"empty JSON", glb_file({{kJsonChunk, ""}, {kBinChunk, bin}}), kInvalid, "empty"},
+      {"byte order mark", "\xEF\xBB\xBF" + json, kInvalid, "byte order mark"},
+      {"byte order mark in a chunk", glb_file({{kJsonChunk, "\xEF\xBB\xBF " + json}}), kInvalid,
        "byte order mark"},
-      {"chunk header cut", glb_file({{json_chunk, json}}) + "1234", invalid, ""},
-      {"not JSON", "{\"asset\":", invalid, ""},
-      {"an array", "[1, 2, 3]", invalid, "object"},
+      {"chunk header cut", glb_file({{kJsonChunk, json}}) + "1234", kInvalid, ""},
+      {"not JSON", "{\"asset\":", kInvalid, ""},
+      {"an array", "[1, 2, 3]", kInvalid, "object"},
   };
 }
 

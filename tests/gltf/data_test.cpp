@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A change to the numbers of the rig, and the expected message.
 struct Poke {
@@ -35,22 +35,22 @@ std::function<void(AssetBuilder&)> sparse(RigAccessor accessor, std::uint16_t fi
     const std::size_t values = asset.add_view(bytes_of<float>(std::vector<float>(8, value)));
     asset.json["accessors"][accessor]["sparse"] = {
         {"count", 2},
-        {"indices", {{"bufferView", indices}, {"componentType", u16}}},
+        {"indices", {{"bufferView", indices}, {"componentType", kUint16}}},
         {"values", {{"bufferView", values}}}};
   };
 }
 
 const Poke refused[] = {
     {set<std::uint8_t>(rig_joints, 5, 2), "/meshes/0/primitives/0/attributes/JOINTS_0",
-     "vertex 1 is moved by joint 2 of a skin of only 2"},
-    {sparse(rig_texcoords, 1, 1, 0), "/accessors/3/sparse/indices", "number 1 is 1"},
-    {sparse(rig_texcoords, 1, 3, 0), "/accessors/3/sparse/indices", "number 1 is 3"},
+     "vertex 1 refers to joint 2 of a skin of only 2"},
+    {sparse(rig_texcoords, 1, 1, 0), "/accessors/3/sparse/indices", "item 1 is 1"},
+    {sparse(rig_texcoords, 1, 3, 0), "/accessors/3/sparse/indices", "item 1 is 3"},
 };
 
 const Poke survived[] = {
     {set(rig_positions, 4, NAN), "/accessors/0", "element 1 is not finite"},
-    {set(rig_normals, 8, infinity), "/accessors/1", "element 2 is not finite"},
-    {set(rig_weights, 0, -infinity), "/accessors/6", "element 0 is not finite"},
+    {set(rig_normals, 8, kInfinity), "/accessors/1", "element 2 is not finite"},
+    {set(rig_weights, 0, -kInfinity), "/accessors/6", "element 0 is not finite"},
     {set(rig_matrices, 31, NAN), "/accessors/9", "element 1 is not finite"},
     {set(rig_translations, 5, NAN), "/accessors/11", "element 1 is not finite"},
     {set(rig_times, 1, 0.0F), "/accessors/10", "element 1 is not greater"},
@@ -62,31 +62,31 @@ const Poke survived[] = {
        asset.json["animations"][0]["channels"].erase(2);
        poke<std::uint16_t>(asset, rig_indices, 2, 3);
      },
-     "/accessors/8", "names vertices beyond the 3"},
+     "/accessors/8", "has indices beyond the 3 vertices"},
     {[](AssetBuilder& asset) {
        asset.add_object(
-           {{"attributes", Json::object()}, {"indices", asset.add_indices({0, 0, 0}, u8)}});
+           {{"attributes", Json::object()}, {"indices", asset.add_indices({0, 0, 0}, kUint8)}});
      },
-     "/accessors/14", "names vertices beyond the 0"},
+     "/accessors/14", "has indices beyond the 0 vertices"},
     {[](AssetBuilder& asset) {
        asset.json["accessors"][rig_positions]["min"] = {0, 0, 0.5};
      },
      "/accessors/0/min", "is not the least"},
     {[](AssetBuilder& asset) { asset.json["accessors"][rig_indices]["max"] = {7}; },
      "/accessors/8/max", "is not the greatest"},
-    {set(rig_normals, 2, 2.0F), "/accessors/1", "1 of its elements are no unit vectors"},
-    {set(rig_tangents, 0, 0.5F), "/accessors/2", "1 of its elements are no unit vectors"},
+    {set(rig_normals, 2, 2.0F), "/accessors/1", "1 of its elements are not unit vectors"},
+    {set(rig_tangents, 0, 0.5F), "/accessors/2", "1 of its elements are not unit vectors"},
     {set(rig_tangents, 3, 0.0F), "/accessors/2", "1 of its tangents have a w"},
-    {set(rig_colors, 4, 1.5F), "/accessors/4", "1 of its colours are not within"},
+    {set(rig_colors, 4, 1.5F), "/accessors/4", "1 of its colors are not between"},
     {set(rig_weights, 0, -0.5F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "negative"},
     {set(rig_weights, 0, 0.25F), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "add up to 1"},
     {set<std::uint8_t>(rig_joints, 1, 0), "/meshes/0/primitives/0/attributes/WEIGHTS_0", "twice"},
-    {set(rig_matrices, 15, 2.0F), "/accessors/9", "1 of its matrices do not end in"},
+    {set(rig_matrices, 15, 2.0F), "/accessors/9", "1 of its matrices do not have the last row"},
     {set(rig_times, 0, -1.0F), "/accessors/10", "1 of its times are negative"},
-    {set(rig_rotations, 3, 0.5F), "/accessors/12", "1 of its rotations are no unit"},
+    {set(rig_rotations, 3, 0.5F), "/accessors/12", "1 of its rotations are not unit"},
 };
 
-TEST(GltfData, WrongNumbersAreRefusedAtTheirAccessor) {
+TEST(GltfData, InvalidNumbersAreRefused) {
   for (const Poke& poke : refused) {
     SCOPED_TRACE(poke.message);
     AssetBuilder asset = rig();
@@ -102,7 +102,7 @@ TEST(GltfData, WrongNumbersAreRefusedAtTheirAccessor) {
   }
 }
 
-TEST(GltfData, OddNumbersAreWarnedOfAtTheirAccessor) {
+TEST(GltfData, SuspiciousNumbersGiveWarnings) {
   for (const Poke& poke : survived) {
     SCOPED_TRACE(poke.message);
     AssetBuilder asset = rig();
@@ -113,13 +113,13 @@ TEST(GltfData, OddNumbersAreWarnedOfAtTheirAccessor) {
   }
 }
 
-TEST(GltfData, AManifoldReadingOfOneViewIsALimit) {
+TEST(GltfData, OverlappingAccessorsAreLimited) {
   AssetBuilder asset = cube();
   const std::size_t view = asset.add_view(std::string(1 << 16, '\0'));
   for (int i = 0; i <= 1 << 16; ++i) {
     asset.add(
         "accessors",
-        {{"bufferView", view}, {"componentType", u32}, {"count", 1 << 14}, {"type", "SCALAR"}});
+        {{"bufferView", view}, {"componentType", kUint32}, {"count", 1 << 14}, {"type", "SCALAR"}});
   }
   try {
     (void)load(asset);

@@ -11,31 +11,31 @@ namespace microtrace::tests {
 namespace {
 
 std::unique_ptr<draco::Mesh> bowl() {
-  constexpr std::uint32_t points = draco_rows * draco_columns;
+  constexpr std::uint32_t kPoints = kDracoRows * kDracoColumns;
   auto mesh = std::make_unique<draco::Mesh>();
-  mesh->set_num_points(points);
+  mesh->set_num_points(kPoints);
   const auto add = [&](draco::GeometryAttribute::Type type, std::uint8_t size, draco::DataType data,
                        bool normalized) {
     draco::GeometryAttribute attribute;
     attribute.Init(type, nullptr, size, data, normalized, size * draco::DataTypeLength(data), 0);
-    return mesh->attribute(mesh->AddAttribute(attribute, true, points));
+    return mesh->attribute(mesh->AddAttribute(attribute, true, kPoints));
   };
   auto* positions = add(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32, false);
   auto* normals = add(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32, false);
   auto* colors = add(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8, true);
-  for (std::uint32_t i = 0; i < points; ++i) {
-    const double u = 2 * std::numbers::pi * (i % draco_columns) / draco_columns;
-    const double v = 0.1 + 0.3 * (i / draco_columns);
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const double u = 2 * std::numbers::pi * (i % kDracoColumns) / kDracoColumns;
+    const double v = 0.1 + 0.3 * (i / kDracoColumns);
     const Vec3 p(std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), -std::cos(v));
     const std::array<std::uint8_t, 4> color = {static_cast<std::uint8_t>(i * 2), 7, 255, 255};
     positions->SetAttributeValue(draco::AttributeValueIndex(i), &p.x);
     normals->SetAttributeValue(draco::AttributeValueIndex(i), &p.x);
     colors->SetAttributeValue(draco::AttributeValueIndex(i), color.data());
   }
-  for (std::uint32_t y = 0; y + 1 < draco_rows; ++y) {
-    for (std::uint32_t x = 0; x < draco_columns; ++x) {
+  for (std::uint32_t y = 0; y + 1 < kDracoRows; ++y) {
+    for (std::uint32_t x = 0; x < kDracoColumns; ++x) {
       const auto at = [&](std::uint32_t row, std::uint32_t column) {
-        return draco::PointIndex(row * draco_columns + column % draco_columns);
+        return draco::PointIndex(row * kDracoColumns + column % kDracoColumns);
       };
       mesh->AddFace({at(y, x), at(y, x + 1), at(y + 1, x)});
       mesh->AddFace({at(y, x + 1), at(y + 1, x + 1), at(y + 1, x)});

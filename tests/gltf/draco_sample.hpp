@@ -18,7 +18,7 @@ struct DracoSample {
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-inline constexpr std::uint32_t draco_rows = 9, draco_columns = 30;  // of vertices
+inline constexpr std::uint32_t kDracoRows = 9, kDracoColumns = 30;  // of vertices
 
 /// Creates a bowl with 14 bits, normals and the colors (2 i, 7, 255, 255), with sequential or
 /// edgebreaker encoding.

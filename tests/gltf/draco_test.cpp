@@ -13,7 +13,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* extension = "KHR_draco_mesh_compression";
+constexpr const char* kExtension = "KHR_draco_mesh_compression";
 const DracoSample& sample(bool sequential) {
   static const std::array<DracoSample, 2> samples = [] {
     void* module = ::dlopen(MICROTRACE_DRACO_SAMPLE, RTLD_NOW | RTLD_LOCAL);
@@ -29,24 +29,24 @@ const DracoSample& sample(bool sequential) {
 
 AssetBuilder asset_of(const std::string& bytes) {
   AssetBuilder asset;
-  asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {extension};
+  asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {kExtension};
   const DracoSample& ids = sample(false);
-  const std::size_t points = draco_rows * draco_columns;
-  asset.add("accessors", {{"componentType", f32},
+  const std::size_t points = kDracoRows * kDracoColumns;
+  asset.add("accessors", {{"componentType", kFloat32},
                           {"count", points},
                           {"type", "VEC3"},
                           {"min", {-1, -1, -1}},
                           {"max", {1, 1, 1}}});
-  asset.add("accessors", {{"componentType", f32}, {"count", points}, {"type", "VEC3"}});
+  asset.add("accessors", {{"componentType", kFloat32}, {"count", points}, {"type", "VEC3"}});
   asset.add("accessors",
-            {{"componentType", u8}, {"normalized", true}, {"count", points}, {"type", "VEC4"}});
+            {{"componentType", kUint8}, {"normalized", true}, {"count", points}, {"type", "VEC4"}});
   asset.add("accessors",
-            {{"componentType", u16}, {"count", ids.triangles.size() * 3}, {"type", "SCALAR"}});
+            {{"componentType", kUint16}, {"count", ids.triangles.size() * 3}, {"type", "SCALAR"}});
   const std::size_t view = asset.add_view(bytes);
   asset.add_object({{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"COLOR_0", 2}}},
                     {"indices", 3},
                     {"extensions",
-                     {{extension,
+                     {{kExtension,
                        {{"bufferView", view},
                         {"attributes",
                          {{"POSITION", ids.position_id},
@@ -55,7 +55,7 @@ AssetBuilder asset_of(const std::string& bytes) {
   return asset;
 }
 
-TEST(GltfDraco, MeshesAreThoseThatTheLibraryDecodes) {
+TEST(GltfDraco, MeshesEqualThoseOfTheDracoLibrary) {
   for (const bool sequential : {false, true}) {
     const DracoSample& expected = sample(sequential);
     const LoadedScene scene = load(asset_of(expected.bytes));
@@ -87,7 +87,7 @@ void expect_refused(const AssetBuilder& asset, const char* message) {
   }
 }
 
-TEST(GltfDraco, AllThatTheBytesHoldIsDrawnWhateverTheAccessorsSay) {
+TEST(GltfDraco, AccessorsWithOtherCountsAreIgnoredWithAWarning) {
   const DracoSample& expected = sample(false);
   for (const auto& [vertices, indices] :
        {std::pair<int, int>{0, 3}, {0, -3}, {1, 0}, {-1, 0}, {-20, -30}, {1000, 3000}}) {
@@ -114,20 +114,20 @@ TEST(GltfDraco, AllThatTheBytesHoldIsDrawnWhateverTheAccessorsSay) {
     EXPECT_THAT(texts(scene.warnings),
                 testing::Contains(testing::AllOf(
                     HasSubstr("/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: "),
-                    HasSubstr("not as many as the accessors say"))));
+                    HasSubstr("not as many as the accessors state"))));
   }
 }
 
-TEST(GltfDraco, IndicesMustBeAbleToNameAllVertices) {
+TEST(GltfDraco, IndicesMustFitTheirComponentType) {
   AssetBuilder asset = asset_of(sample(false).bytes);
-  asset.json["accessors"][3]["componentType"] = u8;
-  expect_refused(asset, "more than indices of the accessor's componentType can name");
+  asset.json["accessors"][3]["componentType"] = kUint8;
+  expect_refused(asset, "too many for the componentType");
 }
 
-TEST(GltfDraco, BytesThatAreNoSuchMeshAreRefused) {
+TEST(GltfDraco, DataOfAnotherMeshIsRefused) {
   const std::string bytes = sample(false).bytes;
   AssetBuilder asset = asset_of(bytes);
-  asset.json["meshes"][0]["primitives"][0]["extensions"][extension]["attributes"]["COLOR_0"] = 99;
+  asset.json["meshes"][0]["primitives"][0]["extensions"][kExtension]["attributes"]["COLOR_0"] = 99;
   expect_refused(asset, "no attribute of an id");
   asset = asset_of(bytes);
   asset.json["accessors"][2]["type"] = "VEC3";
@@ -136,7 +136,7 @@ TEST(GltfDraco, BytesThatAreNoSuchMeshAreRefused) {
   expect_refused(asset, "can't");
 }
 
-TEST(GltfDraco, DamagedBytesGiveErrorsOrMeshesInRange) {
+TEST(GltfDraco, DamagedDataGivesErrorsOrValidMeshes) {
   std::mt19937 random(5);
   const std::string good[] = {sample(false).bytes, sample(true).bytes};
   for (int i = 0; i < 600; ++i) {

@@ -18,7 +18,7 @@
 
 #include <gmock/gmock.h>
 
-// What is forgotten of an extension is named here; see io/gltf/extensions/extensions.hpp.
+// Names the forgotten parts of an extension; see io/gltf/extensions/extensions.hpp.
 
 namespace microtrace::tests {
 namespace {
@@ -53,17 +53,17 @@ bool is_texture(const Rule& rule) {
   return rule.place == Place::texture_info;
 }
 
-/// A value that is nothing's default.
+/// A value that no property has as its default.
 Json value_of(const Rule& rule) {
   const double least = std::max(rule.min, -1.0), most = std::min(rule.max, least + 1);
-  // Not the same for two keys that may belong together.
+  // Different for two keys that may be combined.
   const int sum = std::accumulate(rule.key.begin(), rule.key.end(), 0);
   const double share = 0.4 + 0.002 * (sum % 97);
   const double number = least + share * (most - least);
   return rule.form == Form::numbers ? Json::repeated(rule.most, number) : Json(number);
 }
 
-/// A material of that extension alone, read without checks.
+/// A material with only this extension, read without validation.
 Material material_of(const Extension& extension, const Json& object) {
   Json asset;
   asset["materials"][0] = {{"emissiveFactor", {0.5, 0.25, 0.125}},
@@ -115,10 +115,10 @@ TEST(GltfExtensions, EachTextureOfMaterialsIsReadAndVisited) {
   }
 }
 
-/// What extensions add to a material: objects by name.
+/// Extension objects of a material by name.
 using Objects = std::vector<std::pair<std::string, Json>>;
 
-/// A picture with light of a cube with normals, tangents and texture coordinates.
+/// A path-traced picture of a cube with normals, tangents and texture coordinates.
 std::vector<Vec3> picture_of(const Objects& objects) {
   AssetBuilder asset = cube();
   Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
@@ -153,7 +153,7 @@ std::vector<Vec3> picture_of(const Objects& objects) {
   return pixels;
 }
 
-/// Whether the last of the objects makes a difference.
+/// True if the last of the objects changes the picture.
 bool is_seen(Objects objects) {
   const std::vector<Vec3> with = picture_of(objects);
   objects.pop_back();
@@ -169,7 +169,7 @@ Json numbers_of(const Extension& extension) {
 }
 
 TEST(GltfExtensions, OfMaterialsAreDrawn) {
-  // Some change only what is refracted.
+  // Some extensions affect only refraction.
   const Objects glass = {{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
                          {"KHR_materials_volume", {{"thicknessFactor", 1}}}};
   for (const Extension* extension : extensions_of_materials()) {
@@ -181,7 +181,7 @@ TEST(GltfExtensions, OfMaterialsAreDrawn) {
     const bool alone = is_seen({{name, numbers}});
     EXPECT_TRUE(alone || is_seen(within)) << name << " changes no picture";
     for (const Rule& rule : rules_of(*extension)) {
-      // Of thickness only whether there is any matters.
+      // A thickness only matters by being positive or zero.
       if (!is_texture(rule) || rule.key == "thicknessTexture") continue;
       Json textured = numbers;
       textured[rule.key] = {{"index", 0}};

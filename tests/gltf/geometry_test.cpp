@@ -33,8 +33,8 @@ std::vector<Corners> loaded(const AssetBuilder& asset) {
                                      : triangles_of(scene.scene.objects[0]);
 }
 
-TEST(GltfGeometry, IndicesOfEachTypeAndNone) {
-  for (const ComponentType type : {u8, u16, u32}) {
+TEST(GltfGeometry, ReadsIndicesOfEachTypeAndNone) {
+  for (const ComponentType type : {kUint8, kUint16, kUint32}) {
     SCOPED_TRACE(type);
     AssetBuilder asset;
     const std::size_t positions = asset.add_positions(points(6));
@@ -50,7 +50,7 @@ TEST(GltfGeometry, IndicesOfEachTypeAndNone) {
 TEST(GltfGeometry, OnlyUsedVerticesAreKept) {
   AssetBuilder asset;
   const std::size_t positions = asset.add_positions(points(300));
-  const std::size_t indices = asset.add_indices({299, 7, 150, 7, 8, 299}, u16);
+  const std::size_t indices = asset.add_indices({299, 7, 150, 7, 8, 299}, kUint16);
   asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
   const LoadedScene scene = load(asset);
   const Mesh& mesh = std::get<Mesh>(scene.scene.objects[0].shape);
@@ -59,7 +59,7 @@ TEST(GltfGeometry, OnlyUsedVerticesAreKept) {
   EXPECT_THAT(mesh.triangles, ElementsAre(std::array{3U, 0U, 2U}, std::array{0U, 1U, 3U}));
 }
 
-TEST(GltfGeometry, StripsAndFansWindAsTheSpecificationSays) {
+TEST(GltfGeometry, StripsAndFansHaveTheSpecifiedWinding) {
   for (const int mode : {5, 6}) {
     SCOPED_TRACE(mode);
     AssetBuilder asset;
@@ -73,7 +73,7 @@ TEST(GltfGeometry, StripsAndFansWindAsTheSpecificationSays) {
   }
 }
 
-TEST(GltfGeometry, InterleavedPositionsStepByTheStride) {
+TEST(GltfGeometry, ReadsInterleavedPositions) {
   AssetBuilder asset;
   std::vector<float> numbers = {99};  // before the accessor's offset
   for (const Vec3& p : points(3)) {
@@ -83,7 +83,7 @@ TEST(GltfGeometry, InterleavedPositionsStepByTheStride) {
   const std::size_t view = asset.add_view(bytes_of(numbers), 20);
   const std::size_t accessor = asset.add("accessors", {{"bufferView", view},
                                                        {"byteOffset", 4},
-                                                       {"componentType", f32},
+                                                       {"componentType", kFloat32},
                                                        {"count", 3},
                                                        {"type", "VEC3"},
                                                        {"min", {0, 0, 0}},
@@ -98,12 +98,12 @@ Json sparse(std::size_t count, std::size_t indices, ComponentType type, std::siz
           {"values", {{"bufferView", values}}}};
 }
 
-TEST(GltfGeometry, SparseElementsReplaceOthers) {
+TEST(GltfGeometry, ReadsSparseAccessors) {
   AssetBuilder asset;
   const std::size_t accessor = asset.add_positions(points(3));
   const std::size_t indices = asset.add_view(bytes_of<std::uint8_t>({0, 2}));
   const std::size_t values = asset.add_view(bytes_of<Vec3>({Vec3(10), Vec3(20)}));
-  asset.json["accessors"][accessor]["sparse"] = sparse(2, indices, u8, values);
+  asset.json["accessors"][accessor]["sparse"] = sparse(2, indices, kUint8, values);
   asset.add_object({{"attributes", {{"POSITION", accessor}}}});
   EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(10), Vec3(1, 1, 0), Vec3(20)}));
 }
@@ -113,18 +113,19 @@ TEST(GltfGeometry, AccessorsWithoutViewAreZero) {
   const std::size_t changed = asset.add_view(bytes_of<std::uint32_t>({1, 2}));
   const std::size_t values = asset.add_view(bytes_of<Vec3>({Vec3(1, 0, 0), Vec3(0, 1, 0)}));
   const std::size_t positions =
-      asset.add("accessors", {{"componentType", f32},
+      asset.add("accessors", {{"componentType", kFloat32},
                               {"count", 3},
                               {"type", "VEC3"},
                               {"min", {0, 0, 0}},
                               {"max", {1, 1, 0}},
-                              {"sparse", sparse(2, changed, u32, values)}});
+                              {"sparse", sparse(2, changed, kUint32, values)}});
   const std::size_t which = asset.add_view(bytes_of<std::uint16_t>({0, 1}));
   const std::size_t vertices = asset.add_view(bytes_of<std::uint8_t>({2, 1}));
-  const std::size_t indices = asset.add("accessors", {{"componentType", u8},
-                                                      {"count", 3},
-                                                      {"type", "SCALAR"},
-                                                      {"sparse", sparse(2, which, u16, vertices)}});
+  const std::size_t indices =
+      asset.add("accessors", {{"componentType", kUint8},
+                              {"count", 3},
+                              {"type", "SCALAR"},
+                              {"sparse", sparse(2, which, kUint16, vertices)}});
   asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
   EXPECT_THAT(loaded(asset), ElementsAre(Corners{Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0)}));
 }
@@ -141,7 +142,7 @@ TEST(GltfGeometry, PointsAndLinesAreSegmentsOfTheMesh) {
     AssetBuilder asset;
     // Vertices 3 to 5 of 6, which become 0 to 2.
     const std::size_t positions = asset.add_positions(points(6));
-    const std::size_t indices = asset.add_indices({4, 5, 3, 5, 4}, u8);
+    const std::size_t indices = asset.add_indices({4, 5, 3, 5, 4}, kUint8);
     asset.add_object(
         {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", mode}});
     asset.json["nodes"][0]["scale"] = {2, 2, -2};
@@ -154,7 +155,7 @@ TEST(GltfGeometry, PointsAndLinesAreSegmentsOfTheMesh) {
   }
 }
 
-TEST(GltfGeometry, QuantisedPositionsTakeTheirNodesScale) {
+TEST(GltfGeometry, QuantizedPositionsAreScaledByTheirNode) {
   AssetBuilder asset;
   asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = {"KHR_mesh_quantization"};
   const std::size_t view =
@@ -178,7 +179,7 @@ TEST(GltfGeometry, QuantisedPositionsTakeTheirNodesScale) {
               ElementsAre(Corners{Vec3(1, 0, 0), Vec3(327671, -655360, 0), Vec3(1, 0, -1310680)}));
 }
 
-TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
+TEST(GltfGeometry, IncompletePrimitivesGiveAWarning) {
   struct Case {
     Json primitive;
     const char* warning;
@@ -186,8 +187,8 @@ TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   const std::vector<Case> cases = {
       {{{"attributes", {{"_OWN", 0}}}}, "/meshes/0/primitives/0: has no POSITION"},
       {{{"attributes", Json::object()}}, "/meshes/0/primitives/0: has no POSITION"},
-      {{{"attributes", {{"POSITION", 1}}}}, "vertices that make no whole triangle"},
-      {{{"attributes", {{"POSITION", 2}}}, {"mode", 1}}, "vertices that make no whole triangle"},
+      {{{"attributes", {{"POSITION", 1}}}}, "incomplete triangle or line"},
+      {{{"attributes", {{"POSITION", 2}}}, {"mode", 1}}, "incomplete triangle or line"},
   };
   for (const Case& c : cases) {
     AssetBuilder asset;
@@ -202,7 +203,7 @@ TEST(GltfGeometry, WhatMakesNoTriangleIsSkippedWithAWarning) {
   }
 }
 
-TEST(GltfGeometry, PositionsThatAreNotFiniteInTheWorldStayAndAreWarnedOf) {
+TEST(GltfGeometry, PositionsBeyondFloat32InTheWorldGiveAWarning) {
   AssetBuilder asset;
   asset.add_object(
       {{"attributes",
@@ -216,15 +217,16 @@ TEST(GltfGeometry, PositionsThatAreNotFiniteInTheWorldStayAndAreWarnedOf) {
 }
 
 /// NaN and infinity in accessors without bounds.
-TEST(GltfGeometry, VerticesThatAreNotFiniteAreLeftOutWithWhatTheyMake) {
-  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+TEST(GltfGeometry, TrianglesWithNonFiniteVerticesAreDropped) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   AssetBuilder asset;
   const std::size_t positions = asset.add_numbers<float>(
-      "VEC3", {0, 0, 0, 1, 0, 0, nan, 0, 0, 0, 1, 0, 0, 0, std::numeric_limits<float>::infinity()});
-  const std::size_t uvs = asset.add_numbers<float>("VEC2", {0, 1, nan, 2, 3, 3, 4, nan, 5, 5});
+      "VEC3",
+      {0, 0, 0, 1, 0, 0, kNan, 0, 0, 0, 1, 0, 0, 0, std::numeric_limits<float>::infinity()});
+  const std::size_t uvs = asset.add_numbers<float>("VEC2", {0, 1, kNan, 2, 3, 3, 4, kNan, 5, 5});
   const std::size_t normals =
-      asset.add_numbers<float>("VEC3", {0, 0, 1, nan, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
-  const std::size_t indices = asset.add_indices({0, 1, 2, 0, 1, 3, 1, 3, 4}, u8);
+      asset.add_numbers<float>("VEC3", {0, 0, 1, kNan, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
+  const std::size_t indices = asset.add_indices({0, 1, 2, 0, 1, 3, 1, 3, 4}, kUint8);
   asset.add_object(
       {{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}, {"NORMAL", normals}}},
        {"indices", indices}});
@@ -239,7 +241,7 @@ TEST(GltfGeometry, VerticesThatAreNotFiniteAreLeftOutWithWhatTheyMake) {
                                      HasSubstr("/accessors/1: element 1 is not finite (2 places)"),
 
                                      HasSubstr("/meshes/0/primitives/0: has vertices")}));
-  asset.json["meshes"][0]["primitives"][0]["indices"] = asset.add_indices({0, 1, 2}, u8);
+  asset.json["meshes"][0]["primitives"][0]["indices"] = asset.add_indices({0, 1, 2}, kUint8);
   EXPECT_THAT(load(asset).scene.objects, IsEmpty());
 }
 
@@ -271,7 +273,7 @@ TEST(GltfGeometry, PointsAndLinesWithoutNormalsAreUnlit) {
   EXPECT_EQ(material_of(1, false, true).emissive, Vec3(0, 0, 1));  // is added
 }
 
-TEST(GltfGeometry, IntegersMayBeWrittenWithAPoint) {
+TEST(GltfGeometry, IntegersMayHaveADecimalPoint) {
   AssetBuilder asset = cube();
   std::string text = asset.embedded();
   const std::string count = "\"count\": 36";

@@ -10,12 +10,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr const char* extension = "EXT_mesh_gpu_instancing";
+constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
 
 /// The triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
 AssetBuilder triangle() {
   AssetBuilder asset;
-  asset.json["extensionsUsed"] = {extension};
+  asset.json["extensionsUsed"] = {kExtension};
   asset.add_object(
       {{"attributes", {{"POSITION", asset.add_positions({Vec3(0), {1, 0, 0}, {0, 1, 0}})}}}});
   asset.json["nodes"][0]["translation"] = {100, 0, 0};
@@ -34,15 +34,15 @@ std::size_t add(AssetBuilder& asset, int type, const char* shape, bool normalize
 }
 
 void instantiate(AssetBuilder& asset, Json attributes) {
-  asset.json["nodes"][0]["extensions"][extension]["attributes"] = std::move(attributes);
+  asset.json["nodes"][0]["extensions"][kExtension]["attributes"] = std::move(attributes);
 }
 
-TEST(GltfInstances, AreMovedTurnedAndScaledWithinTheirNode) {
+TEST(GltfInstances, AreTransformedWithinTheirNode) {
   AssetBuilder asset = triangle();
-  const std::size_t moves = add<float>(asset, f32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
+  const std::size_t moves = add<float>(asset, kFloat32, "VEC3", false, {0, 0, 0, 0, 10, 0}, 2);
   const std::size_t turns =
       add<std::int16_t>(asset, 5122, "VEC4", true, {0, 0, 0, 32767, 0, 0, 32767, 0}, 2);
-  const std::size_t sizes = add<float>(asset, f32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
+  const std::size_t sizes = add<float>(asset, kFloat32, "VEC3", false, {1, 1, 1, 2, 3, 4}, 2);
   instantiate(asset, {{"TRANSLATION", moves}, {"ROTATION", turns}, {"SCALE", sizes}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(scene.warnings, IsEmpty());
@@ -56,21 +56,21 @@ TEST(GltfInstances, AreMovedTurnedAndScaledWithinTheirNode) {
               ElementsAre(std::array{Vec3(100, 10, 0), Vec3(98, 10, 0), Vec3(100, 7, 0)}));
 }
 
-TEST(GltfInstances, OwnAttributesAloneCountThem) {
+TEST(GltfInstances, CustomAttributesMayDefineTheirNumber) {
   AssetBuilder asset = triangle();
-  instantiate(asset, {{"_ID", add<float>(asset, f32, "SCALAR", false, {7, 8, 9}, 3)}});
+  instantiate(asset, {{"_ID", add<float>(asset, kFloat32, "SCALAR", false, {7, 8, 9}, 3)}});
   EXPECT_THAT(load(asset).scene.objects, SizeIs(3));
 }
 
-TEST(GltfInstances, ZeroQuaternionsTurnNothing) {
+TEST(GltfInstances, ZeroQuaternionsAreIgnored) {
   AssetBuilder asset = triangle();
-  instantiate(asset, {{"ROTATION", add<float>(asset, f32, "VEC4", false, {0, 0, 0, 0}, 1)}});
+  instantiate(asset, {{"ROTATION", add<float>(asset, kFloat32, "VEC4", false, {0, 0, 0, 0}, 1)}});
   const LoadedScene scene = load(asset);
   EXPECT_THAT(texts(scene.warnings), ElementsAre(HasSubstr("zero quaternions")));
   EXPECT_EQ(triangles_of(scene.scene.objects.at(0))[0][1], Vec3(101, 0, 0));
 }
 
-TEST(GltfInstances, WhatIsNotTheirsIsRefused) {
+TEST(GltfInstances, InvalidAttributesAreRefused) {
   struct Case {
     const char* name;
     int type;
@@ -79,15 +79,15 @@ TEST(GltfInstances, WhatIsNotTheirsIsRefused) {
     const char* pointer;
   };
   const std::vector<Case> cases = {
-      {"TRANSLATION", u16, "VEC3", 2, "/attributes/TRANSLATION"},
-      {"ROTATION", f32, "VEC3", 2, "/attributes/ROTATION"},
-      {"SCALE", f32, "VEC3", 3, "/attributes/_OTHER"},
+      {"TRANSLATION", kUint16, "VEC3", 2, "/attributes/TRANSLATION"},
+      {"ROTATION", kFloat32, "VEC3", 2, "/attributes/ROTATION"},
+      {"SCALE", kFloat32, "VEC3", 3, "/attributes/_OTHER"},
   };
   for (const Case& c : cases) {
     AssetBuilder asset = triangle();
     const std::vector<float> zeros(16);
     instantiate(asset, {{c.name, add<float>(asset, c.type, c.shape, false, zeros, c.count)},
-                        {"_OTHER", add<float>(asset, f32, "SCALAR", false, zeros, 2)}});
+                        {"_OTHER", add<float>(asset, kFloat32, "SCALAR", false, zeros, 2)}});
     try {
       (void)load(asset);
       ADD_FAILURE() << c.name << " accepted";
@@ -98,9 +98,9 @@ TEST(GltfInstances, WhatIsNotTheirsIsRefused) {
   }
 }
 
-TEST(GltfInstances, TooManyAreRefusedBeforeTheyFillMemory) {
+TEST(GltfInstances, TooManyAreRefusedBeforeAllocation) {
   AssetBuilder asset = triangle();
-  instantiate(asset, {{"SCALE", asset.add("accessors", {{"componentType", f32},
+  instantiate(asset, {{"SCALE", asset.add("accessors", {{"componentType", kFloat32},
                                                         {"count", (1U << 22) + 1},
                                                         {"type", "VEC3"}})}});
   try {
@@ -111,7 +111,7 @@ TEST(GltfInstances, TooManyAreRefusedBeforeTheyFillMemory) {
   }
 }
 
-TEST(GltfVisibility, HidesANodeAndAllBelowItButNoCamera) {
+TEST(GltfVisibility, HidesANodeAndItsDescendantsButNoCamera) {
   AssetBuilder asset = triangle();
   asset.json["extensionsUsed"] = {"KHR_node_visibility"};
   asset.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});

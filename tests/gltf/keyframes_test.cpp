@@ -38,7 +38,7 @@ TEST(GltfKeyframes, StepsHoldUntilTheNextKey) {
   EXPECT_THAT(value_at(step, 4), ElementsAre(40));
 }
 
-TEST(GltfKeyframes, LinearMixesEachNumber) {
+TEST(GltfKeyframes, LinearInterpolatesEachNumber) {
   const Keyframes linear = keys(Interpolation::linear, {1, 2, 4}, {0, 8, 10, 16, 30, -16}, 2);
   EXPECT_THAT(value_at(linear, 1.25), ElementsAre(2.5, 10));
   EXPECT_THAT(value_at(linear, 2), ElementsAre(10, 16));
@@ -62,7 +62,7 @@ TEST(GltfKeyframes, TimesAreClampedToTheKeys) {
   EXPECT_THAT(value_at(one, 3), ElementsAre(10));
 }
 
-TEST(GltfKeyframes, CubicSplinesAreThePolynomialThatTheyWereTakenFrom) {
+TEST(GltfKeyframes, CubicSplinesReproduceAPolynomial) {
   // p(t) = 2 t^3 - 3 t^2 + t - 5 with its derivatives per second at 1, 3 and 3.5 seconds.
   const auto p = [](double t) { return ((2 * t - 3) * t + 1) * t - 5; };
   const auto slope = [](double t) { return (6 * t - 6) * t + 1; };
@@ -76,15 +76,15 @@ TEST(GltfKeyframes, CubicSplinesAreThePolynomialThatTheyWereTakenFrom) {
   }
 }
 
-TEST(GltfKeyframes, RotationsTurnAtConstantSpeed) {
-  constexpr double angle = 2.5;
-  const Quaternion a = about_z(0.3), b = about_z(0.3 + angle);
+TEST(GltfKeyframes, RotationsHaveConstantSpeed) {
+  constexpr double kAngle = 2.5;
+  const Quaternion a = about_z(0.3), b = about_z(0.3 + kAngle);
   for (double t = 0; t <= 1; t += 0.0625) {
-    EXPECT_LT(distance(slerp(a, b, t), about_z(0.3 + t * angle)), 1e-15) << t;
+    EXPECT_LT(distance(slerp(a, b, t), about_z(0.3 + t * kAngle)), 1e-15) << t;
   }
 }
 
-TEST(GltfKeyframes, RotationsTakeTheShorterWay) {
+TEST(GltfKeyframes, RotationsTakeTheShorterArc) {
   const Quaternion a = about_z(0), b = about_z(0.5);
   EXPECT_LT(distance(slerp(a, -b, 0.5), about_z(0.25)), 1e-15);
   // A rotation of more than 180 degrees is shorter in the other direction.
@@ -92,16 +92,16 @@ TEST(GltfKeyframes, RotationsTakeTheShorterWay) {
   EXPECT_LT(distance(slerp(a, c, 0.5), about_z(-0.25 * std::numbers::pi)), 1e-15);
 }
 
-TEST(GltfKeyframes, SlerpKeepsUnitLengthAndSmallAngles) {
+TEST(GltfKeyframes, SlerpGivesUnitQuaternionsAndIsAccurateAtSmallAngles) {
   std::mt19937_64 random(4);
   std::normal_distribution<double> number;
   for (int i = 0; i < 20000; ++i) {
     const auto any = [&] {
-      return normalised({number(random), number(random), number(random), number(random)});
+      return unit_quaternion({number(random), number(random), number(random), number(random)});
     };
     const Quaternion a = any();
     const double nearness = std::pow(10.0, -(i % 20));
-    const Quaternion b = normalised(a * (1 - nearness) + any() * nearness);
+    const Quaternion b = unit_quaternion(a * (1 - nearness) + any() * nearness);
     const double t = 0.05 * (i % 21);
     const Quaternion q = slerp(a, b, t);
     ASSERT_NEAR(glm::length(q), 1, 1e-14);
@@ -114,7 +114,7 @@ TEST(GltfKeyframes, SlerpKeepsUnitLengthAndSmallAngles) {
   EXPECT_EQ(slerp({0, 0, 0, 1}, {0, 0, 0, -1}, 0.25), Quaternion(0, 0, 0, 1));
 }
 
-TEST(GltfKeyframes, RotationsAreNormalised) {
+TEST(GltfKeyframes, RotationsAreNormalized) {
   Keyframes turn = keys(Interpolation::linear, {0, 1}, {0, 0, 0, 2, 0, 0, 3, 3}, 4);
   turn.are_rotations = true;
   const double angle = std::numbers::pi / 2;

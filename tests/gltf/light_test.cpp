@@ -13,20 +13,20 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr const char* extension = "KHR_lights_punctual";
+constexpr const char* kExtension = "KHR_lights_punctual";
 
 /// The cube, with each light on its own node; all nodes have the same rotation and scale.
 AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
-  asset.json["extensionsUsed"] = {extension};
-  asset.json["extensions"][extension]["lights"] = lights;
+  asset.json["extensionsUsed"] = {kExtension};
+  asset.json["extensions"][kExtension]["lights"] = lights;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     // A rotation of 90 degrees about x maps -z to +y.
     const std::size_t node =
         asset.add("nodes", {{"translation", {1, 2, 3}},
                             {"rotation", {0.7071067811865476, 0, 0, 0.7071067811865476}},
                             {"scale", {2, 3, 4}},
-                            {"extensions", {{extension, {{"light", i}}}}}});
+                            {"extensions", {{kExtension, {{"light", i}}}}}});
     asset.json["scenes"][0]["nodes"].push_back(node);
   }
   return asset;
@@ -70,7 +70,7 @@ TEST(GltfLights, HiddenNodesHaveNone) {
   EXPECT_THAT(load(asset).scene.lights, IsEmpty());
 }
 
-TEST(GltfLights, WithoutDirectionAreLeftOut) {
+TEST(GltfLights, IgnoresLightsWithoutDirection) {
   AssetBuilder asset = lit({{{"type", "directional"}}, {{"type", "point"}}});
   asset.json["nodes"][1]["scale"] = asset.json["nodes"][2]["scale"] = {0, 0, 0};
   const LoadedScene scene = load(asset);
@@ -79,7 +79,7 @@ TEST(GltfLights, WithoutDirectionAreLeftOut) {
   EXPECT_THAT(texts(scene.warnings), Contains(HasSubstr("the light is left out")));
 }
 
-TEST(GltfLights, BrokenOnesAreRefused) {
+TEST(GltfLights, InvalidLightsAreRefused) {
   const std::vector<Json> broken = {
       {{"intensity", 1}},
       {{"type", "point"}, {"color", {1, 1}}},
@@ -106,7 +106,7 @@ Kind repaired(const Json& light) {
   return std::get<Kind>(scene.scene.lights.at(0).light);
 }
 
-TEST(GltfLights, NumbersOutOfTheirRangeAreRepaired) {
+TEST(GltfLights, NumbersOutOfRangeAreClamped) {
   const auto point = repaired<PointLight>(
       {{"type", "point"}, {"intensity", -1}, {"range", 0}, {"color", {1.5, -1, 0.5}}});
   EXPECT_EQ(point.intensity, 0);

@@ -10,39 +10,39 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr auto invalid = ErrorKind::invalid_scene;
-constexpr auto unsupported = ErrorKind::unsupported;
-constexpr auto limit = ErrorKind::limit;
+constexpr auto kInvalid = ErrorKind::invalid_scene;
+constexpr auto kUnsupported = ErrorKind::unsupported;
+constexpr auto kLimit = ErrorKind::limit;
 
 /// The cube with one change, as `mutated` makes it.
 struct Mutation {
   const char* where;
   const char* value;
-  ErrorKind kind = invalid;
+  ErrorKind kind = kInvalid;
   const char* pointer = nullptr;  ///< of the message, if not `where`
 };
 
 // Accessor 0 of the cube has 8 positions (96 bytes), accessor 1 has 36 indices (72 bytes).
 const Mutation mutations[] = {
     // The asset as a whole.
-    {"/asset", "", invalid, ""},
-    {"/asset", "[]", invalid},
-    {"/asset/version", "", invalid, "/asset"},
+    {"/asset", "", kInvalid, ""},
+    {"/asset", "[]", kInvalid},
+    {"/asset/version", "", kInvalid, "/asset"},
     {"/asset/version", "2.0"},
     {"/asset/version", "\"two\""},
     {"/asset/version", "\"2\""},
     {"/asset/version", "\"2.0.1\""},
-    {"/asset/version", "\"1.0\"", unsupported},
-    {"/asset/version", "\"3.0\"", unsupported},
+    {"/asset/version", "\"1.0\"", kUnsupported},
+    {"/asset/version", "\"3.0\"", kUnsupported},
     {"", R"({"extensionsUsed": ["MSFT_texture_dds"],
              "extensionsRequired": ["MSFT_texture_dds"]})",
-     unsupported, "/extensionsRequired/0"},
+     kUnsupported, "/extensionsRequired/0"},
     {"", R"({"extensionsUsed": ["X_a/b~c"],
              "extensionsRequired": ["KHR_materials_unlit", "X_a/b~c"]})",
-     unsupported, "/extensionsRequired/1"},
-    {"/extensionsRequired", "[1]", invalid, "/extensionsRequired/0"},
+     kUnsupported, "/extensionsRequired/1"},
+    {"/extensionsRequired", "[1]", kInvalid, "/extensionsRequired/0"},
     {"/extensions", "[]"},
-    {"/nodes/0/extensions", R"({"X": 1})", invalid, "/nodes/0/extensions/X"},
+    {"/nodes/0/extensions", R"({"X": 1})", kInvalid, "/nodes/0/extensions/X"},
     {"/nodes", "{}"},
     {"/nodes/0", "0"},
     {"/nodes/0/name", "7"},
@@ -62,89 +62,89 @@ const Mutation mutations[] = {
     {"/meshes/0/primitives/0/attributes/POSITION", "2"},
     {"/accessors/0/bufferView", "2"},
     {"/bufferViews/0/buffer", "1"},
-    {"/images", R"([{"bufferView": 9}])", invalid, "/images/0/bufferView"},
-    {"/textures", R"([{"source": 0}])", invalid, "/textures/0/source"},
-    {"/materials/0/normalTexture", R"({"index": 0})", invalid, "/materials/0/normalTexture/index"},
+    {"/images", R"([{"bufferView": 9}])", kInvalid, "/images/0/bufferView"},
+    {"/textures", R"([{"source": 0}])", kInvalid, "/textures/0/source"},
+    {"/materials/0/normalTexture", R"({"index": 0})", kInvalid, "/materials/0/normalTexture/index"},
 
     // Buffers and views.
     {"/buffers/0/byteLength", "0"},
     {"/buffers/0/byteLength", "169"},
-    {"/buffers/0/byteLength", "167", invalid, "/bufferViews/1"},
-    {"/buffers/0/byteLength", "9007199254740992", limit},
-    {"/buffers/0/byteLength", "", invalid, "/buffers/0"},
-    {"/bufferViews/0/byteLength", "95", invalid, "/accessors/0"},
-    {"/bufferViews/1/byteLength", "73", invalid, "/bufferViews/1"},
-    {"/bufferViews/1/byteOffset", "97", invalid, "/bufferViews/1"},
-    {"/bufferViews/1/byteOffset", "9007199254740992", invalid, "/bufferViews/1"},
+    {"/buffers/0/byteLength", "167", kInvalid, "/bufferViews/1"},
+    {"/buffers/0/byteLength", "9007199254740992", kLimit},
+    {"/buffers/0/byteLength", "", kInvalid, "/buffers/0"},
+    {"/bufferViews/0/byteLength", "95", kInvalid, "/accessors/0"},
+    {"/bufferViews/1/byteLength", "73", kInvalid, "/bufferViews/1"},
+    {"/bufferViews/1/byteOffset", "97", kInvalid, "/bufferViews/1"},
+    {"/bufferViews/1/byteOffset", "9007199254740992", kInvalid, "/bufferViews/1"},
     {"/bufferViews/1/byteOffset", "1e300"},
     {"/bufferViews/0/byteStride", "0"},
     {"/bufferViews/0/byteStride", "3"},
     {"/bufferViews/0/byteStride", "14"},
     {"/bufferViews/0/byteStride", "256"},
     {"/bufferViews/0/byteStride", "100"},
-    {"/bufferViews/0/byteStride", "8", invalid, "/accessors/0"},
-    {"/bufferViews/0/byteStride", "16", invalid, "/accessors/0"},
-    {"/bufferViews/1/byteStride", "4", invalid, "/accessors/1"},  // the last would lie beyond
+    {"/bufferViews/0/byteStride", "8", kInvalid, "/accessors/0"},
+    {"/bufferViews/0/byteStride", "16", kInvalid, "/accessors/0"},
+    {"/bufferViews/1/byteStride", "4", kInvalid, "/accessors/1"},  // the last would lie beyond
 
     // Accessors.
-    {"/accessors/0/count", "9", invalid, "/accessors/0"},
+    {"/accessors/0/count", "9", kInvalid, "/accessors/0"},
     {"/accessors/0/count", "0"},
-    {"/accessors/0/count", "9007199254740992", invalid, "/accessors/0"},
-    {"/accessors/0/byteOffset", "4", invalid, "/accessors/0"},
+    {"/accessors/0/count", "9007199254740992", kInvalid, "/accessors/0"},
+    {"/accessors/0/byteOffset", "4", kInvalid, "/accessors/0"},
     {"/accessors/0/byteOffset", "-4"},
     {"/accessors/0/normalized", "1"},
-    {"/accessors/1/type", "\"VEC2\"", invalid, "/meshes/0/primitives/0/indices"},
-    {"/accessors/1/componentType", "5122", invalid, "/meshes/0/primitives/0/indices"},
-    {"/accessors/1/componentType", "5125", invalid, "/accessors/1"},
+    {"/accessors/1/type", "\"VEC2\"", kInvalid, "/meshes/0/primitives/0/indices"},
+    {"/accessors/1/componentType", "5122", kInvalid, "/meshes/0/primitives/0/indices"},
+    {"/accessors/1/componentType", "5125", kInvalid, "/accessors/1"},
     {"/accessors/1", R"({"componentType": 5125, "count": 9007199254740992, "type": "SCALAR"})",
-     limit, "/meshes/0/primitives/0/indices"},
+     kLimit, "/meshes/0/primitives/0/indices"},
 
     // Sparse accessors.
     {"/accessors/0/sparse", R"({"count": 1})"},
     {"/accessors/0/sparse",
      R"({"count": 9, "indices": {"bufferView": 1, "componentType": 5123},
          "values": {"bufferView": 0}})",
-     invalid, "/accessors/0/sparse/count"},
+     kInvalid, "/accessors/0/sparse/count"},
     {"/accessors/0/sparse",
      R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5122},
          "values": {"bufferView": 0}})",
-     invalid, "/accessors/0/sparse/indices/componentType"},
+     kInvalid, "/accessors/0/sparse/indices/componentType"},
     {"/accessors/0/sparse",  // the indices 0, 2, 1 of the first triangle
      R"({"count": 3, "indices": {"bufferView": 1, "componentType": 5123},
          "values": {"bufferView": 0}})",
-     invalid, "/accessors/0/sparse/indices"},
+     kInvalid, "/accessors/0/sparse/indices"},
     {"/accessors/0/sparse",  // the 1 and the 0 before it as one number beyond the count
      R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 4, "componentType": 5125},
          "values": {"bufferView": 0}})",
-     invalid, "/accessors/0/sparse/indices"},
+     kInvalid, "/accessors/0/sparse/indices"},
     {"/accessors/0/sparse",
      R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 72, "componentType": 5123},
          "values": {"bufferView": 0}})",
-     invalid, "/accessors/0/sparse/indices"},
+     kInvalid, "/accessors/0/sparse/indices"},
     {"/accessors/0/sparse",
      R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5123},
          "values": {"bufferView": 0, "byteOffset": 88}})",
-     invalid, "/accessors/0/sparse/values"},
+     kInvalid, "/accessors/0/sparse/values"},
 
     // Meshes and materials.
-    {"/meshes/0/primitives", "", invalid, "/meshes/0"},
-    {"/meshes/0/primitives/0/attributes", "", invalid, "/meshes/0/primitives/0"},
+    {"/meshes/0/primitives", "", kInvalid, "/meshes/0"},
+    {"/meshes/0/primitives/0/attributes", "", kInvalid, "/meshes/0/primitives/0"},
     {"/meshes/0/primitives/0/mode", "7"},
     {"/materials/0/doubleSided", "0"},
     {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1, 1]"},
 
     // Nodes.
-    {"/nodes/0/children", "[0]", invalid, "/nodes/0/children/0"},
-    {"/nodes", R"([{"children": [1]}, {"children": [0]}])", invalid, "/nodes/0"},
-    {"/nodes", R"([{}, {"children": [2]}, {"children": [1]}])", invalid, "/nodes/1"},
-    {"/nodes", R"([{"children": [1]}, {}, {"children": [1]}])", invalid, "/nodes/2/children/0"},
-    {"/nodes", R"([{"children": [1, 1]}, {}])", invalid, "/nodes/0/children/1"},
+    {"/nodes/0/children", "[0]", kInvalid, "/nodes/0/children/0"},
+    {"/nodes", R"([{"children": [1]}, {"children": [0]}])", kInvalid, "/nodes/0"},
+    {"/nodes", R"([{}, {"children": [2]}, {"children": [1]}])", kInvalid, "/nodes/1"},
+    {"/nodes", R"([{"children": [1]}, {}, {"children": [1]}])", kInvalid, "/nodes/2/children/0"},
+    {"/nodes", R"([{"children": [1, 1]}, {}])", kInvalid, "/nodes/0/children/1"},
     {"/nodes/0/matrix", "[1, 0, 0]"},
     {"/nodes/0/translation", "[1, 2]"},
-    {"/nodes/0/scale", R"([1, "2", 3])", invalid, "/nodes/0/scale/1"},
+    {"/nodes/0/scale", R"([1, "2", 3])", kInvalid, "/nodes/0/scale/1"},
 
     // Cameras.
-    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1}}])", invalid,
+    {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1}}])", kInvalid,
      "/cameras/0/perspective"},
 
     // Sources of data.
@@ -159,15 +159,15 @@ const Mutation mutations[] = {
     {"/buffers/0/uri", "\"a\\u0000\""},
     {"/buffers/0/uri", "\"\""},
     {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAA\""},
-    {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"", invalid,
+    {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"", kInvalid,
      "/buffers/0/byteLength"},
     {"/buffers/0/uri", "\"data:application/octet-stream;base64\""},
     {"/buffers/0/uri", "7"},
-    {"/images", R"([{"uri": "../a.png"}])", invalid, "/images/0/uri"},
-    {"/images", R"([{}])", invalid, "/images/0"},
+    {"/images", R"([{"uri": "../a.png"}])", kInvalid, "/images/0/uri"},
+    {"/images", R"([{}])", kInvalid, "/images/0"},
 };
 
-TEST(GltfMalformed, EveryMutationOfTheCubeIsRefusedAtItsPlace) {
+TEST(GltfMalformed, EveryMutationIsRefusedAtItsPointer) {
   for (const Mutation& mutation : mutations) {
     SCOPED_TRACE(std::string(mutation.where) + " = " + mutation.value);
     try {
@@ -185,10 +185,11 @@ TEST(GltfMalformed, EveryMutationOfTheCubeIsRefusedAtItsPlace) {
   }
 }
 
-TEST(GltfMalformed, IndexOfNoVertexIsRefused) {
+TEST(GltfMalformed, IndexOutOfRangeIsRefused) {
   for (const auto& [type, last, message] :
-       {std::tuple{u8, 3U, "vertex 3 of only 3"}, std::tuple{u16, 65534U, "vertex 65534 of only 3"},
-        std::tuple{u32, 0xFFFFU, "vertex 65535 of only 3"}}) {
+       {std::tuple{kUint8, 3U, "vertex 3 of only 3"},
+        std::tuple{kUint16, 65534U, "vertex 65534 of only 3"},
+        std::tuple{kUint32, 0xFFFFU, "vertex 65535 of only 3"}}) {
     AssetBuilder asset;
     const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
     const std::size_t indices = asset.add_indices({0, 1, last}, type);
@@ -199,14 +200,14 @@ TEST(GltfMalformed, IndexOfNoVertexIsRefused) {
       (void)load(asset);
       ADD_FAILURE() << "accepted " << last;
     } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), invalid);
+      EXPECT_EQ(error.kind(), kInvalid);
       EXPECT_EQ(error.diagnostic().pointer, "/accessors/1");
       EXPECT_THAT(error.diagnostic().message, HasSubstr(message));
     }
   }
 }
 
-TEST(GltfMalformed, MissingBufferNamesThePathTried) {
+TEST(GltfMalformed, MissingBufferNamesItsPath) {
   try {
     (void)load(cube().with_buffer("sub/no%20such.bin").dump());
     FAIL() << "accepted";
@@ -215,11 +216,11 @@ TEST(GltfMalformed, MissingBufferNamesThePathTried) {
   }
 }
 
-TEST(GltfMalformed, InstancesBeyondTheLimitAreRefusedBeforeTheyFillMemory) {
+TEST(GltfMalformed, TooManyInstancesAreRefusedBeforeAllocation) {
   AssetBuilder asset;
   const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
   const std::size_t indices =
-      asset.add("accessors", {{"componentType", u8}, {"count", 3 << 16}, {"type", "SCALAR"}});
+      asset.add("accessors", {{"componentType", kUint8}, {"count", 3 << 16}, {"type", "SCALAR"}});
   asset.add_object({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
   for (std::size_t i = 1; i <= 2048; ++i) {
     asset.json["nodes"].push_back({{"mesh", 0}});
@@ -229,13 +230,13 @@ TEST(GltfMalformed, InstancesBeyondTheLimitAreRefusedBeforeTheyFillMemory) {
     (void)load(asset);
     FAIL() << "accepted 2049 * 2^16 triangles";
   } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), limit);
+    EXPECT_EQ(error.kind(), kLimit);
     EXPECT_EQ(error.diagnostic().pointer, "/nodes/2048/mesh");
   }
 }
 
 /// A file with any single wrong byte is read or refused without crashing.
-TEST(GltfMalformed, EveryByteOfABinaryFileMayBeWrong) {
+TEST(GltfMalformed, AnyByteOfABinaryFileMayBeDamaged) {
   const std::string good = cube().glb();
   std::size_t refused = 0;
   for (std::size_t i = 0; i < good.size(); ++i) {

@@ -36,7 +36,7 @@ Material material(const char* json) {
 }
 
 /// A material with all extensions except the archived one, with different numbers and textures.
-constexpr const char* everything = R"({
+constexpr const char* kEverything = R"({
   "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
                            "metallicRoughnessTexture": {"index": 1}},
   "normalTexture": {"index": 2}, "occlusionTexture": {"index": 3},
@@ -76,8 +76,8 @@ std::optional<std::uint32_t> index_of(const std::optional<TextureUse>& use) {
 }
 
 TEST(GltfMaterial, ExtensionsAreReadWithoutAWarning) {
-  EXPECT_THAT(texts(load(with_material(everything)).warnings), testing::IsEmpty());
-  const Material m = material(everything);
+  EXPECT_THAT(texts(load(with_material(kEverything)).warnings), testing::IsEmpty());
+  const Material m = material(kEverything);
   EXPECT_EQ(m.emissive, Vec3(2, 4, 8));
   EXPECT_EQ(m.ior, 1.75F);
   EXPECT_EQ(m.dispersion, 0.375F);
@@ -172,13 +172,13 @@ TEST(GltfMaterial, NumbersStayFiniteAndPositive) {
   EXPECT_LT(m.anisotropy.value().rotation, 6.2832F);
 }
 
-TEST(GltfMaterial, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
-  constexpr const char* archived = R"({
+TEST(GltfMaterial, SpecularGlossinessReplacesMetallicRoughness) {
+  constexpr const char* kArchived = R"({
     "extensions": {"KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [0, 0.5, 1, 0.25], "diffuseTexture": {"index": 0},
       "specularFactor": [0.5, 0.25, 0], "glossinessFactor": 0.75,
       "specularGlossinessTexture": {"index": 1}}}})";
-  const Material m = material(archived);
+  const Material m = material(kArchived);
   EXPECT_EQ(m.base_color, Vec4(0, 0.5F, 1, 0.25F));
   EXPECT_EQ(index_of(m.base_color_texture), 0U);
   EXPECT_EQ(m.metallic, 0);
@@ -186,7 +186,7 @@ TEST(GltfMaterial, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
   EXPECT_EQ(m.specular_glossiness.value().specular, Vec3(0.5F, 0.25F, 0));
   EXPECT_EQ(m.specular_glossiness.value().glossiness, 0.75F);
   EXPECT_EQ(index_of(m.specular_glossiness.value().texture), 1U);
-  AssetBuilder both = with_material(archived);
+  AssetBuilder both = with_material(kArchived);
   for (const char* other :
        {"{}", R"({"baseColorFactor": [1, 0, 0, 1], "baseColorTexture": {"index": 3},
                   "metallicFactor": 1, "metallicRoughnessTexture": {"index": 2}})"}) {
@@ -208,7 +208,7 @@ TEST(GltfMaterial, SpecularGlossinessTakesThePlaceOfMetallicRoughness) {
   EXPECT_FALSE(load(both).scene.materials.at(0).base_color_texture);
 }
 
-TEST(GltfMaterial, UnlitOnesShowTheirBaseColorAlone) {
+TEST(GltfMaterial, UnlitMaterialsShowOnlyTheirBaseColor) {
   const Material m = material(R"({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
                                   "extensions": {"KHR_materials_unlit": {}}})");
   EXPECT_TRUE(m.unlit);
@@ -217,7 +217,7 @@ TEST(GltfMaterial, UnlitOnesShowTheirBaseColorAlone) {
 }
 
 TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
-  Material m = material(everything);
+  Material m = material(kEverything);
   m.specular_glossiness.emplace().texture = TextureUse{.texture = 19};
   std::vector<int> encodings(20, -1);
   for_each_texture(std::as_const(m), [&](const TextureUse& use, ColorEncoding encoding) {
@@ -227,8 +227,8 @@ TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
   EXPECT_THAT(encodings, ElementsAre(1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1));
 }
 
-TEST(GltfMaterial, OnlyColourImagesAreDecodedForFlatPictures) {
-  const AssetBuilder asset = with_material(everything);
+TEST(GltfMaterial, FlatPicturesDecodeOnlyColorImages) {
+  const AssetBuilder asset = with_material(kEverything);
   const Scene flat = load(asset, {.detail = SurfaceDetail::color}).scene;
   const Scene all = load(asset).scene;
   for (std::size_t i = 0; i < 24; ++i) {
@@ -238,7 +238,7 @@ TEST(GltfMaterial, OnlyColourImagesAreDecodedForFlatPictures) {
 }
 
 TEST(GltfMaterial, MergedScenesKeepTheirTextures) {
-  const Scene part = load(with_material(everything)).scene;
+  const Scene part = load(with_material(kEverything)).scene;
   Scene whole = part;
   merge(whole, Scene(part));
   const auto shifted = [&](const Material& m) {
@@ -253,7 +253,7 @@ TEST(GltfMaterial, MergedScenesKeepTheirTextures) {
   EXPECT_EQ(shifted(whole.materials.at(part.materials.size())), wanted);
 }
 
-TEST(GltfMaterial, NumbersOutOfTheirRangeAreRepaired) {
+TEST(GltfMaterial, NumbersOutOfRangeAreClamped) {
   const AssetBuilder asset = with_material(R"({
     "pbrMetallicRoughness": {"baseColorFactor": [1.00000012, -1, 1e300, 0.5],
                              "metallicFactor": -0.1, "roughnessFactor": 1.1},

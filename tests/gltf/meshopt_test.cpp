@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr const char* extension = "EXT_meshopt_compression";
+constexpr const char* kExtension = "EXT_meshopt_compression";
 
 std::string text_of(const std::vector<unsigned char>& bytes, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes.data()), size};
@@ -49,7 +49,7 @@ struct CompressedAsset {
 
   CompressedAsset() {
     asset.json["extensionsUsed"] =
-        asset.json["extensionsRequired"] = {extension, "KHR_mesh_quantization"};
+        asset.json["extensionsRequired"] = {kExtension, "KHR_mesh_quantization"};
   }
 
   std::size_t add_view(const std::string& bytes, const char* mode, std::size_t count,
@@ -62,7 +62,7 @@ struct CompressedAsset {
     json = {{"buffer", 1},
             {"byteOffset", uncompressed},
             {"byteLength", count * stride},
-            {"extensions", {{extension, compression}}}};
+            {"extensions", {{kExtension, compression}}}};
     if (std::string(mode) == "ATTRIBUTES") json["byteStride"] = stride;
     uncompressed += (count * stride + 3) / 4 * 4;
     return view;
@@ -82,7 +82,7 @@ struct CompressedAsset {
   [[nodiscard]] Json json() const {
     Json result = Json::parse(asset.embedded());
     result["buffers"].push_back(
-        {{"byteLength", uncompressed}, {"extensions", {{extension, {{"fallback", true}}}}}});
+        {{"byteLength", uncompressed}, {"extensions", {{kExtension, {{"fallback", true}}}}}});
     for (Json& accessor : result["accessors"]) {
       if (accessor["type"] != "VEC3") accessor.erase("min"), accessor.erase("max");
     }
@@ -90,12 +90,12 @@ struct CompressedAsset {
   }
 };
 
-constexpr unsigned side = 12;  // vertices of a wavy grid, in each direction
+constexpr unsigned kSide = 12;  // vertices of a wavy grid, in each direction
 
 std::vector<std::int16_t> grid_positions() {
   std::vector<std::int16_t> result;
-  for (unsigned y = 0; y < side; ++y) {
-    for (unsigned x = 0; x < side; ++x) {
+  for (unsigned y = 0; y < kSide; ++y) {
+    for (unsigned x = 0; x < kSide; ++x) {
       const auto push = [&](unsigned v) { result.push_back(static_cast<std::int16_t>(v)); };
       push(x * 100), push(y * 100), push((x * y) % 37), push(0);
     }
@@ -105,10 +105,10 @@ std::vector<std::int16_t> grid_positions() {
 
 std::vector<unsigned> grid_triangles() {
   std::vector<unsigned> result;
-  for (unsigned y = 0; y + 1 < side; ++y) {
-    for (unsigned x = 0; x + 1 < side; ++x) {
-      const unsigned a = y * side + x;
-      result.insert(result.end(), {a, a + 1, a + side, a + 1, a + side + 1, a + side});
+  for (unsigned y = 0; y + 1 < kSide; ++y) {
+    for (unsigned x = 0; x + 1 < kSide; ++x) {
+      const unsigned a = y * kSide + x;
+      result.insert(result.end(), {a, a + 1, a + kSide, a + 1, a + kSide + 1, a + kSide});
     }
   }
   return result;
@@ -122,12 +122,12 @@ CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& sp
   std::string vertices = encoded_attributes(bytes_of(positions), 8);
   std::string indices = triangles ? encoded_triangles(corners) : encoded_indices(corners);
   if (spoil) spoil(vertices), spoil(indices);
-  const std::size_t vertex_view = result.add_view(vertices, "ATTRIBUTES", side * side, 8);
+  const std::size_t vertex_view = result.add_view(vertices, "ATTRIBUTES", kSide * kSide, 8);
   const std::size_t index_view =
       result.add_view(indices, triangles ? "TRIANGLES" : "INDICES", corners.size(), 2);
-  const std::size_t position = result.add_accessor(vertex_view, 5122, "VEC3", side * side);
+  const std::size_t position = result.add_accessor(vertex_view, 5122, "VEC3", kSide * kSide);
   result.asset.json["accessors"][position]["max"] = {1100, 1100, 36};
-  const std::size_t index = result.add_accessor(index_view, u16, "SCALAR", corners.size());
+  const std::size_t index = result.add_accessor(index_view, kUint16, "SCALAR", corners.size());
   result.asset.add_object(
       {{"attributes", {{"POSITION", position}}}, {"indices", index}, {"mode", triangles ? 4 : 3}});
   return result;
@@ -137,9 +137,9 @@ TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
   const LoadedScene scene = load(grid(true).json().dump());
   EXPECT_THAT(scene.warnings, IsEmpty());
   const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
-  ASSERT_EQ(mesh.positions.size(), side * side);
-  EXPECT_EQ(mesh.positions[side * side - 1],
-            Vec3((side - 1) * 100, (side - 1) * 100, (side - 1) * (side - 1) % 37));
+  ASSERT_EQ(mesh.positions.size(), kSide * kSide);
+  EXPECT_EQ(mesh.positions[kSide * kSide - 1],
+            Vec3((kSide - 1) * 100, (kSide - 1) * 100, (kSide - 1) * (kSide - 1) % 37));
   const std::vector<unsigned> corners = grid_triangles();
   ASSERT_EQ(mesh.triangles.size() * 3, corners.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -152,7 +152,7 @@ TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
   }
 }
 
-TEST(GltfMeshopt, OtherIndicesAreDecoded) {
+TEST(GltfMeshopt, IndexSequencesAreDecoded) {
   const LoadedScene scene = load(grid(false).json().dump());
   const Mesh& mesh = std::get<Mesh>(scene.scene.objects.at(0).shape);
   const std::vector<unsigned> corners = grid_triangles();
@@ -162,7 +162,7 @@ TEST(GltfMeshopt, OtherIndicesAreDecoded) {
   }
 }
 
-TEST(GltfMeshopt, FilteredPositionsAreFloats) {
+TEST(GltfMeshopt, ExponentialFilterGivesFloats) {
   CompressedAsset asset;
   const auto exponential = [](int exponent, int mantissa) {
     return static_cast<std::uint32_t>(exponent) << 24U |
@@ -175,7 +175,7 @@ TEST(GltfMeshopt, FilteredPositionsAreFloats) {
   const std::size_t view =
       asset.add_view(encoded_attributes(bytes_of(words), 12), "ATTRIBUTES", 3, 12, "EXPONENTIAL");
   asset.asset.add_object(
-      {{"attributes", {{"POSITION", asset.add_accessor(view, f32, "VEC3", 3)}}}});
+      {{"attributes", {{"POSITION", asset.add_accessor(view, kFloat32, "VEC3", 3)}}}});
   EXPECT_THAT(triangles_of(load(asset.json().dump()).scene.objects.at(0)),
               ElementsAre(std::array{Vec3(3, 2.5, -0.25), Vec3(-14, 1024, 0),
                                      Vec3(0, 1, 1.1920928955078125e-07F)}));
@@ -191,7 +191,7 @@ std::vector<Number> filtered(const std::vector<Number>& numbers,
   return result;
 }
 
-TEST(GltfMeshopt, OctahedralVectorsAreUnfolded) {
+TEST(GltfMeshopt, OctahedralFilterGivesUnitVectors) {
   const auto decode8 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 4); };
   EXPECT_THAT(filtered<std::int8_t>({0, 0, 127, 5, 127, 0, 127, 6, 0, -127, 127, -7}, decode8),
               ElementsAre(0, 0, 127, 5, 127, 0, 0, 6, 0, -127, 0, -7));
@@ -205,7 +205,7 @@ TEST(GltfMeshopt, OctahedralVectorsAreUnfolded) {
   (void)filtered<std::int16_t>({1, -1, 0, 3, -32768, 32767, -1, 0, 0, 0, 0, 0}, decode16);
 }
 
-TEST(GltfMeshopt, QuaternionsRegainTheirGreatestComponent) {
+TEST(GltfMeshopt, QuaternionFilterRestoresTheLargestComponent) {
   // The last number is 2047, the maximum of 12 bits, with the index of the largest component, 3 and
   // 1, in its low bits.
   const std::vector<std::int16_t> stored = {0, 0, 0, 2047, 2047, 0, 0, 2045, 0, 0, 0, 0};
@@ -215,7 +215,7 @@ TEST(GltfMeshopt, QuaternionsRegainTheirGreatestComponent) {
               ElementsAre(0, 23170, 23170, 0));
 }
 
-TEST(GltfMeshopt, FiltersAreTheLibrarysButForItsRounding) {
+TEST(GltfMeshopt, FiltersEqualThoseOfTheLibraryUpToRounding) {
   std::mt19937 random(3);
   std::vector<std::int16_t> stored;
   for (int i = 0; i < 2000; ++i) {
@@ -232,7 +232,7 @@ TEST(GltfMeshopt, FiltersAreTheLibrarysButForItsRounding) {
   for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], theirs[i], 1) << i;
 }
 
-TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
+TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
   struct Case {
     std::size_t view;
     Json change;  // of the view's extension
@@ -240,7 +240,7 @@ TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
   };
   const std::vector<Case> cases = {
       {0, {{"byteStride", 12}}, "byteStride"},
-      {0, {{"count", 100}}, "fill the view"},
+      {0, {{"count", 100}}, "gives the view"},
       {0, {{"filter", "QUATERNIONS"}}, ""},
       {0, {{"byteLength", 1 << 20}}, "beyond its buffer"},
       {0, {{"byteLength", 1}}, "bytes"},
@@ -253,7 +253,7 @@ TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
   };
   for (const Case& c : cases) {
     Json json = grid(true).json();
-    json["bufferViews"][c.view]["extensions"][extension].update(c.change);
+    json["bufferViews"][c.view]["extensions"][kExtension].update(c.change);
     try {
       (void)load(json.dump());
       ADD_FAILURE() << c.change << " accepted";
@@ -265,12 +265,12 @@ TEST(GltfMeshopt, WhatTheExtensionForbidsIsRefused) {
   }
 }
 
-TEST(GltfMeshopt, ClaimsBeyondTheDataTakeNoMemory) {
+TEST(GltfMeshopt, CountsBeyondTheDataAreRefusedBeforeAllocation) {
   Json json = grid(true).json();
   const double count = 4e8;
   json["bufferViews"][0]["byteLength"] = json["buffers"][1]["byteLength"] = count * 8;
   json["bufferViews"][0]["byteOffset"] = 0;
-  json["bufferViews"][0]["extensions"][extension]["count"] = count;
+  json["bufferViews"][0]["extensions"][kExtension]["count"] = count;
   try {
     (void)load(json.dump());
     FAIL() << "accepted";
@@ -279,7 +279,7 @@ TEST(GltfMeshopt, ClaimsBeyondTheDataTakeNoMemory) {
   }
 }
 
-TEST(GltfMeshopt, DamagedBytesGiveErrorsOrMeshesInRange) {
+TEST(GltfMeshopt, DamagedDataGivesErrorsOrValidMeshes) {
   std::mt19937 random(4);
   for (int i = 0; i < 1500; ++i) {
     const auto spoil = [&random](std::string& bytes) {

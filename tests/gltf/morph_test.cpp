@@ -33,20 +33,20 @@ AssetBuilder morphed_triangle() {
   return asset;
 }
 
-TEST(GltfMorph, WithoutWeightsTheBaseIsDrawn) {
+TEST(GltfMorph, WithoutWeightsNothingIsMorphed) {
   const LoadedScene loaded = load(morphed_triangle());
   EXPECT_THAT(first_mesh(loaded).positions, ElementsAre(Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
-TEST(GltfMorph, TargetsAreAddedByTheMeshsWeights) {
+TEST(GltfMorph, TargetsAreWeightedByTheMesh) {
   AssetBuilder asset = morphed_triangle();
   asset.json["meshes"][0]["weights"] = {0.5, -2};
   EXPECT_THAT(first_mesh(load(asset)).positions,
               ElementsAre(Vec3(-2, 0, 2), Vec3(-1, 0, 0), Vec3(-2, 5, 0)));
 }
 
-TEST(GltfMorph, TheNodesWeightsComeBeforeTheMeshsAndItsTransformAfter) {
+TEST(GltfMorph, NodeWeightsReplaceMeshWeights) {
   AssetBuilder asset = morphed_triangle();
   asset.json["meshes"][0]["weights"] = {0.5, -2};
   asset.json["nodes"][0].update({{"weights", {1, 0}}, {"scale", {2, 2, 2}}});
@@ -76,7 +76,7 @@ TEST(GltfMorph, AnimationsSetWeights) {
               ElementsAre(Vec3(0, 0, 4), Vec3(1, 0, 0), Vec3(0, 9, 0)));
 }
 
-TEST(GltfMorph, AttributesMoveToo) {
+TEST(GltfMorph, TargetsMorphOtherAttributes) {
   AssetBuilder asset = morphed_triangle();
   asset.json["meshes"][0]["weights"] = {0.5, 0.5};
   const LoadedScene loaded = load(asset);
@@ -95,21 +95,21 @@ TEST(GltfMorph, TargetsMayBeSparseWithoutABase) {
   const std::size_t indices = asset.add_view(bytes_of<std::uint16_t>({1}));
   const std::size_t values = asset.add_view(bytes_of<float>({0, 0, 3}));
   asset.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] =
-      asset.add("accessors", {{"componentType", f32},
+      asset.add("accessors", {{"componentType", kFloat32},
                               {"count", 3},
                               {"type", "VEC3"},
                               {"min", {0, 0, 0}},
                               {"max", {0, 0, 3}},
                               {"sparse",
                                {{"count", 1},
-                                {"indices", {{"bufferView", indices}, {"componentType", u16}}},
+                                {"indices", {{"bufferView", indices}, {"componentType", kUint16}}},
                                 {"values", {{"bufferView", values}}}}}});
   asset.json["meshes"][0]["weights"] = {2, 0};
   EXPECT_THAT(first_mesh(load(asset)).positions,
               ElementsAre(Vec3(0), Vec3(1, 0, 6), Vec3(0, 1, 0)));
 }
 
-TEST(GltfMorph, TargetsMayBeQuantised) {
+TEST(GltfMorph, TargetsMayBeQuantized) {
   AssetBuilder asset = morphed_triangle();
   asset.json["extensionsUsed"] = {"KHR_mesh_quantization"};
   asset.json["extensionsRequired"] = {"KHR_mesh_quantization"};
@@ -117,7 +117,7 @@ TEST(GltfMorph, TargetsMayBeQuantised) {
       asset.add_view(bytes_of<std::int8_t>({127, 0, 0, 0, 0, -127, 0, 0, 0, -128, 0, 0}), 4);
   asset.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] =
       asset.add("accessors", {{"bufferView", view},
-                              {"componentType", i8},
+                              {"componentType", kInt8},
                               {"normalized", true},
                               {"count", 3},
                               {"type", "VEC3"},
@@ -139,22 +139,22 @@ TEST(GltfMorph, EachVertexIsRoundedOnce) {
               ElementsAre(Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
 }
 
-TEST(GltfMorph, TooManyDisplacementsAreALimit) {
+TEST(GltfMorph, DisplacementsAreLimited) {
   AssetBuilder asset = morphed_triangle();
   // Many instances of many targets of one accessor with many vertices: a small file that would
   // cause excessive work.
-  constexpr std::size_t vertices = 3 * 4096, targets = 2048, nodes = 32;
-  Json position = {{"componentType", f32},
-                   {"count", vertices},
+  constexpr std::size_t kVertices = 3 * 4096, kTargets = 2048, kNodes = 32;
+  Json position = {{"componentType", kFloat32},
+                   {"count", kVertices},
                    {"type", "VEC3"},
                    {"min", {0, 0, 0}},
                    {"max", {0, 0, 0}}};
   Json& mesh = asset.json["meshes"][0];
   mesh["primitives"][0]["attributes"] = {{"POSITION", asset.add("accessors", position)}};
   mesh["primitives"][0]["targets"] =
-      Json::repeated(targets, {{"POSITION", asset.json["accessors"].size() - 1}});
-  mesh["weights"] = Json::repeated(targets, 1);
-  asset.json["nodes"] = Json::repeated(nodes, {{"mesh", 0}});
+      Json::repeated(kTargets, {{"POSITION", asset.json["accessors"].size() - 1}});
+  mesh["weights"] = Json::repeated(kTargets, 1);
+  asset.json["nodes"] = Json::repeated(kNodes, {{"mesh", 0}});
   asset.json.erase("scenes");
   asset.json.erase("scene");
   try {

@@ -38,7 +38,7 @@ TEST(GltfNode, ScaleThenRotationThenTranslation) {
   EXPECT_EQ(triangles[0][2], Vec3(4, 20, 30));
 }
 
-TEST(GltfNode, MatrixIsColumnMajorAndEqualsItsParts) {
+TEST(GltfNode, MatrixIsColumnMajorAndEqualsItsDecomposition) {
   AssetBuilder parts = triangle();
   // The unit quaternion (1, 1, 1, 1) / 2 turns x to y, y to z, z to x.
   parts.json["nodes"][0].update({{"translation", {0.1, -7, 1e5}},
@@ -67,7 +67,7 @@ TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
 }
 
 // At a distance of 6 000 km float32 numbers are half a meter apart.
-TEST(GltfNode, FarFromTheOriginNothingIsCoarser) {
+TEST(GltfNode, DistanceFromTheOriginCostsNoPrecision) {
   AssetBuilder asset = triangle();
   const DVec3 far(-2694044.4111565403, -4266368.805493665, 3888310.602231939);
   asset.json["nodes"][0]["translation"] = {far.x, far.y, far.z};
@@ -91,7 +91,7 @@ TEST(GltfNode, FarFromTheOriginNothingIsCoarser) {
   expect_there(std::get<PointLight>(scene.lights.at(0).light).position, {2, 0, 0});
 }
 
-TEST(GltfNode, WhatIsLargeBesideItsDistanceStaysWhereItIs) {
+TEST(GltfNode, LargeScenesAreNotTranslated) {
   AssetBuilder asset = triangle();
   asset.json["nodes"][0]["translation"] = {15, 0, 0};
   std::string bytes = asset.embedded();
@@ -102,7 +102,7 @@ TEST(GltfNode, WhatIsLargeBesideItsDistanceStaysWhereItIs) {
   EXPECT_EQ(io::GltfFile(bytes, "test.gltf", "nowhere").at(std::nullopt).scene.origin, DVec3(0));
 }
 
-TEST(GltfNode, MirroringTurnsTrianglesOver) {
+TEST(GltfNode, MirroringReversesTheWinding) {
   AssetBuilder asset = triangle();
   asset.json["nodes"][0]["scale"] = {-1, 1, 1};
   EXPECT_THAT(first_object(load(asset)),
@@ -112,7 +112,7 @@ TEST(GltfNode, MirroringTurnsTrianglesOver) {
               ElementsAre(std::array{Vec3(0), Vec3(-1, 0, 0), Vec3(0, -2, 0)}));
 }
 
-TEST(GltfNode, TheCallersTransformComesLast) {
+TEST(GltfNode, TheCallersTransformIsAppliedLast) {
   DMat4 world_from_asset(2);
   world_from_asset[3] = {100, 0, 0, 1};
   const LoadedScene loaded =
@@ -121,7 +121,7 @@ TEST(GltfNode, TheCallersTransformComesLast) {
               ElementsAre(std::array{Vec3(100, 0, 0), Vec3(102, 0, 0), Vec3(100, 4, 0)}));
 }
 
-TEST(GltfNode, RotationsAreNormalisedAndWarnedOfBeyondTolerance) {
+TEST(GltfNode, RotationsAreNormalizedWithAWarningBeyondTolerance) {
   AssetBuilder asset = triangle();
   asset.json["nodes"][0]["rotation"] = {0, 0, 0.7071068, 0.7071068};
   EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
@@ -147,7 +147,7 @@ TEST(GltfNode, OnlyTheDefaultSceneIsDrawn) {
   EXPECT_THAT(texts(load(asset).warnings), ElementsAre(HasSubstr("no scene")));
 }
 
-TEST(GltfNode, ObjectsComeInTreeOrderWithDifferentNames) {
+TEST(GltfNode, ObjectsAreInTreeOrderWithUniqueNames) {
   AssetBuilder asset = triangle();
   asset.json["meshes"][0]["name"] = "leaf";
   asset.json["nodes"] = {{{"name", "a"}, {"children", {2, 1}}, {"mesh", 0}},
@@ -160,7 +160,7 @@ TEST(GltfNode, ObjectsComeInTreeOrderWithDifferentNames) {
   EXPECT_THAT(names, ElementsAre("a/b/leaf", "a/leaf", "a/b/leaf (2)", "a/b/leaf (3)"));
 }
 
-TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
+TEST(GltfNode, EachPrimitiveIsAnObject) {
   AssetBuilder asset = triangle();
   Json& primitives = asset.json["meshes"][0]["primitives"];
   primitives.push_back(primitives[0]);
@@ -174,16 +174,16 @@ TEST(GltfNode, PrimitivesOfOneMeshAreObjectsOfTheirOwn) {
   EXPECT_EQ(color_of(loaded, 1), Vec4(0, 1, 0, 0.5F));
 }
 
-TEST(GltfNode, TreesMayBeDeep) {
+TEST(GltfNode, ReadsDeepTrees) {
   AssetBuilder asset = triangle();
-  constexpr int depth = 100000;
+  constexpr int kDepth = 100000;
   Json nodes = Json::array();
-  for (int i = 0; i < depth; ++i)
+  for (int i = 0; i < kDepth; ++i)
     nodes.push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
   nodes.push_back({{"mesh", 0}});
   asset.json["nodes"] = nodes;
   const LoadedScene loaded = load(asset);
-  EXPECT_EQ(first_object(loaded)[0][0], Vec3(depth, 0, 0));
+  EXPECT_EQ(first_object(loaded)[0][0], Vec3(kDepth, 0, 0));
   EXPECT_LE(loaded.scene.objects[0].name.size(), 300U);
 }
 

@@ -4,7 +4,7 @@ namespace microtrace::tests {
 namespace {
 
 /// One pixel, 8 bit RGB.
-constexpr unsigned char png[] = {
+constexpr unsigned char kPng[] = {
     0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
     0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01, 0x08, 0x02, 0x00, 0x00,
     0x00, 0x90, 0x77, 0x53, 0xde, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
@@ -23,23 +23,24 @@ std::size_t add_accessor(AssetBuilder& asset, const char* type, int component,
 
 void add_accessors(AssetBuilder& asset) {
   asset.add_positions({Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)});
-  add_accessor<float>(asset, "VEC3", f32, 3, {0, 0, 1, 0, 0, 1, 0, 0, 1});
-  add_accessor<float>(asset, "VEC4", f32, 4, {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1});
-  add_accessor<float>(asset, "VEC2", f32, 2, {0, 0, 1, 0, 0, 1});
-  add_accessor<float>(asset, "VEC3", f32, 3, {1, 1, 1, 0, 0, 0, 1, 0, 0});
-  add_accessor<std::uint8_t>(asset, "VEC4", u8, 4, {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0});
-  add_accessor<float>(asset, "VEC4", f32, 4, {0.5F, 0.5F, 0, 0, 0.25F, 0.75F, 0, 0, 1, 0, 0, 0});
+  add_accessor<float>(asset, "VEC3", kFloat32, 3, {0, 0, 1, 0, 0, 1, 0, 0, 1});
+  add_accessor<float>(asset, "VEC4", kFloat32, 4, {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1});
+  add_accessor<float>(asset, "VEC2", kFloat32, 2, {0, 0, 1, 0, 0, 1});
+  add_accessor<float>(asset, "VEC3", kFloat32, 3, {1, 1, 1, 0, 0, 0, 1, 0, 0});
+  add_accessor<std::uint8_t>(asset, "VEC4", kUint8, 4, {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0});
+  add_accessor<float>(asset, "VEC4", kFloat32, 4,
+                      {0.5F, 0.5F, 0, 0, 0.25F, 0.75F, 0, 0, 1, 0, 0, 0});
   asset.add_positions({Vec3(0, 0, 1), Vec3(0), Vec3(0)});
-  asset.add_indices({0, 1, 2}, u16);
+  asset.add_indices({0, 1, 2}, kUint16);
   std::vector<float> identities;
   for (int i = 0; i < 32; ++i) identities.push_back(i % 16 % 5 == 0 ? 1.0F : 0.0F);
-  add_accessor<float>(asset, "MAT4", f32, 16, identities);
-  add_accessor<float>(asset, "SCALAR", f32, 1, {0, 1});
+  add_accessor<float>(asset, "MAT4", kFloat32, 16, identities);
+  add_accessor<float>(asset, "SCALAR", kFloat32, 1, {0, 1});
   asset.json["accessors"][rig_times]["min"] = {0};
   asset.json["accessors"][rig_times]["max"] = {1};
-  add_accessor<float>(asset, "VEC3", f32, 3, {0, 0, 0, 1, 2, 3});
-  add_accessor<float>(asset, "VEC4", f32, 4, {0, 0, 0, 1, 0, 0, 1, 0});
-  add_accessor<float>(asset, "SCALAR", f32, 1, {0, 1});
+  add_accessor<float>(asset, "VEC3", kFloat32, 3, {0, 0, 0, 1, 2, 3});
+  add_accessor<float>(asset, "VEC4", kFloat32, 4, {0, 0, 0, 1, 0, 0, 1, 0});
+  add_accessor<float>(asset, "SCALAR", kFloat32, 1, {0, 1});
 }
 
 void add_animation(AssetBuilder& asset) {
@@ -58,7 +59,7 @@ void add_animation(AssetBuilder& asset) {
 
 void add_material(AssetBuilder& asset) {
   const std::size_t view =
-      asset.add_view(std::string_view(reinterpret_cast<const char*>(png), sizeof png));
+      asset.add_view(std::string_view(reinterpret_cast<const char*>(kPng), sizeof kPng));
   asset.add("images", {{"bufferView", view}, {"mimeType", "image/png"}});
   asset.add("samplers", Json::object());
   asset.add("textures", {{"source", 0}, {"sampler", 0}});

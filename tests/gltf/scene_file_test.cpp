@@ -30,7 +30,7 @@ std::size_t triangle_count(const LoadedScene& loaded) {
   return count;
 }
 
-TEST(GltfSceneFile, ExternalBuffersLieBesideTheAsset) {
+TEST(GltfSceneFile, LoadsExternalBuffers) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "microtrace_gltf_test";
   std::filesystem::create_directories(folder / "a b");
@@ -47,7 +47,7 @@ TEST(GltfSceneFile, ExternalBuffersLieBesideTheAsset) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(GltfSceneFile, CubeHasAColourOnEachSideOfEachAxis) {
+TEST(GltfSceneFile, CubeHasItsColorsOnTheRightSides) {
   const LoadedScene loaded = load_file(scene("cube.glb"));
   EXPECT_EQ(triangle_count(loaded), 12U);
   ASSERT_EQ(loaded.scene.objects.size(), 3U);
@@ -56,7 +56,7 @@ TEST(GltfSceneFile, CubeHasAColourOnEachSideOfEachAxis) {
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
-TEST(GltfSceneFile, KnotHasItsOwnCamera) {
+TEST(GltfSceneFile, KnotHasACamera) {
   const LoadedScene loaded = load_file(scene("knot.glb"));
   EXPECT_EQ(triangle_count(loaded), 1538U);
   EXPECT_EQ(loaded.scene.objects.size(), 5U);

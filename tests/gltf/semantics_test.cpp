@@ -18,7 +18,7 @@ struct Change {
   [[nodiscard]] std::string place() const { return pointer != nullptr ? pointer : where; }
 };
 
-constexpr const char* attributes = "/meshes/0/primitives/0/attributes";
+constexpr const char* kAttributes = "/meshes/0/primitives/0/attributes";
 
 const Change refused[] = {
     // Meshes.
@@ -60,8 +60,8 @@ const Change survived[] = {
     {"/meshes/0/primitives/0/attributes/TEXCOORD_", "3"},
     {"/meshes/0/primitives/0/attributes/JOINTS", "5"},
     {"/meshes/0/primitives/0/attributes/color", "4"},
-    {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "", attributes},
-    {"/meshes/0/primitives/0/attributes/JOINTS_1", "5", attributes},
+    {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "", kAttributes},
+    {"/meshes/0/primitives/0/attributes/JOINTS_1", "5", kAttributes},
     {"/meshes/0/primitives/0/attributes/NORMAL", "11"},
     {"/meshes/0/primitives/0/targets/0", R"({"JOINTS_0": 5})",
      "/meshes/0/primitives/0/targets/0/JOINTS_0"},
@@ -92,7 +92,7 @@ const Change survived[] = {
     {"/images/0/mimeType", "\"image/webp\""},
 
     // Meshes.
-    {"/meshes/0/primitives/0/attributes/TEXCOORD_2", "3", attributes},
+    {"/meshes/0/primitives/0/attributes/TEXCOORD_2", "3", kAttributes},
     {"/meshes/0/primitives/0/attributes/TEXCOORD_0", "1"},
     {"/meshes/0/primitives/0/attributes/_IDS", "14"},
     {"/accessors/0/max", "", "/accessors/0"},
@@ -134,14 +134,14 @@ const Change survived[] = {
      "/extensions/KHR_materials_variants"},
 };
 
-TEST(GltfSemantics, TheRigItselfIsGood) {
+TEST(GltfSemantics, TheUnchangedRigIsValid) {
   // All remaining warnings are about unsupported features.
   EXPECT_THAT(texts(load(rig()).warnings),
               Each(testing::AnyOf(HasSubstr("not drawn"), HasSubstr("ignored"), HasSubstr("yet"),
                                   HasSubstr("not supported"))));
 }
 
-TEST(GltfSemantics, WhatBreaksAnAssetIsRefusedAtItsPlace) {
+TEST(GltfSemantics, InvalidAssetsAreRefusedAtTheirPointer) {
   for (const Change& change : refused) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     try {
@@ -154,12 +154,12 @@ TEST(GltfSemantics, WhatBreaksAnAssetIsRefusedAtItsPlace) {
   }
 }
 
-TEST(GltfSemantics, WhatCanBeDrawnThroughIsWarnedOfAtItsPlace) {
+TEST(GltfSemantics, HarmlessViolationsGiveWarningsAtTheirPointer) {
   for (const Change& change : survived) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     AssetBuilder asset = rig();
     // 14: an application-specific attribute with a type that vertices may not have.
-    asset.add("accessors", {{"componentType", u32}, {"count", 3}, {"type", "SCALAR"}});
+    asset.add("accessors", {{"componentType", kUint32}, {"count", 3}, {"type", "SCALAR"}});
     EXPECT_THAT(texts(load(mutated(asset, change.where, change.value)).warnings),
                 Contains(HasSubstr(change.place() + ": ")));
   }

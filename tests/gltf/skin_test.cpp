@@ -59,13 +59,13 @@ AssetBuilder arm() {
 const std::vector<Vec3> straight = {Vec3(0, -1, 0), Vec3(0, 1, 0),  Vec3(1, -1, 0),
                                     Vec3(1, 1, 0),  Vec3(2, -1, 0), Vec3(2, 1, 0)};
 
-TEST(GltfSkin, TheBindPoseIsTheMesh) {
+TEST(GltfSkin, BindPoseEqualsTheMesh) {
   const LoadedScene loaded = load(arm());
   EXPECT_EQ(first_mesh(loaded).positions, straight);
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
-TEST(GltfSkin, AnElbowBendsByNinetyDegrees) {
+TEST(GltfSkin, ElbowBendsByNinetyDegrees) {
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["rotation"] = {0, 0, half, half};
   const Mesh mesh = first_mesh(load(asset));
@@ -86,7 +86,7 @@ TEST(GltfSkin, AnimatedJointsMoveTheMesh) {
                Vec3(-1, 2, 0)});
 }
 
-TEST(GltfSkin, TheNodesOwnTransformPlaysNoPart) {
+TEST(GltfSkin, TheNodesTransformIsIgnored) {
   AssetBuilder asset = arm();
   asset.json["nodes"][0].update({{"translation", {5, 6, 7}}, {"scale", {-2, 2, 2}}});
   const LoadedScene loaded = load(asset);
@@ -94,21 +94,21 @@ TEST(GltfSkin, TheNodesOwnTransformPlaysNoPart) {
   EXPECT_EQ(first_mesh(loaded).triangles, first_mesh(load(arm())).triangles);
 }
 
-TEST(GltfSkin, WithoutInverseBindMatricesTheyAreOne) {
+TEST(GltfSkin, InverseBindMatricesDefaultToIdentity) {
   AssetBuilder asset = arm();
   asset.json["skins"][0].erase("inverseBindMatrices");
   expect_near(first_mesh(load(asset)).positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -1, 0),
                                                   Vec3(1.5F, 1, 0), Vec3(3, -1, 0), Vec3(3, 1, 0)});
 }
 
-TEST(GltfSkin, JointsOutsideOfTheSceneMoveItToo) {
+TEST(GltfSkin, JointsMayBeOutsideTheScene) {
   AssetBuilder asset = arm();
   asset.json["scenes"][0]["nodes"] = {0};
   asset.json["nodes"][1]["translation"] = {0, 0, 4};
   for (const Vec3& p : first_mesh(load(asset)).positions) EXPECT_EQ(p.z, 4);
 }
 
-TEST(GltfSkin, MirroringJointsTurnTrianglesOver) {
+TEST(GltfSkin, MirroringJointsReverseTheWinding) {
   AssetBuilder asset = arm();
   asset.json["nodes"][1]["scale"] = {1, -1, 1};
   const LoadedScene loaded = load(asset);
@@ -118,7 +118,7 @@ TEST(GltfSkin, MirroringJointsTurnTrianglesOver) {
   EXPECT_EQ(first_mesh(loaded).normals[0], Vec3(0, 0, 1));
 }
 
-TEST(GltfSkin, JointsAndWeightsComeInAllTheirTypesAndSets) {
+TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
   EXPECT_EQ(first_mesh(load(arm<std::uint16_t>())).positions, straight);
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["translation"] = {1, 0, 8};
@@ -147,7 +147,7 @@ TEST(GltfSkin, JointsAndWeightsComeInAllTheirTypesAndSets) {
   EXPECT_THAT(texts(loaded.warnings), IsEmpty());
 }
 
-TEST(GltfSkin, MorphsComeBeforeJoints) {
+TEST(GltfSkin, MorphingPrecedesSkinning) {
   AssetBuilder asset = arm();
   std::vector<Vec3> up(6, Vec3(0, 1, 0));
   asset.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", asset.add_positions(up)}}};
@@ -157,7 +157,7 @@ TEST(GltfSkin, MorphsComeBeforeJoints) {
                                                   Vec3(-2, 1, 0), Vec3(0, 2, 0), Vec3(-2, 2, 0)});
 }
 
-TEST(GltfSkin, WeightsAreScaledToOneWithAWarning) {
+TEST(GltfSkin, WeightsAreNormalizedWithAWarning) {
   AssetBuilder asset = arm();
   std::vector<float> weights = {3,    0,    0, 0, 1, 0, 0, 0, 0, 0, 0, 0,
                                 0.5F, 0.5F, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
@@ -172,7 +172,7 @@ TEST(GltfSkin, WeightsAreScaledToOneWithAWarning) {
           HasSubstr("first joint")));
 }
 
-TEST(GltfSkin, AJointThatTheSkinLacksIsRefused) {
+TEST(GltfSkin, JointIndexOutOfRangeIsRefused) {
   AssetBuilder asset = arm();
   asset.json["skins"][0]["joints"] = {1};
   try {
@@ -185,7 +185,7 @@ TEST(GltfSkin, AJointThatTheSkinLacksIsRefused) {
   }
 }
 
-TEST(GltfSkin, AMeshWithoutJointsStandsInItsNodesPlace) {
+TEST(GltfSkin, MeshWithoutJointsIsPlacedByItsNode) {
   AssetBuilder asset = arm();
   Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
   attributes.erase("JOINTS_0");

@@ -24,23 +24,24 @@ const Survived mutations[] = {
     // The asset as a whole.
     {"/asset/version", "\"2.1\"", "/asset/version", "read as glTF 2.0"},
     {"/asset/minVersion", "\"2.1\"", "/asset/minVersion", "greater than version"},
-    {"/asset", R"({"version": "2.1", "minVersion": "2.1"})", "/asset/minVersion", "asks for more"},
-    {"/extensionsRequired", R"(["X_a"])", "/extensionsRequired/0", "missing in extensionsUsed"},
+    {"/asset", R"({"version": "2.1", "minVersion": "2.1"})", "/asset/minVersion",
+     "features of later versions"},
+    {"/extensionsRequired", R"(["X_a"])", "/extensionsRequired/0", "missing from extensionsUsed"},
     {"/extensionsUsed", "[]", "/extensionsUsed", "is empty"},
     {"/extensionsUsed", R"(["X_a", "X_b", "X_a"])", "/extensionsUsed/2", "repeats an earlier item"},
     {"/extensionsUsed", R"(["KHR_mesh_quantization"])", "/extensionsUsed/0",
-     "must stand in extensionsRequired too"},
+     "must also be listed in extensionsRequired"},
     {"", R"({"extensionsUsed": ["KHR_mesh_quantization"],
              "extensionsRequired": ["KHR_mesh_quantization"],
              "accessors": [{"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
                             "min": [-1, -1, -1], "max": [1, 1, 1],
                             "extensions": {"KHR_mesh_quantization": {}}},
                            {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}]})",
-     "/accessors/0/extensions/KHR_mesh_quantization", "no place in this object"},
+     "/accessors/0/extensions/KHR_mesh_quantization", "does not belong in this object"},
     {"/extensions", R"({"X_a": {}})", "/extensions/X_a", "not declared"},
     {"", R"({"extensionsUsed": ["KHR_materials_unlit"],
              "extensions": {"KHR_materials_unlit": {}}})",
-     "/extensions/KHR_materials_unlit", "no place in this object"},
+     "/extensions/KHR_materials_unlit", "does not belong in this object"},
     {"", R"({"extensionsUsed": ["KHR_lights_punctual"],
              "nodes": [{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}]})",
      "/nodes/0/extensions/KHR_lights_punctual/light", "absent"},
@@ -66,14 +67,14 @@ const Survived mutations[] = {
     {"/materials/0/alphaCutoff", "-1", "/materials/0/alphaCutoff", "nearest"},
     {"/nodes/0/rotation", "[0, 0, 0, 1.0000001]", "/nodes/0/rotation/3", "at most 1"},
     {"/nodes/0/rotation", "[0, 0, 0, 2]", "/nodes/0/rotation", "it is normalized"},
-    {"/nodes/0/rotation", "[0, 0, 0, 0]", "/nodes/0/rotation", "it turns nothing"},
+    {"/nodes/0/rotation", "[0, 0, 0, 0]", "/nodes/0/rotation", "must be a unit quaternion"},
 
     // Accessors and attributes.
     {"/accessors/0/type", "\"VEC2\"", "/accessors/0/max", "must have 2 items, has 3"},
     {"/accessors/0/min", "[0, 0]", "/accessors/0/min", "must have 3 items, has 2"},
     {"/accessors/0/max", "[]", "/accessors/0/max", "must have 3 items, has 0"},
     {"/meshes/0/primitives/0/attributes", R"({"position": 0})",
-     "/meshes/0/primitives/0/attributes/position", "is no attribute"},
+     "/meshes/0/primitives/0/attributes/position", "is not a glTF 2.0 attribute"},
     {"/meshes/0/primitives/0/attributes/_X", "1", "/meshes/0/primitives/0/attributes/_X",
      "has 36 elements, but POSITION has 8"},
 
@@ -108,14 +109,14 @@ const Survived mutations[] = {
     {"/scenes/0/nodes", "[0, 0]", "/scenes/0/nodes/1", "repeats an earlier item"},
     {"/nodes/0",
      R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], "scale": [1, 1, 1]})",
-     "/nodes/0/scale", "stands beside a matrix"},
+     "/nodes/0/scale", "must not be combined with a matrix"},
     {"/scenes/0/nodes", "[]", "/scenes/0/nodes", "is empty"},
     {"/nodes/0/matrix", "[1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]", "/nodes/0/matrix",
      "is not affine"},
     {"/meshes/0/primitives", "[]", "/meshes/0/primitives", "is empty"},
 };
 
-TEST(GltfSurvived, EveryMutationOfTheCubeIsDrawnWithAWarningAtItsPlace) {
+TEST(GltfSurvived, EveryMutationIsDrawnWithAWarningAtItsPointer) {
   for (const auto& [where, value, pointer, message] : mutations) {
     SCOPED_TRACE(std::string(where) + " = " + value);
     EXPECT_THAT(texts(load(mutated(cube(), where, value)).warnings),
@@ -123,7 +124,7 @@ TEST(GltfSurvived, EveryMutationOfTheCubeIsDrawnWithAWarningAtItsPlace) {
   }
 }
 
-TEST(GltfSurvived, ACameraOfUnknownTypeIsLeftOut) {
+TEST(GltfSurvived, IgnoresCamerasOfUnknownType) {
   AssetBuilder asset = cube();
   asset.json["cameras"] = {{{"type", "fisheye"}}};
   asset.json["nodes"][0]["camera"] = 0;
@@ -133,15 +134,16 @@ TEST(GltfSurvived, ACameraOfUnknownTypeIsLeftOut) {
 }
 
 TEST(GltfSurvived, PrimitiveRestartStartsANewPrimitive) {
-  for (const auto& [type, restart] :
-       {std::pair{u8, 0xFFU}, std::pair{u16, 0xFFFFU}, std::pair{u32, 0xFFFFFFFFU}}) {
+  for (const auto& [type, kPrimitiveRestart] :
+       {std::pair{kUint8, 0xFFU}, std::pair{kUint16, 0xFFFFU}, std::pair{kUint32, 0xFFFFFFFFU}}) {
     AssetBuilder asset;
     const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2), Vec3(3)});
-    const std::size_t indices = asset.add_indices({0, 1, 2, restart, 1, 2, 3}, type);
+    const std::size_t indices = asset.add_indices({0, 1, 2, kPrimitiveRestart, 1, 2, 3}, type);
     asset.add_object(
         {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", 5}});
     const LoadedScene loaded = load(asset);
-    EXPECT_THAT(texts(loaded.warnings), Contains(HasSubstr("/accessors/1: has the value that")));
+    EXPECT_THAT(texts(loaded.warnings),
+                Contains(HasSubstr("/accessors/1: has the primitive restart value")));
     const auto triangles = triangles_of(loaded.scene.objects.at(0));
     ASSERT_THAT(triangles, SizeIs(2));
     EXPECT_EQ(triangles[1][0], Vec3(1));
@@ -149,7 +151,7 @@ TEST(GltfSurvived, PrimitiveRestartStartsANewPrimitive) {
   }
 }
 
-TEST(GltfSurvived, AChildThatASceneNamesStaysInItsPlace) {
+TEST(GltfSurvived, ChildListedAsSceneRootStaysUnderItsParent) {
   AssetBuilder asset = cube();
   asset.json["nodes"][0]["translation"] = {1, 0, 0};
   asset.json["nodes"].push_back({{"children", {0}}, {"translation", {10, 0, 0}}});

@@ -15,7 +15,7 @@ AssetBuilder folded() {
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0},
                                      {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
   const std::size_t positions = asset.add_positions(corners);
-  const std::size_t indices = asset.add_indices({0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}, u16);
+  const std::size_t indices = asset.add_indices({0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}, kUint16);
   std::vector<float> normals;
   for (std::size_t i = 0; i < 6; ++i) normals.insert(normals.end(), {0, 0, 1});
   asset.add_object(
@@ -40,7 +40,7 @@ Json& attributes(AssetBuilder& asset) {
   return asset.json["meshes"][0]["primitives"][0]["attributes"];
 }
 
-TEST(GltfTangent, IsMadeWhereTheMaterialAsksForIt) {
+TEST(GltfTangent, IsGeneratedIfTheMaterialNeedsIt) {
   AssetBuilder asset = folded();
   const Mesh mesh = mesh_of(asset);
   ASSERT_EQ(mesh.tangents.size(), 8U);
@@ -55,7 +55,7 @@ TEST(GltfTangent, IsMadeWhereTheMaterialAsksForIt) {
   EXPECT_EQ(mesh_of(asset).positions.size(), 6U);
 }
 
-TEST(GltfTangent, IsMadeForACoatAndForAnisotropy) {
+TEST(GltfTangent, IsGeneratedForClearcoatAndAnisotropy) {
   AssetBuilder asset = folded();
   asset.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_anisotropy"};
   asset.json["materials"][0] = Json::parse(R"({"extensions": {
@@ -66,7 +66,7 @@ TEST(GltfTangent, IsMadeForACoatAndForAnisotropy) {
   EXPECT_EQ(mesh_of(asset).tangents.size(), 8U);
 }
 
-TEST(GltfTangent, FollowsTheSetOfTheNormalTexture) {
+TEST(GltfTangent, FollowsTheTextureCoordinatesOfTheNormalTexture) {
   AssetBuilder asset = folded();
   asset.json["materials"][0]["normalTexture"]["texCoord"] = 1;
   EXPECT_THAT(mesh_of(asset).tangents, IsEmpty()) << "there is no such set";
@@ -79,7 +79,7 @@ TEST(GltfTangent, FollowsTheSetOfTheNormalTexture) {
   EXPECT_EQ(mesh_of(asset).tangents.size(), 8U);
 }
 
-TEST(GltfTangent, OfTheFileCountsWithNormalsAlone) {
+TEST(GltfTangent, IsIgnoredWithoutNormals) {
   AssetBuilder asset = folded();
   std::vector<float> own;
   for (std::size_t i = 0; i < 6; ++i) own.insert(own.end(), {0, 1, 0, -1});
@@ -106,7 +106,7 @@ TEST(GltfTangent, SplitVerticesKeepTheirMorphTargets) {
                           Vec3(0, 1, 0), Vec3(1, 2, 0), Vec3(1, 2, 0), Vec3(2, 1, 0)));
 }
 
-TEST(GltfTangent, GoesToTheWorldWithItsNode) {
+TEST(GltfTangent, IsTransformedByItsNode) {
   AssetBuilder asset = folded();
   asset.json["nodes"][0]["scale"] = {-2, 1, 1};
   const Mesh mesh = mesh_of(asset);

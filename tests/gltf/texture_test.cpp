@@ -19,7 +19,7 @@ AssetBuilder textured() {
   AssetBuilder asset = cube();
   asset.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
   const std::size_t uv =
-      asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "VEC2"}});
+      asset.add("accessors", {{"componentType", kFloat32}, {"count", 8}, {"type", "VEC2"}});
   for (const char* set : {"TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2", "TEXCOORD_3"}) {
     asset.json["meshes"][0]["primitives"][0]["attributes"][set] = uv;
   }
@@ -51,7 +51,7 @@ Error error_of(const AssetBuilder& asset) {
   return {ErrorKind::internal, "", ""};
 }
 
-TEST(GltfTexture, ImagesLieInBufferViewsDataUrisAndFiles) {
+TEST(GltfTexture, ImagesMayBeInBufferViewsDataUrisAndFiles) {
   AssetBuilder asset = textured();
   expect_pixel(load(asset.embedded()));
   expect_pixel(load(asset.glb()));
@@ -67,7 +67,7 @@ TEST(GltfTexture, ImagesLieInBufferViewsDataUrisAndFiles) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(GltfTexture, MissingFilesAreErrorsWithTheirPlace) {
+TEST(GltfTexture, MissingFilesAreErrorsWithAPointer) {
   AssetBuilder asset = textured();
   asset.json["images"][0] = {{"uri", "none.png"}};
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri");
@@ -76,7 +76,7 @@ TEST(GltfTexture, MissingFilesAreErrorsWithTheirPlace) {
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0/uri") << "drawn or not";
 }
 
-TEST(GltfTexture, DamagedImagesAreErrorsWithTheirPlace) {
+TEST(GltfTexture, DamagedImagesAreErrorsWithAPointer) {
   AssetBuilder asset = textured();
   const std::string png = png_of(1, 1, {9, 8, 7, 6});
   asset.json["images"][0]["bufferView"] = asset.add_view(png.substr(0, 50));
@@ -87,17 +87,17 @@ TEST(GltfTexture, DamagedImagesAreErrorsWithTheirPlace) {
   EXPECT_THAT(error_of(asset).what(), HasSubstr("header"));
 }
 
-TEST(GltfTexture, ImagesThatEndBeforeTheirSizeAreWhiteWithAWarning) {
+TEST(GltfTexture, TruncatedHeadersGiveWhiteTexturesWithAWarning) {
   AssetBuilder asset = textured();
   const std::string png = png_of(1, 1, {9, 8, 7, 6});
   asset.json["images"][0]["bufferView"] = asset.add_view(png.substr(0, 20));
   const LoadedScene loaded = load(asset);
   EXPECT_THAT(texts(loaded.warnings),
-              ElementsAre(HasSubstr("/images/0: holds an image that ends")));
+              ElementsAre(HasSubstr("/images/0: holds an image that is truncated")));
   EXPECT_EQ(loaded.scene.images.at(0), nullptr);
 }
 
-TEST(GltfTexture, OversizedImagesAreRefusedBeforeMemoryIsTaken) {
+TEST(GltfTexture, OversizedImagesAreRefusedBeforeAllocation) {
   AssetBuilder asset = textured();
   const std::string png = png_file({.width = 1U << 20U, .height = 1U << 20U});
   asset.json["images"][0]["bufferView"] = asset.add_view(png);
@@ -105,7 +105,7 @@ TEST(GltfTexture, OversizedImagesAreRefusedBeforeMemoryIsTaken) {
   EXPECT_EQ(error_of(asset).diagnostic().pointer, "/images/0");
 }
 
-TEST(GltfTexture, OtherKindsOfImagesAreWhiteWithAWarning) {
+TEST(GltfTexture, UnsupportedFormatsGiveWhiteTexturesWithAWarning) {
   AssetBuilder asset = textured();
   asset.json["images"][0] = {{"uri", "data:image/avif;base64," + base64("ftypavif")}};
   const LoadedScene loaded = load(asset);
@@ -121,7 +121,7 @@ TEST(GltfTexture, AWrongMediaTypeIsAWarning) {
   EXPECT_THAT(loaded.scene.images.at(0), NotNull());
 }
 
-TEST(GltfTexture, DataUrisSayWhatTheyHold) {
+TEST(GltfTexture, DataUrisMustDeclareTheirMediaType) {
   AssetBuilder asset = textured();
   const std::string png = base64(png_of(1, 1, {9, 8, 7, 6}));
   for (const char* type :
@@ -145,7 +145,7 @@ TEST(GltfTexture, DataUrisSayWhatTheyHold) {
   EXPECT_THAT(load(asset).scene.images.at(0), NotNull());
 }
 
-TEST(GltfTexture, OnlyImagesThatArePicturedAreDecoded) {
+TEST(GltfTexture, OnlyVisibleImagesAreDecoded) {
   AssetBuilder asset = textured();
   asset.json["materials"][0]["normalTexture"] = {{"index", 1}};
   asset.add("textures", {{"source", 1}});
@@ -157,7 +157,7 @@ TEST(GltfTexture, OnlyImagesThatArePicturedAreDecoded) {
   EXPECT_THAT(load(asset).scene.images.at(1), NotNull());
 }
 
-TEST(GltfTexture, WebpComesBeforeItsFallbackAndOthersLeaveWhite) {
+TEST(GltfTexture, WebpIsPreferredToItsFallback) {
   AssetBuilder asset = textured();
   asset.json["extensionsUsed"] = {"EXT_texture_webp"};
   asset.add("images", {{"uri",
@@ -204,7 +204,7 @@ TEST(GltfTexture, SamplersAreReadAndHaveDefaults) {
   }
 }
 
-TEST(GltfTexture, TransformScalesTurnsAndMoves) {
+TEST(GltfTexture, TransformScalesRotatesAndTranslates) {
   AssetBuilder asset = textured();
   asset.json["extensionsUsed"] = {"KHR_texture_transform"};
   // The specification's example: the lower left quarter of the image, rotated by 90 degrees.
@@ -225,7 +225,7 @@ TEST(GltfTexture, TransformScalesTurnsAndMoves) {
   EXPECT_NEAR(down.y, 1, 1e-6F);
 }
 
-TEST(GltfTexture, MaterialsKeepWhatLightWillAskFor) {
+TEST(GltfTexture, ReadsTheTexturesOfPathTracedMaterials) {
   AssetBuilder asset = textured();
   asset.json["materials"][0] = Json::parse(R"({
     "name": "steel", "alphaMode": "MASK", "alphaCutoff": 0.25, "emissiveFactor": [0.5, 0, 1],
@@ -250,7 +250,7 @@ TEST(GltfTexture, MaterialsKeepWhatLightWillAskFor) {
   EXPECT_EQ(scene.materials[1].metallic, 1) << "of primitives without material";
 }
 
-TEST(GltfMaterial, VariantsAreChosenByNameOrNumber) {
+TEST(GltfMaterial, VariantsAreSelectedByNameOrIndex) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"KHR_materials_variants"};
   asset.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "plain"}},

@@ -25,7 +25,7 @@ TEST(GltfUri, Base64TestVectors) {
   EXPECT_EQ(decode_base64("Zm9vYmFy"), "foobar");
 }
 
-TEST(GltfUri, Base64TakesBackWhatAnEncoderMakes) {
+TEST(GltfUri, Base64RoundTrips) {
   std::string bytes;
   for (int i = 0; i < 600; ++i) {
     EXPECT_EQ(decode_base64(tests::base64(bytes)), bytes);
@@ -33,14 +33,14 @@ TEST(GltfUri, Base64TakesBackWhatAnEncoderMakes) {
   }
 }
 
-TEST(GltfUri, BrokenBase64IsRefused) {
+TEST(GltfUri, InvalidBase64IsRefused) {
   for (const char* text :
        {"Z", "Zg", "Zg=", "Z===", "====", "Zm9v=", "Zg==Zg==", "Zm 9", "Zm9-", "Zm\n9", "=m9v"}) {
     EXPECT_FALSE(decode_base64(text)) << text;
   }
 }
 
-TEST(GltfUri, DataUrisAreTakenApart) {
+TEST(GltfUri, SplitsDataUris) {
   const auto uri = split_data_uri("data:application/gltf-buffer;a=b;base64,AAA=");
   ASSERT_TRUE(uri);
   EXPECT_EQ(uri->media_type, "application/gltf-buffer");
@@ -64,7 +64,7 @@ TEST(GltfUri, RelativePathsAreDecoded) {
   EXPECT_EQ(relative_path("sub/a:b").path, "sub/a:b");
 }
 
-TEST(GltfUri, PathsOutOfTheFolderAreRefused) {
+TEST(GltfUri, PathsThatLeaveTheFolderAreRefused) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "empty"},
       {"../a.bin", ".."},
@@ -99,7 +99,7 @@ TEST(GltfUri, PathsOutOfTheFolderAreRefused) {
   }
 }
 
-TEST(GltfUri, AllowedFoldersMayHoldFiles) {
+TEST(GltfUri, FilesMayBeInAllowedFolders) {
   const Folder folder;
   namespace fs = std::filesystem;
   for (const char* name : {"asset", "shared", "shared too"}) fs::create_directory(folder / name);

@@ -16,7 +16,7 @@ struct Ignored {
   const char* message;
 };
 
-TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
+TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPointer) {
   const Ignored cases[] = {
       {R"({"extensionsUsed": ["KHR_materials_unlit", "EXT_made_up"]})", "/extensionsUsed/1",
        "EXT_made_up"},
@@ -25,13 +25,13 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
        "/textures/0", "no image"},
       {R"({"materials": [{"emissiveFactor": [0, 0, 1]}]})", "/materials/0/emissiveFactor",
        "emission"},
-      {R"({"meshs": []})", "/meshs", "no property"},
+      {R"({"meshs": []})", "/meshs", "is not a glTF 2.0 property"},
       {R"({"cameras": []})", "/cameras", "empty"},
   };
   for (const Ignored& c : cases) {
     SCOPED_TRACE(c.add);
     AssetBuilder asset = cube();
-    asset.add("accessors", {{"componentType", f32}, {"count", 8}, {"type", "SCALAR"}});
+    asset.add("accessors", {{"componentType", kFloat32}, {"count", 8}, {"type", "SCALAR"}});
     asset.json.merge_patch(Json::parse(c.add));
     EXPECT_THAT(
         texts(load(asset, {.detail = SurfaceDetail::color}).warnings),
@@ -39,7 +39,7 @@ TEST(GltfWarning, EachIgnoredFeatureIsNamedWithItsFirstPlace) {
   }
 }
 
-TEST(GltfWarning, HonouredFeaturesGiveNone) {
+TEST(GltfWarning, SupportedFeaturesGiveNone) {
   AssetBuilder asset = cube();
   asset.json.merge_patch(Json::parse(
       R"({"extensionsUsed": ["KHR_materials_unlit"], "extensionsRequired": ["KHR_materials_unlit"],
@@ -50,7 +50,7 @@ TEST(GltfWarning, HonouredFeaturesGiveNone) {
   EXPECT_THAT(texts(load(asset).warnings), IsEmpty());
 }
 
-TEST(GltfWarning, OneKindIsOneWarningWithItsCountAndTheFirstPlace) {
+TEST(GltfWarning, EqualWarningsBecomeOneWithACount) {
   AssetBuilder asset = cube();
   const Json shining = {{"emissiveFactor", {0, 0, 1}}};
   asset.json["materials"] = {Json::object(), shining, shining, shining};
@@ -59,7 +59,7 @@ TEST(GltfWarning, OneKindIsOneWarningWithItsCountAndTheFirstPlace) {
       ElementsAre(AllOf(HasSubstr("/materials/1/emissiveFactor"), HasSubstr("(3 places)"))));
 }
 
-TEST(GltfWarning, WarningsComeInFileOrderAndTheirNumberIsBounded) {
+TEST(GltfWarning, WarningsAreInFileOrderAndLimited) {
   AssetBuilder asset = cube();
   for (int i = 0; i < 5000; ++i) {
     asset.json["extensionsUsed"].push_back("X_" + std::to_string(i));
@@ -73,7 +73,7 @@ TEST(GltfWarning, WarningsComeInFileOrderAndTheirNumberIsBounded) {
   }
 }
 
-TEST(GltfWarning, BrokenRulesAreToldFromOddities) {
+TEST(GltfWarning, DistinguishesViolationsFromOtherWarnings) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"X_unknown"};
   asset.json["materials"][0]["alphaCutoff"] = -1;
@@ -89,7 +89,7 @@ TEST(GltfWarning, BrokenRulesAreToldFromOddities) {
   EXPECT_EQ(load(asset).warnings.back().severity, Severity::warning);
 }
 
-TEST(GltfWarning, BuffersWithoutDataLeaveTheirPrimitivesOut) {
+TEST(GltfWarning, PrimitivesWithoutBufferDataAreNotDrawn) {
   const LoadedScene loaded = load(cube().with_buffer(nullptr).dump());
   EXPECT_THAT(loaded.scene.objects, IsEmpty());
   EXPECT_THAT(texts(loaded.warnings),

@@ -60,7 +60,7 @@ int main(int count, char** arguments) {
     return 1;
   }
   const auto decode =
-      reinterpret_cast<MicrotraceDecode>(dlsym(module, microtrace::io::decode_name));
+      reinterpret_cast<MicrotraceDecode>(dlsym(module, microtrace::io::kDecodeName));
   std::ifstream file(arguments[2], std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   Picture picture;

@@ -21,7 +21,7 @@ using testing::HasSubstr;
 class BrokenModule : public testing::Test {
  protected:
   void SetUp() override {
-    whole_ = read_bytes(io::open_module(io::codec_module_file_name).path);
+    whole_ = read_bytes(io::open_module(io::kCodecModuleFileName).path);
     ASSERT_GT(whole_.size(), 10000U);
     ::setenv("MICROTRACE_MODULE_PATH", (folder_ / "").c_str(), 1);
   }
@@ -29,7 +29,7 @@ class BrokenModule : public testing::Test {
 
   /// The error message of save_image.
   std::string complaint(const std::string& bytes) {
-    write_bytes(folder_ / io::codec_module_file_name, bytes);
+    write_bytes(folder_ / io::kCodecModuleFileName, bytes);
     try {
       save_image(Film({2, 2}), folder_ / "a.png");
     } catch (const Error& error) {
@@ -61,8 +61,8 @@ TEST_F(BrokenModule, OtherElfClassIsAnError) {
   std::string bytes = whole_;
   bytes[4] = 1;  // ELFCLASS32
   EXPECT_THAT(complaint(bytes), HasSubstr("no shared library of this machine"));
-  std::filesystem::remove(folder_ / io::codec_module_file_name);
-  std::filesystem::create_directory(folder_ / io::codec_module_file_name);
+  std::filesystem::remove(folder_ / io::kCodecModuleFileName);
+  std::filesystem::create_directory(folder_ / io::kCodecModuleFileName);
   try {
     save_image(Film({2, 2}), folder_ / "a.png");
     ADD_FAILURE();

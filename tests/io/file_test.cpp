@@ -60,7 +60,7 @@ TEST_F(File, NamesTheReason) {
 TEST_F(File, RefusesAHugeFileUnread) {
   const std::filesystem::path path = write("{");
   std::filesystem::resize_file(path, std::uintmax_t{1} << 40U);
-  EXPECT_EQ(error_of(path, max_file_size).kind(), ErrorKind::limit);
+  EXPECT_EQ(error_of(path, kMaxFileSize).kind(), ErrorKind::limit);
   EXPECT_EQ(error_of("/dev/zero", 1'000'000).kind(), ErrorKind::limit);
 }
 

@@ -209,17 +209,17 @@ TEST(JsonDocument, FindsKeysAmongMany) {
 TEST(JsonDocument, ReportsTheFirstDuplicateKey) {
   const std::string text =
       R"({"x": {"a": 0, "b": 1, "a": 2, "a": 3}, "y": 0, "z": {"c": 1, "c": 2}})";
-  const JsonDocument inner(text, "s.json", max_json_values, RepeatedKeys::last_counts);
+  const JsonDocument inner(text, "s.json", kMaxJsonValues, RepeatedKeys::last_counts);
   EXPECT_EQ(inner.outdone_keys().count, 3U);
   EXPECT_EQ(inner.outdone_keys().pointer, "/x/a");
   EXPECT_EQ(inner.outdone_keys().offset, text.find("\"a\""));
   EXPECT_EQ(inner.root().find("x")->members.size(), 2U);
   EXPECT_EQ(inner.root().find("x")->find("a")->number, 3);
-  const JsonDocument outer(R"({"y": 1, "x": {"a": 0, "a": 1}, "y": 2})", "s.json", max_json_values,
+  const JsonDocument outer(R"({"y": 1, "x": {"a": 0, "a": 1}, "y": 2})", "s.json", kMaxJsonValues,
                            RepeatedKeys::last_counts);
   EXPECT_EQ(outer.outdone_keys().count, 2U);
   EXPECT_EQ(outer.outdone_keys().pointer, "/y");
-  const JsonDocument none(R"({"y": 1})", "s.json", max_json_values, RepeatedKeys::last_counts);
+  const JsonDocument none(R"({"y": 1})", "s.json", kMaxJsonValues, RepeatedKeys::last_counts);
   EXPECT_EQ(none.outdone_keys().count, 0U);
 }
 
@@ -284,8 +284,8 @@ TEST(JsonWriter, KeepsTheBitsOfNumbers) {
 }
 
 TEST(JsonWriter, LeavesOutMembersAtAnyDepth) {
-  constexpr std::array<std::string_view, 2> left_out = {"x", "y"};
-  EXPECT_EQ(rewritten(R"({"x":1,"a":{"y":{},"b":[{"x":2}]},"y":3})", left_out),
+  constexpr std::array<std::string_view, 2> kLeftOut = {"x", "y"};
+  EXPECT_EQ(rewritten(R"({"x":1,"a":{"y":{},"b":[{"x":2}]},"y":3})", kLeftOut),
             R"({"a":{"b":[{}]}})");
 }
 

@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-constexpr std::string_view minimal = R"({
+constexpr std::string_view kMinimal = R"({
   "version": 1,
   "cameras": [{"type": "perspective", "position": [1, 2, 3], "direction": [0, 0, -2], "vertical_fov": 90}],
   "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}]
@@ -21,7 +21,7 @@ Scene parse(std::string_view text) {
 }
 
 TEST(JsonScene, FillsInEveryDefault) {
-  const LoadedScene loaded = parse_scene(minimal, "s.json", ".");
+  const LoadedScene loaded = parse_scene(kMinimal, "s.json", ".");
   EXPECT_TRUE(loaded.warnings.empty());
   const Scene& scene = loaded.scene;
   EXPECT_EQ(scene.size.width, 640U);
@@ -159,7 +159,7 @@ TEST(JsonScene, ReadsLightsAndTheEnvironment) {
 }
 
 TEST(JsonScene, NamesThePlaceOfAnError) {
-  std::string text(minimal);
+  std::string text(kMinimal);
   text.replace(text.find("\"radius\": 1"), 11, "\"radius\": -1");
   try {
     (void)parse_scene(text, "scene.json", ".");
@@ -175,7 +175,7 @@ TEST(JsonScene, NamesThePlaceOfAnError) {
 }
 
 TEST(JsonScene, ManyObjectsTakeLinearTime) {
-  std::string text(minimal.substr(0, minimal.rfind(']')));
+  std::string text(kMinimal.substr(0, kMinimal.rfind(']')));
   for (int i = 0; i < 50'000; ++i) text += R"(,{"type":"sphere","center":[0,0,0],"radius":1})";
   EXPECT_EQ(parse(text + "]}").objects.size(), 50'001U);
 }

@@ -9,24 +9,24 @@
 namespace microtrace::io {
 namespace {
 
-constexpr std::array<std::string_view, 3> known{"radius", "center", "a"};
+constexpr std::array<std::string_view, 3> kKnown{"radius", "center", "a"};
 
 TEST(Suggestion, NamesTheNearest) {
-  EXPECT_EQ(suggestion("raduis", known), "; did you mean \"radius\"?");
-  EXPECT_EQ(suggestion("centre", known), "; did you mean \"center\"?");
-  EXPECT_EQ(suggestion("Center", known), "; did you mean \"center\"?");
+  EXPECT_EQ(suggestion("raduis", kKnown), "; did you mean \"radius\"?");
+  EXPECT_EQ(suggestion("centre", kKnown), "; did you mean \"center\"?");
+  EXPECT_EQ(suggestion("Center", kKnown), "; did you mean \"center\"?");
 }
 
 TEST(Suggestion, ListsAllIfNoneIsSimilar) {
-  EXPECT_EQ(suggestion("shininess", known), "; known are \"radius\", \"center\", \"a\"");
-  EXPECT_EQ(suggestion("b", known), "; known are \"radius\", \"center\", \"a\"");
+  EXPECT_EQ(suggestion("shininess", kKnown), "; known are \"radius\", \"center\", \"a\"");
+  EXPECT_EQ(suggestion("b", kKnown), "; known are \"radius\", \"center\", \"a\"");
   EXPECT_EQ(suggestion("b", {}), "");
 }
 
 TEST(Suggestion, StaysShort) {
   const std::vector<std::string_view> many(1000, "radius");
   EXPECT_LT(suggestion("shininess", many).size(), 300U);
-  EXPECT_LT(suggestion(std::string(10'000'000, 'x'), known).size(), 100U);
+  EXPECT_LT(suggestion(std::string(10'000'000, 'x'), kKnown).size(), 100U);
 }
 
 }  // namespace

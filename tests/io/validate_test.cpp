@@ -11,10 +11,10 @@
 namespace microtrace {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float least = std::numeric_limits<float>::denorm_min();
-constexpr float most = std::numeric_limits<float>::max();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+constexpr float kMost = std::numeric_limits<float>::max();
 
 /// `field: message` of the first broken rule.
 template <typename T>
@@ -35,30 +35,30 @@ std::string camera_field(const Camera& camera) {
 
 TEST(ValidateShape, Sphere) {
   EXPECT_EQ(field(Sphere{}), "");
-  EXPECT_EQ(field(Sphere{.center = Vec3(-most), .radius = least}), "");
+  EXPECT_EQ(field(Sphere{.center = Vec3(-kMost), .radius = kLeast}), "");
   EXPECT_EQ(broken(Shape(Sphere{.radius = -1})), "radius: must be positive, is -1");
   EXPECT_EQ(broken(Shape(Sphere{.radius = 0})), "radius: must be positive, is 0");
-  EXPECT_EQ(broken(Shape(Sphere{.radius = nan})), "radius: must be positive, is nan");
-  EXPECT_EQ(field(Sphere{.radius = infinity}), "radius");
-  EXPECT_EQ(field(Sphere{.center = Vec3(0, nan, 0), .radius = -1}), "center");
+  EXPECT_EQ(broken(Shape(Sphere{.radius = kNan})), "radius: must be positive, is nan");
+  EXPECT_EQ(field(Sphere{.radius = kInfinity}), "radius");
+  EXPECT_EQ(field(Sphere{.center = Vec3(0, kNan, 0), .radius = -1}), "center");
 }
 
 TEST(ValidateShape, PlaneAndDisc) {
-  EXPECT_EQ(field(Plane{.normal = Vec3(0, least, 0)}), "");
+  EXPECT_EQ(field(Plane{.normal = Vec3(0, kLeast, 0)}), "");
   EXPECT_EQ(broken(Shape(Plane{.normal = Vec3(0, -0.0F, 0)})), "normal: must not be zero");
-  EXPECT_EQ(field(Plane{.normal = Vec3(infinity, 0, 0)}), "normal");
-  EXPECT_EQ(field(Plane{.point = Vec3(infinity, 0, 0)}), "point");
+  EXPECT_EQ(field(Plane{.normal = Vec3(kInfinity, 0, 0)}), "normal");
+  EXPECT_EQ(field(Plane{.point = Vec3(kInfinity, 0, 0)}), "point");
   EXPECT_EQ(field(Disc{}), "");
   EXPECT_EQ(field(Disc{.radius = 0}), "radius");
   EXPECT_EQ(field(Disc{.normal = Vec3(0)}), "normal");
-  EXPECT_EQ(field(Disc{.center = Vec3(nan)}), "center");
+  EXPECT_EQ(field(Disc{.center = Vec3(kNan)}), "center");
 }
 
 TEST(ValidateShape, TriangleMayBeDegenerateButIsFinite) {
   EXPECT_EQ(field(Triangle{}), "");
-  EXPECT_EQ(field(Triangle{.a = Vec3(nan)}), "a");
-  EXPECT_EQ(field(Triangle{.b = Vec3(infinity)}), "b");
-  EXPECT_EQ(field(Triangle{.c = Vec3(-infinity)}), "c");
+  EXPECT_EQ(field(Triangle{.a = Vec3(kNan)}), "a");
+  EXPECT_EQ(field(Triangle{.b = Vec3(kInfinity)}), "b");
+  EXPECT_EQ(field(Triangle{.c = Vec3(-kInfinity)}), "c");
 }
 
 TEST(ValidateShape, QuadricVaries) {
@@ -69,12 +69,12 @@ TEST(ValidateShape, QuadricVaries) {
                                           &Quadric::g, &Quadric::h, &Quadric::i};
   for (float Quadric::*coefficient : coefficients) {
     Quadric q;
-    q.*coefficient = least;
+    q.*coefficient = kLeast;
     EXPECT_EQ(field(q), "");
-    q.*coefficient = nan;
+    q.*coefficient = kNan;
     EXPECT_EQ(field(q), "coefficients");
   }
-  EXPECT_EQ(field(Quadric{.a = 1, .j = infinity}), "coefficients");
+  EXPECT_EQ(field(Quadric{.a = 1, .j = kInfinity}), "coefficients");
 }
 
 TEST(ValidateShape, MeshAttributesAreForAllVerticesOrNone) {
@@ -94,7 +94,7 @@ TEST(ValidateShape, MeshIndicesExist) {
   EXPECT_EQ(field(Mesh{}), "");
   mesh.triangles.push_back({0, 3, 1});
   EXPECT_EQ(broken(Shape(mesh)), "triangles: index 3 is not below the number of positions, 3");
-  mesh.positions[1].y = nan;
+  mesh.positions[1].y = kNan;
   EXPECT_EQ(field(mesh), "positions");
 }
 
@@ -105,7 +105,7 @@ TEST(ValidateCamera, Pose) {
   const DVec3 p(0), d(0, 0, -1), up(0, 1, 0);
   EXPECT_EQ(with(p, d, up), "");
   EXPECT_EQ(with(DVec3(1e39), d, up), "position");
-  EXPECT_EQ(with(DVec3(nan), d, up), "position");
+  EXPECT_EQ(with(DVec3(kNan), d, up), "position");
   EXPECT_EQ(with(p, DVec3(0), up), "direction");
   EXPECT_EQ(with(p, DVec3(0, 0, 1e-50), up), "direction");
   EXPECT_EQ(with(p, DVec3(1e-44), up), "");
@@ -126,7 +126,7 @@ TEST(ValidateCamera, Perspective) {
   EXPECT_EQ(with_fov(1), "");
   EXPECT_EQ(with_fov(1e-300), "");
   EXPECT_EQ(with_fov(std::nextafter(std::numbers::pi, 0)), "");
-  for (const double fov : {0.0, -1.0, std::numbers::pi, 4.0, double{nan}}) {
+  for (const double fov : {0.0, -1.0, std::numbers::pi, 4.0, double{kNan}}) {
     EXPECT_EQ(with_fov(fov), "vertical_fov") << fov;
   }
   PerspectiveCamera camera;
@@ -134,7 +134,7 @@ TEST(ValidateCamera, Perspective) {
   EXPECT_EQ(camera_field(camera), "");
   camera.aspect_ratio = 0;
   EXPECT_EQ(camera_field(camera), "aspect_ratio");
-  camera.focus = nan;
+  camera.focus = kNan;
   EXPECT_EQ(camera_field(camera), "focus");
   camera.focus = 0;
   EXPECT_EQ(camera_field(camera), "focus");
@@ -149,10 +149,10 @@ TEST(ValidateCamera, OrthographicAndDepth) {
   };
   EXPECT_EQ(with_depth(0.1, 100), "");
   EXPECT_EQ(with_depth(-0.1, 100), "near");
-  EXPECT_EQ(with_depth(double{nan}, 100), "near");
-  EXPECT_EQ(with_depth(double{infinity}, double{infinity}), "near");
+  EXPECT_EQ(with_depth(double{kNan}, 100), "near");
+  EXPECT_EQ(with_depth(double{kInfinity}, double{kInfinity}), "near");
   EXPECT_EQ(with_depth(1, 1), "far");
-  EXPECT_EQ(with_depth(1, double{nan}), "far");
+  EXPECT_EQ(with_depth(1, double{kNan}), "far");
   camera.height = 0;
   EXPECT_EQ(camera_field(camera), "height");
   camera.height = 1e39;

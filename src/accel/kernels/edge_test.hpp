@@ -43,7 +43,7 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
   // Bounds by each component's own terms; an axis-aligned triangle has only one. This matters
   // because a ray that has left a floor at 0 starts 2^-149 above it. A term of the height has 8
   // roundings; the rest is of second order.
-  constexpr double roundings = 8.01 * 0x1p-53;
+  constexpr double kRoundings = 8.01 * 0x1p-53;
   double height = 0, size = 0, height_sum = 0, size_sum = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, l = (i + 2) % 3;
@@ -54,8 +54,8 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
     height_sum += sum * __builtin_fabs(t.a[i]);
     size_sum += sum * __builtin_fabs(double{d[i]});
   }
-  const double height_bound = height_sum * roundings + 0x1p-600;
-  const double size_bound = size_sum * roundings + 0x1p-600;
+  const double height_bound = height_sum * kRoundings + 0x1p-600;
+  const double size_bound = size_sum * kRoundings + 0x1p-600;
   return size > 0 ? size > size_bound && height < -height_bound
                   : size < -size_bound && height > height_bound;
 }

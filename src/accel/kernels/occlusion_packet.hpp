@@ -90,10 +90,10 @@ class OcclusionPacketWalk {
   [[nodiscard]] Lanes touched(const WideNode& node) const {
     Lanes lanes = 0;
     for (int i = 0; i < kWidth; i += kNodeLanes) {
-      constexpr int M = kNodeLanes;
+      constexpr int kM = kNodeLanes;
       const auto touches = [&](const float* lo, const float* hi, int axis) {
-        return less_equal<M>(load<M>(lo + i), all<M>(hi_[axis])) &
-               less_equal<M>(all<M>(lo_[axis]), load<M>(hi + i));
+        return less_equal<kM>(load<kM>(lo + i), all<kM>(hi_[axis])) &
+               less_equal<kM>(all<kM>(lo_[axis]), load<kM>(hi + i));
       };
       lanes |= (touches(node.lo_x, node.hi_x, 0) & touches(node.lo_y, node.hi_y, 1) &
                 touches(node.lo_z, node.hi_z, 2))

@@ -37,8 +37,8 @@ void set_box(const Vec3& p, const DVec3& reach, BoxQuery& query) {
 
 /// Sets the query to an empty box.
 void set_empty(BoxQuery& query) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 3; ++k) query.lo[k] = infinity, query.hi[k] = -infinity;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) query.lo[k] = kInfinity, query.hi[k] = -kInfinity;
 }
 
 }  // namespace

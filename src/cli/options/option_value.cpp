@@ -107,9 +107,9 @@ DVec3 OptionValue::point() const {
 }
 
 std::uint64_t OptionValue::bytes() const {
-  constexpr std::string_view units = "KMG";
-  const std::size_t unit = text.empty() ? units.npos : units.find(text.back());
-  const bool has_unit = unit != units.npos;
+  constexpr std::string_view kUnits = "KMG";
+  const std::size_t unit = text.empty() ? kUnits.npos : kUnits.find(text.back());
+  const bool has_unit = unit != kUnits.npos;
   const auto number =
       read<std::uint64_t>(std::string_view(text).substr(0, text.size() - (has_unit ? 1 : 0)));
   const std::size_t shift = has_unit ? 10 * (unit + 1) : 0;

@@ -23,14 +23,14 @@ struct Decoded {
 template <std::floating_point Float>
 [[nodiscard]] Decoded decode(Float x) {
   using Bits = std::conditional_t<sizeof(Float) == 4, std::uint32_t, std::uint64_t>;
-  constexpr int fraction_bits = std::numeric_limits<Float>::digits - 1;
-  constexpr int least = std::numeric_limits<Float>::min_exponent - 1 - fraction_bits;
-  constexpr Bits hidden = Bits{1} << fraction_bits;
+  constexpr int kFractionBits = std::numeric_limits<Float>::digits - 1;
+  constexpr int kLeast = std::numeric_limits<Float>::min_exponent - 1 - kFractionBits;
+  constexpr Bits kHidden = Bits{1} << kFractionBits;
   const Bits bits = std::bit_cast<Bits>(x), magnitude = bits & ~Bits{0} >> 1;
-  const Bits fraction = magnitude & (hidden - 1);
-  const int biased = static_cast<int>(magnitude >> fraction_bits);
-  if (biased == 0) return {bits != magnitude, fraction, least};
-  return {bits != magnitude, fraction | hidden, least - 1 + biased};
+  const Bits fraction = magnitude & (kHidden - 1);
+  const int biased = static_cast<int>(magnitude >> kFractionBits);
+  if (biased == 0) return {bits != magnitude, fraction, kLeast};
+  return {bits != magnitude, fraction | kHidden, kLeast - 1 + biased};
 }
 
 /// The leading bits of a magnitude: |x| = (mantissa + delta) 2^exponent, where mantissa has 53
@@ -45,8 +45,8 @@ struct Leading {
 [[nodiscard]] inline Leading leading_of(std::uint64_t first, std::uint64_t second, int top) {
   const int zeros = std::countl_zero(first);
   const std::uint64_t bits = zeros == 0 ? first : first << zeros | second >> (64 - zeros);
-  constexpr int dropped = 64 - 53;
-  return {static_cast<double>(bits >> dropped) * 0x1p-53, top - zeros};
+  constexpr int kDropped = 64 - 53;
+  return {static_cast<double>(bits >> kDropped) * 0x1p-53, top - zeros};
 }
 
 }  // namespace microtrace::exact

@@ -5,16 +5,16 @@
 namespace microtrace::exact {
 
 Enclosure bounds(int sign, const Scaled& size) {
-  constexpr double margin = 0x1p-49;
-  constexpr int limit = 1000;
+  constexpr double kMargin = 0x1p-49;
+  constexpr int kLimit = 1000;
   Enclosure e{};
-  if (size.exponent > limit) {
-    e = {std::ldexp(0.125, limit), std::numeric_limits<double>::infinity()};
-  } else if (size.exponent < -limit) {
-    e = {0.0, std::ldexp(8.0, -limit)};
+  if (size.exponent > kLimit) {
+    e = {std::ldexp(0.125, kLimit), std::numeric_limits<double>::infinity()};
+  } else if (size.exponent < -kLimit) {
+    e = {0.0, std::ldexp(8.0, -kLimit)};
   } else {
-    e = {std::ldexp(size.mantissa * (1 - margin), size.exponent),
-         std::ldexp(size.mantissa * (1 + margin), size.exponent)};
+    e = {std::ldexp(size.mantissa * (1 - kMargin), size.exponent),
+         std::ldexp(size.mantissa * (1 + kMargin), size.exponent)};
   }
   return sign < 0 ? Enclosure{-e.hi, -e.lo} : e;
 }

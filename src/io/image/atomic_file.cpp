@@ -44,9 +44,9 @@ std::optional<int> descriptor_number(const fs::path& path) {
 /// Follows symbolic links in the last component of the path, even if the final file does not exist
 /// yet.
 fs::path follow_links(fs::path path) {
-  constexpr int most_links = 40;  // as the kernel's limit
+  constexpr int kMaxLinks = 40;  // as the kernel's limit
   std::error_code ignored;
-  for (int links = 0; links < most_links; ++links) {
+  for (int links = 0; links < kMaxLinks; ++links) {
     if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
     path = path.parent_path() / fs::read_symlink(path, ignored);
   }

@@ -41,8 +41,8 @@ class AtomicFile {
 /// Throws Error(io) if an AtomicFile for this target would fail immediately. Has no side effects.
 void check_target(const std::filesystem::path& target);
 
-/// Whether the target is written directly, because it is an open descriptor or exists and is not a
-/// regular file.
+/// True if the target is written directly, because it is an open descriptor or an existing file
+/// that is not regular.
 [[nodiscard]] bool is_stream(const std::filesystem::path& target);
 
 }  // namespace microtrace::io

@@ -56,8 +56,8 @@ using MicrotraceEncodePng = int (*)(const MicrotracePng* picture);
 
 namespace microtrace::io {
 
-inline constexpr char codec_module_file_name[] = "microtrace_codecs.so";
-inline constexpr char decode_name[] = "microtrace_decode_v1";
-inline constexpr char encode_png_name[] = "microtrace_encode_png_v2";
+inline constexpr char kCodecModuleFileName[] = "microtrace_codecs.so";
+inline constexpr char kDecodeName[] = "microtrace_decode_v1";
+inline constexpr char kEncodePngName[] = "microtrace_encode_png_v2";
 
 }  // namespace microtrace::io

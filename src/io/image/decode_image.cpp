@@ -28,7 +28,7 @@ void* begin(void* context, const MicrotraceImageHeader* header) {
   auto& decoding = *static_cast<Decoding*>(context);
   DecodedImage& result = decoding.result;
   const std::uint64_t pixels = std::uint64_t{header->width} * header->height;
-  if (pixels > max_texture_pixels) {
+  if (pixels > kMaxTexturePixels) {
     result.too_large = true;
     return nullptr;
   }
@@ -66,7 +66,7 @@ void complain(void* context, const char* text) {
 }  // namespace
 
 DecodedImage decode_image(std::string_view bytes) {
-  static const ModuleFunction codec = find_module_function(codec_module_file_name, decode_name);
+  static const ModuleFunction codec = find_module_function(kCodecModuleFileName, kDecodeName);
   if (codec.address == nullptr) {
     return {.complaint = codec.complaint +
                          "; build the target microtrace_codecs, or set MICROTRACE_MODULE_PATH to "

@@ -11,12 +11,12 @@
 namespace microtrace::io {
 
 /// Maximum number of pixels of an image.
-inline constexpr std::uint64_t max_texture_pixels = std::uint64_t{1} << 28U;
+inline constexpr std::uint64_t kMaxTexturePixels = std::uint64_t{1} << 28U;
 
 struct DecodedImage {
   std::optional<Image> image{};  ///< nothing if the file can't be decoded
   std::string complaint{};       ///< the reason of a failure, or a warning
-  bool too_large = false;        ///< more than max_texture_pixels, or than the memory allows
+  bool too_large = false;        ///< more than kMaxTexturePixels, or than the memory allows
   bool no_module = false;        ///< the codec module is not installed
 };
 

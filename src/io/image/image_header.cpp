@@ -28,13 +28,13 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t 
 struct Size {
   std::uint32_t width, height;
 };
-// 0 x 0 means invalid; nothing means that the file ends too early.
-constexpr Size no_size{0, 0};
+// 0 x 0 marks an invalid header. The functions below return nothing if the file ends too early.
+constexpr Size kNoSize{0, 0};
 
 /// PNG (ISO/IEC 15948), section 11.2.2: the chunk IHDR comes first.
 std::optional<Size> png_size(std::string_view bytes) {
-  constexpr std::string_view first_chunk = "\0\0\0\x0dIHDR"sv;
-  if (!bytes.substr(8, 8).starts_with(first_chunk.substr(0, bytes.size() - 8))) return no_size;
+  constexpr std::string_view kFirstChunk = "\0\0\0\x0dIHDR"sv;
+  if (!bytes.substr(8, 8).starts_with(kFirstChunk.substr(0, bytes.size() - 8))) return kNoSize;
   if (bytes.size() < 33) return std::nullopt;
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
@@ -55,11 +55,11 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
       if (at + 9 > bytes.size()) return std::nullopt;
       return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
     }
-    if (marker == 0xD9 || marker == 0xDA) return no_size;
+    if (marker == 0xD9 || marker == 0xDA) return kNoSize;
     const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
     at += alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U);
   }
-  if (bytes.size() > 3 && byte(bytes, 3) == 0) return no_size;
+  if (bytes.size() > 3 && byte(bytes, 3) == 0) return kNoSize;
   return std::nullopt;
 }
 
@@ -75,7 +75,7 @@ std::optional<Size> webp_size(std::string_view bytes) {
     return Size{(bits & 0x3FFFU) + 1, (bits >> 14U & 0x3FFFU) + 1};
   }
   if (kind == "VP8X") return Size{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
-  return no_size;
+  return kNoSize;
 }
 
 /// KTX File Format Specification 2.0, section 2: the header and the first entry of the level index.

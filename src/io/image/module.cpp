@@ -77,19 +77,19 @@ void require_threads(const FormatModule& module, const std::string& file) {
 }
 
 const FormatModule& module_for(std::string_view ending) {
-  static constexpr FormatModule openexr{
+  static constexpr FormatModule kOpenexr{
       .file = "microtrace_openexr.so", .package = "libopenexr-dev", .target = "microtrace_openexr"};
-  static constexpr FormatModule openimageio{.file = "microtrace_openimageio.so",
-                                            .package = "libopenimageio-dev",
-                                            .target = "microtrace_openimageio",
-                                            .starts_threads = true};
-  return ending == "exr" ? openexr : openimageio;
+  static constexpr FormatModule kOpenimageio{.file = "microtrace_openimageio.so",
+                                             .package = "libopenimageio-dev",
+                                             .target = "microtrace_openimageio",
+                                             .starts_threads = true};
+  return ending == "exr" ? kOpenexr : kOpenimageio;
 }
 
 ImageModule::ImageModule(std::string file, std::string_view ending) : file_(std::move(file)) {
   void* module = load_module(module_for(ending), file_);
-  find_format_ = find_function<MicrotraceFindFormat>(module, find_format_name, file_);
-  encode_ = find_function<MicrotraceEncode>(module, encode_name, file_);
+  find_format_ = find_function<MicrotraceFindFormat>(module, kFindFormatName, file_);
+  encode_ = find_function<MicrotraceEncode>(module, kEncodeName, file_);
 }
 
 MicrotraceFormat ImageModule::find_format(const std::string& ending) const {

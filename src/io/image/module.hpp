@@ -16,8 +16,8 @@ struct FormatModule {
   const char* file;
   const char* package;  ///< Debian package needed to build the module
   const char* target;   ///< CMake target of the module
-  /// Whether libraries of the module start threads while they are loaded, and terminate the process
-  /// if this fails, as dependencies of Debian's OpenImageIO do.
+  /// Libraries of the module start threads while they are loaded, and terminate the process if this
+  /// fails, as dependencies of Debian's OpenImageIO do.
   bool starts_threads = false;
 };
 

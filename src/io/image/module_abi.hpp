@@ -83,8 +83,8 @@ using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, cons
 
 namespace microtrace::io {
 
-inline constexpr char find_format_name[] = "microtrace_find_format_v3";
-inline constexpr char encode_name[] = "microtrace_encode_v3";
-inline constexpr char decode_colors_name[] = "microtrace_decode_colors_v1";
+inline constexpr char kFindFormatName[] = "microtrace_find_format_v3";
+inline constexpr char kEncodeName[] = "microtrace_encode_v3";
+inline constexpr char kDecodeColorsName[] = "microtrace_decode_colors_v1";
 
 }  // namespace microtrace::io

@@ -9,7 +9,7 @@
 namespace microtrace::io {
 namespace {
 
-constexpr std::array color_names = {"R", "G", "B", "A"};
+constexpr std::array kColorNames = {"R", "G", "B", "A"};
 
 }  // namespace
 
@@ -40,13 +40,13 @@ ModulePicture::ModulePicture(const Film& film, const MicrotraceFormat& format)
 void ModulePicture::add_float_colors(const Film& film) {
   const Vec3& first = film.row(0)[0];
   for (glm::length_t i = 0; i < 3; ++i) {
-    channels_.push_back({.name = color_names[static_cast<std::size_t>(i)],
+    channels_.push_back({.name = kColorNames[static_cast<std::size_t>(i)],
                          .first = &first[i],
                          .stride = sizeof(Vec3),
                          .number = kMicrotraceF32});
   }
   if (!film.has_alpha()) return;
-  channels_.push_back({.name = color_names[3],
+  channels_.push_back({.name = kColorNames[3],
                        .first = film.alpha_row(0).data(),
                        .stride = sizeof(float),
                        .number = kMicrotraceF32});
@@ -60,7 +60,7 @@ void ModulePicture::add_byte_colors(const Film& film) {
     encode_row(film, y, bytes_.data() + y * row);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    channels_.push_back({.name = color_names[i],
+    channels_.push_back({.name = kColorNames[i],
                          .first = bytes_.data() + i,
                          .stride = count,
                          .number = kMicrotraceU8});

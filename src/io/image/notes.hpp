@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture's file says of itself.
+/// Text entries that describe a picture in its file.
 
 #include <microtrace/film.hpp>
 
@@ -12,8 +12,8 @@ struct Note {
   std::string name, text;
 };
 
-/// What was done to the light, if the display asks for anything: of formats that hold the light
-/// itself that nothing was.
+/// The display transforms applied to the colors, if any were requested. For formats that store
+/// linear light the note says that none was applied.
 [[nodiscard]] std::vector<Note> notes_of(const Display& display, bool holds_light);
 
 }  // namespace microtrace::io

@@ -33,11 +33,11 @@ const unsigned char* row_of(void* context, std::uint32_t y) {
 }
 
 int take_bytes(void* context, const void* bytes, std::size_t size) {
-  constexpr std::size_t block = std::size_t{1} << 16;
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
   auto& streams = *static_cast<Streams*>(context);
   try {
     streams.bytes.append(static_cast<const char*>(bytes), size);
-    if (streams.bytes.size() < block) return 1;
+    if (streams.bytes.size() < kBlock) return 1;
     streams.out(streams.bytes);
     streams.bytes.clear();
     return 1;
@@ -59,7 +59,7 @@ void take_reason(void* context, const char* text) {
 }  // namespace
 
 PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
-  const ModuleFunction function = find_module_function(codec_module_file_name, encode_png_name);
+  const ModuleFunction function = find_module_function(kCodecModuleFileName, kEncodePngName);
   if (function.address == nullptr) {
     throw Error(
         ErrorKind::unsupported, file_,

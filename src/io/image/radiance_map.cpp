@@ -86,7 +86,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   const std::string ending = ending_of(path);
   const io::FormatModule& module = io::module_for(ending);
   io::require_threads(module, path.string());
-  const io::ModuleFunction function = io::find_module_function(module.file, io::decode_colors_name);
+  const io::ModuleFunction function = io::find_module_function(module.file, io::kDecodeColorsName);
   if (function.address == nullptr) {
     throw Error(ErrorKind::unsupported, path.string(),
                 function.complaint + "; install " + module.package + " and build the target " +
@@ -117,10 +117,10 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
 /// A table from all numbers of this width to linear light.
 template <class Number>
 std::vector<float> srgb_table() {
-  constexpr std::size_t count = std::size_t{std::numeric_limits<Number>::max()} + 1;
-  std::vector<float> table(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    table[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / double{count - 1}));
+  constexpr std::size_t kCount = std::size_t{std::numeric_limits<Number>::max()} + 1;
+  std::vector<float> table(kCount);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    table[i] = static_cast<float>(linear_from_srgb(static_cast<double>(i) / double{kCount - 1}));
   }
   return table;
 }
@@ -156,7 +156,7 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
   const FloatEnvironment environment;
   MemoryAccount work(memory);
   const MemoryScope scope(work);
-  const Decoded decoded = decode(io::read_regular_file(path, io::max_file_size), path);
+  const Decoded decoded = decode(io::read_regular_file(path, io::kMaxFileSize), path);
   const MicrotraceColors& colors = *decoded.colors;
   RadianceMap map{.width = colors.width, .height = colors.height};
   MemoryAccount memory_of_map(memory);

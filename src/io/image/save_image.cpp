@@ -31,11 +31,11 @@ std::string format_ending(const std::filesystem::path& path) {
 }
 
 void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
-  constexpr std::size_t block = std::size_t{1} << 16;
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
   std::string bytes = io::ppm_header(film.size(), encoding);
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
     io::append_ppm_row(film, y, encoding, bytes);
-    if (bytes.size() < block) continue;
+    if (bytes.size() < kBlock) continue;
     file.write(bytes);
     bytes.clear();
   }

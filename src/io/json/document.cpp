@@ -17,8 +17,8 @@
 namespace microtrace::io {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-constexpr std::string_view whitespace = " \t\r\n";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view kWhitespace = " \t\r\n";
 
 /// Builds the tree from nlohmann-json's events. The events have no positions, but between two of
 /// them are only white space and at most one comma or colon, so the start of each token follows
@@ -33,7 +33,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
         max_values_(max_values),
         policy_(policy),
         outdone_keys_(outdone_keys),
-        end_(text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) {}
+        end_(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0) {}
 
   bool null() override { return scalar(of_kind(JsonValue::Kind::null), 4); }
 
@@ -107,14 +107,14 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   }
 
  private:
-  /// Memory is charged for this many values at a time, including unused capacity of their vectors.
+  /// Memory is counted for this many values at a time, including unused capacity of their vectors.
   static constexpr std::size_t kBlock = 1024, kBytesOfValue = 2 * sizeof(JsonValue);
   static constexpr std::size_t kLongString = 256;
 
   enum class Last { open, key, value };
 
   [[nodiscard]] std::size_t skip_whitespace(std::size_t offset) const {
-    return std::min(text_.find_first_not_of(whitespace, offset), text_.size());
+    return std::min(text_.find_first_not_of(kWhitespace, offset), text_.size());
   }
 
   /// The position of the next token, and the tokens allowed there.
@@ -184,7 +184,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 
   bool open(JsonValue::Kind kind) {
     const std::size_t start = next_token().token;
-    if (open_.size() == max_json_depth) {
+    if (open_.size() == kMaxJsonDepth) {
       // The pointer would be extremely long.
       throw Error(ErrorKind::limit,
                   document_.at(start, "", "arrays and objects are nested more than 256 deep"));
@@ -267,12 +267,12 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
 JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t max_values,
                            RepeatedKeys repeated)
     : text_(text), file_(std::move(file)) {
-  if (text.size() > max_json_size) {
+  if (text.size() > kMaxJsonSize) {
     throw Error(ErrorKind::limit, file_, "the JSON text is larger than 1 GiB");
   }
   std::string_view content = text;
-  if (content.starts_with(byte_order_mark)) content.remove_prefix(byte_order_mark.size());
-  if (content.find_first_not_of(whitespace) == std::string_view::npos) {
+  if (content.starts_with(kByteOrderMark)) content.remove_prefix(kByteOrderMark.size());
+  if (content.find_first_not_of(kWhitespace) == std::string_view::npos) {
     throw Error(ErrorKind::invalid_scene, file_, "is empty");
   }
   TreeBuilder builder(*this, text, root_, max_values, repeated, outdone_keys_);
@@ -283,7 +283,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string file, std::size_t 
 Diagnostic JsonDocument::at(std::size_t offset, const std::string& pointer,
                             std::string message) const {
   // The byte order mark doesn't count as part of the first line.
-  const std::size_t skipped = text_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+  const std::size_t skipped = text_.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   const std::string_view text = text_.substr(skipped);
   offset = std::min(offset - std::min(offset, skipped), text.size());
   const Place place = place_of(text, offset);

@@ -14,9 +14,9 @@
 
 namespace microtrace::io {
 
-inline constexpr std::size_t max_json_depth = 256;                    ///< maximum nesting
-inline constexpr std::size_t max_json_size = std::size_t{1} << 30;    ///< bytes
-inline constexpr std::size_t max_json_values = std::size_t{1} << 24;  ///< total number of values
+inline constexpr std::size_t kMaxJsonDepth = 256;                    ///< maximum nesting
+inline constexpr std::size_t kMaxJsonSize = std::size_t{1} << 30;    ///< bytes
+inline constexpr std::size_t kMaxJsonValues = std::size_t{1} << 24;  ///< total number of values
 
 struct JsonMember;
 
@@ -69,7 +69,7 @@ class JsonDocument {
   /// (invalid_scene; limit if one of the maxima above is exceeded) with line, column and excerpt if
   /// the text is not JSON, not UTF-8, has a number beyond the range of double, or a duplicate key
   /// in an object.
-  JsonDocument(std::string_view text, std::string file, std::size_t max_values = max_json_values,
+  JsonDocument(std::string_view text, std::string file, std::size_t max_values = kMaxJsonValues,
                RepeatedKeys repeated = RepeatedKeys::are_refused);
 
   [[nodiscard]] const JsonValue& root() const { return root_; }
@@ -94,10 +94,10 @@ class JsonDocument {
 [[nodiscard]] std::string child(const std::string& pointer, std::string_view key);
 [[nodiscard]] std::string child(const std::string& pointer, std::size_t index);
 
-/// The reference tokens of a JSON pointer, unescaped; nothing where it is not well-formed.
+/// The unescaped reference tokens of a JSON pointer; nothing if it is malformed.
 [[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
 
-/// The value that a JSON pointer leads to, or null.
+/// The value that a JSON pointer names, or null.
 [[nodiscard]] const JsonValue* resolve(const JsonValue& root, std::string_view pointer);
 [[nodiscard]] JsonValue* resolve(JsonValue& root, std::string_view pointer);
 

@@ -7,8 +7,8 @@
 namespace microtrace::io {
 namespace {
 
-constexpr std::size_t width = 120;
-constexpr std::size_t before = 80;  // maximum number of columns left of the caret
+constexpr std::size_t kWidth = 120;
+constexpr std::size_t kBefore = 80;  // maximum number of columns left of the caret
 
 }  // namespace
 
@@ -22,18 +22,18 @@ Place place_of(std::string_view text, std::size_t offset) {
 std::string excerpt(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
   // Only this much of a line is examined.
-  constexpr std::size_t reach = 2 * width;
-  const std::size_t first = offset - std::min(offset, reach);
+  constexpr std::size_t kReach = 2 * kWidth;
+  const std::size_t first = offset - std::min(offset, kReach);
   const std::size_t newline = text.substr(first, offset - first).rfind('\n');
   const std::size_t line_start = newline == text.npos ? first : first + newline + 1;
-  const std::string_view right = text.substr(offset, reach);
+  const std::string_view right = text.substr(offset, kReach);
   std::size_t line_end = offset + std::min(right.find('\n'), right.size());
   if (line_end > offset && text[line_end - 1] == '\r') --line_end;
 
-  const bool is_short = line_end - line_start <= width;
-  std::size_t start = is_short ? line_start : offset - std::min(offset - line_start, before);
+  const bool is_short = line_end - line_start <= kWidth;
+  std::size_t start = is_short ? line_start : offset - std::min(offset - line_start, kBefore);
   while (start > line_start && start < offset && continues_character(text[start])) ++start;
-  const std::size_t end = std::min(line_end, start + width);
+  const std::size_t end = std::min(line_end, start + kWidth);
 
   const PrintableText left = make_printable(text.substr(start, offset - start));
   std::string_view rest = text.substr(offset, end - offset);

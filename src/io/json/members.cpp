@@ -31,9 +31,9 @@ JsonValue* JsonValue::find(std::string_view key) {
 }
 
 void JsonValue::index_members() {
-  constexpr std::size_t few = 16;  // up to this number, linear search is faster
+  constexpr std::size_t kFew = 16;  // up to this number, linear search is faster
   by_key_.reset();
-  if (members.size() <= few) return;
+  if (members.size() <= kFew) return;
   std::vector<std::uint32_t> order(members.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::sort(order, {},

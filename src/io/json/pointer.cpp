@@ -7,7 +7,7 @@
 namespace microtrace::io {
 namespace {
 
-/// A reference token with ~1 for / and ~0 for ~; nothing where a ~ is neither.
+/// Decodes ~1 to / and ~0 to ~. Nothing if another character follows a ~.
 std::optional<std::string> unescaped(std::string_view token) {
   std::string result;
   for (std::size_t i = 0; i < token.size(); ++i) {

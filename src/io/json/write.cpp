@@ -18,7 +18,7 @@ void append_number(std::string& text, double x) {
   text.append(digits.begin(), written.ptr);
 }
 
-/// In the place of the comma after the last item.
+/// Replaces the comma after the last item, if any.
 void close(std::string& text, char bracket) {
   if (text.back() == ',') text.pop_back();
   text += bracket;
@@ -27,12 +27,12 @@ void close(std::string& text, char bracket) {
 }  // namespace
 
 void append_json(std::string& text, std::string_view string) {
-  constexpr std::string_view hex = "0123456789abcdef";
+  constexpr std::string_view kHex = "0123456789abcdef";
   text += '"';
   for (const char c : string) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte < 0x20) {
-      text.append("\\u00").append({hex[byte / 16], hex[byte % 16]});
+      text.append("\\u00").append({kHex[byte / 16], kHex[byte % 16]});
       continue;
     }
     if (c == '"' || c == '\\') text += '\\';

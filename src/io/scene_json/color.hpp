@@ -15,7 +15,7 @@ namespace microtrace::io {
 using Colors = std::map<std::string, Vec3, std::less<>>;
 
 /// Maximum of each channel of emitted light, so that sums and products stay finite.
-inline constexpr double max_radiance = 1e9;
+inline constexpr double kMaxRadiance = 1e9;
 
 /// Reads the root's member "colors". Throws Error, as do the functions below.
 [[nodiscard]] Colors read_colors(const JsonReader& json);

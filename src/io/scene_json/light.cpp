@@ -96,7 +96,7 @@ Environment read_environment(const JsonReader& json, const Colors& colors,
   Environment result;
   if (name == "uniform") {
     json.require_object({"type", "color", "intensity", "visible"});
-    result.content = read_color(json.member("color"), colors, max_radiance);
+    result.content = read_color(json.member("color"), colors, kMaxRadiance);
   } else if (name == "map") {
     json.require_object({"type", "file", "rotation", "intensity", "visible"});
     result.content = read_map(json.member("file"), folder, warnings);

@@ -43,7 +43,7 @@ Specular read_specular(const JsonReader& json, const Colors& colors) {
   const Members members(json, colors);
   Specular result;
   members.share("factor", result.factor);
-  members.color("color", result.color, max_radiance);
+  members.color("color", result.color, kMaxRadiance);
   return result;
 }
 
@@ -108,7 +108,7 @@ Material read_material(const JsonReader& json, const Colors& colors) {
   members.boolean("unlit", result.unlit);
   members.share("metallic", result.metallic);
   members.share("roughness", result.roughness);
-  members.color("emissive", result.emissive, max_radiance);
+  members.color("emissive", result.emissive, kMaxRadiance);
   if (const auto ior = json.find("ior")) result.ior = read_ior(*ior);
   members.at_least("dispersion", 0, result.dispersion);
   if (const auto transmission = json.find("transmission")) {

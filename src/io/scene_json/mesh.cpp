@@ -63,7 +63,7 @@ DMat4 read_matrix(const JsonReader& json) {
 
 std::string read_mesh_file(const JsonReader& json, const std::filesystem::path& path) {
   try {
-    return read_regular_file(path, max_file_size);
+    return read_regular_file(path, kMaxFileSize);
   } catch (const Error& error) {
     std::string message = printable(path.string());
     json.fail(message.append(" ").append(error.diagnostic().message), error.kind());

@@ -36,9 +36,9 @@ void take_message(j_common_ptr info, int level) {
 
 /// A small file can contain very many scans of a large image.
 void limit_scans(j_common_ptr info) {
-  constexpr int max_scans = 500;
+  constexpr int kMaxScans = 500;
   auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
-  if (jpeg->input_scan_number <= max_scans) return;
+  if (jpeg->input_scan_number <= kMaxScans) return;
   const auto* manager = reinterpret_cast<const ErrorManager*>(info->err);
   manager->sink->complain(manager->sink->context, "has more than 500 scans");
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);

@@ -35,11 +35,11 @@ void read(png_structp png, png_bytep to, std::size_t size) {
 
 /// Skips chunks that do not affect the samples: profiles, gamma, texts.
 void skip_ancillary_chunks(png_structp png) {
-  constexpr png_byte names[] =
+  constexpr png_byte kNames[] =
       "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0"
       "sTER\0tEXt\0tIME\0zTXt";
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, 0);
-  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, names, sizeof names / 5);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, kNames, sizeof kNames / 5);
 }
 
 /// Requests whole rows of 8 or 16 bits: palettes, low bit depths and transparent colors are

@@ -53,7 +53,7 @@ const char* write_restored(const draco::PointAttribute& source, std::size_t poin
   return nullptr;
 }
 
-const char* write_quantised(const draco::PointAttribute& source, std::size_t points,
+const char* write_quantized(const draco::PointAttribute& source, std::size_t points,
                             const MicrotraceDracoAttribute& wanted) {
   draco::AttributeQuantizationTransform transform;
   if (!transform.InitFromAttribute(source)) return kUnreadable;
@@ -96,7 +96,7 @@ const char* write_draco_values(const draco::PointAttribute& source, std::size_t 
                                const MicrotraceDracoAttribute& wanted) {
   if (const draco::AttributeTransformData* transform = source.GetAttributeTransformData()) {
     if (transform->transform_type() == draco::ATTRIBUTE_QUANTIZATION_TRANSFORM)
-      return write_quantised(source, points, wanted);
+      return write_quantized(source, points, wanted);
     if (transform->transform_type() == draco::ATTRIBUTE_OCTAHEDRON_TRANSFORM)
       return write_octahedral(source, points, wanted);
   }

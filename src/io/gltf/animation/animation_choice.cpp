@@ -9,16 +9,16 @@ namespace microtrace::io::gltf {
 namespace {
 
 std::string list_of_animations(const Asset& asset) {
-  constexpr std::size_t shown = 20;
+  constexpr std::size_t kShown = 20;
   const std::vector<JsonValue>& animations = asset.array("animations");
   if (animations.empty()) return "the asset has no animations";
   std::string result = "the asset has";
-  for (std::size_t i = 0; i < std::min(animations.size(), shown); ++i) {
+  for (std::size_t i = 0; i < std::min(animations.size(), kShown); ++i) {
     result += (i == 0 ? " " : ", ") + std::to_string(i);
     const JsonValue* name = animations[i].find("name");
     if (name != nullptr) result += " (" + printable(name->string.substr(0, 64)) + ")";
   }
-  if (animations.size() > shown) result += ", ... " + std::to_string(animations.size() - 1);
+  if (animations.size() > kShown) result += ", ... " + std::to_string(animations.size() - 1);
   return result;
 }
 

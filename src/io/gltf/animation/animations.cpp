@@ -27,7 +27,7 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-/// The targets of each primitive of a mesh are as many as those of its first.
+/// Number of morph targets of a mesh. All primitives have as many as the first.
 std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
   if (!mesh) return 0;
   const auto& primitives = model.meshes[*mesh].primitives;
@@ -36,7 +36,7 @@ std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
 
 }  // namespace
 
-/// Reads channels, and each accessor once.
+/// Reads channels. Decodes each accessor once.
 class AnimationPlayer::Reader {
  public:
   Reader(Asset& asset, const Model& model, AccessorReader& reader)
@@ -51,13 +51,13 @@ class AnimationPlayer::Reader {
     const Element sampler =
         animation.member("samplers").item(static_cast<std::size_t>(number.value->number));
     if (!has_data(sampler)) {
-      asset_.warn(channel, "needs a buffer without data; it is ignored");
+      asset_.warn(channel, "needs a buffer that has no data; it is ignored");
       return std::nullopt;
     }
     if (is_pointed_at(target->path) && !fits(sampler, *target)) {
       asset_.warn(
           sampler.member("output"),
-          "has not the type or the number of elements of what a pointer animates by it; the "
+          "has a type or number of elements that doesn't fit the property its pointer names; the "
           "channel is ignored");
       return std::nullopt;
     }
@@ -77,8 +77,8 @@ class AnimationPlayer::Reader {
     AnimatedProperty property{};
   };
 
-  /// A node and its property; or a pointer to it, /nodes/0/rotation, by KHR_animation_pointer,
-  /// which may lead to other properties too.
+  /// The node and property that a channel animates. A pointer of KHR_animation_pointer may name a
+  /// node's property, /nodes/0/rotation, or another object's.
   std::optional<Target> target_of(const Element& at) {
     const Element name = at.member("path");
     if (name.value->string == "pointer") {
@@ -94,11 +94,11 @@ class AnimationPlayer::Reader {
   }
 
   std::optional<Target> pointed_at(const Element& pointer) {
-    constexpr std::string_view nodes = "/nodes/";
+    constexpr std::string_view kNodes = "/nodes/";
     const std::string_view text = pointer.value->string;
     const std::size_t slash = text.rfind('/');
-    if (text.starts_with(nodes) && slash >= nodes.size()) {
-      const auto node = index_in(text.substr(nodes.size(), slash - nodes.size()));
+    if (text.starts_with(kNodes) && slash >= kNodes.size()) {
+      const auto node = index_in(text.substr(kNodes.size(), slash - kNodes.size()));
       const std::optional<Path> path = path_of(text.substr(slash + 1));
       if (node && *node < model_.nodes.size() && path) return Target{pointer, *node, *path};
     }
@@ -117,18 +117,18 @@ class AnimationPlayer::Reader {
   }
 
   static std::optional<Path> path_of(std::string_view text) {
-    constexpr std::array<std::pair<std::string_view, Path>, 4> paths = {
+    constexpr std::array<std::pair<std::string_view, Path>, 4> kPaths = {
         {{"translation", Path::translation},
          {"rotation", Path::rotation},
          {"scale", Path::scale},
          {"weights", Path::weights}}};
-    for (const auto& [name, path] : paths) {
+    for (const auto& [name, path] : kPaths) {
       if (text == name) return path;
     }
     return std::nullopt;
   }
 
-  /// The numbers in one value; nothing where there is nothing to animate.
+  /// Numbers in one value; nothing if the target can't be animated.
   std::optional<std::size_t> width_of(const Target& target) {
     const auto& [at, node, path, property] = target;
     if (is_pointed_at(path)) return property.width;
@@ -139,30 +139,30 @@ class AnimationPlayer::Reader {
       asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
       return std::nullopt;
     }
-    if (animated.matrix) {  // check_animations has told, but of pointers
+    if (animated.matrix) {  // check_animations warned, but not of pointers
       asset_.tolerate(at, "animates a node that has a matrix; it is ignored");
       return std::nullopt;
     }
     return path == Path::rotation ? 4 : 3;
   }
 
-  /// By KHR_animation_pointer alone.
+  /// Only KHR_animation_pointer can animate these.
   static bool is_pointed_at(Path path) {
     return path == Path::property || path == Path::visibility;
   }
 
-  /// Integers may stand for numbers as they are, and must for true and false, in steps.
+  /// Integers are accepted as plain numbers. Booleans must be integers with STEP interpolation.
   bool fits(const Element& sampler, const Target& target) const {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));
     const JsonValue* kind = sampler.value->find("interpolation");
     const bool is_step = kind != nullptr && kind->string == "STEP";
     const std::size_t values = kind != nullptr && kind->string == "CUBICSPLINE" ? 3 : 1;
-    if (in.type != ElementType::scalar || in.component_type != f32 || is_matrix(out.type) ||
+    if (in.type != ElementType::scalar || in.component_type != kFloat32 || is_matrix(out.type) ||
         component_count(out.type) != target.property.width || out.count != in.count * values) {
       return false;
     }
-    const bool is_float = out.component_type == f32;
+    const bool is_float = out.component_type == kFloat32;
     return target.path == Path::property || (!is_float && is_step);
   }
 
@@ -205,7 +205,7 @@ class AnimationPlayer::Reader {
     return keys;
   }
 
-  /// Leaves out keys that make no sense. Each accessor is looked at once, however many share it.
+  /// Removes invalid keys. Each accessor is examined once, even if samplers share it.
   void repair(const Element& input, const Element& output, Keyframes& keys) {
     const auto [ascends, new_times] = ascends_.try_emplace(accessor_of(input));
     if (new_times) ascends->second = is_ascending(*keys.times);
@@ -216,14 +216,14 @@ class AnimationPlayer::Reader {
     charge(output, count + keys.values->size());
     keep_ascending(keys);
     asset_.tolerate(input, "has " + std::to_string(count - keys.times->size()) +
-                               " times that do not come after the one before them, or with "
-                               "values that are not finite; these keys are left out");
+                               " keyframes whose times do not ascend, or with "
+                               "values that are not finite; they are left out");
   }
 
   void charge(const Element& at, std::size_t count) {
     count_ += count;
-    if (count_ > max_elements) {
-      asset_.fail(at, "brings the animations to more than 2^27 numbers, the most that is read",
+    if (count_ > kMaxElements) {
+      asset_.fail(at, "brings the animations to more than 2^27 numbers, the limit",
                   ErrorKind::limit);
     }
   }
@@ -231,17 +231,17 @@ class AnimationPlayer::Reader {
   void check_types(const Element& input, const Element& output, Path path) const {
     const Model::Accessor& in = accessor(input);
     const Model::Accessor& out = accessor(output);
-    if (in.type != ElementType::scalar || in.component_type != f32) {
-      asset_.fail(input, "refers to an accessor that is not of type SCALAR and of floats");
+    if (in.type != ElementType::scalar || in.component_type != kFloat32) {
+      asset_.fail(input, "must refer to an accessor of type SCALAR and floats");
     }
     const ElementType type = path == Path::weights    ? ElementType::scalar
                              : path == Path::rotation ? ElementType::vec4
                                                       : ElementType::vec3;
     const bool may_be_integer = path == Path::rotation || path == Path::weights;
-    const bool is_integer = out.component_type != f32;
+    const bool is_integer = out.component_type != kFloat32;
     const bool is_narrow = component_size(out.component_type) < 4;
     if (out.type != type || (is_integer && !(may_be_integer && is_narrow && out.normalized))) {
-      asset_.fail(output, "refers to an accessor of a type that is not for its path");
+      asset_.fail(output, "refers to an accessor of the wrong type for its path");
     }
   }
 
@@ -263,8 +263,8 @@ class AnimationPlayer::Reader {
   const Model& model_;
   AccessorReader& reader_;
   std::unordered_map<std::size_t, Numbers> numbers_;        // by accessor
-  std::unordered_map<std::size_t, bool> ascends_, finite_;  // by accessor, as far as looked at
-  std::size_t count_ = 0;                                   // of them all
+  std::unordered_map<std::size_t, bool> ascends_, finite_;  // by accessor; filled on first use
+  std::size_t count_ = 0;                                   // numbers in all samplers
 };
 
 AnimationPlayer::AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,

@@ -1,5 +1,5 @@
 #pragma once
-/// An asset's animations: which there are, and what they make of the nodes at a time.
+/// Animations: selecting them, and evaluating them at a time.
 
 #include "io/gltf/animation/keyframes.hpp"
 #include "io/gltf/animation/posed_nodes.hpp"
@@ -14,31 +14,31 @@
 
 namespace microtrace::io::gltf {
 
-/// The indices of the animations that are meant by a name, else an index, else "all"; of the first,
-/// if there is one, by an empty text. Throws Error (usage), which lists those that there are.
+/// The indices of the animations selected by a name, an index or "all"; an empty text selects the
+/// first, if any. Throws Error (usage) that lists the existing ones.
 [[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
                                                          const std::string& wanted);
 
-/// Whether a channel of these animations points to a property of a material.
+/// True if a channel of these animations targets a material's property.
 [[nodiscard]] bool animate_materials(const Asset& asset,
                                      const std::vector<std::size_t>& animations);
 
-/// Animations, read and checked.
+/// Animations that are read and checked.
 class AnimationPlayer {
  public:
-  /// Channels without a target node, and those of properties that can't be animated, play no part;
-  /// for the latter there is a warning. Throws Error: invalid_scene, limit.
+  /// Ignores channels without a target node. Warns of properties that can't be animated and ignores
+  /// their channels. Throws Error: invalid_scene, limit.
   AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                   const std::vector<std::size_t>& animations);
 
-  /// What all channels say at that time, in seconds. Where two have one target, the later one
-  /// holds.
+  /// The values of all channels at a time in seconds. The last of several channels with the same
+  /// target wins.
   [[nodiscard]] PosedAsset at(double time) const;
 
  private:
   enum class Path { translation, rotation, scale, weights, visibility, property };
   struct Channel {
-    std::size_t node;  ///< but of `property`
+    std::size_t node;  ///< unless the target is `property`
     Path path;
     AnimatedProperty property{};
     Keyframes keys;
@@ -48,7 +48,7 @@ class AnimationPlayer {
   static void pose(NodePose& node, Path path, std::vector<double> value);
 
   std::vector<Channel> channels_;
-  std::optional<JsonValue> properties_;  // as the file has them, where some are animated
+  std::optional<JsonValue> properties_;  // unmodified; only if some are animated
 };
 
 }  // namespace microtrace::io::gltf

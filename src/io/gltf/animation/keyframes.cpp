@@ -16,7 +16,7 @@ Quaternion quaternion_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-/// The value, or tangent, of that number among the sampler's outputs.
+/// A value or tangent, by its index among the sampler's outputs.
 std::vector<double> output(const Keyframes& keys, std::size_t number) {
   const float* first = keys.values->data() + number * keys.width;
   return {first, first + keys.width};
@@ -31,14 +31,15 @@ std::vector<double> linear(const Keyframes& keys, std::size_t key, double t) {
   const std::vector<double> next = at_key(keys, key + 1);
   if (keys.are_rotations) {
     const Quaternion q =
-        slerp(normalised(quaternion_of(result)), normalised(quaternion_of(next)), t);
+        slerp(unit_quaternion(quaternion_of(result)), unit_quaternion(quaternion_of(next)), t);
     return {q.x, q.y, q.z, q.w};
   }
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = (1 - t) * result[i] + t * next[i];
   return result;
 }
 
-/// Hermite's cubic; tangents are per second, and so scaled by the seconds between the keys.
+/// Cubic Hermite spline. Tangents are per second, so they are scaled by the seconds between the
+/// keys.
 std::vector<double> cubic(const Keyframes& keys, std::size_t key, double t, double seconds) {
   std::vector<double> result = at_key(keys, key);
   const std::vector<double> next = at_key(keys, key + 1);
@@ -101,13 +102,14 @@ void keep_ascending(Keyframes& keys) {
 std::vector<double> value_at(const Keyframes& keys, double time) {
   std::vector<double> result = between_keys(keys, time);
   if (!keys.are_rotations) return result;
-  const Quaternion q = normalised(quaternion_of(result));
+  const Quaternion q = unit_quaternion(quaternion_of(result));
   return {q.x, q.y, q.z, q.w};
 }
 
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
   const Quaternion near_b = glm::dot(a, b) < 0 ? -b : b;
-  // The angle between them, of [0, pi/2]. The arccosine of their product would lose small ones.
+  // The angle between a and b, in [0, pi/2]. The arccosine of their dot product would be inaccurate
+  // for small angles.
   const double across = glm::length(a - near_b), along = glm::length(a + near_b);
   const double angle = 2 * atan_radians(across / along);
   if (!(angle > 0)) return a;
@@ -115,10 +117,10 @@ Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
   return a * (sin_radians((1 - t) * angle) / sine) + near_b * (sin_radians(t * angle) / sine);
 }
 
-Quaternion normalised(const Quaternion& q) {
+Quaternion unit_quaternion(const Quaternion& q) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
   if (!(largest > 0)) return q;
-  const Quaternion scaled = q / largest;  // no square of it overflows
+  const Quaternion scaled = q / largest;  // so that no square overflows
   return scaled / glm::length(scaled);
 }
 

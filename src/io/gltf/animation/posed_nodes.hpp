@@ -1,5 +1,5 @@
 #pragma once
-/// What a time makes of an asset.
+/// The animated state of an asset at one time.
 
 #include "io/gltf/animation/keyframes.hpp"
 #include "io/json/document.hpp"
@@ -13,7 +13,7 @@
 
 namespace microtrace::io::gltf {
 
-/// What stands instead of a node's own properties.
+/// Animated properties of one node. They replace the node's own.
 struct NodePose {
   std::optional<DVec3> translation{}, scale{};
   std::optional<Quaternion> rotation{};  ///< of unit length
@@ -21,13 +21,12 @@ struct NodePose {
   std::optional<bool> visible{};  ///< of KHR_node_visibility
 };
 
-/// By node; one without is as the file has it.
+/// By node index. Nodes without an entry keep their own properties.
 using PosedNodes = std::unordered_map<std::size_t, NodePose>;
 
 struct PosedAsset {
   PosedNodes nodes{};
-  /// Materials, cameras and extensions of the root object, where some of their properties are
-  /// animated.
+  /// A copy of materials, cameras and root extensions, if any of their properties is animated.
   std::optional<JsonValue> properties{};
 };
 

@@ -14,19 +14,19 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 3> animated_members = {"materials", "cameras", "extensions"};
+constexpr std::array<std::string_view, 3> kAnimatedMembers = {"materials", "cameras", "extensions"};
 
 const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   const std::optional<std::size_t> index = index_in(token);
   return index && *index < array.items.size() ? &array.items[*index] : nullptr;
 }
 
-/// Follows a pointer through the asset and through the schema's rules side by side.
+/// Follows a pointer through the asset and the schema's rules in parallel.
 class Walk {
  public:
   explicit Walk(const Asset& asset) : object_(asset.root().value) {}
 
-  /// The rule of the property that the tokens lead to, or null.
+  /// The rule of the property that the tokens name, or null.
   const Rule* follow(std::span<const std::string> tokens) {
     while (!tokens.empty()) {
       if (tokens[0] == "extensions") {
@@ -78,7 +78,7 @@ JsonValue& make_member(JsonValue& object, const std::string& key) {
   return object.members.back().value;
 }
 
-/// The items of an array in an object that may be absent.
+/// The items of an array; none if the object or the array is absent.
 std::span<JsonValue> items(JsonValue* object, std::string_view key) {
   JsonValue* array = object != nullptr ? object->find(key) : nullptr;
   return array != nullptr ? std::span(array->items) : std::span<JsonValue>();
@@ -100,14 +100,14 @@ void repair_perspective(JsonValue& camera) {
 }
 
 void repair_orthographic(JsonValue& camera) {
-  constexpr double least = 1e-6;
+  constexpr double kLeast = 1e-6;
   for (const char* key : {"xmag", "ymag"}) {
     double& magnitude = camera.find(key)->number;
-    if (std::abs(magnitude) < least) magnitude = least;
+    if (std::abs(magnitude) < kLeast) magnitude = kLeast;
   }
   const double near = camera.find("znear")->number;
   double& far = camera.find("zfar")->number;
-  if (far <= near) far = near + std::max(least, least * near);
+  if (far <= near) far = near + std::max(kLeast, kLeast * near);
 }
 
 void repair_cone(JsonValue& light) {
@@ -132,7 +132,7 @@ std::optional<AnimatedProperty> find_property(const Asset& asset, std::string_vi
     property.is_boolean = true;
     return property;
   }
-  if (std::ranges::find(animated_members, first) == animated_members.end()) return std::nullopt;
+  if (std::ranges::find(kAnimatedMembers, first) == kAnimatedMembers.end()) return std::nullopt;
   if (rule->form == Form::numbers && rule->fewest == rule->most) {
     property.is_array = true;
     property.width = rule->most;
@@ -148,7 +148,7 @@ JsonValue animated_part(const JsonValue& root) {
   JsonValue part;
   part.kind = JsonValue::Kind::object;
   for (const JsonMember& member : root.members) {
-    if (std::ranges::find(animated_members, member.key) != animated_members.end()) {
+    if (std::ranges::find(kAnimatedMembers, member.key) != kAnimatedMembers.end()) {
       part.members.push_back(member);
     }
   }
@@ -183,7 +183,7 @@ void repair_properties(JsonValue& part) {
   for (JsonValue& material : items(&part, "materials")) {
     JsonValue* refraction = extension_of(material, "KHR_materials_ior");
     JsonValue* ior = refraction != nullptr ? refraction->find("ior") : nullptr;
-    // 0 stands for an infinite one.
+    // The extension gives 0 the meaning of an infinite index of refraction.
     if (ior != nullptr && ior->number > 0 && ior->number < 1) ior->number = 1;
   }
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Properties of materials, cameras, lights and nodes that KHR_animation_pointer may change.
+/// Properties of materials, cameras, lights and nodes that KHR_animation_pointer can animate.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -16,25 +16,25 @@ struct AnimatedProperty {
   bool is_boolean = false;
   bool is_array = false;
   std::size_t width = 1;    ///< numbers in a value
-  double min = 0, max = 0;  ///< of each number
+  double min = 0, max = 0;  ///< range of each number
 };
 
-/// What a JSON pointer leads to (glTF 2.0 Asset Object Model): a number or vector of a material,
-/// its extensions and texture transforms, of a camera or a light of KHR_lights_punctual, or the
-/// visibility of a node (KHR_node_visibility). Nothing where the asset has no such property, whose
-/// object must be there, or where it can't be animated.
+/// The property that a JSON pointer names (glTF 2.0 Asset Object Model): a number or vector of a
+/// material, its extensions or texture transforms, of a camera, of a light (KHR_lights_punctual),
+/// or a node's visibility (KHR_node_visibility). Nothing if the object is absent or the property
+/// can't be animated.
 [[nodiscard]] std::optional<AnimatedProperty> find_property(const Asset& asset,
                                                             std::string_view pointer);
 
-/// The root object with what find_property leads to, but nodes.
+/// A copy of the members of the root object, nodes excepted, that find_property can lead to.
 [[nodiscard]] JsonValue animated_part(const JsonValue& root);
 
-/// Writes a value into a copy made by animated_part, in the range of the property.
+/// Writes a value, clamped to the property's range, into a copy made by animated_part.
 void set_property(JsonValue& part, const AnimatedProperty& property,
                   const std::vector<double>& value);
 
-/// Puts right what values that were written break together: planes of cameras, cones of lights, and
-/// numbers whose range has a gap.
+/// Repairs contradictions between animated values: near and far planes, cone angles, and values
+/// inside a gap of their range.
 void repair_properties(JsonValue& part);
 
 }  // namespace microtrace::io::gltf

@@ -28,46 +28,46 @@ Number load(const char* bytes) {
 
 std::uint32_t load_unsigned(const char* bytes, int component_type) {
   switch (component_type) {
-    case u8:
+    case kUint8:
       return load<std::uint8_t>(bytes);
-    case u16:
+    case kUint16:
       return load<std::uint16_t>(bytes);
     default:
       return load<std::uint32_t>(bytes);
   }
 }
 
-/// How many components, one after another or in padded columns, and of what.
+/// Component type and layout: rows, and columns that may be padded.
 template <typename Element>
 struct Parts {
-  static constexpr std::size_t rows = Element::length(), columns = 1;
+  static constexpr std::size_t kRows = Element::length(), kColumns = 1;
   using Component = typename Element::value_type;
 };
 template <>
 struct Parts<float> {
-  static constexpr std::size_t rows = 1, columns = 1;
+  static constexpr std::size_t kRows = 1, kColumns = 1;
   using Component = float;
 };
 template <>
 struct Parts<std::uint32_t> {
-  static constexpr std::size_t rows = 1, columns = 1;
+  static constexpr std::size_t kRows = 1, kColumns = 1;
   using Component = std::uint32_t;
 };
 template <>
 struct Parts<glm::mat4> {
-  static constexpr std::size_t rows = 4, columns = 4;  // four bytes make no padding
+  static constexpr std::size_t kRows = 4, kColumns = 4;  // columns of four bytes need no padding
   using Component = float;
 };
 
 template <typename Stored, bool normalized, typename Element>
 Element decode_one(const char* bytes) {
   using Component = typename Parts<Element>::Component;
-  std::array<Component, Parts<Element>::rows * Parts<Element>::columns> components;
+  std::array<Component, Parts<Element>::kRows * Parts<Element>::kColumns> components;
   for (std::size_t i = 0; i < components.size(); ++i) {
     const auto value = static_cast<Component>(load<Stored>(bytes + i * sizeof(Stored)));
     if constexpr (normalized) {
-      constexpr auto greatest = static_cast<Component>(std::numeric_limits<Stored>::max());
-      components[i] = std::max(value / greatest, Component(-1));
+      constexpr auto kGreatest = static_cast<Component>(std::numeric_limits<Stored>::max());
+      components[i] = std::max(value / kGreatest, Component(-1));
     } else {
       components[i] = value;
     }
@@ -75,7 +75,7 @@ Element decode_one(const char* bytes) {
   return std::bit_cast<Element>(components);
 }
 
-/// Elements of an array, `numbers` of it or, where that is null, the first ones.
+/// Decodes the array elements with the indices `numbers`, or the first ones if that is null.
 template <typename Stored, bool normalized, typename Element>
 void decode(const char* bytes, std::size_t stride, const std::uint32_t* numbers,
             std::span<Element> result) {
@@ -100,15 +100,15 @@ Decoder<Element> decoder(const Model::Accessor& accessor) {
       return accessor.normalized ? decode<Stored, true, Element> : decode<Stored, false, Element>;
     };
     switch (type) {
-      case i8:
+      case kInt8:
         return choose(std::int8_t{});
-      case u8:
+      case kUint8:
         return choose(std::uint8_t{});
-      case i16:
+      case kInt16:
         return choose(std::int16_t{});
-      case u16:
+      case kUint16:
         return choose(std::uint16_t{});
-      case u32:
+      case kUint32:
         return choose(std::uint32_t{});
       default:
         return decode<float, false, Element>;
@@ -118,10 +118,10 @@ Decoder<Element> decoder(const Model::Accessor& accessor) {
 
 }  // namespace
 
-/// Where the elements of an accessor lie.
+/// Location of an accessor's elements.
 struct AccessorReader::Source {
   const Model::Accessor& accessor;
-  std::string_view bytes{};  // from the first element on; empty if there is no buffer view
+  std::string_view bytes{};  // starting at the first element; empty without a buffer view
   std::size_t stride = 0, size = 0, count = 0;
   std::string_view sparse_indices{}, sparse_values{};
   std::size_t sparse_count = 0;
@@ -131,7 +131,7 @@ struct AccessorReader::Source {
     return load_unsigned(&sparse_indices[i * component_size(type)], type);
   }
 
-  /// The number of the first sparse element whose index is at least `index`.
+  /// The first sparse element whose index is at least `index`.
   [[nodiscard]] std::size_t first_sparse(std::uint32_t index) const {
     std::size_t first = 0, last = sparse_count;
     while (first < last) {
@@ -174,10 +174,9 @@ AccessorReader::Source AccessorReader::source(std::size_t index) {
     result.bytes = replaced->second;
     return result;
   }
-  if (!accessor.view && accessor.count > max_elements) {
+  if (!accessor.view && accessor.count > kMaxElements) {
     asset_.fail(asset_.element("accessors", index).member("count"),
-                "is more than 2^27, the most elements that an accessor without bufferView may have",
-                ErrorKind::limit);
+                "is more than 2^27, the limit for accessors without bufferView", ErrorKind::limit);
   }
   if (accessor.view) {
     result.bytes = views_.bytes(*accessor.view).value().substr(accessor.offset);
@@ -196,12 +195,12 @@ AccessorReader::Source AccessorReader::source(std::size_t index) {
 
 void AccessorReader::check_sparse(std::size_t index, const Source& source) {
   if (sparse_is_checked_[index]) return;
-  std::uint64_t least = 0;  // of what the next index may be
+  std::uint64_t least = 0;  // least valid value of the next index
   for (std::size_t i = 0; i < source.sparse_count; ++i) {
     const std::uint32_t target = source.sparse_index(i);
     if (target < least || target >= source.accessor.count) {
       asset_.fail(asset_.element("accessors", index).member("sparse").member("indices"),
-                  "number " + std::to_string(i) + " is " + std::to_string(target) +
+                  "item " + std::to_string(i) + " is " + std::to_string(target) +
                       "; they must ascend and stay below the accessor's count, " +
                       std::to_string(source.accessor.count));
     }
@@ -235,7 +234,7 @@ std::vector<Element> AccessorReader::read(std::size_t accessor,
   numbers = numbers.first(
       static_cast<std::size_t>(std::ranges::partition_point(numbers, is_there) - numbers.begin()));
   if (!from.bytes.empty()) {
-    // As many different numbers as there are elements are all of them.
+    // Distinct numbers, as many as there are elements, select every element.
     const bool all =
         numbers.size() == from.count && std::ranges::adjacent_find(numbers) == numbers.end();
     decode_some(from.bytes.data(), from.stride, all ? nullptr : numbers.data(),

@@ -1,5 +1,5 @@
 #pragma once
-/// What accessors hold.
+/// Decoding of accessors.
 
 #include "io/gltf/bytes/buffer_views.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -16,47 +16,46 @@
 
 namespace microtrace::io::gltf {
 
-/// No asset has more elements in an accessor without a buffer view, more indices in all its
-/// primitives, and no scene more triangles or vertices in all instances of its meshes.
-inline constexpr std::size_t max_elements = std::size_t{1} << 27;
+/// Limit on the elements of an accessor without a buffer view, on the indices of all primitives,
+/// and on the triangles and vertices of all mesh instances in a scene.
+inline constexpr std::size_t kMaxElements = std::size_t{1} << 27;
 
-/// Decodes accessors that check_accessors has accepted and whose data is there: of any component
-/// type, interleaved, sparse, or without buffer view (zeros).
+/// Decodes accessors that check_accessors has accepted and whose data is present: any component
+/// type, interleaved, sparse, or without a buffer view (zeros).
 class AccessorReader {
  public:
-  /// All three must outlive the reader.
+  /// The arguments must outlive the reader.
   AccessorReader(const Asset& asset, const Model& model, const BufferViews& views);
 
-  /// Whether every buffer that the accessor needs has bytes.
+  /// True if all buffers that the accessor refers to have data.
   [[nodiscard]] bool has_data(std::size_t accessor) const;
 
-  /// How many elements the accessor has.
+  /// Number of elements.
   [[nodiscard]] std::size_t count(std::size_t accessor) const;
 
-  /// The accessor's elements. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,
-  /// std::uint32_t or glm::uvec4, with as many components as the accessor's type. As floats,
-  /// normalized integers lie in [0, 1] or [-1, 1] (glTF 2.0, section 3.11), other integers keep
-  /// their value; each is rounded once. As integers the component type is an unsigned one. Throws
-  /// Error (invalid_scene) where sparse indices are out of order or range,
-  /// and (limit) where there are more than max_elements without a buffer view.
+  /// All elements of the accessor. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,
+  /// std::uint32_t or glm::uvec4, and has as many components as the accessor's type. Read as
+  /// floats, normalized integers lie in [0, 1] or [-1, 1] (glTF 2.0, section 3.11) and other
+  /// integers keep their value, each rounded once. Integers are read from unsigned component types
+  /// only. Throws Error (invalid_scene) if sparse indices are out of order or range, and (limit) if
+  /// more than kMaxElements have no buffer view.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(std::size_t accessor);
 
-  /// The same for some elements only, by numbers that don't descend: as many as a primitive uses,
-  /// in time and memory, however long the accessor is. Elements beyond the accessor's count are
-  /// zeros: a compressed primitive may have more vertices than the accessors of its other
-  /// attributes.
+  /// The elements with these indices, which must not descend. Time and memory depend on their
+  /// number, not on the accessor's length. Indices beyond the accessor's count give zeros, because
+  /// a compressed primitive may have more vertices than the accessors of its other attributes.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(std::size_t accessor,
                                           std::span<const std::uint32_t> numbers);
 
-  /// The same with 0 for each float that is not finite.
+  /// The same, with 0 for each float that is not finite.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read_finite(std::size_t accessor,
                                                  std::span<const std::uint32_t> numbers);
 
-  /// From now on the accessor's elements are these, without gaps, as a compressed primitive holds
-  /// them; their number may be another than before.
+  /// Replaces the accessor's elements by tightly packed ones, decoded from a compressed primitive.
+  /// Their number may differ.
   void replace(std::size_t accessor, std::string elements);
 
   [[nodiscard]] const BufferViews& views() const { return views_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes of buffer views.
+/// Buffer views, decompressed.
 
 #include "io/gltf/bytes/buffers.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -15,17 +15,17 @@ namespace microtrace::io::gltf {
 
 class BufferViews {
  public:
-  /// Of views that check_accessors has accepted; compressed ones are decoded. The buffers must
-  /// outlive this. Throws Error: invalid_scene, limit, unsupported.
+  /// Expects views that check_accessors has accepted, and decodes compressed ones. The buffers must
+  /// outlive this object. Throws Error: invalid_scene, limit, unsupported.
   BufferViews(Asset& asset, const Model& model, const std::vector<Buffer>& buffers);
 
-  /// Nothing where the view's buffer has no data.
+  /// Nothing if the view's buffer has no data.
   [[nodiscard]] std::optional<std::string_view> bytes(std::size_t view) const {
     return bytes_[view];
   }
 
  private:
-  std::vector<std::string> decoded_;                    // by view; empty if it is not compressed
+  std::vector<std::string> decoded_;  // by view; empty unless the view is compressed
   std::vector<std::optional<std::string_view>> bytes_;  // by view
 };
 

@@ -11,17 +11,17 @@ std::string decode(Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
   if (data && data->media_type != "application/octet-stream" &&
       data->media_type != "application/gltf-buffer") {
-    asset.tolerate(uri, "has a media type that is not for buffers; application/octet-stream is");
+    asset.tolerate(uri, "has a media type that is not for buffers; use application/octet-stream");
   }
   return decode_data_uri(asset, uri);
 }
 
-/// Whether buffer 0 is the BIN chunk: a GLB file's first buffer without a URI.
+/// True if the buffer's data is the BIN chunk: the first buffer of a GLB file, without a URI.
 bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }
 
-/// Whether the buffer's views have compressed bytes too, which are read instead.
+/// True if the views of the buffer also have compressed data, which is read instead.
 bool is_fallback(const Element& buffer) {
   const auto compression = extension(buffer, "EXT_meshopt_compression");
   if (!compression) return false;
@@ -29,12 +29,12 @@ bool is_fallback(const Element& buffer) {
   return fallback != nullptr && fallback->boolean;
 }
 
-/// A buffer may be without data where an extension gives what is missing.
+/// A buffer may lack data if an extension supplies it.
 void missing(Asset& asset, const Element& buffer, bool is_bin) {
   if (is_bin) {
-    asset.tolerate(buffer, "has no uri, but the file has no BIN chunk that it could be");
+    asset.tolerate(buffer, "has no uri, but the file has no BIN chunk");
   } else {
-    asset.warn(buffer, "has no uri, and so no data");
+    asset.warn(buffer, "has no uri and therefore no data");
   }
 }
 
@@ -42,9 +42,9 @@ void check_total(const Asset& asset, const std::vector<JsonValue>& buffers) {
   double total = 0;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
     total += buffers[i].find("byteLength")->number;
-    if (total > static_cast<double>(max_buffer_bytes)) {
+    if (total > static_cast<double>(kMaxBufferBytes)) {
       asset.fail(asset.element("buffers", i).member("byteLength"),
-                 "brings the buffers to more than 4 GiB, the most that is read", ErrorKind::limit);
+                 "brings the buffers to more than 4 GiB, the limit", ErrorKind::limit);
     }
   }
 }
@@ -56,7 +56,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
   const std::vector<JsonValue>& buffers = asset.array("buffers");
   check_total(asset, buffers);
   if (bin && (buffers.empty() || !is_bin(0, buffers[0]))) {
-    asset.warn(asset.root(), "the file's BIN chunk is no buffer's; it is ignored");
+    asset.warn(asset.root(), "the file's BIN chunk belongs to no buffer; it is ignored");
   }
   std::vector<Buffer> result(buffers.size());
   for (std::size_t i = 0; i < buffers.size(); ++i) {
@@ -71,7 +71,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     } else if (buffers[i].find("uri") != nullptr) {
       buffer.storage = is_data_uri(uri.value->string)
                            ? decode(asset, uri)
-                           : read_resource(asset, uri, folders, "buffer", max_buffer_bytes);
+                           : read_resource(asset, uri, folders, "buffer", kMaxBufferBytes);
       buffer.bytes = buffer.storage;
     } else {
       missing(asset, at, i == 0 && is_glb);
@@ -79,7 +79,7 @@ std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> b
     }
     const auto length = static_cast<std::size_t>(at.member("byteLength").value->number);
     if (buffer.bytes->size() < length) {
-      asset.fail(at.member("byteLength"), "claims " + std::to_string(length) +
+      asset.fail(at.member("byteLength"), "states " + std::to_string(length) +
                                               " bytes, but the buffer's data has only " +
                                               std::to_string(buffer.bytes->size()));
     }

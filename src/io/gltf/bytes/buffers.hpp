@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes of an asset's buffers.
+/// Loading of buffers.
 
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -12,17 +12,17 @@
 
 namespace microtrace::io::gltf {
 
-/// All buffers of an asset together, and each file they come from, hold at most so many bytes.
-inline constexpr std::size_t max_buffer_bytes = std::size_t{1} << 32;
+/// Limit on the bytes of all buffers together and of each file that they come from.
+inline constexpr std::size_t kMaxBufferBytes = std::size_t{1} << 32;
 
 struct Buffer {
-  std::string storage;                    ///< of bytes that did not come with the file
-  std::optional<std::string_view> bytes;  ///< byteLength of them; nothing for a buffer that has
-                                          ///< neither URI nor BIN chunk: extensions fill such
+  std::string storage;                    ///< data that is not part of the asset's file
+  std::optional<std::string_view> bytes;  ///< byteLength bytes; nothing if the buffer has neither
+                                          ///< URI nor BIN chunk, for extensions to fill
 };
 
-/// Reads the buffers that check_schema has accepted: a GLB file's `bin`, data URIs, files within
-/// `folders`. Warns of one that has none of these. Throws Error with the buffer's pointer:
+/// Loads the buffers that check_schema has accepted from the GLB file's `bin`, data URIs and files
+/// within `folders`. Warns of a buffer with none of these. Throws Error with the buffer's pointer:
 /// invalid_scene for a bad URI or too few bytes, io for a file, limit.
 [[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
                                                bool is_glb, const ResourceFolders& folders);

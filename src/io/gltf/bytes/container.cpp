@@ -8,9 +8,9 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::uint32_t json_type = 0x4E4F534A;  // "JSON"
-constexpr std::uint32_t bin_type = 0x004E4942;   // "BIN\0"
-constexpr std::size_t header_size = 12, chunk_header_size = 8;
+constexpr std::uint32_t kJsonType = 0x4E4F534A;  // "JSON"
+constexpr std::uint32_t kBinType = 0x004E4942;   // "BIN\0"
+constexpr std::size_t kHeaderSize = 12, kChunkHeaderSize = 8;
 
 std::uint32_t read_u32(std::string_view bytes, std::size_t offset) {
   std::uint32_t value = 0;
@@ -33,21 +33,21 @@ class ChunkReader {
 
   Chunk next() {
     const std::size_t left = bytes_.size() - offset_;
-    if (left < chunk_header_size) fail(where() + "ends within the chunk's header");
+    if (left < kChunkHeaderSize) fail(where() + "ends within the chunk's header");
     const std::uint32_t length = read_u32(bytes_, offset_);
     const std::uint32_t type = read_u32(bytes_, offset_ + 4);
     is_aligned_ = is_aligned_ && length % 4 == 0;
-    if (length > left - chunk_header_size) {
-      fail(where() + "claims " + std::to_string(length) + " bytes, but only " +
-           std::to_string(left - chunk_header_size) + " follow");
+    if (length > left - kChunkHeaderSize) {
+      fail(where() + "states " + std::to_string(length) + " bytes, but only " +
+           std::to_string(left - kChunkHeaderSize) + " follow");
     }
-    const std::string_view data = bytes_.substr(offset_ + chunk_header_size, length);
-    offset_ += chunk_header_size + length;
+    const std::string_view data = bytes_.substr(offset_ + kChunkHeaderSize, length);
+    offset_ += kChunkHeaderSize + length;
     ++number_;
     return {type, data};
   }
 
-  /// Whether the lengths of all chunks so far are multiples of 4, as they must be.
+  /// True if the lengths of all chunks so far are multiples of 4, as glTF requires.
   [[nodiscard]] bool is_aligned() const { return is_aligned_; }
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -61,36 +61,36 @@ class ChunkReader {
 
   std::string_view bytes_;
   const std::string& name_;
-  std::size_t offset_ = header_size;
+  std::size_t offset_ = kHeaderSize;
   std::size_t number_ = 0;
   bool is_aligned_ = true;
 };
 
 void check_header(std::string_view bytes, const std::string& name) {
-  if (bytes.size() < header_size + chunk_header_size) {
+  if (bytes.size() < kHeaderSize + kChunkHeaderSize) {
     throw Error(ErrorKind::invalid_scene, name,
-                "GLB file is cut off: a header and a chunk take 20 bytes, it has " +
+                "GLB file is truncated: a header and a chunk take 20 bytes, the file has " +
                     std::to_string(bytes.size()));
   }
   if (const std::uint32_t version = read_u32(bytes, 4); version != 2) {
     throw Error(ErrorKind::unsupported, name,
                 "GLB container version is " + std::to_string(version) +
-                    ", only 2 is read; export the file as glTF 2.0");
+                    ", but only 2 is supported; export the file as glTF 2.0");
   }
   const std::uint32_t length = read_u32(bytes, 8);
-  if (length < header_size + chunk_header_size) {
+  if (length < kHeaderSize + kChunkHeaderSize) {
     throw Error(ErrorKind::invalid_scene, name,
-                "GLB header claims " + std::to_string(length) +
+                "GLB header states " + std::to_string(length) +
                     " bytes, less than a header and a chunk take; export it again");
   }
   if (length > bytes.size()) {
     throw Error(ErrorKind::invalid_scene, name,
-                "GLB header claims " + std::to_string(length) + " bytes, the file has " +
-                    std::to_string(bytes.size()) + "; it was cut off");
+                "GLB header states " + std::to_string(length) + " bytes, the file has " +
+                    std::to_string(bytes.size()) + "; it is truncated");
   }
 }
 
-/// glTF 2.0, section 2.7, forbids it, and other readers do not expect one.
+/// glTF 2.0, section 2.7, forbids a byte order mark, and other readers reject it.
 void refuse_byte_order_mark(std::string_view json, const std::string& name) {
   if (!json.starts_with("\xEF\xBB\xBF")) return;
   throw Error(ErrorKind::invalid_scene, name,
@@ -109,16 +109,16 @@ Container open_container(std::string_view bytes, const std::string& name) {
   bytes = bytes.substr(0, read_u32(bytes, 8));
   ChunkReader reader(bytes, name);
   const Chunk first = reader.next();
-  if (first.type != json_type) reader.fail("the first chunk is not JSON");
+  if (first.type != kJsonType) reader.fail("the first chunk is not JSON");
   if (first.data.empty()) reader.fail("the JSON chunk is empty");
   refuse_byte_order_mark(first.data, name);
   Container result{
       .json = first.data, .bin = {}, .is_glb = true, .extra_bytes = size - bytes.size()};
   for (bool second = true; !reader.at_end(); second = false) {
     const Chunk chunk = reader.next();
-    if (chunk.type == json_type) reader.fail("there are two JSON chunks");
-    if (chunk.type == bin_type && !second) reader.fail("a BIN chunk is not the second");
-    if (chunk.type == bin_type) result.bin = chunk.data;
+    if (chunk.type == kJsonType) reader.fail("there are two JSON chunks");
+    if (chunk.type == kBinType && !second) reader.fail("a BIN chunk is not the second");
+    if (chunk.type == kBinType) result.bin = chunk.data;
   }
   result.is_aligned = reader.is_aligned();
   return result;

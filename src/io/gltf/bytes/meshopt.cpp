@@ -12,8 +12,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// No data of this format is packed more densely: 2 bits stand for the 16 zero bytes of a group.
-constexpr std::size_t greatest_ratio = 64;
+/// Maximum compression ratio of the format: 2 bits encode a group of 16 zero bytes.
+constexpr std::size_t kMaxRatio = 64;
 
 struct Description {
   MicrotraceMeshoptMode mode = microtrace_meshopt_attributes;
@@ -25,7 +25,7 @@ void require(const Asset& asset, const Element& at, bool holds, const char* mess
   if (!holds) asset.fail(at, message);
 }
 
-/// What the extension says; it asks for all that is checked here.
+/// The extension's properties, checked.
 Description describe(const Asset& asset, const Element& at, const Model::BufferView& view) {
   Description result;
   result.count = whole_number(asset, at, "count");
@@ -33,13 +33,13 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
   const std::string& mode = string(asset, at, "mode");
   if (at.value->find("filter") != nullptr) result.filter = string(asset, at, "filter");
   require(asset, at, mode == "ATTRIBUTES" || mode == "TRIANGLES" || mode == "INDICES",
-          "has a mode that is none of ATTRIBUTES, TRIANGLES, INDICES");
+          "must have the mode ATTRIBUTES, TRIANGLES or INDICES");
   require(asset, at, view.stride == 0 || view.stride == result.stride,
-          "has another byteStride than the view");
+          "must have the same byteStride as the view");
   require(asset, at,
           result.stride > 0 && view.length % result.stride == 0 &&
               view.length / result.stride == result.count,
-          "must have as many elements of byteStride bytes as fill the view's byteLength");
+          "must have a count that times byteStride gives the view's byteLength");
   if (mode == "ATTRIBUTES") {
     require(asset, at, result.stride % 4 == 0,
             "must have a byteStride that is a multiple of 4 for mode ATTRIBUTES");
@@ -47,7 +47,7 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
         result.filter == "NONE" || result.filter == "EXPONENTIAL" ||
         (result.filter == "OCTAHEDRAL" && (result.stride == 4 || result.stride == 8)) ||
         (result.filter == "QUATERNION" && result.stride == 8);
-    require(asset, at, fits, "has a filter that is unknown or not for elements of this byteStride");
+    require(asset, at, fits, "has a filter that is unknown or not allowed for this byteStride");
     return result;
   }
   result.mode = mode == "TRIANGLES" ? microtrace_meshopt_triangles : microtrace_meshopt_indices;
@@ -55,11 +55,11 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
           "must have byteStride 2 or 4 for modes TRIANGLES and INDICES");
   require(asset, at, mode == "INDICES" || result.count % 3 == 0,
           "must have a count that is a multiple of 3 for mode TRIANGLES");
-  require(asset, at, result.filter == "NONE", "has a filter, which only mode ATTRIBUTES has");
+  require(asset, at, result.filter == "NONE", "has a filter, which only mode ATTRIBUTES allows");
   return result;
 }
 
-/// The part of a buffer that the extension names.
+/// The range of a buffer that holds the compressed data.
 std::optional<std::string_view> compressed(const Asset& asset, const Element& at,
                                            const std::vector<Buffer>& buffers) {
   const auto& bytes = buffers[index(asset, at, "buffer", buffers.size())].bytes;
@@ -77,19 +77,19 @@ std::optional<std::string_view> compressed(const Asset& asset, const Element& at
 
 std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std::size_t view,
                                           const std::vector<Buffer>& buffers, std::size_t& left) {
-  const auto at = extension(asset.element("bufferViews", view), meshopt_extension);
+  const auto at = extension(asset.element("bufferViews", view), kMeshoptExtension);
   if (!at) return std::nullopt;
   const Description description = describe(asset, *at, model.buffer_views[view]);
   const std::optional<std::string_view> bytes = compressed(asset, *at, buffers);
   if (!bytes) return std::nullopt;
 
   static const ModuleFunction function =
-      find_module_function(meshopt_module_file_name, decode_meshopt_name);
+      find_module_function(kMeshoptModuleFileName, kDecodeMeshoptName);
   if (function.address == nullptr) {
     const std::string message =
         "EXT_meshopt_compression can't be decoded: " + function.complaint +
         "; install libmeshoptimizer-dev and build the target microtrace_meshopt";
-    if (asset.requires_extension(meshopt_extension)) {
+    if (asset.requires_extension(kMeshoptExtension)) {
       asset.fail(*at, message, ErrorKind::unsupported);
     }
     asset.warn(*at, message);
@@ -97,11 +97,11 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
   }
 
   const std::size_t size = description.count * description.stride;
-  if (size / greatest_ratio > bytes->size()) {
-    asset.fail(*at, "claims more elements than its bytes can hold");
+  if (size / kMaxRatio > bytes->size()) {
+    asset.fail(*at, "states more elements than its bytes can hold");
   }
   if (size > left) {
-    asset.fail(*at, "brings the decompressed views to more than 4 GiB, the most that is read",
+    asset.fail(*at, "brings the decompressed views to more than 4 GiB, the limit",
                ErrorKind::limit);
   }
   left -= size;
@@ -113,7 +113,7 @@ std::optional<std::string> decode_meshopt(Asset& asset, const Model& model, std:
                               .stride = description.stride,
                               .mode = description.mode};
   if (reinterpret_cast<MicrotraceDecodeMeshopt>(function.address)(&job, result.data()) == 0) {
-    asset.fail(*at, "holds bytes that are not what its mode, count and byteStride say");
+    asset.fail(*at, "holds invalid data for its mode, count and byteStride");
   }
   if (description.filter == "OCTAHEDRAL") decode_octahedral(result, description.stride);
   if (description.filter == "QUATERNION") decode_quaternions(result);

@@ -12,12 +12,12 @@
 
 namespace microtrace::io::gltf {
 
-inline constexpr const char* meshopt_extension = "EXT_meshopt_compression";
+inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
-/// The bytes of a buffer view that is compressed; nothing for another, and where its compressed
-/// bytes have no data. `left` is how many bytes may be made, and becomes less by them. Throws
-/// Error: invalid_scene, limit, unsupported where there is no module to do it and the asset
-/// requires it (else a warning, and nothing).
+/// Decompresses a buffer view. Nothing for an uncompressed view, or if the compressed data is
+/// absent. `left` is the remaining limit on decompressed bytes and is reduced. If the decoder
+/// module is absent, throws Error (unsupported) if the asset requires the extension, and otherwise
+/// warns and returns nothing. Throws Error: invalid_scene, limit, unsupported.
 [[nodiscard]] std::optional<std::string> decode_meshopt(Asset& asset, const Model& model,
                                                         std::size_t view,
                                                         const std::vector<Buffer>& buffers,

@@ -11,13 +11,13 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// x in [-1, 1] as a normalized integer, rounded half away from zero; 0 for what is no number.
+/// Converts x in [-1, 1] to a normalized integer, rounding half away from zero; NaN gives 0.
 template <typename Integer>
 Integer normalized(float x) {
-  constexpr auto greatest = static_cast<float>(std::numeric_limits<Integer>::max());
-  if (!(x >= -1)) return static_cast<Integer>(x < -1 ? -greatest : 0);
+  constexpr auto kGreatest = static_cast<float>(std::numeric_limits<Integer>::max());
+  if (!(x >= -1)) return static_cast<Integer>(x < -1 ? -kGreatest : 0);
   if (x > 1) x = 1;
-  return static_cast<Integer>(x * greatest + (x < 0 ? -0.5F : 0.5F));
+  return static_cast<Integer>(x * kGreatest + (x < 0 ? -0.5F : 0.5F));
 }
 
 template <typename Integer>
@@ -28,7 +28,7 @@ void decode_octahedral(std::string& bytes) {
     const auto one = static_cast<float>(v[2]);
     float x = static_cast<float>(v[0]) / one, y = static_cast<float>(v[1]) / one;
     const float z = 1 - std::abs(x) - std::abs(y);
-    const float t = z < 0 ? z : 0;  // the lower half is folded outward
+    const float t = z < 0 ? z : 0;  // the lower hemisphere is folded outward
     x -= std::copysign(t, x);
     y -= std::copysign(t, y);
     const float length = std::sqrt(x * x + y * y + z * z);
@@ -39,7 +39,7 @@ void decode_octahedral(std::string& bytes) {
   }
 }
 
-/// 2^e, e in [-128, 127].
+/// 2^e for e in [-128, 127].
 double power_of_two(int e) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52U);
 }
@@ -52,15 +52,15 @@ void decode_octahedral(std::string& bytes, std::size_t stride) {
 }
 
 void decode_quaternions(std::string& bytes) {
-  constexpr float range = 0.70710678118654752F;  // no lesser component is greater
+  constexpr float kRange = 0.70710678118654752F;  // upper bound of the three smaller components
   std::array<std::int16_t, 4> v;
   for (std::size_t i = 0; i + sizeof v <= bytes.size(); i += sizeof v) {
     std::memcpy(v.data(), &bytes[i], sizeof v);
     const auto one = static_cast<float>(v[3] | 3);
     const auto greatest = static_cast<std::size_t>(v[3] & 3);
-    const float x = static_cast<float>(v[0]) / one * range;
-    const float y = static_cast<float>(v[1]) / one * range;
-    const float z = static_cast<float>(v[2]) / one * range;
+    const float x = static_cast<float>(v[0]) / one * kRange;
+    const float y = static_cast<float>(v[1]) / one * kRange;
+    const float z = static_cast<float>(v[2]) / one * kRange;
     const float square = 1 - x * x - y * y - z * z;
     v[(greatest + 1) % 4] = normalized<std::int16_t>(x);
     v[(greatest + 2) % 4] = normalized<std::int16_t>(y);

@@ -12,12 +12,13 @@
 namespace microtrace::io::gltf {
 std::string decode_data_uri(const Asset& asset, const Element& uri) {
   const std::optional<DataUri> data = split_data_uri(uri.value->string);
-  if (!data) asset.fail(uri, "is no data URI of the form data:TYPE;base64,DATA");
+  if (!data) asset.fail(uri, "is not a data URI of the form data:TYPE;base64,DATA");
   take_memory(data->data.size() / 4 * 3, "the data of data URIs");
   std::optional<std::string> bytes =
       data->is_base64 ? decode_base64(data->data) : decode_percent(data->data);
   if (!bytes && data->is_base64) {
-    asset.fail(uri, "is not base64: groups of four of A-Z a-z 0-9 + /, padded with =");
+    asset.fail(uri,
+               "is not base64, which consists of groups of four of A-Z a-z 0-9 + /, padded with =");
   }
   if (!bytes) asset.fail(uri, "has a % without two hexadecimal digits; write %25 for %");
   return std::move(*bytes);
@@ -35,10 +36,10 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   }
   const std::string file = std::string(what) + " file " + in_quotes(path.string());
   std::error_code code;
-  // A pipe or a device could keep its reader waiting for ever.
+  // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(path, code)) {
     const bool missing = !std::filesystem::exists(path, code);
-    // An asset that is not whole, rather than a machine that fails.
+    // A missing file means an incomplete asset, not a failing machine.
     const ErrorKind kind = missing ? ErrorKind::invalid_scene : ErrorKind::io;
     asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// The bytes that URIs of an asset stand for.
+/// The data that an asset's URIs refer to.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -10,22 +10,23 @@
 
 namespace microtrace::io::gltf {
 
-/// The data of a data URI. Throws Error (invalid_scene).
+/// Decodes a data URI. Throws Error (invalid_scene).
 [[nodiscard]] std::string decode_data_uri(const Asset& asset, const Element& uri);
 
-/// Where an asset's files may lie.
+/// The folders from which an asset may load files.
 struct ResourceFolders {
-  std::filesystem::path own;                   ///< the asset's: URIs are relative to it
-  std::vector<std::filesystem::path> allowed;  ///< others that URIs may lead to
+  std::filesystem::path own;  ///< the asset's own folder, the base of relative URIs
+  std::vector<std::filesystem::path> allowed;  ///< further folders that URIs may lead to
 };
 
-/// A file in one of the folders or below, of at most so many bytes. `what` it is stands in
-/// messages: "buffer". Throws Error: invalid_scene for a URI that is refused, io, limit.
+/// Reads a file in one of the folders or below. `what` names the kind of file in error messages,
+/// "buffer". Throws Error: invalid_scene for a refused URI, io, and limit for a larger file than
+/// `most`.
 [[nodiscard]] std::string read_resource(const Asset& asset, const Element& uri,
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
-/// Notes the file of a URI that is not read, lest it is written over.
+/// Records a file that a URI names but that is not read, so that no output overwrites it.
 void note_unread_resource(const Element& uri, const ResourceFolders& folders);
 
 }  // namespace microtrace::io::gltf

@@ -45,14 +45,14 @@ bool is_data_uri(std::string_view uri) {
 }
 
 std::optional<DataUri> split_data_uri(std::string_view uri) {
-  constexpr std::string_view scheme = "data:", marker = ";base64";
+  constexpr std::string_view kScheme = "data:", kMarker = ";base64";
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos) return std::nullopt;
-  std::string_view type = uri.substr(scheme.size(), comma - scheme.size());
+  std::string_view type = uri.substr(kScheme.size(), comma - kScheme.size());
   const bool is_base64 =
-      type.size() >= marker.size() &&
-      starts_with_ignoring_case(type.substr(type.size() - marker.size()), marker);
-  if (is_base64) type.remove_suffix(marker.size());
+      type.size() >= kMarker.size() &&
+      starts_with_ignoring_case(type.substr(type.size() - kMarker.size()), kMarker);
+  if (is_base64) type.remove_suffix(kMarker.size());
   if (type.ends_with(';') || type.find(";;") != std::string_view::npos) return std::nullopt;
   return DataUri{.media_type = type.substr(0, type.find(';')),
                  .is_base64 = is_base64,
@@ -86,7 +86,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
     const int digit = base64_digit(text[i]);
     if (digit < 0) return std::nullopt;
     bits = bits << 6U | static_cast<std::uint32_t>(digit);
-    // The digits of a group of four complete a byte each, but for the first.
+    // Each digit but the first of a group of four completes a byte.
     if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xFFU);
   }
   return bytes;
@@ -96,17 +96,19 @@ RelativePath relative_path(std::string_view uri) {
   const std::optional<std::string> path = decode_percent(uri);
   if (!path) return {.refusal = "has a % without two hexadecimal digits; write %25 for %"};
   if (path->empty()) return {.refusal = "is empty"};
-  if (has_scheme(uri)) return {.refusal = "has a scheme; only data: and relative paths are read"};
+  if (has_scheme(uri))
+    return {.refusal = "has a scheme; only data: URIs and relative paths are supported"};
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (std::ranges::any_of(*path, is_control)) return {.refusal = "has a control character"};
-  if (path->find('\\') != std::string::npos) return {.refusal = "has a backslash; separate by /"};
+  if (path->find('\\') != std::string::npos)
+    return {.refusal = "has a backslash; separate folders by /"};
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};
   }
-  // Without "." and "..", so that the path that is opened is the one that is looked at here.
+  // Resolves "." and "..", so that the path checked here is the path opened later.
   const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
   if (*plain.begin() == "..") {
-    return {*path, "leads out of the asset's folder by \"..\"", true};
+    return {*path, "leaves the asset's folder by \"..\"", true};
   }
   return {.path = plain.string()};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The two kinds of URI that a buffer may have: data within the JSON, and a file beside it.
+/// The two kinds of URI in glTF: data embedded in the JSON, and a file beside it.
 
 #include <optional>
 #include <string>
@@ -9,33 +9,32 @@ namespace microtrace::io::gltf {
 
 /// A data URI (RFC 2397).
 struct DataUri {
-  std::string_view media_type;  ///< without its parameters
-  bool is_base64 = false;       ///< else the data is percent-encoded
-  std::string_view data;        ///< as it stands in the URI
+  std::string_view media_type;  ///< without parameters
+  bool is_base64 = false;       ///< otherwise the data is percent-encoded
+  std::string_view data;        ///< still encoded
 };
 
 [[nodiscard]] bool is_data_uri(std::string_view uri);
 
-/// Nothing where the URI has no comma or an empty parameter.
+/// Nothing if the URI has no comma or an empty parameter.
 [[nodiscard]] std::optional<DataUri> split_data_uri(std::string_view uri);
 
-/// The bytes (RFC 4648, section 4, padded); nothing where the text is not base64.
+/// Decodes padded base64 (RFC 4648, section 4). Nothing if the text is not base64.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
-/// Nothing where a % lacks its two hexadecimal digits.
+/// Decodes percent-encoding. Nothing if two hexadecimal digits don't follow a %.
 [[nodiscard]] std::optional<std::string> decode_percent(std::string_view text);
 
-/// A file URI made into a path, or the reason why it is refused.
+/// A path made from a file URI, or the reason for refusing it.
 struct RelativePath {
-  std::string path{};      ///< percent-decoded, without "." and ".." where it is good
-  std::string refusal{};   ///< empty where the path is good
-  bool leads_out = false;  ///< refused only because it leads, or may lead, out of the folder
+  std::string path{};      ///< percent-decoded; without "." and ".." unless refused
+  std::string refusal{};   ///< empty if the path is accepted
+  bool leads_out = false;  ///< refused only because it leaves, or may leave, the folder
 };
 
-/// Accepts relative paths only (RFC 3986, section 4.2, path-noscheme), without backslash and
-/// control characters before and after percent-decoding, that lead nowhere but into the asset's
-/// folder once
-/// "." and ".." are resolved by name alone.
+/// Accepts relative paths (RFC 3986, section 4.2, path-noscheme) that stay in the asset's folder
+/// after "." and ".." are resolved by name, and that contain no backslash or control character,
+/// even percent-encoded.
 [[nodiscard]] RelativePath relative_path(std::string_view uri);
 
 }  // namespace microtrace::io::gltf

@@ -8,9 +8,9 @@
 
 namespace microtrace::io::gltf {
 std::string why_no_pointer(const Asset& asset, std::string_view text) {
-  if (!text.starts_with('/')) return "is no JSON pointer, which begins with /";
+  if (!text.starts_with('/')) return "is not a JSON pointer, which begins with /";
   const std::optional<std::vector<std::string>> tokens = pointer_tokens(text);
-  if (!tokens) return "is no JSON pointer: after ~ stands neither 0 nor 1";
+  if (!tokens) return "is not a JSON pointer: ~ must be followed by 0 or 1";
   const JsonValue* value = asset.root().value;
   for (std::size_t i = 0; i < tokens->size(); ++i) {
     if (value->kind == JsonValue::Kind::array) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Pointers of KHR_animation_pointer.
+/// Validation of the pointers of KHR_animation_pointer.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -8,9 +8,9 @@
 
 namespace microtrace::io::gltf {
 
-/// Why a text points to nothing that could be animated in the asset: it is no JSON pointer (RFC
-/// 6901), or it leads beyond the end of an array or to an array that is not there. Empty where it
-/// may be good: properties may be absent, where they have defaults.
+/// The reason why a text can't point to an animated property: it is no JSON pointer (RFC 6901), it
+/// leads past the end of an array, or the array is absent. Empty if it may be valid. The property
+/// itself may be absent, because it may have a default.
 [[nodiscard]] std::string why_no_pointer(const Asset& asset, std::string_view text);
 
 }  // namespace microtrace::io::gltf

@@ -11,18 +11,21 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr const char* pointer_extension = "KHR_animation_pointer";
+constexpr const char* kPointerExtension = "KHR_animation_pointer";
 
 std::string text(double number) {
   return std::to_string(static_cast<unsigned long long>(number));
 }
 
-/// glTF 2.0, section 3.11: what the values of a path may be stored as.
+/// The accessor formats that glTF 2.0, section 3.11, allows for a path.
 bool is_allowed(const std::string& path, const Format& f) {
-  if (path == "translation" || path == "scale") return f == Format{"VEC3", f32};
+  if (path == "translation" || path == "scale") return f == Format{"VEC3", kFloat32};
   const char* type = path == "rotation" ? "VEC4" : "SCALAR";
-  return is_one_of(
-      f, {{type, f32}, {type, i8, true}, {type, u8, true}, {type, i16, true}, {type, u16, true}});
+  return is_one_of(f, {{type, kFloat32},
+                       {type, kInt8, true},
+                       {type, kUint8, true},
+                       {type, kInt16, true},
+                       {type, kUint16, true}});
 }
 
 class AnimationCheck {
@@ -56,12 +59,12 @@ class AnimationCheck {
     return interpolation != nullptr && interpolation->string == "CUBICSPLINE";
   }
 
-  /// A channel without a target is passed over (glTF 2.0, section 3.11).
+  /// Readers ignore a channel without a target (glTF 2.0, section 3.11).
   void leave_out(const Element& target) { asset_.drop(target, {"node", "extensions"}); }
 
-  /// False, with a warning, for a broken rule without which the channel can't be played.
+  /// Warns of a violation that keeps the channel from playing. Returns false.
   bool wrong(const Element& at, const std::string& message) {
-    asset_.tolerate(at, message + "; what it animates stays as it is");
+    asset_.tolerate(at, message + "; the channel is ignored");
     return false;
   }
 
@@ -70,16 +73,16 @@ class AnimationCheck {
     accessors_.use(at, Purpose::animation_input);
     accessors_.use(sampler.member("output"), Purpose::animation_output);
     const AccessorHead& head = accessors_[*at.value];
-    if (head.format != Format{"SCALAR", f32}) {
-      return wrong(at, "names an accessor of " + head.format.text() +
-                           "; times are SCALAR of componentType 5126");
+    if (head.format != Format{"SCALAR", kFloat32}) {
+      return wrong(at, "refers to an accessor of " + head.format.text() +
+                           "; animation times must be SCALAR of componentType 5126");
     }
     if (!head.has_bounds) {
       asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(at.value->number)),
-                      "holds animation times without min and max, which glTF 2.0 asks for");
+                      "holds animation times without min and max, which glTF 2.0 requires");
     }
     if (is_spline(sampler) && head.count < 2) {
-      return wrong(at, "has one time, but CUBICSPLINE asks for two or more");
+      return wrong(at, "has one time, but CUBICSPLINE needs at least two");
     }
     return true;
   }
@@ -87,7 +90,7 @@ class AnimationCheck {
   bool target(const Element& at, const Element& sampler) {
     const JsonValue* index = at.value->find("node");
     const std::string& path = at.member("path").value->string;
-    if (extension(at, pointer_extension) || path == "pointer") return pointer(at);
+    if (extension(at, kPointerExtension) || path == "pointer") return pointer(at);
     const bool known =
         path == "translation" || path == "rotation" || path == "scale" || path == "weights";
     if (index == nullptr || !known) return true;  // ignored (section 3.11), or an extension's
@@ -98,21 +101,22 @@ class AnimationCheck {
     }
     const std::size_t targets = morph_targets(node);
     if (path == "weights" && targets == 0) {
-      return wrong(at.member("node"), "has no mesh with morph targets whose weights could change");
+      return wrong(at.member("node"),
+                   "has no mesh with morph targets, so its weights can't be animated");
     }
     if (!targets_.insert(std::to_string(number) + path).second) {
-      asset_.tolerate(at, "is the target of an earlier channel already");
+      asset_.tolerate(at, "is already the target of an earlier channel");
     }
     return output(sampler, path, targets);
   }
 
-  /// By KHR_animation_pointer.
+  /// Checks a channel of KHR_animation_pointer.
   bool pointer(const Element& at) {
-    const std::optional<Element> own = extension(at, pointer_extension);
+    const std::optional<Element> own = extension(at, kPointerExtension);
     const Element path = at.member("path");
     if (!own) {
-      // Without the extension an unknown path, as others are.
-      if (!asset_.uses(pointer_extension)) return true;
+      // Without the extension, "pointer" is an unknown path like any other.
+      if (!asset_.uses(kPointerExtension)) return true;
       return wrong(path, "is \"pointer\" without an object of KHR_animation_pointer");
     }
     if (path.value->string != "pointer") {
@@ -142,7 +146,7 @@ class AnimationCheck {
     const Element at = sampler.member("output");
     const AccessorHead& values = accessors_[*at.value];
     if (!is_allowed(path, values.format)) {
-      return wrong(at, "names an accessor of " + values.format.text() +
+      return wrong(at, "refers to an accessor of " + values.format.text() +
                            ", which glTF 2.0 does not allow for " + path);
     }
     const double times = accessors_[*sampler.member("input").value].count;
@@ -155,8 +159,8 @@ class AnimationCheck {
 
   Asset& asset_;
   AccessorHeads& accessors_;
-  std::vector<bool> are_good_;               // the animation's samplers
-  std::unordered_set<std::string> targets_;  // of the animation's channels so far
+  std::vector<bool> are_good_;               // by sampler of the animation
+  std::unordered_set<std::string> targets_;  // of the animation's earlier channels
 };
 
 }  // namespace

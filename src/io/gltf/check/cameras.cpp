@@ -6,7 +6,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Takes a camera that shows nothing from the asset: check_nodes takes it from its nodes.
+/// Removes an unusable camera from the asset. check_nodes then removes it from its nodes.
 void leave_out(Asset& asset, const Element& camera, const Element& at, const std::string& why) {
   asset.tolerate(at, why + "; the camera is left out");
   asset.drop(camera, {"type"});
@@ -21,7 +21,7 @@ void check_perspective(Asset& asset, const Element& camera, const Element& at) {
   const Element yfov = at.member("yfov");
   const double angle = yfov.value->number;
   if (angle <= 0) {
-    leave_out(asset, camera, yfov, "is no angle to look through");
+    leave_out(asset, camera, yfov, "must be greater than 0");
   } else if (angle >= std::numbers::pi) {
     asset.warn(yfov, "should be below pi, an angle in radians; the camera is left out");
     asset.drop(camera, {"type"});
@@ -31,7 +31,7 @@ void check_perspective(Asset& asset, const Element& camera, const Element& at) {
 void check_orthographic(Asset& asset, const Element& camera, const Element& at) {
   for (const char* key : {"xmag", "ymag"}) {
     const double magnitude = at.member(key).value->number;
-    if (magnitude < 0) asset.warn(at.member(key), "is negative; its magnitude is taken");
+    if (magnitude < 0) asset.warn(at.member(key), "is negative; its absolute value is used");
     if (magnitude != 0) continue;
     return leave_out(asset, camera, at.member(key), "must not be 0");
   }
@@ -45,7 +45,7 @@ void check_camera(Asset& asset, const Element& at) {
   const bool perspective = type == "perspective";
   const char* other = perspective ? "orthographic" : "perspective";
   if (at.value->find(other) != nullptr) {
-    asset.tolerate(at.member(other), "stands in a camera of the other type; it is ignored");
+    asset.tolerate(at.member(other), "belongs to the other type of camera; it is ignored");
     asset.drop(at, {other});
   }
   if (at.value->find(type) == nullptr) {
@@ -63,7 +63,7 @@ void check_camera(Asset& asset, const Element& at) {
 void check_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("cameras").size(); ++i) {
     const Element at = asset.element("cameras", i);
-    // check_schema has warned of an unknown one.
+    // check_schema has warned of an unknown type.
     if (at.value->find("type") != nullptr) check_camera(asset, at);
   }
 }

@@ -18,7 +18,7 @@ Support support_of(std::string_view name) {
 
 using Version = std::pair<unsigned, unsigned>;
 
-/// major.minor, in decimal digits.
+/// Parses major.minor in decimal digits.
 std::optional<Version> parse_version(std::string_view text) {
   Version version;
   const char* end = text.data() + text.size();
@@ -46,46 +46,47 @@ void check_version(Asset& asset) {
   const std::optional<Version> least = version(asset, info, "minVersion");
   if (!written) asset.fail(info, "lacks the required property \"version\"");
   if (written->first != 2) {
-    asset.fail(info.member("version"), "only glTF 2 is read; export the asset as glTF 2.0",
+    asset.fail(info.member("version"), "only glTF 2 is supported; export the asset as glTF 2.0",
                ErrorKind::unsupported);
   }
   if (*written > Version{2, 0}) {
-    asset.warn(info.member("version"), "is beyond glTF 2.0; the asset is read as glTF 2.0");
+    asset.warn(info.member("version"), "is newer than glTF 2.0; the asset is read as glTF 2.0");
   }
   if (!least) return;
   const Element at = info.member("minVersion");
   if (least->first != 2) {
-    asset.fail(at, "asks for another glTF than 2, which is what is read", ErrorKind::unsupported);
+    asset.fail(at, "requires a version other than glTF 2, the supported one",
+               ErrorKind::unsupported);
   }
   if (*least > *written) {
     asset.tolerate(at, "is greater than version");
   } else if (*least > Version{2, 0}) {
-    asset.warn(at, "asks for more than glTF 2.0; what it adds is not drawn");
+    asset.warn(at, "is newer than glTF 2.0; features of later versions are ignored");
   }
 }
 
-/// An extension that is required but not used changes nothing (glTF 2.0, section 3.12, forbids it).
+/// Warns of an extension that is required but not used, which glTF 2.0, section 3.12, forbids.
 void check_extension(Asset& asset, const Element& at) {
   if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
   const std::string& name = at.value->string;
   if (!asset.uses(name)) {
-    asset.tolerate(at, "is missing in extensionsUsed; the requirement is ignored");
+    asset.tolerate(at, "is missing from extensionsUsed; the requirement is ignored");
   } else if (support_of(name) == Support::none) {
     asset.fail(at,
                "the asset requires extension " + in_quotes(name) +
-                   ", which is not supported; export it without",
+                   ", which is not supported; export it without the extension",
                ErrorKind::unsupported);
   }
 }
 
-/// Readers that do not know this one can't read the asset, so that it must be required.
+/// Readers without this extension can't read the asset, so it must be required.
 void check_quantization(Asset& asset) {
-  constexpr std::string_view name = "KHR_mesh_quantization";
-  if (asset.requires_extension(name)) return;
+  constexpr std::string_view kName = "KHR_mesh_quantization";
+  if (asset.requires_extension(kName)) return;
   const std::vector<JsonValue>& used = asset.array("extensionsUsed");
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (used[i].string != name) continue;
-    asset.tolerate(asset.element("extensionsUsed", i), "must stand in extensionsRequired too");
+    if (used[i].string != kName) continue;
+    asset.tolerate(asset.element("extensionsUsed", i), "must also be listed in extensionsRequired");
   }
 }
 
@@ -109,7 +110,7 @@ class FeatureSearch {
 
  private:
   inline static const std::string emission =
-      "emission is not drawn in flat pictures; the base colour is";
+      "flat pictures ignore emission and show the base color";
 
   Asset& asset_;
 };

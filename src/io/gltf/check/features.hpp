@@ -1,5 +1,5 @@
 #pragma once
-/// What an asset asks for and this program can or can't do.
+/// The features that an asset requires or uses, compared with the supported ones.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -7,12 +7,12 @@
 
 namespace microtrace::io::gltf {
 
-/// Checks the glTF version and the required extensions, and so must come before check_schema, as
-/// either may change the schema. Throws Error: invalid_scene, unsupported.
+/// Checks the glTF version and the required extensions. Comes before check_schema, because both may
+/// change the schema. Throws Error: invalid_scene, unsupported.
 void check_requirements(Asset& asset);
 
-/// One warning for each kind of feature that is present and not honoured; emission is not where the
-/// detail is for flat pictures.
+/// Adds one warning for each kind of feature that is used but ignored. Flat pictures ignore
+/// emission.
 void warn_of_ignored_features(Asset& asset, SurfaceDetail detail);
 
 }  // namespace microtrace::io::gltf

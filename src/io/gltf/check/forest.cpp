@@ -17,18 +17,18 @@ std::size_t child_of(const JsonValue& node, std::size_t number) {
 }  // namespace
 
 NodeForest::NodeForest(const Asset& asset) : places_(asset.array("nodes").size()) {
-  if (places_.size() > max_nodes) {
-    asset.fail(asset.root().member("nodes"), "has more than 2^20 nodes, the most that is read",
+  if (places_.size() > kMaxNodes) {
+    asset.fail(asset.root().member("nodes"), "has more than 2^20 nodes, the limit",
                ErrorKind::limit);
   }
   find_parents(asset);
   std::size_t number = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (places_[i].parent == none) walk(asset.array("nodes"), i, number);
+    if (places_[i].parent == kNone) walk(asset.array("nodes"), i, number);
   }
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (places_[i].root == none) {
-      asset.fail(asset.element("nodes", i), "is part of a cycle: no root leads to this node");
+    if (places_[i].root == kNone) {
+      asset.fail(asset.element("nodes", i), "is part of a cycle: it has no root node");
     }
   }
 }
@@ -40,7 +40,7 @@ void NodeForest::find_parents(const Asset& asset) {
       const std::size_t child = child_of(nodes[i], k);
       const auto at = [&] { return asset.element("nodes", i).member("children").item(k); };
       if (child == i) asset.fail(at(), "makes the node its own child");
-      if (places_[child].parent != none) {
+      if (places_[child].parent != kNone) {
         asset.fail(at(), "gives node " + std::to_string(child) + " a second parent, after node " +
                              std::to_string(places_[child].parent) + "; copy the node instead");
       }
@@ -71,7 +71,7 @@ void NodeForest::walk(const std::vector<JsonValue>& nodes, std::size_t root, std
 }
 
 std::optional<std::size_t> NodeForest::parent(std::size_t node) const {
-  if (places_[node].parent == none) return std::nullopt;
+  if (places_[node].parent == kNone) return std::nullopt;
   return places_[node].parent;
 }
 

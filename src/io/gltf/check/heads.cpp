@@ -47,7 +47,7 @@ const char* name_of(Purpose purpose) {
   return "";
 }
 
-/// What a buffer view is bound to; only vertex data has a target.
+/// True if a buffer view may have a target for this purpose.
 bool is_vertex_data(Purpose purpose) {
   return purpose == Purpose::vertex_attribute || purpose == Purpose::vertex_indices;
 }
@@ -89,7 +89,7 @@ void AccessorHeads::use(const Element& at, Purpose purpose) {
     known = purpose;
   } else if (known != purpose) {
     asset_.tolerate(at, std::string("names an accessor for ") + name_of(purpose) +
-                            " that elsewhere holds " + name_of(known));
+                            " that is also used for " + name_of(known));
   }
   const AccessorHead& head = heads_[index];
   if (!head.view) return;
@@ -99,7 +99,7 @@ void AccessorHeads::use(const Element& at, Purpose purpose) {
   if (other == 0) other = index + 1;
   if (other != index + 1) {
     asset_.tolerate(
-        at, "shares its bufferView with another vertex attribute, which asks for a byteStride");
+        at, "shares its bufferView with another vertex attribute, which requires a byteStride");
   }
 }
 
@@ -109,18 +109,17 @@ void AccessorHeads::use_view(const Element& at, std::size_t view, Purpose purpos
   if (known == Purpose::none) {
     known = purpose;
     if (purpose != Purpose::vertex_attribute && json.find("byteStride") != nullptr) {
-      asset_.tolerate(at,
-                      "leads to a bufferView with byteStride, which is for vertex attributes only");
+      asset_.tolerate(at, "uses a bufferView with byteStride, which is for vertex attributes only");
     }
     const double target = purpose == Purpose::vertex_attribute ? 34962 : 34963;
     const JsonValue* given = json.find("target");
     if (given != nullptr && (!is_vertex_data(purpose) || given->number != target)) {
       asset_.tolerate(at, std::string("uses a bufferView for ") + name_of(purpose) +
-                              " whose target is another");
+                              " whose target is different");
     }
   } else if (!shares(known, purpose)) {
     asset_.tolerate(at, std::string("uses a bufferView for ") + name_of(purpose) +
-                            " that elsewhere holds " + name_of(known));
+                            " that is also used for " + name_of(known));
   }
 }
 

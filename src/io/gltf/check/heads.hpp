@@ -1,5 +1,5 @@
 #pragma once
-/// What accessors say of themselves, and what they are used for.
+/// The declared formats of accessors, and the purposes they are used for.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -12,14 +12,14 @@
 
 namespace microtrace::io::gltf {
 
-/// How one element is stored.
+/// Format of one element.
 struct Format {
-  std::string_view type;   ///< empty where the asset's is unknown
-  int component_type = 0;  ///< OpenGL's number; 0 where the asset's is unknown
+  std::string_view type;   ///< empty if unknown
+  int component_type = 0;  ///< OpenGL constant; 0 if unknown
   bool normalized = false;
 
   bool operator==(const Format&) const = default;
-  /// As "VEC3 of 5126", for messages.
+  /// For example "VEC3 of componentType 5126".
   [[nodiscard]] std::string text() const;
 };
 
@@ -28,12 +28,13 @@ struct AccessorHead {
   double count = 0;
   bool has_bounds = false;  ///< both min and max
   std::optional<std::size_t> view{};
-  std::size_t offset = 0;  ///< within the view
-  std::size_t stride = 0;  ///< the view's, 0 where it has none
-  std::size_t start = 0;   ///< within the buffer
+  std::size_t offset = 0;  ///< from the start of the view
+  std::size_t stride = 0;  ///< of the view; 0 if absent
+  std::size_t start = 0;   ///< from the start of the buffer
 };
 
-/// What a buffer view or an accessor is for. One serves one purpose (glTF 2.0, section 3.6.2.1).
+/// The purpose of a buffer view or accessor. Each serves one purpose only (glTF 2.0, section
+/// 3.6.2.1).
 enum class Purpose {
   none,
   vertex_attribute,
@@ -46,7 +47,7 @@ enum class Purpose {
 
 class AccessorHeads {
  public:
-  /// Of an asset that check_schema has accepted.
+  /// Expects an asset that check_schema has accepted.
   explicit AccessorHeads(Asset& asset);
 
   [[nodiscard]] const AccessorHead& operator[](std::size_t accessor) const {
@@ -56,9 +57,9 @@ class AccessorHeads {
     return heads_[static_cast<std::size_t>(index.number)];
   }
 
-  /// Notes the purpose for which `at`, an index, names an accessor, and what follows for its view.
-  /// Warns where either has another purpose already, where the view's target is another, where a
-  /// stride stands that the purpose does not allow, or two vertex attributes share a view without.
+  /// Records that the index `at` uses an accessor, and its view, for this purpose. Warns if either
+  /// has another purpose already, if the view's target contradicts it, if the purpose allows no
+  /// stride, or if two vertex attributes share a view without a stride.
   void use(const Element& at, Purpose purpose);
   void use_view(const Element& at, std::size_t view, Purpose purpose);
 
@@ -67,7 +68,7 @@ class AccessorHeads {
   std::vector<AccessorHead> heads_;
   std::vector<Purpose> purposes_;            // by accessor
   std::vector<Purpose> view_purposes_;       // by view
-  std::vector<std::size_t> view_accessors_;  // by view: one more than its first vertex attribute
+  std::vector<std::size_t> view_accessors_;  // by view: index of its first vertex attribute, plus 1
 };
 
 [[nodiscard]] bool is_one_of(const Format& format, std::initializer_list<Format> formats);

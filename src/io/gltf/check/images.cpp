@@ -11,9 +11,9 @@ namespace {
 void check_uri(const Asset& asset, const Element& at) {
   const std::string& uri = at.value->string;
   if (is_data_uri(uri)) {
-    if (!split_data_uri(uri)) asset.fail(at, "is no data URI of the form data:TYPE;base64,DATA");
+    if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
   } else if (const RelativePath path = relative_path(uri);
-             !path.refusal.empty() && !path.leads_out) {  // that is for read_resource to judge
+             !path.refusal.empty() && !path.leads_out) {  // read_resource decides about these
     asset.fail(at, path.refusal);
   }
 }
@@ -24,7 +24,7 @@ void check_media_type(Asset& asset, const Element& image) {
   const auto known = std::ranges::find(extensions(), given->string, &Extension::image_type);
   if (known == extensions().end() || known->image_type.empty() || asset.uses(known->name)) return;
   asset.tolerate(image.member("mimeType"),
-                 "asks for extension " + std::string(known->name) + ", which is not declared");
+                 "needs extension " + std::string(known->name) + ", which is not declared");
 }
 
 void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
@@ -35,13 +35,13 @@ void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
   }
   if (!has_view) return check_uri(asset, at.member("uri"));
   if (at.value->find("mimeType") == nullptr) {
-    asset.tolerate(at, "has a bufferView without mimeType; the data tells");
+    asset.tolerate(at, "has a bufferView but no mimeType; the format is detected from the data");
   }
   const Element view = at.member("bufferView");
   accessors.use_view(view, static_cast<std::size_t>(view.value->number), Purpose::image);
 }
 
-/// Warns where an image says to be of another kind than the place that names it takes.
+/// Warns if the image's declared type is not allowed for the property that refers to it.
 void check_source(Asset& asset, const Element& texture, std::string_view type,
                   std::string_view other_type) {
   const JsonValue* index = texture.value->find("source");
@@ -49,8 +49,8 @@ void check_source(Asset& asset, const Element& texture, std::string_view type,
   const JsonValue& image = asset.array("images")[static_cast<std::size_t>(index->number)];
   const JsonValue* given = image.find("mimeType");
   if (given == nullptr || given->string == type || given->string == other_type) return;
-  asset.tolerate(texture.member("source"),
-                 "names an image of " + given->string + ", must be " + std::string(type) + " here");
+  asset.tolerate(texture.member("source"), "refers to an image of " + given->string + ", must be " +
+                                               std::string(type) + " here");
 }
 
 }  // namespace

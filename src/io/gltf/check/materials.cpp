@@ -19,7 +19,7 @@ double number_or(const JsonValue& object, std::string_view key, double standard)
 void check_light(Asset& asset, const Element& at) {
   if (at.member("type").value->string != "spot") return;
   if (at.value->find("spot") == nullptr) {
-    return asset.tolerate(at, "lacks the property \"spot\"; its defaults are taken");
+    return asset.tolerate(at, "lacks the property \"spot\"; the defaults are used");
   }
   const Element spot = at.member("spot");
   if (spot.value->find("innerConeAngle") == nullptr) return;
@@ -30,14 +30,14 @@ void check_light(Asset& asset, const Element& at) {
   asset.set(inner, std::nextafter(outer, 0));
 }
 
-/// KHR_materials_variants: a variant picks one material.
+/// Checks KHR_materials_variants: each variant must select one material.
 void check_mappings(Asset& asset, const Element& at) {
   std::unordered_set<double> seen;
   for (std::size_t i = 0; i < at.value->items.size(); ++i) {
     const Element variants = at.item(i).member("variants");
     for (std::size_t k = 0; k < variants.value->items.size(); ++k) {
       if (seen.insert(variants.value->items[k].number).second) continue;
-      asset.tolerate(variants.item(k), "has a material in an earlier mapping already");
+      asset.tolerate(variants.item(k), "already has a material in an earlier mapping");
     }
   }
 }
@@ -52,7 +52,7 @@ void check_materials(Asset& asset) {
     const double ior = number_or(*extra->value, "ior", 1.5);
     if (ior <= 0 || ior >= 1) continue;
     asset.tolerate(extra->member("ior"),
-                   "must be 0 or at least 1, is " + text_of(ior) + "; 1 is taken");
+                   "must be 0 or at least 1, is " + text_of(ior) + "; 1 is used");
     asset.set(extra->member("ior"), 1);
   }
   for (std::size_t i = 0; i < asset.array("meshes").size(); ++i) {

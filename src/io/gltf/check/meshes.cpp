@@ -11,7 +11,7 @@ namespace microtrace::io::gltf {
 namespace {
 
 struct Semantic {
-  std::string_view name;  ///< without the number of its set
+  std::string_view name;  ///< without the set number
   std::size_t set = 0;
 };
 
@@ -29,11 +29,12 @@ bool is_one_of(int value, std::initializer_list<int> values) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// glTF 2.0, section 3.7.2.1, the table of attributes; of morph targets 3.7.2.2.
+/// The attribute formats of glTF 2.0, section 3.7.2.1; for morph targets section 3.7.2.2.
 bool is_standard(std::string_view name, const Format& f, bool of_target) {
-  const bool is_float = f.component_type == f32 && !f.normalized;
-  const bool is_unit = f.normalized && is_one_of(f.component_type, {u8, u16});
-  const bool is_signed_unit = of_target && f.normalized && is_one_of(f.component_type, {i8, i16});
+  const bool is_float = f.component_type == kFloat32 && !f.normalized;
+  const bool is_unit = f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
+  const bool is_signed_unit =
+      of_target && f.normalized && is_one_of(f.component_type, {kInt8, kInt16});
   const bool is_fraction = is_float || is_unit || is_signed_unit;
   if (name == "POSITION" || name == "NORMAL") return f.type == "VEC3" && is_float;
   if (name == "TANGENT") return f.type == (of_target ? "VEC3" : "VEC4") && is_float;
@@ -41,15 +42,15 @@ bool is_standard(std::string_view name, const Format& f, bool of_target) {
   if (name == "COLOR") return (f.type == "VEC3" || f.type == "VEC4") && is_fraction;
   if (name == "WEIGHTS") return f.type == "VEC4" && (is_float || is_unit);
   if (name == "JOINTS") {
-    return f.type == "VEC4" && !f.normalized && is_one_of(f.component_type, {u8, u16});
+    return f.type == "VEC4" && !f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
   }
-  return f.component_type != u32;  // an application's own
+  return f.component_type != kUint32;  // application-specific
 }
 
-/// What KHR_mesh_quantization adds.
-bool is_quantised(std::string_view name, const Format& f, bool of_target) {
-  const bool is_signed = is_one_of(f.component_type, {i8, i16});
-  const bool is_short = is_signed || is_one_of(f.component_type, {u8, u16});
+/// The additional formats of KHR_mesh_quantization.
+bool is_quantized(std::string_view name, const Format& f, bool of_target) {
+  const bool is_signed = is_one_of(f.component_type, {kInt8, kInt16});
+  const bool is_short = is_signed || is_one_of(f.component_type, {kUint8, kUint16});
   if (name == "POSITION") return f.type == "VEC3" && (of_target ? is_signed : is_short);
   if (name == "NORMAL") return f.type == "VEC3" && is_signed && f.normalized;
   if (name == "TANGENT") {
@@ -63,7 +64,7 @@ class MeshCheck {
   MeshCheck(Asset& asset, AccessorHeads& accessors)
       : asset_(asset),
         accessors_(accessors),
-        quantised_(asset.uses("KHR_mesh_quantization")),
+        quantized_(asset.uses("KHR_mesh_quantization")),
         infos_(texture_infos(asset)) {}
 
   void mesh(const Element& at) {
@@ -100,7 +101,7 @@ class MeshCheck {
     material(at, attributes);
   }
 
-  /// Drops attributes that are not as many as the positions.
+  /// Drops attributes whose count differs from that of the positions.
   void same_counts(const Element& at) const {
     if (at.value->members.empty()) return;
     const JsonValue* position = at.value->find("POSITION");
@@ -117,7 +118,7 @@ class MeshCheck {
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// TEXCOORD_0, TEXCOORD_1 and so on without a gap; as many JOINTS as WEIGHTS.
+  /// Requires consecutive set numbers from 0, and as many JOINTS as WEIGHTS.
   void sets(const Element& at) const {
     std::size_t joints = 0, weights = 0;
     for (const std::string_view name : {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}) {
@@ -129,8 +130,8 @@ class MeshCheck {
         end = std::max(end, semantic.set + 1);
       }
       if (count != end) {
-        asset_.tolerate(at,
-                        "has sets of " + std::string(name) + " that are not numbered from 0 on");
+        asset_.tolerate(
+            at, "has sets of " + std::string(name) + " that are not numbered consecutively from 0");
       }
       (name == "JOINTS" ? joints : weights) = count;
     }
@@ -147,7 +148,7 @@ class MeshCheck {
       accessors_.use(attribute, Purpose::vertex_attribute);
       if (!format(attribute, split(member.key).name, of_target)) {
         dropped.push_back(member.key);
-        // One without the other means nothing.
+        // Joints and weights are useless without each other.
         if (member.key.starts_with("JOINTS_")) dropped.push_back("WEIGHTS_" + member.key.substr(7));
         if (member.key.starts_with("WEIGHTS_")) dropped.push_back("JOINTS_" + member.key.substr(8));
         continue;
@@ -155,23 +156,23 @@ class MeshCheck {
       alignment(attribute);
       if (member.key == "POSITION" && !accessors_[member.value].has_bounds) {
         asset_.tolerate(asset_.element("accessors", static_cast<std::size_t>(member.value.number)),
-                        "holds positions without min and max, which glTF 2.0 asks for");
+                        "holds positions without min and max, which glTF 2.0 requires");
       }
     }
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// False where nothing can be made of it.
+  /// False if the attribute's format can't be read.
   [[nodiscard]] bool format(const Element& at, std::string_view name, bool of_target) const {
     const Format& format = accessors_[*at.value].format;
     if (is_standard(name, format, of_target)) return true;
-    if (is_quantised(name, format, of_target)) {
-      if (!quantised_) {
-        asset_.tolerate(at, "is quantised, which asks for extension KHR_mesh_quantization");
+    if (is_quantized(name, format, of_target)) {
+      if (!quantized_) {
+        asset_.tolerate(at, "is quantized, which needs extension KHR_mesh_quantization");
       }
       return true;
     }
-    asset_.tolerate(at, "names an accessor of " + format.text() +
+    asset_.tolerate(at, "refers to an accessor of " + format.text() +
                             ", which glTF 2.0 does not allow for this attribute; it is ignored");
     return false;
   }
@@ -191,9 +192,10 @@ class MeshCheck {
   void indices(const Element& at) {
     accessors_.use(at, Purpose::vertex_indices);
     const Format& format = accessors_[*at.value].format;
-    if (io::gltf::is_one_of(format, {{"SCALAR", u8}, {"SCALAR", u16}, {"SCALAR", u32}})) return;
-    asset_.fail(at, "names an accessor of " + format.text() +
-                        "; indices are SCALAR of componentType 5121, 5123 or 5125");
+    if (io::gltf::is_one_of(format, {{"SCALAR", kUint8}, {"SCALAR", kUint16}, {"SCALAR", kUint32}}))
+      return;
+    asset_.fail(at, "refers to an accessor of " + format.text() +
+                        "; indices must be SCALAR of componentType 5121, 5123 or 5125");
   }
 
   void target(const Element& at, const Element& base) {
@@ -209,12 +211,12 @@ class MeshCheck {
     attributes(at, true);
   }
 
-  /// Empty where the target's attribute and the primitive's fit each other.
+  /// Empty if the morph target's attribute fits the primitive's.
   [[nodiscard]] std::string why_not_morphed(const JsonMember& target, const JsonValue* base) const {
     if (target.key.starts_with("JOINTS_") || target.key.starts_with("WEIGHTS_")) {
       return "can't be morphed";
     }
-    if (base == nullptr) return "morphs what the primitive does not have";
+    if (base == nullptr) return "morphs an attribute that the primitive does not have";
     const double count = accessors_[target.value].count, wanted = accessors_[*base].count;
     if (count == wanted) return {};
     return "has " + text(count) + " elements, but the primitive's has " + text(wanted);
@@ -226,12 +228,13 @@ class MeshCheck {
     const MaterialTextures& textures = infos_[static_cast<std::size_t>(index->number)];
     for (const auto& [name, set] : textures.sets) {
       if (attributes.value->find("TEXCOORD_" + text(set)) != nullptr) continue;
-      asset_.tolerate(at.member("material"), "asks for TEXCOORD_" + text(set) + " by its " + name +
+      asset_.tolerate(at.member("material"), "needs TEXCOORD_" + text(set) + " for its " + name +
                                                  ", which the primitive does not have");
     }
     if (textures.needs_tangents && attributes.value->find("TANGENT") == nullptr) {
-      asset_.tolerate(at.member("material"),
-                      "asks for tangents, which neither the primitive nor a normal texture gives");
+      asset_.tolerate(
+          at.member("material"),
+          "needs tangents, but neither the primitive nor a normal texture defines them");
     }
   }
 
@@ -241,7 +244,7 @@ class MeshCheck {
 
   Asset& asset_;
   AccessorHeads& accessors_;
-  bool quantised_;
+  bool quantized_;
   std::vector<MaterialTextures> infos_;  // by material
 };
 

@@ -8,10 +8,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// What a node may ask of a mesh.
+/// Properties of a mesh that constrain its nodes.
 struct MeshParts {
   std::size_t targets = 0;
-  bool has_joints = false;  ///< every primitive
+  bool has_joints = false;  ///< every primitive has joints
 };
 
 std::vector<MeshParts> mesh_parts(const Asset& asset) {
@@ -33,7 +33,7 @@ std::vector<MeshParts> mesh_parts(const Asset& asset) {
 void check_matrix(Asset& asset, const Element& at) {
   for (const char* other : {"translation", "rotation", "scale"}) {
     if (at.value->find(other) != nullptr) {
-      asset.tolerate(at.member(other), "stands beside a matrix; it is ignored");
+      asset.tolerate(at.member(other), "must not be combined with a matrix; it is ignored");
       asset.drop(at, {other});
     }
   }
@@ -41,7 +41,7 @@ void check_matrix(Asset& asset, const Element& at) {
   const auto item = [&](std::size_t i) { return matrix.value->items[i].number; };
   if (item(3) != 0 || item(7) != 0 || item(11) != 0 || item(15) != 1) {
     asset.tolerate(matrix,
-                   "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1, and are taken to be");
+                   "is not affine: items 3, 7, 11, 15 must be 0, 0, 0, 1; these values are used");
   }
   const auto dot = [&](std::size_t a, std::size_t b) {
     return item(a) * item(b) + item(a + 1) * item(b + 1) + item(a + 2) * item(b + 2);
@@ -50,7 +50,8 @@ void check_matrix(Asset& asset, const Element& at) {
     const auto i = static_cast<std::size_t>(a), k = static_cast<std::size_t>(b);
     const double cosine = dot(i, k) / std::sqrt(dot(i, i) * dot(k, k));
     if (!(std::abs(cosine) <= 1e-3)) {
-      asset.tolerate(matrix, "is no product of translation, rotation and scale, as glTF 2.0 asks");
+      asset.tolerate(matrix,
+                     "is not a product of translation, rotation and scale, as glTF 2.0 requires");
       return;
     }
   }
@@ -60,10 +61,10 @@ void check_rotation(Asset& asset, const Element& at) {
   double square = 0;
   for (const JsonValue& item : at.value->items) square += item.number * item.number;
   if (square == 0) {
-    asset.tolerate(at, "is zero, must be a unit quaternion; it turns nothing");
+    asset.tolerate(at, "must be a unit quaternion, is zero; it is ignored");
     return asset.set(at.item(3), 1);
   }
-  if (std::abs(square - 1) > 1e-3) asset.tolerate(at, "is no unit quaternion; it is normalized");
+  if (std::abs(square - 1) > 1e-3) asset.tolerate(at, "is not a unit quaternion; it is normalized");
 }
 
 void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& meshes) {
@@ -77,12 +78,12 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
   }
   const MeshParts& parts = meshes[static_cast<std::size_t>(mesh->number)];
   if (has_skin && !parts.has_joints) {
-    asset.tolerate(at.member("skin"), "moves a mesh of which not every primitive has JOINTS_0");
+    asset.tolerate(at.member("skin"), "applies to a mesh with a primitive that has no JOINTS_0");
   }
   check_weights(asset, at, parts.targets);
 }
 
-/// A camera whose type check_schema did not know.
+/// Drops a reference to a camera whose type is unknown to check_schema.
 void check_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
@@ -115,8 +116,8 @@ void check_nodes(Asset& asset, const NodeForest& forest) {
     for (std::size_t k = 0; k < nodes.value->items.size(); ++k) {
       const Element node = nodes.item(k);
       if (const auto parent = forest.parent(static_cast<std::size_t>(node.value->number))) {
-        asset.tolerate(
-            node, "is a child of node " + std::to_string(*parent) + "; scenes name roots only");
+        asset.tolerate(node, "is a child of node " + std::to_string(*parent) +
+                                 "; scenes must list root nodes only");
       }
     }
   }

@@ -18,7 +18,7 @@ void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
     return forest.root(index_of(joint)) != forest.root(index_of(joints[0]));
   };
   if (std::ranges::any_of(joints, has_other_root)) {
-    asset.tolerate(at.member("joints"), "are nodes without a common root");
+    asset.tolerate(at.member("joints"), "must have a common root node");
   }
   const JsonValue* skeleton = at.value->find("skeleton");
   if (skeleton == nullptr) return;
@@ -26,7 +26,7 @@ void check_joints(Asset& asset, const Element& at, const NodeForest& forest) {
     return !forest.is_within(index_of(joint), index_of(*skeleton));
   };
   if (std::ranges::any_of(joints, is_outside)) {
-    asset.tolerate(at.member("skeleton"), "is not above all of the skin's joints");
+    asset.tolerate(at.member("skeleton"), "is not a common ancestor of the skin's joints");
   }
 }
 
@@ -35,9 +35,9 @@ void check_matrices(const Asset& asset, const Element& at, AccessorHeads& access
   const Element matrices = at.member("inverseBindMatrices");
   accessors.use(matrices, Purpose::inverse_bind_matrices);
   const AccessorHead& head = accessors[*matrices.value];
-  if (head.format != Format{"MAT4", f32}) {
-    asset.fail(matrices, "names an accessor of " + head.format.text() +
-                             "; inverse bind matrices are MAT4 of componentType 5126");
+  if (head.format != Format{"MAT4", kFloat32}) {
+    asset.fail(matrices, "refers to an accessor of " + head.format.text() +
+                             "; inverse bind matrices must be MAT4 of componentType 5126");
   }
   const std::size_t joints = at.member("joints").value->items.size();
   if (head.count < static_cast<double>(joints)) {
@@ -46,7 +46,7 @@ void check_matrices(const Asset& asset, const Element& at, AccessorHeads& access
   }
 }
 
-/// Whether a root is in any scene, by node.
+/// For each node: true if it is a root and some scene contains it.
 std::vector<bool> roots_in_scenes(const Asset& asset, const NodeForest& forest) {
   std::vector<bool> result(asset.array("nodes").size());
   for (const JsonValue& scene : asset.array("scenes")) {
@@ -72,7 +72,7 @@ void check_skins(Asset& asset, AccessorHeads& accessors, const NodeForest& fores
     const JsonValue& skin = asset.array("skins")[index_of(*at.value->find("skin"))];
     const std::vector<JsonValue>& joints = skin.find("joints")->items;
     if (!joints.empty() && !in_scene[forest.root(index_of(joints[0]))]) {
-      asset.tolerate(at.member("skin"), "has joints that are in no scene");
+      asset.tolerate(at.member("skin"), "has joints that belong to no scene");
     }
   }
 }

@@ -7,7 +7,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr double element_array_buffer = 34963;
+constexpr double kElementArrayBuffer = 34963;
 
 void check_view(Asset& asset, const Element& at) {
   const JsonValue* stride = at.value->find("byteStride");
@@ -19,8 +19,8 @@ void check_view(Asset& asset, const Element& at) {
     asset.fail(at.member("byteStride"), "is greater than byteLength");
   }
   const JsonValue* target = at.value->find("target");
-  if (target != nullptr && target->number == element_array_buffer) {
-    asset.tolerate(at.member("byteStride"), "stands in a view of indices, which lie without gaps");
+  if (target != nullptr && target->number == kElementArrayBuffer) {
+    asset.tolerate(at.member("byteStride"), "is not allowed for indices, which are tightly packed");
   }
 }
 
@@ -37,7 +37,7 @@ void check_bounds(Asset& asset, const Element& at) {
 
 void check_accessor(Asset& asset, const Element& at) {
   if (at.value->find("componentType") == nullptr || at.value->find("type") == nullptr) {
-    return;  // check_schema has warned of a type that it does not know
+    return;  // check_schema has warned of an unknown type
   }
   check_bounds(asset, at);
   const JsonValue* component = at.value->find("componentType");
@@ -45,9 +45,10 @@ void check_accessor(Asset& asset, const Element& at) {
   if (at.value->find("byteOffset") != nullptr && at.value->find("bufferView") == nullptr) {
     asset.tolerate(at.member("byteOffset"), "has no effect: the accessor has no bufferView");
   }
-  const bool can_be_normalized = component->number != f32 && component->number != u32;
+  const bool can_be_normalized = component->number != kFloat32 && component->number != kUint32;
   if (normalized != nullptr && normalized->boolean && !can_be_normalized) {
-    asset.tolerate(at.member("normalized"), "has no effect: only integers of 8 or 16 bits can be");
+    asset.tolerate(at.member("normalized"),
+                   "has no effect: only integers of 8 or 16 bits can be normalized");
     asset.drop(at, {"normalized"});
   }
 }

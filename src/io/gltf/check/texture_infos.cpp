@@ -5,7 +5,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// KHR_texture_transform may choose another set than the texture info itself.
+/// The set of texture coordinates. KHR_texture_transform may override the texture info's own.
 double set_of(const JsonValue& info) {
   const JsonValue* transform = extension(info, "KHR_texture_transform");
   const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;
@@ -13,7 +13,8 @@ double set_of(const JsonValue& info) {
   return set != nullptr ? set->number : 0;
 }
 
-/// By check_schema's rules every object in a material whose name ends in Texture is a texture info.
+/// By check_schema's rules, every object in a material whose key ends in "Texture" is a texture
+/// info.
 void collect(const JsonValue& object, std::vector<std::pair<std::string, double>>& sets) {
   for (const JsonMember& member : object.members) {
     if (member.key == "extras" || member.value.kind != JsonValue::Kind::object) continue;

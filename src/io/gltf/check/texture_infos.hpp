@@ -1,5 +1,5 @@
 #pragma once
-/// What the textures of materials ask of vertices.
+/// The vertex attributes that the textures of materials need.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -10,12 +10,11 @@
 namespace microtrace::io::gltf {
 
 struct MaterialTextures {
-  std::vector<std::pair<std::string, double>>
-      sets;                     ///< a texture's name, and the TEXCOORD it takes
-  bool needs_tangents = false;  ///< and has no normal texture to make them from
+  std::vector<std::pair<std::string, double>> sets;  ///< the key of a texture, and its TEXCOORD set
+  bool needs_tangents = false;  ///< needs TANGENT, as no normal texture defines tangents
 };
 
-/// Of each material, those of its extensions among them.
+/// For each material, its extensions included.
 [[nodiscard]] std::vector<MaterialTextures> texture_infos(const Asset& asset);
 
 }  // namespace microtrace::io::gltf

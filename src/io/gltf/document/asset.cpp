@@ -18,7 +18,7 @@ Asset::Asset(JsonDocument& json) : json_(json) {
   if (const OutdoneKeys& outdone = json.outdone_keys(); outdone.count > 0) {
     JsonValue key;
     key.offset = outdone.offset;
-    note({&key, outdone.pointer}, "stands twice in its object; the last one counts",
+    note({&key, outdone.pointer}, "occurs twice in its object; the last one is used",
          Severity::error, outdone.count);
   }
   for (const JsonValue& item : array("extensionsUsed")) used_.insert(item.string);
@@ -81,23 +81,23 @@ void Asset::note(const Element& at, const std::string& message, Severity severit
 }
 
 std::vector<Diagnostic> Asset::warnings() const {
-  constexpr std::size_t shown = 100;  // each costs a search for its line
+  constexpr std::size_t kShown = 100;  // finding each line takes time
   std::vector<std::pair<std::string, Warning>> sorted(warnings_.begin(), warnings_.end());
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second.offset, a.first) < std::pair(b.second.offset, b.first);
   });
   std::vector<Diagnostic> result;
-  for (std::size_t i = 0; i < std::min(sorted.size(), shown); ++i) {
+  for (std::size_t i = 0; i < std::min(sorted.size(), kShown); ++i) {
     auto& [message, warning] = sorted[i];
     if (warning.count > 1) message += " (" + std::to_string(warning.count) + " places)";
     result.push_back(json_.at(warning.offset, warning.pointer, message));
     result.back().severity = warning.severity;
   }
-  if (sorted.size() > shown) {
+  if (sorted.size() > kShown) {
     Diagnostic& last = result.emplace_back();
     last.file = json_.file();
-    last.message = std::to_string(sorted.size() - shown) + " more warnings are left out";
-    for (std::size_t i = shown; i < sorted.size(); ++i) {
+    last.message = std::to_string(sorted.size() - kShown) + " more warnings are left out";
+    for (std::size_t i = kShown; i < sorted.size(); ++i) {
       last.severity = std::max(last.severity, sorted[i].second.severity);
     }
   }

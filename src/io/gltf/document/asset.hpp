@@ -1,5 +1,5 @@
 #pragma once
-/// The JSON of one glTF asset, and all that is said about it to the user.
+/// The JSON of one glTF asset, with its warnings and errors.
 
 #include "io/json/document.hpp"
 
@@ -14,53 +14,53 @@
 
 namespace microtrace::io::gltf {
 
-/// A value of the asset's JSON and where it stands.
+/// A value in the asset's JSON, with its pointer.
 struct Element {
   const JsonValue* value;
   std::string pointer;
 
-  /// The member of that name; the element itself, with the member's pointer, where it has none.
+  /// The member with that key; this element with the member's pointer if it is absent.
   [[nodiscard]] Element member(std::string_view key) const;
-  /// The item of that number; as above.
+  /// The item at that index; likewise.
   [[nodiscard]] Element item(std::size_t index) const;
 };
 
 class Asset {
  public:
-  /// The document must outlive the asset, which changes it by drop and set alone. Warns of keys
-  /// that stand twice in an object.
+  /// The document must outlive the asset. Only drop and set modify it. Warns of duplicate keys.
   explicit Asset(JsonDocument& json);
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
   [[nodiscard]] const std::string& file() const { return json_.file(); }
 
-  /// The items of an array of the root object, by its name; none where it is absent.
+  /// The items of an array in the root object; none if it is absent.
   [[nodiscard]] const std::vector<JsonValue>& array(std::string_view name) const;
-  /// Item `index` of that array, which has it.
+  /// Item `index` of that array, which must exist.
   [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
 
-  /// The value that a JSON pointer leads to, or null.
+  /// The value that a JSON pointer names, or null.
   [[nodiscard]] const JsonValue* find(std::string_view pointer) const;
-  /// Whether extensionsUsed names that extension.
+  /// True if extensionsUsed contains the extension.
   [[nodiscard]] bool uses(std::string_view extension) const;
-  /// Whether extensionsRequired names it.
+  /// True if extensionsRequired contains the extension.
   [[nodiscard]] bool requires_extension(std::string_view extension) const;
 
-  /// Takes members that do no good out of an object of the asset's JSON, after a warning. What is
-  /// left is what readers see. Elements in the object are no longer good.
+  /// Removes invalid members of an object from the asset's JSON, so that no reader sees them. The
+  /// caller warns first. Invalidates Elements within the object.
   void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
-  /// Puts another number in the place of one, after a warning.
+  /// Replaces a number. The caller warns first.
   void set(const Element& at, double number);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
 
-  /// Warnings with one text become one diagnostic: the first place in the file, and their number.
+  /// Adds a warning. Warnings with the same text become one, with the first place in the file and
+  /// the number of places.
   void warn(const Element& at, const std::string& message);
-  /// The same for a rule of glTF 2.0 that is broken there without keeping the asset from being
-  /// drawn: a warning for those who draw it, an error for those who validate it.
+  /// Reports a violation of glTF 2.0 that doesn't prevent rendering: a warning when rendering, an
+  /// error when validating.
   void tolerate(const Element& at, const std::string& message);
-  /// All warnings in file order; beyond 100 texts, a last one says how many are left out.
+  /// All warnings in file order. Beyond 100 different texts, a last one counts those left out.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
  private:
@@ -70,12 +70,12 @@ class Asset {
     Severity severity = Severity::warning;
   };
 
-  /// `at` is the first of so many places.
+  /// `at` is the first of `places` places.
   void note(const Element& at, const std::string& message, Severity severity, std::size_t places);
 
   JsonDocument& json_;
-  std::unordered_set<std::string_view> used_, required_;  // extensions
-  std::unordered_map<std::string, Warning> warnings_;     // by text
+  std::unordered_set<std::string_view> used_, required_;  // extension names
+  std::unordered_map<std::string, Warning> warnings_;     // by message
 };
 
 }  // namespace microtrace::io::gltf

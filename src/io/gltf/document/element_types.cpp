@@ -8,26 +8,26 @@ namespace {
 
 struct Shape {
   std::string_view name;
-  std::size_t columns, rows;  // a vector is one column
+  std::size_t columns, rows;  // a vector has one column
 };
 
-/// In the order of ElementType.
-constexpr std::array<Shape, 7> shapes = {{{"SCALAR", 1, 1},
-                                          {"VEC2", 1, 2},
-                                          {"VEC3", 1, 3},
-                                          {"VEC4", 1, 4},
-                                          {"MAT2", 2, 2},
-                                          {"MAT3", 3, 3},
-                                          {"MAT4", 4, 4}}};
+/// Indexed by ElementType.
+constexpr std::array<Shape, 7> kShapes = {{{"SCALAR", 1, 1},
+                                           {"VEC2", 1, 2},
+                                           {"VEC3", 1, 3},
+                                           {"VEC4", 1, 4},
+                                           {"MAT2", 2, 2},
+                                           {"MAT3", 3, 3},
+                                           {"MAT4", 4, 4}}};
 
 const Shape& shape_of(ElementType type) {
-  return shapes[static_cast<std::size_t>(type)];
+  return kShapes[static_cast<std::size_t>(type)];
 }
 
 }  // namespace
 
 ElementType element_type(std::string_view name) {
-  return static_cast<ElementType>(std::ranges::find(shapes, name, &Shape::name) - shapes.begin());
+  return static_cast<ElementType>(std::ranges::find(kShapes, name, &Shape::name) - kShapes.begin());
 }
 
 std::size_t component_count(ElementType type) {
@@ -35,8 +35,8 @@ std::size_t component_count(ElementType type) {
 }
 
 std::size_t component_size(int component_type) {
-  if (component_type == i8 || component_type == u8) return 1;
-  return component_type == i16 || component_type == u16 ? 2 : 4;
+  if (component_type == kInt8 || component_type == kUint8) return 1;
+  return component_type == kInt16 || component_type == kUint16 ? 2 : 4;
 }
 
 std::size_t element_size(ElementType type, int component_type) {

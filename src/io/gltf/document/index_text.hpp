@@ -1,5 +1,5 @@
 #pragma once
-/// Indices in texts.
+/// Indices written as text.
 
 #include <charconv>
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The number that the text is, in decimal digits alone.
+/// The number, if the text consists of decimal digits only.
 [[nodiscard]] inline std::optional<std::size_t> index_in(std::string_view text) {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -17,7 +17,7 @@ namespace microtrace::io::gltf {
   return value;
 }
 
-/// The number of a set of vertex attributes, 1 for TEXCOORD_1.
+/// The set number of a vertex attribute: 1 for TEXCOORD_1.
 [[nodiscard]] inline std::optional<std::size_t> set_in(std::string_view attribute) {
   return index_in(attribute.substr(attribute.find('_') + 1));
 }

@@ -17,41 +17,41 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// What tinygltf parses. It gets no URIs, no images, no extensions and no extras.
-constexpr std::array<std::string_view, 7> parsed_members = {
+/// Root members passed to tinygltf. URIs, images, extensions and extras are left out.
+constexpr std::array<std::string_view, 7> kParsedMembers = {
     "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
 
-/// Indices and sparse parts are taken from the JSON itself: tinygltf 2.7.0 refuses index accessors
-/// without a buffer view, which glTF allows, and keeps sparse offsets in an int.
-constexpr std::array<std::string_view, 4> left_out = {"extensions", "extras", "indices", "sparse"};
+/// Indices and sparse parts are read from the JSON instead: tinygltf 2.7.0 refuses index accessors
+/// without a buffer view, which glTF allows, and stores sparse offsets as int.
+constexpr std::array<std::string_view, 4> kLeftOut = {"extensions", "extras", "indices", "sparse"};
 
-/// One whose type is not known.
+/// True for an accessor of unknown type.
 bool is_unknown(const JsonValue& accessor) {
   return accessor.find("type") == nullptr || accessor.find("componentType") == nullptr;
 }
 
-/// The repaired asset's JSON for tinygltf.
+/// The part of the repaired JSON that tinygltf parses.
 std::string parsed_part(const JsonValue& root) {
   std::string text = "{";
   const auto separate = [&text] {
     if (text.back() != '{' && text.back() != '[') text += ',';
   };
   for (const JsonMember& member : root.members) {
-    if (std::ranges::find(parsed_members, member.key) == parsed_members.end()) continue;
+    if (std::ranges::find(kParsedMembers, member.key) == kParsedMembers.end()) continue;
     separate();
     append_json(text, member.key);
     text += ':';
     if (member.key != "accessors") {
-      append_json(text, member.value, left_out);
+      append_json(text, member.value, kLeftOut);
       continue;
     }
     text += '[';
     for (const JsonValue& accessor : member.value.items) {
       separate();
-      if (is_unknown(accessor)) {  // it would keep tinygltf from reading the others
+      if (is_unknown(accessor)) {  // tinygltf would reject the whole asset
         text += R"({"type":"SCALAR","componentType":5121,"count":1})";
       } else {
-        append_json(text, accessor, left_out);
+        append_json(text, accessor, kLeftOut);
       }
     }
     text += ']';
@@ -59,7 +59,7 @@ std::string parsed_part(const JsonValue& root) {
   return text + '}';
 }
 
-/// tinygltf without access to files and without an image decoder.
+/// A parser without file access and image decoding.
 tinygltf::TinyGLTF make_parser() {
   tinygltf::TinyGLTF parser;
   tinygltf::FsCallbacks none{};
@@ -80,7 +80,7 @@ tinygltf::TinyGLTF make_parser() {
 tinygltf::Model parse(const Asset& asset) {
   const std::string text = parsed_part(*asset.root().value);
   if (text.size() > std::numeric_limits<unsigned>::max()) {
-    asset.fail(asset.root(), "has more JSON than tinygltf can take (4 GiB); split the file",
+    asset.fail(asset.root(), "has more JSON than tinygltf can read (4 GiB); split the file",
                ErrorKind::limit);
   }
   tinygltf::Model model;
@@ -99,13 +99,13 @@ std::size_t index_of(const JsonValue& value) {
   return static_cast<std::size_t>(value.number);
 }
 
-/// A number that may be absent.
+/// An optional number.
 std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   return value != nullptr ? std::optional(index_of(*value)) : std::nullopt;
 }
 
-/// tinygltf's -1 stands for none.
+/// tinygltf uses -1 for an absent index.
 std::optional<std::size_t> index_of(int index) {
   return index >= 0 ? std::optional(static_cast<std::size_t>(index)) : std::nullopt;
 }
@@ -205,7 +205,8 @@ Model::Node node_of(tinygltf::Node& node) {
   return result;
 }
 
-/// From the JSON: tinygltf 2.7.0 refuses those without inverse bind matrices, which glTF allows.
+/// Reads the JSON, because tinygltf 2.7.0 refuses skins without inverse bind matrices, which glTF
+/// allows.
 Model::Skin skin_of(const JsonValue& json) {
   Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
   for (const JsonValue& joint : json.find("joints")->items) {
@@ -221,34 +222,34 @@ std::size_t count_values(const JsonValue& value) {
   return result;
 }
 
-/// What the model holds for each item of the asset's arrays, but for its small parts.
+/// Counts the memory of the model per item of the asset's arrays; `parts` estimates small members.
 void count_model(const Asset& asset) {
   const auto count = [](std::size_t items, std::size_t bytes) {
     take_memory(items * bytes, "the asset's model");
   };
-  constexpr std::size_t parts = 128;
-  count(asset.array("nodes").size(), sizeof(Model::Node) + parts);
-  count(asset.array("meshes").size(), sizeof(Model::Mesh) + parts);
+  constexpr std::size_t kParts = 128;
+  count(asset.array("nodes").size(), sizeof(Model::Node) + kParts);
+  count(asset.array("meshes").size(), sizeof(Model::Mesh) + kParts);
   count(asset.array("accessors").size(), sizeof(Model::Accessor));
   count(asset.array("bufferViews").size(), sizeof(Model::BufferView));
-  count(asset.array("materials").size(), sizeof(Material) + parts);
-  count(asset.array("scenes").size(), parts);
+  count(asset.array("materials").size(), sizeof(Material) + kParts);
+  count(asset.array("scenes").size(), kParts);
   for (const JsonValue& mesh : asset.array("meshes")) {
     const JsonValue* primitives = mesh.find("primitives");
     if (primitives == nullptr) continue;
-    count(primitives->items.size(), sizeof(Model::Primitive) + 3 * parts);
+    count(primitives->items.size(), sizeof(Model::Primitive) + 3 * kParts);
   }
 }
 
 }  // namespace
 
 Model parse_model(const Asset& asset) {
-  // The text, tinygltf's own JSON, and what tinygltf makes of it.
-  constexpr std::size_t bytes_of_value = 160, bytes_of_item = 512;
+  // Memory of the text, of tinygltf's own JSON and of its result.
+  constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
   const JsonValue& root = *asset.root().value;
-  std::size_t work_bytes = count_values(root) * bytes_of_value;
-  for (const std::string_view array : parsed_members) {
-    work_bytes += asset.array(array).size() * bytes_of_item;
+  std::size_t work_bytes = count_values(root) * kBytesOfValue;
+  for (const std::string_view array : kParsedMembers) {
+    work_bytes += asset.array(array).size() * kBytesOfItem;
   }
   const MemoryAccount work = temporary_memory(work_bytes, "reading the asset's JSON");
   count_model(asset);

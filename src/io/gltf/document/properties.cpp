@@ -6,8 +6,8 @@
 namespace microtrace::io::gltf {
 
 float finite_float(double x) {
-  constexpr double greatest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -greatest, greatest));
+  constexpr double kGreatest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -kGreatest, kGreatest));
 }
 
 float number(const JsonValue& object, std::string_view key, float standard) {
@@ -17,9 +17,9 @@ float number(const JsonValue& object, std::string_view key, float standard) {
 
 std::uint32_t index(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
-  constexpr std::uint32_t greatest = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint32_t kGreatest = std::numeric_limits<std::uint32_t>::max();
   if (value == nullptr) return 0;
-  return static_cast<std::uint32_t>(std::min<double>(value->number, greatest));
+  return static_cast<std::uint32_t>(std::min<double>(value->number, kGreatest));
 }
 
 std::string name_of(const JsonValue& object) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Properties of objects that check_schema has looked at: nothing here can fail.
+/// Properties of objects that check_schema has accepted. Reading them can't fail.
 
 #include "io/json/document.hpp"
 
@@ -15,7 +15,7 @@ namespace microtrace::io::gltf {
 
 [[nodiscard]] float number(const JsonValue& object, std::string_view key, float standard);
 
-/// A vector of as many numbers as the schema asks for there.
+/// A vector with as many components as the schema requires.
 template <typename Vector>
 [[nodiscard]] Vector vector(const JsonValue& object, std::string_view key, const Vector& standard) {
   const JsonValue* value = object.find(key);
@@ -27,10 +27,10 @@ template <typename Vector>
   return result;
 }
 
-/// 0 where there is none, and at most 2^32 - 1.
+/// 0 if absent; at most 2^32 - 1.
 [[nodiscard]] std::uint32_t index(const JsonValue& object, std::string_view key);
 
-/// Empty where there is none.
+/// Empty if absent.
 [[nodiscard]] std::string name_of(const JsonValue& object);
 
 }  // namespace microtrace::io::gltf

@@ -1,5 +1,5 @@
 #pragma once
-/// Rules for the properties of JSON objects, by which check_schema checks glTF 2.0 and its
+/// Rules for the properties of JSON objects, with which check_schema validates glTF 2.0 and its
 /// extensions.
 
 #include <cstddef>
@@ -14,24 +14,24 @@ enum class Form {
   integer,
   number,
   string,
-  index,    ///< of an item of the root array `target`
-  indices,  ///< an array of such, all different
+  index,    ///< into the root array `target`
+  indices,  ///< an array of distinct indices
   numbers,
-  strings,              ///< an array of different strings
-  object,               ///< with `members`
-  objects,              ///< an array of such
-  attributes,           ///< an object from attribute names to indices of accessors
-  targets,              ///< an array of such: morph targets
-  instance_attributes,  ///< the same with the names of EXT_mesh_gpu_instancing
-  draco_attributes,     ///< an object from attribute names to integers
+  strings,              ///< an array of distinct strings
+  object,               ///< described by `members`
+  objects,              ///< an array of objects
+  attributes,           ///< attribute names mapped to accessor indices
+  targets,              ///< an array of the above: morph targets
+  instance_attributes,  ///< the same with the attribute names of EXT_mesh_gpu_instancing
+  draco_attributes,     ///< attribute names mapped to integers
   anything,
 };
 
-/// The kinds of objects that extensions add to.
+/// The kinds of objects that extensions extend.
 enum class Place {
   other,
-  nowhere,   ///< of extensions that add no object
-  anywhere,  ///< of extensions whose objects are not checked
+  nowhere,   ///< for extensions that add no object
+  anywhere,  ///< for extensions whose objects are not checked
   root,
   asset,
   animation,
@@ -48,12 +48,12 @@ enum class Place {
   texture_info,
 };
 
-/// What becomes of a value that is not in its rule's range or list.
+/// How a value outside its rule's range or list is repaired.
 enum class Repair {
-  none,   ///< the asset is refused
-  clamp,  ///< the nearest number of the range takes its place
-  drop,   ///< its property is taken to be absent
-  keep,   ///< it stays, for readers to deal with
+  none,   ///< not at all: the asset is refused
+  clamp,  ///< replaced by the nearest number in range
+  drop,   ///< removed, as if absent
+  keep,   ///< kept; readers handle it
 };
 
 struct Rule {
@@ -62,31 +62,31 @@ struct Rule {
   bool required = false;
   double min = -std::numeric_limits<double>::infinity();  ///< of each number
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< min itself is not allowed
-  std::size_t fewest = 0;  ///< items of an array
+  bool above_min = false;  ///< exclusive minimum
+  std::size_t fewest = 0;  ///< least number of array items
   std::size_t most = ~std::size_t{0};
-  std::string_view target = {};  ///< a root array's name, or a pointer into the root's extensions
+  std::string_view target = {};  ///< name of a root array, or a pointer into the root's extensions
   std::span<const Rule> members = {};
-  Place place = Place::other;                      ///< of the object or objects
-  std::span<const double> values = {};             ///< the known numbers, if not empty
-  std::span<const std::string_view> strings = {};  ///< the known strings, if not empty
-  Repair repair = Repair::none;  ///< clamp and keep are for each number of an array
+  Place place = Place::other;                      ///< kind of the object or objects
+  std::span<const double> values = {};             ///< valid numbers; empty allows all
+  std::span<const std::string_view> strings = {};  ///< valid strings; empty allows all
+  Repair repair = Repair::none;  ///< in arrays, clamp and keep apply to each number
 };
 
-/// The rules of a texture info, and of one with a scale.
-inline constexpr Rule texture_info_rules[] = {
+/// The properties of a texture info, and of one with a scale.
+inline constexpr Rule kTextureInfoRules[] = {
     {.key = "index", .form = Form::index, .required = true, .target = "textures"},
     {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp},
 };
-inline constexpr Rule normal_texture_rules[] = {
-    texture_info_rules[0],
-    texture_info_rules[1],
+inline constexpr Rule kNormalTextureRules[] = {
+    kTextureInfoRules[0],
+    kTextureInfoRules[1],
     {.key = "scale", .form = Form::number},
 };
 
-// Rules that many objects have.
+// Rules shared by many objects.
 
-inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 constexpr Rule factor(std::string_view key) {
   return {.key = key, .form = Form::number, .min = 0, .max = 1, .repair = Repair::clamp};
@@ -94,7 +94,7 @@ constexpr Rule factor(std::string_view key) {
 constexpr Rule at_least(std::string_view key, double min) {
   return {.key = key, .form = Form::number, .min = min, .repair = Repair::clamp};
 }
-/// A number above 0; without it, or with another, its object's default.
+/// A number above 0. Absent or invalid values give the default.
 constexpr Rule positive(std::string_view key) {
   return {.key = key, .form = Form::number, .min = 0, .above_min = true, .repair = Repair::drop};
 }
@@ -113,7 +113,7 @@ constexpr Rule color(std::string_view key, double max = 1, std::size_t channels 
           .most = channels,
           .repair = Repair::clamp};
 }
-/// One of the known numbers, or as if it were absent.
+/// One of several numbers. Invalid values count as absent.
 constexpr Rule choice(std::string_view key, std::span<const double> values) {
   return {.key = key, .form = Form::integer, .values = values, .repair = Repair::drop};
 }
@@ -122,12 +122,12 @@ constexpr Rule choice(std::string_view key, std::span<const std::string_view> st
   return {
       .key = key, .form = Form::string, .required = required, .strings = strings, .repair = repair};
 }
-/// A texture info with those members.
-constexpr Rule texture(std::string_view key, std::span<const Rule> members = texture_info_rules) {
+/// A texture info with these properties.
+constexpr Rule texture(std::string_view key, std::span<const Rule> members = kTextureInfoRules) {
   return {.key = key, .form = Form::object, .members = members, .place = Place::texture_info};
 }
 constexpr Rule normal_texture(std::string_view key) {
-  return texture(key, normal_texture_rules);
+  return texture(key, kNormalTextureRules);
 }
 constexpr Rule index_of(std::string_view key, std::string_view target, bool required = false) {
   return {.key = key, .form = Form::index, .required = required, .target = target};

@@ -10,10 +10,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr const char* extension_name = "KHR_materials_variants";
+constexpr const char* kExtensionName = "KHR_materials_variants";
 
 std::size_t index_of(const Asset& asset, const std::string& wanted) {
-  const std::optional<Element> root = extension(asset.root(), extension_name);
+  const std::optional<Element> root = extension(asset.root(), kExtensionName);
   const JsonValue* variants = root ? root->value->find("variants") : nullptr;
   if (variants == nullptr) {
     throw Error(ErrorKind::usage, asset.file(), "has no variants; leave out --variant");
@@ -40,7 +40,7 @@ void choose_variant(const Asset& asset, const std::string& variant, Model& model
   for (std::size_t i = 0; i < model.meshes.size(); ++i) {
     const Element primitives = asset.element("meshes", i).member("primitives");
     for (std::size_t k = 0; k < model.meshes[i].primitives.size(); ++k) {
-      const std::optional<Element> own = extension(primitives.item(k), extension_name);
+      const std::optional<Element> own = extension(primitives.item(k), kExtensionName);
       const JsonValue* mappings = own ? own->value->find("mappings") : nullptr;
       if (mappings == nullptr) continue;
       for (const JsonValue& mapping : mappings->items) {

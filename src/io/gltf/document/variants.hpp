@@ -1,5 +1,5 @@
 #pragma once
-/// Materials to choose among (KHR_materials_variants).
+/// Selection of material variants (KHR_materials_variants).
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -8,8 +8,8 @@
 
 namespace microtrace::io::gltf {
 
-/// Gives primitives the materials of the variant of that name, else of that index from 0; empty:
-/// leaves the file's. Throws Error (usage) with the names there are.
+/// Assigns to primitives the materials of a variant, given by name or by index from 0. Empty text
+/// keeps the file's materials. Throws Error (usage) that lists the existing variants.
 void choose_variant(const Asset& asset, const std::string& variant, Model& model);
 
 }  // namespace microtrace::io::gltf

@@ -17,14 +17,14 @@
 
 namespace microtrace::io::gltf {
 
-/// What becomes of an asset that uses an extension.
+/// How an asset that uses an extension is handled.
 enum class Support {
-  full,      ///< it is drawn as the extension says
-  harmless,  ///< the extension is ignored, with a warning: the picture is the same without
-  none,      ///< the same, but an asset that requires it is refused
+  full,      ///< rendered as the extension specifies
+  harmless,  ///< ignored with a warning; the picture is right without it
+  none,      ///< ignored with a warning, but refused if the asset requires it
 };
 
-/// The object that an extension adds to those of one kind.
+/// The object that an extension adds to objects of one kind.
 struct ExtensionObject {
   Place place = Place::nowhere;
   std::span<const Rule> rules{};
@@ -34,19 +34,19 @@ struct Extension {
   std::string_view name{};
   Support support = Support::none;
   std::array<ExtensionObject, 8> objects{};
-  /// Reads the object that a material has; null for extensions that add none to materials.
+  /// Reads the extension's object of a material; null if it adds none to materials.
   void (*read_material)(const JsonValue& object, Material& material) = nullptr;
-  /// The media type of the images that textures name by it; empty for other extensions.
+  /// Media type of the images that textures can refer to through this extension; otherwise empty.
   std::string_view image_type{};
 
-  /// What it adds to an object of that kind, or null.
+  /// The object that the extension adds to objects of that kind, or null.
   [[nodiscard]] const ExtensionObject* object_in(Place place) const;
 };
 
-/// All, by name. Others are ignored with a warning, and not looked into.
+/// All known extensions, by name. Unknown ones are ignored with a warning.
 [[nodiscard]] std::span<const Extension> extensions();
 
-/// The extension of that name, or null.
+/// The extension with that name, or null.
 [[nodiscard]] const Extension* find_extension(std::string_view name);
 
 /// The parts of the list.

@@ -7,13 +7,13 @@
 #include <limits>
 #include <numbers>
 
-// The extensions of materials: for each its rules, from the JSON schema that the Khronos Group has
-// ratified, how it is read, and its row in the list below.
+// Material extensions: for each the rules from the JSON schema that the Khronos Group has ratified,
+// the reader, and its row in the list below.
 
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr Rule anisotropy_rules[] = {factor("anisotropyStrength"), number("anisotropyRotation"),
+constexpr Rule kAnisotropyRules[] = {factor("anisotropyStrength"), number("anisotropyRotation"),
                                      texture("anisotropyTexture")};
 Anisotropy anisotropy(const JsonValue& json) {
   const JsonValue* rotation = json.find("anisotropyRotation");
@@ -23,7 +23,7 @@ Anisotropy anisotropy(const JsonValue& json) {
           .texture = texture_use(json, "anisotropyTexture")};
 }
 
-constexpr Rule clearcoat_rules[] = {
+constexpr Rule kClearcoatRules[] = {
     factor("clearcoatFactor"), texture("clearcoatTexture"), factor("clearcoatRoughnessFactor"),
     texture("clearcoatRoughnessTexture"), normal_texture("clearcoatNormalTexture")};
 Clearcoat clearcoat(const JsonValue& json) {
@@ -38,7 +38,7 @@ Clearcoat clearcoat(const JsonValue& json) {
   return result;
 }
 
-constexpr Rule diffuse_transmission_rules[] = {
+constexpr Rule kDiffuseTransmissionRules[] = {
     factor("diffuseTransmissionFactor"), texture("diffuseTransmissionTexture"),
     color("diffuseTransmissionColorFactor"), texture("diffuseTransmissionColorTexture")};
 DiffuseTransmission diffuse_transmission(const JsonValue& json) {
@@ -48,24 +48,24 @@ DiffuseTransmission diffuse_transmission(const JsonValue& json) {
           .color_texture = texture_use(json, "diffuseTransmissionColorTexture")};
 }
 
-constexpr Rule dispersion_rules[] = {at_least("dispersion", 0)};
+constexpr Rule kDispersionRules[] = {at_least("dispersion", 0)};
 void read_dispersion(const JsonValue& json, Material& material) {
   material.dispersion = number(json, "dispersion", 0);
 }
 
-constexpr Rule emissive_strength_rules[] = {at_least("emissiveStrength", 0)};
+constexpr Rule kEmissiveStrengthRules[] = {at_least("emissiveStrength", 0)};
 void read_emissive_strength(const JsonValue& json, Material& material) {
   material.emissive *= number(json, "emissiveStrength", 1);
 }
 
-// And none between 0 and 1: check_materials.
-constexpr Rule ior_rules[] = {
+// check_materials also refuses values between 0 and 1.
+constexpr Rule kIorRules[] = {
     {.key = "ior", .form = Form::number, .min = 0, .repair = Repair::drop}};
 void read_ior(const JsonValue& json, Material& material) {
   material.ior = number(json, "ior", material.ior);
 }
 
-constexpr Rule iridescence_rules[] = {factor("iridescenceFactor"),
+constexpr Rule kIridescenceRules[] = {factor("iridescenceFactor"),
                                       texture("iridescenceTexture"),
                                       at_least("iridescenceIor", 1),
                                       at_least("iridescenceThicknessMinimum", 0),
@@ -82,10 +82,10 @@ Iridescence iridescence(const JsonValue& json) {
       .thickness_texture = texture_use(json, "iridescenceThicknessTexture")};
 }
 
-constexpr Rule specular_glossiness_rules[] = {
+constexpr Rule kSpecularGlossinessRules[] = {
     color("diffuseFactor", 1, 4), texture("diffuseTexture"), color("specularFactor"),
     factor("glossinessFactor"), texture("specularGlossinessTexture")};
-/// It takes the place of pbrMetallicRoughness, which is for readers that do not know it.
+/// Replaces pbrMetallicRoughness, which is a fallback for readers without this extension.
 void read_specular_glossiness(const JsonValue& json, Material& material) {
   material.base_color = vector(json, "diffuseFactor", Vec4(1));
   material.base_color_texture = texture_use(json, "diffuseTexture");
@@ -93,13 +93,13 @@ void read_specular_glossiness(const JsonValue& json, Material& material) {
       SpecularGlossiness{.specular = vector(json, "specularFactor", Vec3(1)),
                          .glossiness = number(json, "glossinessFactor", 1),
                          .texture = texture_use(json, "specularGlossinessTexture")};
-  // The nearest metallic-roughness material.
+  // Approximates the material by metallic-roughness.
   material.metallic_roughness_texture.reset();
   material.metallic = 0;
   material.roughness = 1 - material.specular_glossiness->glossiness;
 }
 
-constexpr Rule sheen_rules[] = {color("sheenColorFactor"), texture("sheenColorTexture"),
+constexpr Rule kSheenRules[] = {color("sheenColorFactor"), texture("sheenColorTexture"),
                                 factor("sheenRoughnessFactor"), texture("sheenRoughnessTexture")};
 Sheen sheen(const JsonValue& json) {
   return {.color = vector(json, "sheenColorFactor", Vec3(0)),
@@ -108,8 +108,8 @@ Sheen sheen(const JsonValue& json) {
           .roughness_texture = texture_use(json, "sheenRoughnessTexture")};
 }
 
-constexpr Rule specular_rules[] = {factor("specularFactor"), texture("specularTexture"),
-                                   color("specularColorFactor", unbounded),
+constexpr Rule kSpecularRules[] = {factor("specularFactor"), texture("specularTexture"),
+                                   color("specularColorFactor", kUnbounded),
                                    texture("specularColorTexture")};
 Specular specular(const JsonValue& json) {
   return {.factor = number(json, "specularFactor", 1),
@@ -118,34 +118,34 @@ Specular specular(const JsonValue& json) {
           .color_texture = texture_use(json, "specularColorTexture")};
 }
 
-constexpr Rule transmission_rules[] = {factor("transmissionFactor"),
+constexpr Rule kTransmissionRules[] = {factor("transmissionFactor"),
                                        texture("transmissionTexture")};
 Transmission transmission(const JsonValue& json) {
   return {.factor = number(json, "transmissionFactor", 0),
           .texture = texture_use(json, "transmissionTexture")};
 }
 
-/// Nothing but its base color is seen.
+/// Only the base color is visible.
 void read_unlit(const JsonValue&, Material& material) {
   material.unlit = true;
   material.emissive = Vec3(0);
   material.emissive_texture.reset();
 }
 
-constexpr Rule volume_rules[] = {at_least("thicknessFactor", 0), texture("thicknessTexture"),
+constexpr Rule kVolumeRules[] = {at_least("thicknessFactor", 0), texture("thicknessTexture"),
                                  positive("attenuationDistance"), color("attenuationColor")};
 Volume volume(const JsonValue& json) {
   Volume result{.thickness = number(json, "thicknessFactor", 0),
                 .texture = texture_use(json, "thicknessTexture"),
                 .attenuation_color = vector(json, "attenuationColor", Vec3(1))};
-  // Positive as a number of the file, and so it stays.
+  // A positive number in the file stays positive after rounding.
   result.attenuation_distance =
       std::max(number(json, "attenuationDistance", result.attenuation_distance),
                std::numeric_limits<float>::min());
   return result;
 }
 
-/// Reads a layer that the material has as an optional member.
+/// Reads an optional layer of the material.
 template <auto layer, auto read>
 void read_layer(const JsonValue& json, Material& material) {
   material.*layer = read(json);
@@ -159,32 +159,32 @@ constexpr Extension row(std::string_view name, std::span<const Rule> rules,
           .read_material = read};
 }
 
-/// By name. No two of them change the same property, so that their order makes no difference; only
-/// emission is scaled by one and removed by another.
-constexpr Extension list[] = {
-    row("KHR_materials_anisotropy", anisotropy_rules,
+/// Sorted by name. No two change the same property, so their order doesn't matter, except that one
+/// scales the emission and another removes it.
+constexpr Extension kList[] = {
+    row("KHR_materials_anisotropy", kAnisotropyRules,
         read_layer<&Material::anisotropy, anisotropy>),
-    row("KHR_materials_clearcoat", clearcoat_rules, read_layer<&Material::clearcoat, clearcoat>),
-    row("KHR_materials_diffuse_transmission", diffuse_transmission_rules,
+    row("KHR_materials_clearcoat", kClearcoatRules, read_layer<&Material::clearcoat, clearcoat>),
+    row("KHR_materials_diffuse_transmission", kDiffuseTransmissionRules,
         read_layer<&Material::diffuse_transmission, diffuse_transmission>),
-    row("KHR_materials_dispersion", dispersion_rules, read_dispersion),
-    row("KHR_materials_emissive_strength", emissive_strength_rules, read_emissive_strength),
-    row("KHR_materials_ior", ior_rules, read_ior),
-    row("KHR_materials_iridescence", iridescence_rules,
+    row("KHR_materials_dispersion", kDispersionRules, read_dispersion),
+    row("KHR_materials_emissive_strength", kEmissiveStrengthRules, read_emissive_strength),
+    row("KHR_materials_ior", kIorRules, read_ior),
+    row("KHR_materials_iridescence", kIridescenceRules,
         read_layer<&Material::iridescence, iridescence>),
-    row("KHR_materials_pbrSpecularGlossiness", specular_glossiness_rules, read_specular_glossiness),
-    row("KHR_materials_sheen", sheen_rules, read_layer<&Material::sheen, sheen>),
-    row("KHR_materials_specular", specular_rules, read_layer<&Material::specular, specular>),
-    row("KHR_materials_transmission", transmission_rules,
+    row("KHR_materials_pbrSpecularGlossiness", kSpecularGlossinessRules, read_specular_glossiness),
+    row("KHR_materials_sheen", kSheenRules, read_layer<&Material::sheen, sheen>),
+    row("KHR_materials_specular", kSpecularRules, read_layer<&Material::specular, specular>),
+    row("KHR_materials_transmission", kTransmissionRules,
         read_layer<&Material::transmission, transmission>),
     row("KHR_materials_unlit", {}, read_unlit),
-    row("KHR_materials_volume", volume_rules, read_layer<&Material::volume, volume>),
+    row("KHR_materials_volume", kVolumeRules, read_layer<&Material::volume, volume>),
 };
 
 }  // namespace
 
 std::span<const Extension> material_extensions() {
-  return list;
+  return kList;
 }
 
 }  // namespace microtrace::io::gltf

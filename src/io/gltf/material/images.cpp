@@ -21,18 +21,18 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// No image file holds more bytes.
-constexpr std::size_t max_image_bytes = std::size_t{1} << 30U;
-/// Of all images together, each time that one is read: images may share a file or a buffer view.
-constexpr std::uint64_t max_bytes_of_images = std::uint64_t{1} << 32U;
+/// Limit on the bytes of one image file.
+constexpr std::size_t kMaxImageBytes = std::size_t{1} << 30U;
+/// Limit on the bytes of all images. Images that share a file or a buffer view count each time.
+constexpr std::uint64_t kMaxBytesOfImages = std::uint64_t{1} << 32U;
 
 std::string_view media_type(ImageFormat format) {
-  constexpr std::array<std::string_view, 5> types = {"", "image/png", "image/jpeg", "image/webp",
-                                                     "image/ktx2"};
-  return types[static_cast<std::size_t>(format)];
+  constexpr std::array<std::string_view, 5> kTypes = {"", "image/png", "image/jpeg", "image/webp",
+                                                      "image/ktx2"};
+  return kTypes[static_cast<std::size_t>(format)];
 }
 
-/// What the asset says that the image is; empty where it says nothing.
+/// The declared media type of an image; empty if undeclared.
 std::string_view declared_type(const Element& at) {
   if (const JsonValue* type = at.value->find("mimeType")) return type->string;
   const JsonValue* uri = at.value->find("uri");
@@ -47,17 +47,17 @@ std::string small_letters(std::string_view text) {
   return result;
 }
 
-/// A data URI must say what it holds (glTF 2.0, section 2.8; so the Khronos validator has it too).
-/// image/jpg, which is no media type, is widespread. Whether it is right.
+/// True if a data URI declares the right media type (glTF 2.0, section 2.8; the Khronos validator
+/// checks it too). image/jpg is no media type, but common.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
-  constexpr std::array<std::string_view, 2> not_decoded = {"image/avif", "image/vnd-ms.dds"};
+  constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
   const bool is_right =
       format == ImageFormat::unknown
-          ? std::ranges::find(not_decoded, type) != not_decoded.end()
+          ? std::ranges::find(kNotDecoded, type) != kNotDecoded.end()
           : type == media_type(format) || (type == "image/jpg" && format == ImageFormat::jpeg);
   if (is_right) return true;
-  asset.tolerate(uri, "has the media type " + in_quotes(type) + ", but what it holds is " +
+  asset.tolerate(uri, "has the media type " + in_quotes(type) + ", but the data is " +
                           (format == ImageFormat::unknown ? "neither PNG, JPEG, WebP nor KTX2"
                                                           : std::string(media_type(format))));
   return false;
@@ -73,32 +73,31 @@ class ImageLoader {
     MemoryAccount file(memory_account().budget());
     const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
     if (!bytes) {
-      asset_.warn(at, "lies in a buffer without data; textures of it are white");
+      asset_.warn(at, "lies in a buffer that has no data; its textures are white");
       return nullptr;
     }
     bytes_ += bytes->size();
-    if (bytes_ > max_bytes_of_images) {
-      asset_.fail(at, "brings the files of images to more than 4 GiB, the most that is read",
-                  ErrorKind::limit);
+    if (bytes_ > kMaxBytesOfImages) {
+      asset_.fail(at, "brings the image files to more than 4 GiB, the limit", ErrorKind::limit);
     }
     const ImageHeader header = read_image_header(*bytes);
     const JsonValue* uri = at.value->find("uri");
     const bool is_right = uri == nullptr || !is_data_uri(uri->string) ||
                           check_media_type(asset_, at.member("uri"), header.format);
     if (header.format == ImageFormat::unknown) {
-      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; textures of it are white");
+      asset_.warn(at, "is neither PNG, JPEG, WebP nor KTX2; its textures are white");
       return nullptr;
     }
     if (header.state == ImageHeader::State::damaged) {
-      asset_.fail(at, "holds a damaged image: its header says no size");
+      asset_.fail(at, "holds a damaged image: its header has no size");
     }
     if (header.state == ImageHeader::State::cut_off) {
-      asset_.tolerate(at, "holds an image that ends before its size; textures of it are white");
+      asset_.tolerate(at, "holds an image that is truncated; its textures are white");
       return nullptr;
     }
     const std::string_view type = declared_type(at);
     if (is_right && !type.empty() && type != media_type(header.format)) {
-      asset_.tolerate(at, "is called " + in_quotes(std::string(type)) + ", but it is " +
+      asset_.tolerate(at, "is declared as " + in_quotes(std::string(type)) + ", but it is " +
                               std::string(media_type(header.format)));
     }
     if (type != media_type(header.format)) check_extension(at, header.format);
@@ -116,62 +115,61 @@ class ImageLoader {
     const Element uri = at.member("uri");
     storage = is_data_uri(uri.value->string)
                   ? decode_data_uri(asset_, uri)
-                  : read_resource(asset_, uri, folders_, "image", max_image_bytes);
+                  : read_resource(asset_, uri, folders_, "image", kMaxImageBytes);
     return storage;
   }
 
-  /// Kinds of images that extensions add; check_images has looked at what images say of themselves.
+  /// Warns if an image's format needs an undeclared extension. check_images has checked declared
+  /// media types.
   void check_extension(const Element& at, ImageFormat format) {
     const auto known = std::ranges::find(extensions(), media_type(format), &Extension::image_type);
     if (known == extensions().end() || asset_.uses(known->name)) return;
-    asset_.tolerate(at, "is " + std::string(known->image_type) + ", which asks for extension " +
+    asset_.tolerate(at, "is " + std::string(known->image_type) + ", which needs extension " +
                             std::string(known->name));
   }
 
-  /// What KHR_texture_basisu demands of files that can be decoded nevertheless. The decoder refuses
+  /// Warns of violations of KHR_texture_basisu that don't prevent decoding. The decoder refuses the
   /// others.
   void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
                   ImageUse use) {
     if (header.width % 4 != 0 || header.height % 4 != 0) {
-      asset_.tolerate(at, "has sides that are no multiples of 4, as KHR_texture_basisu demands");
+      asset_.tolerate(at, "has sides that are not multiples of 4, as KHR_texture_basisu requires");
     }
     const std::optional<Ktx2Colors> colors = read_ktx2_colors(bytes);
     if (!colors) return;
     if (colors->is_premultiplied) {
-      asset_.tolerate(at,
-                      "says that alpha is multiplied into its colors; they are taken as they are");
+      asset_.tolerate(at, "declares premultiplied alpha; the colors are used as they are");
     }
-    // An image may hold colors and a number in its alpha, which is linear in either encoding.
+    // An image may hold colors in RGB and other data in alpha, which is linear in either encoding.
     const bool is_srgb = colors->encoding == ColorEncoding::srgb;
     if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;
-    asset_.tolerate(at, std::string("says that its numbers are ") +
+    asset_.tolerate(at, std::string("declares its values ") +
                             (!colors->encoding ? "neither sRGB nor linear"
                              : is_srgb         ? "sRGB"
                                                : "linear") +
-                            ", but materials take them for " + (use.srgb ? "sRGB" : "linear") +
-                            ", which decides");
+                            ", but materials use them as " + (use.srgb ? "sRGB" : "linear") +
+                            ", which takes precedence");
   }
 
   std::shared_ptr<const Image> decode(const Element& at, const ImageHeader& header,
                                       std::string_view bytes) {
     pixels_ += std::uint64_t{header.width} * header.height;
-    if (pixels_ > max_texture_pixels) {
-      asset_.fail(at, "brings the images to more than 2^28 pixels, the most that is read",
-                  ErrorKind::limit);
+    if (pixels_ > kMaxTexturePixels) {
+      asset_.fail(at, "brings the images to more than 2^28 pixels, the limit", ErrorKind::limit);
     }
     DecodedImage decoded = decode_image(bytes);
     if (decoded.no_module) {
-      asset_.warn(at, "can't be decoded, textures of it are white: " + decoded.complaint);
+      asset_.warn(at, "can't be decoded, so its textures are white: " + decoded.complaint);
       return nullptr;
     }
     if (decoded.too_large) {
-      asset_.fail(at, "has more pixels than its header says, or than there is memory for",
+      asset_.fail(at, "has more pixels than its header states or than fit in memory",
                   ErrorKind::limit);
     }
     if (!decoded.image)
       asset_.fail(at, "holds an image that can't be decoded: " + decoded.complaint);
     if (!decoded.complaint.empty()) {
-      asset_.tolerate(at, "holds an image that is not whole: " + decoded.complaint);
+      asset_.tolerate(at, "holds an incomplete image: " + decoded.complaint);
     }
     if (const JsonValue* name = at.value->find("name")) decoded.image->name = name->string;
     return std::make_shared<const Image>(std::move(*decoded.image));

@@ -1,5 +1,5 @@
 #pragma once
-/// The images of an asset.
+/// Loading and decoding of images.
 
 #include "io/gltf/bytes/buffer_views.hpp"
 #include "io/gltf/bytes/resource.hpp"
@@ -16,23 +16,23 @@
 
 namespace microtrace::io::gltf {
 
-/// What drawn materials take an image's numbers for; neither where they do not show it.
+/// The encodings that drawn materials expect of an image; none if it is unused.
 struct ImageUse {
   bool srgb = false, linear = false;
 
   [[nodiscard]] bool is_wanted() const { return srgb || linear; }
 };
 
-/// How those materials that are drawn use each of so many images.
+/// The uses of each image by the drawn materials.
 [[nodiscard]] std::vector<ImageUse> image_uses(std::span<const Material> materials,
                                                const std::vector<bool>& drawn,
                                                std::span<const Texture> textures,
                                                std::size_t images, SurfaceDetail detail);
 
-/// By index: the pixels of those that are wanted and can be decoded, null for the others. All are
-/// looked at. Kinds of files that are not read give a warning; a header or, where it is wanted,
-/// data that is damaged throws Error (invalid_scene); as read_resource, and (limit) where the
-/// wanted ones have more than max_texture_pixels together.
+/// The pixels of each wanted image that can be decoded, null for the others. Examines all images.
+/// Warns of unsupported formats. Throws Error: invalid_scene for a damaged header or, in a wanted
+/// image, damaged data; those of read_resource; limit if the wanted images have more than
+/// kMaxTexturePixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
     Asset& asset, const BufferViews& views, const ResourceFolders& folders,
     const std::vector<ImageUse>& uses);

@@ -31,7 +31,7 @@ void read_metallic_roughness(const JsonValue& pbr, Material& material) {
   material.metallic_roughness_texture = texture_use(pbr, "metallicRoughnessTexture");
 }
 
-/// Reads the extensions of a material that has its other properties already.
+/// Reads a material's extensions, after its other properties.
 void read_extensions(const JsonValue& json, Material& material) {
   for (const Extension& known : extensions()) {
     if (known.read_material == nullptr) continue;
@@ -39,7 +39,7 @@ void read_extensions(const JsonValue& json, Material& material) {
   }
 }
 
-/// Removes what a factor of 0 makes invisible, with its textures.
+/// Removes layers with a factor of 0, and their textures.
 void leave_out_unused_layers(Material& material) {
   const auto leave_out = [](auto& layer, auto&& factor) {
     if (layer && factor(*layer) == 0) layer.reset();

@@ -1,5 +1,5 @@
 #pragma once
-/// The materials of an asset.
+/// Materials of an asset.
 
 #include "io/json/document.hpp"
 
@@ -10,15 +10,15 @@
 
 namespace microtrace::io::gltf {
 
-/// Layers that a factor of 0 makes invisible, with their textures.
+/// Handling of layers that a factor of 0 makes invisible, and of their textures.
 enum class UnusedLayers { left_out, kept };
 
-/// All materials of the root object in file order, and after them the one of primitives that name
-/// none (glTF 2.0, section 3.9.7).
+/// The root object's materials in file order, followed by the default material of primitives
+/// without one (glTF 2.0, section 3.9.7).
 [[nodiscard]] std::vector<Material> make_materials(const JsonValue& root,
                                                    UnusedLayers unused = UnusedLayers::left_out);
 
-/// Appends a copy of each of these materials that light does not change.
+/// Appends unlit copies of these materials.
 void add_unlit_copies(std::vector<Material>& materials,
                       const std::vector<std::uint32_t>& originals);
 

@@ -17,8 +17,8 @@ Wrap wrap(const JsonValue& sampler, std::string_view key) {
   return mode->number == 33071 ? Wrap::clamp_to_edge : Wrap::mirrored_repeat;
 }
 
-/// OpenGL's numbers: odd ones filter the image linearly; from 9984 on with mip maps, and from 9986
-/// on linearly between these.
+/// OpenGL constants: odd ones filter the image linearly. From 9984 on they use mip maps, from 9986
+/// on interpolating linearly between levels.
 Sampler make_sampler(const JsonValue& json) {
   Sampler sampler{.wrap_s = wrap(json, "wrapS"), .wrap_t = wrap(json, "wrapT")};
   const auto filter = [](int name) { return name % 2 == 0 ? Filter::nearest : Filter::linear; };

@@ -1,5 +1,5 @@
 #pragma once
-/// The textures of an asset.
+/// Textures of an asset.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -9,8 +9,9 @@
 
 namespace microtrace::io::gltf {
 
-/// All textures in file order. Of the images that one offers, WebP (EXT_texture_webp) comes before
-/// KTX2 (KHR_texture_basisu), and this before PNG and JPEG. Warns of textures that offer none.
+/// All textures in file order. A texture with several images uses WebP (EXT_texture_webp) rather
+/// than KTX2 (KHR_texture_basisu), and KTX2 rather than PNG or JPEG. Warns of textures without an
+/// image.
 [[nodiscard]] std::vector<Texture> make_textures(Asset& asset);
 
 }  // namespace microtrace::io::gltf

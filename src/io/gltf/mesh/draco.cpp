@@ -18,12 +18,12 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr const char* name_of_extension = "KHR_draco_mesh_compression";
-/// No mesh is packed more densely: regular grids take a hundredth of a bit for a triangle.
-constexpr std::size_t most_triangles_per_byte = 1024;
-constexpr std::size_t id_of_indices = ~std::size_t{0};
+constexpr const char* kExtensionName = "KHR_draco_mesh_compression";
+/// Limit on the compression ratio: regular grids take a hundredth of a bit per triangle.
+constexpr std::size_t kMaxTrianglesPerByte = 1024;
+constexpr std::size_t kIdOfIndices = ~std::size_t{0};
 
-/// Indices as elements of an accessor.
+/// Converts indices to an accessor's component size.
 std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size) {
   std::string result(indices.size() * size, '\0');
   for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -34,38 +34,38 @@ std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size
 
 const ModuleFunction& draco_function() {
   static const ModuleFunction function =
-      find_module_function(draco_module_file_name, decode_draco_name);
+      find_module_function(kDracoModuleFileName, kDecodeDracoName);
   return function;
 }
 
 }  // namespace
 
-/// What is to be decoded into which accessors, and what came of it.
+/// One mesh to decode: its target accessors and the result.
 struct DracoDecoder::Job {
   Element at;
   std::size_t view = 0;
-  std::size_t indices = 0;               // the accessor
-  std::vector<std::size_t> accessors{};  // of the attributes
-  std::vector<std::size_t> sizes{};      // bytes of their elements
+  std::size_t indices = 0;               // accessor index
+  std::vector<std::size_t> accessors{};  // accessor index of each attribute
+  std::vector<std::size_t> sizes{};      // bytes per element of each attribute
   std::vector<MicrotraceDracoAttribute> attributes{};
   std::map<std::size_t, Source> sources{};
   MicrotraceDraco mesh{};
-  std::size_t left = 0;  // bytes that may be taken
+  std::size_t left = 0;  // remaining limit in bytes
   std::vector<std::uint32_t> corners{};
   std::vector<std::string> values{};
   std::optional<MemoryAccount> work{};
   std::string complaint{};
   bool is_too_large = false;
 
-  /// Room for Draco's own work.
+  /// Reserves memory for Draco's working data.
   bool reserve(std::size_t triangles) {
     work.emplace(temporary_memory(triangles * 200, "decompressing meshes"));
     return true;
   }
 
-  /// The room for the mesh; false where it would take too much.
+  /// Reserves memory for the decoded mesh. False if it is too large.
   bool prepare(std::size_t triangles, std::size_t points) {
-    std::size_t bytes = triangles * bytes_of_triangle;
+    std::size_t bytes = triangles * kBytesOfTriangle;
     for (const std::size_t size : sizes) bytes += points * size;
     is_too_large = bytes > left;
     if (is_too_large) return false;
@@ -79,13 +79,13 @@ struct DracoDecoder::Job {
     return true;
   }
 
-  /// Of three indices, as they are decoded and as an accessor takes them.
-  static constexpr std::size_t bytes_of_triangle = 3 * 2 * sizeof(std::uint32_t);
+  /// Three indices, as decoded and as stored for the accessor.
+  static constexpr std::size_t kBytesOfTriangle = 3 * 2 * sizeof(std::uint32_t);
 };
 
 namespace {
 
-/// No exception may pass through the module.
+/// Keeps exceptions from crossing the C interface.
 template <typename Job>
 int prepare_job(void* job, std::size_t triangles, std::size_t points) {
   try {
@@ -106,25 +106,26 @@ int reserve_for_job(void* job, std::size_t triangles) {
   }
 }
 
-/// Keeps a copy: the text may be an exception's own.
+/// Copies the text, which may belong to an exception.
 template <typename Job>
 void keep_complaint(void* job, const char* text) {
   try {
     static_cast<Job*>(job)->complaint = text;
   } catch (const std::bad_alloc&) {
-    // Without a reason it is an error too.
+    // The failure is reported even without a reason.
   }
 }
 
 }  // namespace
 
 bool DracoDecoder::decode(const Element& primitive_at, const Model::Primitive& primitive) {
-  const auto at = extension(primitive_at, name_of_extension);
+  const auto at = extension(primitive_at, kExtensionName);
   if (!at) return false;
   const std::size_t view = index(asset_, *at, "bufferView", model_.buffer_views.size());
   const auto bytes = views_.bytes(view);
   if (!bytes || !has_module(*at)) return false;
-  if (!primitive.indices) asset_.fail(primitive_at, "lacks the indices that Draco fills");
+  if (!primitive.indices)
+    asset_.fail(primitive_at, "lacks the indices accessor that compressed primitives need");
 
   Job job{.at = *at, .view = view, .indices = *primitive.indices, .left = left_};
   job.mesh.bytes = bytes->data();
@@ -143,7 +144,7 @@ bool DracoDecoder::has_module(const Element& at) {
   const std::string message =
       "KHR_draco_mesh_compression can't be decoded: " + draco_function().complaint +
       "; install libdraco-dev and build the target microtrace_draco";
-  if (asset_.requires_extension(name_of_extension)) {
+  if (asset_.requires_extension(kExtensionName)) {
     asset_.fail(at, message, ErrorKind::unsupported);
   }
   asset_.warn(at, message);
@@ -151,14 +152,15 @@ bool DracoDecoder::has_module(const Element& at) {
 }
 
 void DracoDecoder::plan(const Model::Primitive& primitive, Job& job) const {
-  job.sources.emplace(job.indices, Source(job.view, id_of_indices));
+  job.sources.emplace(job.indices, Source(job.view, kIdOfIndices));
   const Element names = job.at.member("attributes");
   for (const JsonMember& member : names.value->members) {
     const auto attribute = primitive.attributes.find(member.key);
     if (attribute == primitive.attributes.end()) continue;
     const std::size_t id = whole_number(asset_, names, member.key, 0xFFFFFFFF);
     const Model::Accessor& target = accessor(attribute->second);
-    if (component_count(target.type) > 4) asset_.fail(names.member(member.key), "is of matrices");
+    if (component_count(target.type) > 4)
+      asset_.fail(names.member(member.key), "has matrices as elements, which Draco can't compress");
     if (!job.sources.emplace(attribute->second, Source(job.view, id)).second) continue;
     job.accessors.push_back(attribute->second);
     job.sizes.push_back(element_size(target.type, target.component_type));
@@ -172,7 +174,7 @@ void DracoDecoder::plan(const Model::Primitive& primitive, Job& job) const {
 
 void DracoDecoder::run(Job& job) {
   job.mesh.most_triangles =
-      std::min(job.mesh.size * most_triangles_per_byte, job.left / Job::bytes_of_triangle);
+      std::min(job.mesh.size * kMaxTrianglesPerByte, job.left / Job::kBytesOfTriangle);
   job.mesh.attributes = job.attributes.data();
   job.mesh.attribute_count = job.attributes.size();
   const auto decode_draco = reinterpret_cast<MicrotraceDecodeDraco>(draco_function().address);
@@ -180,8 +182,8 @@ void DracoDecoder::run(Job& job) {
       0) {
     if (!job.is_too_large) asset_.fail(job.at, "can't be decoded: " + job.complaint);
     asset_.fail(job.at,
-                "brings the decompressed meshes to more than 4 GiB, the most that is read, or to "
-                "more than there is memory for",
+                "brings the decompressed meshes to more than 4 GiB, the limit, or to "
+                "more than fit in memory",
                 ErrorKind::limit);
   }
   left_ = job.left;
@@ -199,15 +201,15 @@ void DracoDecoder::check_counts(const Job& job, std::size_t points) const {
   const Model::Accessor& indices = accessor(job.indices);
   const std::uint64_t numbers = std::uint64_t{1} << 8 * component_size(indices.component_type);
   if (points >= numbers) {
-    asset_.fail(job.at,
-                "has " + std::to_string(points) +
-                    " vertices, more than indices of the accessor's componentType can name");
+    asset_.fail(job.at, "has " + std::to_string(points) +
+                            " vertices, too many for the componentType of the indices accessor");
   }
   const auto differs = [&](std::size_t index) { return accessor(index).count != points; };
   if (indices.count == job.corners.size() && std::ranges::none_of(job.accessors, differs)) return;
-  asset_.tolerate(job.at, "holds " + std::to_string(job.corners.size()) + " indices and " +
-                              std::to_string(points) +
-                              " vertices, not as many as the accessors say; all of it is drawn");
+  asset_.tolerate(job.at,
+                  "holds " + std::to_string(job.corners.size()) + " indices and " +
+                      std::to_string(points) +
+                      " vertices, not as many as the accessors state; all of them are drawn");
 }
 
 const Model::Accessor& DracoDecoder::accessor(std::size_t index) const {

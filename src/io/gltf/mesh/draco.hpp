@@ -14,18 +14,18 @@ namespace microtrace::io::gltf {
 
 class DracoDecoder {
  public:
-  /// All must outlive the decoder.
+  /// The arguments must outlive the decoder.
   DracoDecoder(Asset& asset, const Model& model, const BufferViews& views, AccessorReader& reader)
       : asset_(asset), model_(model), views_(views), reader_(reader) {}
 
-  /// Gives the reader what the compressed bytes of a primitive hold, in place of its accessors'
-  /// elements, and of their counts. False where it has none or, with a warning, they can't be
-  /// decoded and the asset does not require it. The indices are then of triangles, whatever the
-  /// primitive's mode. Throws Error: invalid_scene, limit, unsupported.
+  /// Decodes a compressed primitive and replaces the elements and counts of its accessors in the
+  /// reader. False if the primitive is not compressed or, with a warning, if it can't be decoded
+  /// and the asset doesn't require it. Decoded indices form triangles, whatever the primitive's
+  /// mode. Throws Error: invalid_scene, limit, unsupported.
   bool decode(const Element& at, const Model::Primitive& primitive);
 
  private:
-  using Source = std::pair<std::size_t, std::size_t>;  // view, Draco's id
+  using Source = std::pair<std::size_t, std::size_t>;  // buffer view, Draco's id
   struct Job;
 
   [[nodiscard]] bool has_module(const Element& at);
@@ -38,8 +38,8 @@ class DracoDecoder {
   const Model& model_;
   const BufferViews& views_;
   AccessorReader& reader_;
-  std::map<std::size_t, Source> sources_;  // of accessors that were replaced
-  std::size_t left_ = max_buffer_bytes;    // that may be decoded
+  std::map<std::size_t, Source> sources_;  // source of each replaced accessor
+  std::size_t left_ = kMaxBufferBytes;     // remaining limit on decoded bytes
 };
 
 }  // namespace microtrace::io::gltf

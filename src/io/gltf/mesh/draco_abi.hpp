@@ -1,6 +1,6 @@
 #pragma once
-/// The C interface between the library and its module around Draco. A change of anything here takes
-/// a new number in the function's name, so that an old module is refused instead of misread.
+/// The C interface between the library and its module for Draco. Any change needs a new number in
+/// the function's name, so that an old module is refused instead of misread.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,32 +10,32 @@ extern "C" {
 struct MicrotraceDracoAttribute {
   std::uint32_t id;          ///< Draco's unique id
   std::uint32_t components;  ///< 1 to 4
-  std::uint32_t type;        ///< component type, by glTF's numbers
-  void* values;              ///< room for the points' elements without gaps
+  std::uint32_t type;        ///< component type as an OpenGL constant
+  void* values;              ///< tightly packed elements of all points
 };
 
 struct MicrotraceDraco {
   const char* bytes;
   std::size_t size;
-  std::size_t
-      most_triangles;  ///< a mesh with more, or with more than 3 points for each, is not decoded
-  std::uint32_t* indices;  ///< room for 3 of each triangle
+  /// A mesh with more triangles, or more than 3 points per triangle, is refused.
+  std::size_t most_triangles;
+  std::uint32_t* indices;  ///< 3 per triangle
   MicrotraceDracoAttribute* attributes;
   std::size_t attribute_count;
 };
 
-/// Told about how many triangles there are before any is decoded: 1, or 0 where that would take too
-/// much memory; never throws.
+/// Called with the number of triangles before decoding. Returns 1, or 0 if they would need too much
+/// memory. Never throws.
 using MicrotraceDracoReserve = int (*)(void* context, std::size_t triangles);
 
-/// Told the size of the mesh before anything is written: makes room for it, sets `indices` and all
-/// `values`. 1, or 0 where there is none; never throws.
+/// Called with the size of the mesh before anything is written. Allocates memory and sets `indices`
+/// and all `values`. Returns 1, or 0 if there is too little memory. Never throws.
 using MicrotraceDracoPrepare = int (*)(void* context, std::size_t triangles, std::size_t points);
 
-/// Takes the reason of a failure; never throws.
+/// Receives the reason of a failure. Never throws.
 using MicrotraceDracoComplain = void (*)(void* context, const char* text);
 
-/// Fills indices and values: 1, or 0 with a reason.
+/// Fills indices and values. Returns 1, or 0 after giving a reason.
 using MicrotraceDecodeDraco = int (*)(const MicrotraceDraco* mesh, MicrotraceDracoReserve reserve,
                                       MicrotraceDracoPrepare prepare,
                                       MicrotraceDracoComplain complain, void* context);
@@ -43,7 +43,7 @@ using MicrotraceDecodeDraco = int (*)(const MicrotraceDraco* mesh, MicrotraceDra
 
 namespace microtrace::io {
 
-inline constexpr char draco_module_file_name[] = "microtrace_draco.so";
-inline constexpr char decode_draco_name[] = "microtrace_decode_draco_v2";
+inline constexpr char kDracoModuleFileName[] = "microtrace_draco.so";
+inline constexpr char kDecodeDracoName[] = "microtrace_decode_draco_v2";
 
 }  // namespace microtrace::io

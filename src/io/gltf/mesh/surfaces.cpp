@@ -19,7 +19,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The texture coordinates along which the material's tangents lie, if it needs any.
+/// The set of texture coordinates that defines the material's tangents, if it needs any.
 std::optional<std::uint32_t> tangent_set(const Material& material) {
   if (material.normal_texture) return material.normal_texture->uv_set;
   if (material.clearcoat && material.clearcoat->normal_texture) {
@@ -34,8 +34,8 @@ std::size_t bytes_of_topology(Model::Mode mode, std::size_t vertices) {
   return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
 }
 
-/// Whether there are triangles and segments with vertices that are not finite; they are taken out,
-/// and these vertices with them.
+/// Removes triangles and segments with non-finite vertices, and these vertices. Returns whether
+/// there were any.
 bool leave_out_infinite(Surface& surface) {
   Mesh& mesh = surface.mesh;
   const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };
@@ -77,7 +77,7 @@ class SurfaceMaker {
     if (!reader_.has_data(position->second) ||
         (primitive.indices && !reader_.has_data(*primitive.indices))) {
       asset_.warn(at,
-                  "needs a buffer without data: one that has no uri and is not the BIN chunk; "
+                  "needs a buffer without data, which has no uri and is not the BIN chunk; "
                   "nothing is drawn for it");
       return std::nullopt;
     }
@@ -88,7 +88,7 @@ class SurfaceMaker {
     Surface result{.material = material_of(primitive)};
     const Model::Mode mode = is_draco ? Model::Mode::triangles : primitive.mode;
     if (add_primitives(mode, vertices, result.mesh)) {
-      asset_.warn(at, "has vertices that make no whole triangle or line; they are left out");
+      asset_.warn(at, "ends with an incomplete triangle or line; it is left out");
     }
     if (result.mesh.triangles.empty() && result.mesh.segments.empty()) return std::nullopt;
     const std::size_t uses = 3 * result.mesh.triangles.size() + 2 * result.mesh.segments.size();
@@ -97,26 +97,27 @@ class SurfaceMaker {
     result.vertices = number_vertices(result.mesh, reader_.count(position->second));
     result.mesh.positions = reader_.read<Vec3>(position->second, result.vertices);
     if (leave_out_infinite(result)) {
-      asset_.tolerate(at, "has vertices that are not finite; what they are part of is not drawn");
+      asset_.tolerate(
+          at, "has vertices that are not finite; triangles and lines with them are not drawn");
       if (result.vertices.empty()) return std::nullopt;
     }
     read_attributes(asset_, model_, reader_, at.member("attributes"), primitive, result.vertices,
                     {.material = materials_[result.material], .detail = detail_}, result.mesh);
     if (detail_ == SurfaceDetail::all) add_tangents(result);
-    // glTF 2.0, Point and Line Materials: those without normals are drawn without light.
+    // glTF 2.0, Point and Line Materials: points and lines without normals are unlit.
     const bool has_normals = primitive.attributes.contains("NORMAL");
     if (!result.mesh.segments.empty() && !has_normals) result.material = unlit(result.material);
     return result;
   }
 
  private:
-  /// make_materials puts the one of primitives without material last.
+  /// make_materials appends the default material.
   std::uint32_t material_of(const Model::Primitive& primitive) const {
     if (primitive.material) return static_cast<std::uint32_t>(*primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
-  /// The number of the copy of a material that add_unlit_copies makes.
+  /// The index of a material's unlit copy, which add_unlit_copies will make.
   std::uint32_t unlit(std::uint32_t material) {
     auto found = std::ranges::find(unlit_, material);
     if (found == unlit_.end()) found = unlit_.insert(found, material);
@@ -124,26 +125,27 @@ class SurfaceMaker {
            static_cast<std::uint32_t>(found - unlit_.begin());
   }
 
-  /// Where the material asks for some (glTF 2.0, section 3.7.2.1) and the mesh has none.
+  /// Generates tangents if the material needs them and the mesh has none (glTF 2.0, section
+  /// 3.7.2.1).
   void add_tangents(Surface& surface) const {
     Mesh& mesh = surface.mesh;
     const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
     if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
     if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
-    // What making them takes, and what is left: up to three vertices of its own for each triangle.
-    constexpr std::size_t bytes_of_work = 300, bytes_of_tangents = sizeof(Vec4) / 2;
+    // Memory while tangents are generated, and for the result: up to three new vertices per
+    // triangle.
+    constexpr std::size_t kBytesOfWork = 300, kBytesOfTangents = sizeof(Vec4) / 2;
     const MemoryAccount work =
-        temporary_memory(mesh.triangles.size() * bytes_of_work, "making tangents");
-    take_memory(mesh.triangles.size() * bytes_of_tangents, "the tangents of meshes");
+        temporary_memory(mesh.triangles.size() * kBytesOfWork, "making tangents");
+    take_memory(mesh.triangles.size() * kBytesOfTangents, "the tangents of meshes");
     std::vector<std::uint32_t> vertices;
     for (const std::uint32_t i : make_tangents(mesh, *set)) vertices.push_back(surface.vertices[i]);
     surface.vertices = std::move(vertices);
   }
 
   void check_count(const Element& at, std::size_t count) {
-    if (count > max_elements - elements_) {
-      asset_.fail(at, "brings the asset to more than 2^27 elements, the most that is read",
-                  ErrorKind::limit);
+    if (count > kMaxElements - elements_) {
+      asset_.fail(at, "brings the asset to more than 2^27 elements, the limit", ErrorKind::limit);
     }
     elements_ += count;
   }
@@ -173,12 +175,12 @@ class SurfaceMaker {
                                 std::to_string(vertex) + " of only " +
                                 std::to_string(vertex_count));
       }
-      vertex = restart;
+      vertex = kPrimitiveRestart;
       restarts = true;
     }
     if (restarts) {
       asset_.tolerate(source,
-                      "has the value that means primitive restart, which glTF 2.0 forbids; a new "
+                      "has the primitive restart value, which glTF 2.0 forbids; a new "
                       "primitive starts there");
     }
     return result;
@@ -191,7 +193,7 @@ class SurfaceMaker {
   std::span<const Material> materials_;
   std::vector<std::uint32_t>& unlit_;
   SurfaceDetail detail_;
-  std::size_t elements_ = 0;  // counted against max_elements
+  std::size_t elements_ = 0;  // compared with kMaxElements
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The triangles and lines of mesh primitives, in the mesh's own space.
+/// Triangles and segments of mesh primitives, in mesh space.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -17,21 +17,21 @@
 
 namespace microtrace::io::gltf {
 
-/// One primitive of a mesh: only the vertices that it uses, in the order of the file; some more
-/// than once where tangents were made.
+/// One primitive of a mesh, with only the vertices that it uses, in file order. Generating tangents
+/// may have duplicated some.
 struct Surface {
   Mesh mesh{};
-  /// Which of the primitive's vertices each of the mesh is, not descending: AccessorReader::read
-  /// takes them to read other attributes.
+  /// For each vertex of the mesh its index in the primitive's accessors, never descending.
+  /// AccessorReader::read uses them to read other attributes.
   std::vector<std::uint32_t> vertices{};
-  std::uint32_t material = 0;  ///< of make_materials and the copies after them
-  std::size_t number = 0;      ///< among the mesh's primitives
+  std::uint32_t material = 0;  ///< index among the results of make_materials and add_unlit_copies
+  std::size_t number = 0;      ///< index among the mesh's primitives
 };
 
-/// The surfaces of each mesh, by its index. Points and lines without normals take the materials
-/// that add_unlit_copies appends for those named in `unlit`, which are added there. Primitives
-/// without POSITION or without data make none, with a warning. Throws Error: invalid_scene where
-/// accessors are not what the primitive needs or indices are out of range, limit.
+/// The surfaces of each mesh. Adds to `unlit` the materials of points and lines without normals;
+/// these get the indices of the copies that add_unlit_copies appends later. Primitives without
+/// POSITION or data give no surface, with a warning. Throws Error: invalid_scene for accessors of
+/// the wrong type or indices out of range, limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const Model& model,
                                                               AccessorReader& reader,
                                                               std::span<const Material> materials,

@@ -5,7 +5,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// What one run of vertices makes, without restarts.
+/// Adds the primitives of one sequence of vertices without restarts.
 bool add_run(Model::Mode mode, std::span<const std::uint32_t> v, Mesh& mesh) {
   const std::size_t n = v.size();
   switch (mode) {
@@ -47,7 +47,7 @@ void for_each_index(Mesh& mesh, Visit&& visit) {
   }
 }
 
-/// By marking them.
+/// Marks the used vertices.
 std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std::size_t uses) {
   std::vector<bool> used(vertex_count);
   for_each_index(mesh, [&](std::uint32_t index) { used[index] = true; });
@@ -59,7 +59,8 @@ std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std
   return result;
 }
 
-/// By sorting them: where primitives share one long accessor, its length must not count.
+/// Sorts the indices. The cost is independent of the accessor's length, which many primitives may
+/// share.
 std::vector<std::uint32_t> used_of_many(Mesh& mesh, std::size_t uses) {
   std::vector<std::uint32_t> result;
   result.reserve(uses);
@@ -74,7 +75,7 @@ std::vector<std::uint32_t> used_of_many(Mesh& mesh, std::size_t uses) {
 bool add_primitives(Model::Mode mode, std::span<const std::uint32_t> vertices, Mesh& mesh) {
   bool left_over = vertices.empty();
   while (!vertices.empty()) {
-    const auto end = std::ranges::find(vertices, restart);
+    const auto end = std::ranges::find(vertices, kPrimitiveRestart);
     const auto size = static_cast<std::size_t>(end - vertices.begin());
     left_over = add_run(mode, vertices.first(size), mesh) || left_over;
     vertices = vertices.subspan(std::min(size + 1, vertices.size()));
@@ -87,7 +88,7 @@ std::vector<std::uint32_t> number_vertices(Mesh& mesh, std::size_t vertex_count)
   std::vector<std::uint32_t> used =
       vertex_count / 8 <= uses ? used_of_few(mesh, vertex_count, uses) : used_of_many(mesh, uses);
   const std::size_t end = used.empty() ? 0 : std::size_t{used.back()} + 1;
-  if (end == used.size()) return used;  // each keeps its number
+  if (end == used.size()) return used;  // all vertices are used
   if (end / 8 <= uses) {
     std::vector<std::uint32_t> number_of(end);
     for (std::size_t i = 0; i < used.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// From lists of vertices to triangles and lines.
+/// Conversion of vertex sequences to triangles and segments.
 
 #include "io/gltf/document/model.hpp"
 
@@ -12,16 +12,17 @@
 
 namespace microtrace::io::gltf {
 
-/// In a list of vertices, the end of one strip, fan or loop and the start of another.
-inline constexpr std::uint32_t restart = 0xFFFFFFFF;
+/// Index that ends one strip, fan or loop and begins another.
+inline constexpr std::uint32_t kPrimitiveRestart = 0xFFFFFFFF;
 
-/// Adds what a list of vertices makes in one of the seven modes (glTF 2.0, section 3.7.2.1):
-/// triangles, first corner and winding as written there, or segments, with both ends one for a
-/// point. An incomplete last one is left out; returns whether there is such.
+/// Adds the primitives of a vertex sequence in one of the seven modes (glTF 2.0, section 3.7.2.1):
+/// triangles with the first vertex and winding that the specification gives, or segments. A point
+/// is a segment with equal ends. Drops an incomplete last primitive and returns whether there was
+/// one.
 bool add_primitives(Model::Mode mode, std::span<const std::uint32_t> vertices, Mesh& mesh);
 
-/// The vertices below vertex_count that triangles and segments use, ascending; makes their indices
-/// those into the result.
+/// The indices below vertex_count that triangles and segments use, ascending. Renumbers the mesh's
+/// indices as indices into the result.
 [[nodiscard]] std::vector<std::uint32_t> number_vertices(Mesh& mesh, std::size_t vertex_count);
 
 }  // namespace microtrace::io::gltf

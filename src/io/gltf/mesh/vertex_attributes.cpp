@@ -35,7 +35,7 @@ class AttributeReader {
     return accessor ? reader_.read_finite<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
   }
 
-  /// Those without alpha are opaque.
+  /// Colors without alpha are opaque.
   [[nodiscard]] std::vector<Vec4> colors() {
     const std::optional<std::size_t> accessor =
         find("COLOR_0", {ElementType::vec3, ElementType::vec4});
@@ -52,7 +52,7 @@ class AttributeReader {
   }
 
  private:
-  /// The accessor of that attribute, where the primitive has it and its data is there.
+  /// The accessor of an attribute, if the primitive has it and its data is present.
   std::optional<std::size_t> find(const std::string& name,
                                   std::initializer_list<ElementType> types) {
     const auto attribute = primitive_.attributes.find(name);
@@ -61,7 +61,7 @@ class AttributeReader {
     if (std::ranges::find(types, model_.accessors[accessor].type) == types.end()) {
       asset_.fail(
           attributes_.member(name),
-          "refers to an accessor that is not of type VEC" +
+          "must refer to an accessor of type VEC" +
               std::to_string(component_count(*types.begin())) +
               (types.size() > 1 ? " or VEC" + std::to_string(component_count(*(types.end() - 1)))
                                 : ""));
@@ -79,7 +79,7 @@ class AttributeReader {
   std::span<const std::uint32_t> vertices_;
 };
 
-/// Whether a set of texture coordinates is wanted.
+/// True if the material or the caller needs this set of texture coordinates.
 bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
   if (wish.detail != SurfaceDetail::color) return true;
   const auto& use = wish.material.base_color_texture;
@@ -94,7 +94,7 @@ void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
                      Mesh& mesh) {
   AttributeReader attribute(asset, model, reader, attributes, primitive, vertices);
   mesh.colors = attribute.colors();
-  for (std::uint32_t set = 0; set < max_uv_sets; ++set) {
+  for (std::uint32_t set = 0; set < kMaxUvSets; ++set) {
     if (!is_wanted(set, wish)) continue;
     std::vector<Vec2> uv = attribute.uv_set(set);
     if (uv.empty()) continue;
@@ -103,7 +103,7 @@ void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
   }
   if (wish.detail == SurfaceDetail::color) return;
   mesh.normals = attribute.normals();
-  // Without normals, tangents mean nothing (glTF 2.0, section 3.7.2.1).
+  // Tangents are ignored without normals (glTF 2.0, section 3.7.2.1).
   if (!mesh.normals.empty()) mesh.tangents = attribute.tangents();
 }
 

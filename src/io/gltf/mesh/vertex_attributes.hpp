@@ -1,5 +1,5 @@
 #pragma once
-/// What vertices carry beside their positions.
+/// Vertex attributes other than positions.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -14,19 +14,19 @@
 
 namespace microtrace::io::gltf {
 
-/// Of sets of texture coordinates, these many first ones are read; glTF 2.0 asks for two.
-inline constexpr std::uint32_t max_uv_sets = 16;
+/// Limit on sets of texture coordinates; glTF 2.0 requires two.
+inline constexpr std::uint32_t kMaxUvSets = 16;
 
-/// What a primitive's vertices are asked for.
+/// The attributes that the vertices of a primitive need.
 struct AttributeWish {
   const Material& material;  ///< of the primitive
   SurfaceDetail detail;
 };
 
-/// Reads normals, tangents, texture coordinates and colours of the vertices of those numbers,
-/// ascending, into the mesh. Numbers that are not finite are 0; attributes without data are left
-/// out. Throws Error (invalid_scene) where an accessor's type is not one that glTF 2.0 and
-/// KHR_mesh_quantization allow there.
+/// Reads normals, tangents, texture coordinates and colors of the vertices with these ascending
+/// indices into the mesh. Replaces numbers that are not finite by 0. Omits attributes without data.
+/// Throws Error (invalid_scene) for an accessor of a type that neither glTF 2.0 nor
+/// KHR_mesh_quantization allows.
 void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
                      const Element& attributes, const Model::Primitive& primitive,
                      std::span<const std::uint32_t> vertices, const AttributeWish& wish,

@@ -10,22 +10,22 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Of unit length; zero where v is zero or not finite.
+/// Unit vector; zero if v is zero or not finite.
 DVec3 direction_of(const DVec3& v) {
   const double greatest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(greatest > 0) || !std::isfinite(greatest)) return DVec3(0);
-  const DVec3 scaled = v / greatest;  // whose square neither overflows nor vanishes
+  const DVec3 scaled = v / greatest;  // its square neither overflows nor underflows
   return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
-/// The inverse transpose but for a positive factor. It exists for matrices without inverse too.
+/// A positive multiple of the inverse transpose. Exists for singular matrices too.
 glm::dmat3 normal_matrix(const glm::dmat3& m, bool mirrored) {
   const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                              glm::cross(m[0], m[1]));
   return mirrored ? -cofactors : cofactors;
 }
 
-/// Where one vertex goes.
+/// Transform of one vertex.
 struct VertexTransform {
   explicit VertexTransform(const DMat4& m)
       : world_from_mesh(m),
@@ -37,7 +37,7 @@ struct VertexTransform {
   glm::dmat3 normals;
 };
 
-/// A vector of the mesh, or what it was morphed to.
+/// The morphed vector if there is one, otherwise the mesh's.
 template <typename Own>
 DVec3 vector_of(const std::vector<Own>& own, const std::vector<DVec3>& morphed, std::size_t i) {
   return morphed.empty() ? DVec3(own[i]) : morphed[i];

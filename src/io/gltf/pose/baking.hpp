@@ -1,5 +1,5 @@
 #pragma once
-/// From a mesh's own space to the world.
+/// Transformation of meshes to world space.
 
 #include "io/gltf/pose/morphing.hpp"
 #include "io/gltf/pose/skins.hpp"
@@ -9,14 +9,14 @@
 
 namespace microtrace::io::gltf {
 
-/// The one rounding of geometry: everything is computed in float64. A mirroring transform turns
-/// every triangle over, so that fronts stay fronts (glTF 2.0, section 3.7.4). Normals go by the
-/// inverse transpose, to unit length; they are zero where they have no direction. What is morphed
-/// replaces the mesh's own.
+/// Transforms a mesh in float64 and rounds once, the only rounding of geometry. A mirroring
+/// transform reverses the winding, so that front faces stay front faces (glTF 2.0, section 3.7.4).
+/// Normals are transformed by the inverse transpose and normalized; a normal without direction
+/// becomes zero. Morphed attributes replace the mesh's own.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const DMat4& world_from_mesh);
 
-/// The same with a transform for each vertex. A triangle is turned over where that of its first
-/// corner mirrors.
+/// The same with one transform per vertex. A triangle's winding is reversed if the transform of its
+/// first vertex mirrors.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const JointBlend& blend);
 
 }  // namespace microtrace::io::gltf

@@ -22,7 +22,7 @@ class Maker {
   Maker(Asset& asset, const Model& model, AccessorReader& reader, const Element& at)
       : asset_(asset), model_(model), reader_(reader), attributes_(at.member("attributes")) {}
 
-  /// Nothing, with a warning, where an attribute's buffer has no data.
+  /// Nothing, with a warning, if an attribute's buffer has no data.
   std::optional<std::vector<DMat4>> make(std::size_t most) {
     std::optional<std::size_t> count;
     for (const JsonMember& member : attributes_.value->members) {
@@ -37,8 +37,7 @@ class Maker {
     }
     if (!count) asset_.fail(attributes_, "must have at least one attribute");
     if (*count > most) {
-      asset_.fail(attributes_,
-                  "brings the asset to more than 2^22 instances, the most that is read",
+      asset_.fail(attributes_, "brings the asset to more than 2^22 instances, the limit",
                   ErrorKind::limit);
     }
     const auto translations = read<Vec3>("TRANSLATION", ElementType::vec3, false);
@@ -61,26 +60,27 @@ class Maker {
     if (attributes_.value->find(name) == nullptr) return {};
     const std::size_t accessor = index(asset_, attributes_, name, model_.accessors.size());
     const Model::Accessor& source = model_.accessors[accessor];
-    const bool is_float = source.component_type == f32;
+    const bool is_float = source.component_type == kFloat32;
     const bool is_normalized = may_be_normalized && source.normalized &&
-                               (source.component_type == i8 || source.component_type == i16);
+                               (source.component_type == kInt8 || source.component_type == kInt16);
     if (source.type != type || !(is_float || is_normalized)) {
       asset_.fail(attributes_.member(name),
-                  may_be_normalized ? "refers to an accessor that is not of type VEC4 and float or "
+                  may_be_normalized ? "must refer to an accessor of type VEC4 and float or "
                                       "normalized byte or short"
-                                    : "refers to an accessor that is not of type VEC3 and float");
+                                    : "must refer to an accessor of type VEC3 and float");
     }
     if (reader_.has_data(accessor)) return reader_.read<Vector>(accessor);
-    asset_.warn(attributes_.member(name), "needs a buffer without data; there are no instances");
+    asset_.warn(attributes_.member(name),
+                "needs a buffer that has no data; there are no instances");
     lacks_data_ = true;
     return {};
   }
 
-  /// Of unit length.
+  /// Normalizes the quaternion.
   glm::dvec4 rotation(const glm::dvec4& quaternion) {
     const double length = std::sqrt(glm::dot(quaternion, quaternion));
     if (length > 0) return quaternion / length;
-    asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions; they turn nothing");
+    asset_.tolerate(attributes_.member("ROTATION"), "has zero quaternions, which are ignored");
     return no_turn;
   }
 
@@ -94,7 +94,7 @@ class Maker {
 }  // namespace
 
 Instances::Instances(Asset& asset, const Model& model, AccessorReader& reader) {
-  std::size_t left = max_instances;
+  std::size_t left = kMaxInstances;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const auto at = extension(asset.element("nodes", i), "EXT_mesh_gpu_instancing");
     if (!at || !model.nodes[i].mesh) continue;

@@ -12,20 +12,20 @@
 
 namespace microtrace::io::gltf {
 
-/// No asset has more instances in all its nodes.
-inline constexpr std::size_t max_instances = std::size_t{1} << 22;
+/// Limit on the instances of all nodes.
+inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
 class Instances {
  public:
   /// Throws Error: invalid_scene, limit.
   Instances(Asset& asset, const Model& model, AccessorReader& reader);
 
-  /// The transforms of the instances that a node's mesh has, in the node's space; null where the
-  /// node has its mesh once, in its own place.
+  /// The transforms from each instance of a node's mesh to the node. Null for a node without
+  /// instancing.
   [[nodiscard]] const std::vector<DMat4>* of(std::size_t node) const;
 
  private:
-  std::unordered_map<std::size_t, std::vector<DMat4>> node_from_instance_;  // by node
+  std::unordered_map<std::size_t, std::vector<DMat4>> node_from_instance_;  // by node index
 };
 
 }  // namespace microtrace::io::gltf

@@ -13,7 +13,7 @@ std::vector<To> converted(const std::vector<From>& from) {
   return {from.begin(), from.end()};
 }
 
-/// sum += weight * delta; the sum starts as the base.
+/// Adds weight * delta to the sums, which start as the base vectors.
 template <typename Sum, typename Base, typename Delta>
 void add_weighted(std::vector<Sum>& sum, const std::vector<Base>& base, double weight,
                   const std::vector<Delta>& deltas) {
@@ -51,15 +51,13 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
             .member(attribute);
       };
       if (!reader_.has_data(accessor)) {
-        asset_.warn(at(), "needs a buffer without data; it is not applied");
+        asset_.warn(at(), "needs a buffer that has no data; it is not applied");
         continue;
       }
-      displacements_ += std::max(surface.vertices.size(), least_displacements);
-      if (displacements_ > max_displacements) {
-        asset_.fail(
-            at(),
-            "brings a pose to more than 2^29 displacements of vertices, the most that is made",
-            ErrorKind::limit);
+      displacements_ += std::max(surface.vertices.size(), kLeastDisplacements);
+      if (displacements_ > kMaxDisplacements) {
+        asset_.fail(at(), "brings a pose to more than 2^29 vertex displacements, the limit",
+                    ErrorKind::limit);
       }
       add(accessor, name, weights[i], surface, result);
     }
@@ -70,7 +68,7 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
 
 void Morpher::add(std::size_t accessor, const std::string& name, double weight,
                   const Surface& surface, Morphed& result) {
-  // What is read is gone with this call; the sums of float64 are there until the mesh is placed.
+  // The data read here is freed on return; the float64 sums live until the mesh is baked.
   MemoryAccount deltas_memory(memory_account().budget());
   const MemoryScope scope(deltas_memory);
   const Mesh& mesh = surface.mesh;

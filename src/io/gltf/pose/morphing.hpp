@@ -14,26 +14,28 @@
 
 namespace microtrace::io::gltf {
 
-/// One pose adds at most so many displacements of vertices.
-inline constexpr std::size_t max_displacements = std::size_t{1} << 29;
-/// What a target of a primitive counts at least: so long it takes to look at it.
-inline constexpr std::size_t least_displacements = 64;
+/// Limit on the vertex displacements that one pose adds.
+inline constexpr std::size_t kMaxDisplacements = std::size_t{1} << 29;
+/// Each target of a primitive counts as at least this many displacements, for the time to examine
+/// it.
+inline constexpr std::size_t kLeastDisplacements = 64;
 
-/// What stands instead of a mesh's own; each is empty where no target moves it.
+/// Morphed attributes, which replace the mesh's own. Empty if no target changes them.
 struct Morphed {
-  std::vector<DVec3> positions{}, normals{}, tangents{};  ///< directions of any length
+  std::vector<DVec3> positions{}, normals{}, tangents{};  ///< not normalized
   std::vector<std::vector<Vec2>> uv_sets{};
   std::vector<Vec4> colors{};
 };
 
-/// Adds targets to the vertices of surfaces, in float64.
+/// Adds weighted morph targets to the vertices of surfaces, in float64.
 class Morpher {
  public:
-  /// All three must outlive the morpher.
+  /// The arguments must outlive the morpher.
   Morpher(Asset& asset, const Model& model, AccessorReader& reader)
       : asset_(asset), model_(model), reader_(reader) {}
 
-  /// Weights by target; those without one are not applied. Throws Error: invalid_scene, limit.
+  /// `weights` are by target; targets beyond them are not applied. Throws Error: invalid_scene,
+  /// limit.
   [[nodiscard]] Morphed morphed(std::size_t mesh, const Surface& surface,
                                 const std::vector<double>& weights);
 
@@ -44,7 +46,7 @@ class Morpher {
   Asset& asset_;
   const Model& model_;
   AccessorReader& reader_;
-  std::size_t displacements_ = 0;  // counted against the maximum
+  std::size_t displacements_ = 0;  // compared with the limit
 };
 
 }  // namespace microtrace::io::gltf

@@ -11,13 +11,13 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::size_t longest_name = 64, longest_path = 256;
+constexpr std::size_t kLongestName = 64, kLongestPath = 256;
 
 bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-/// What the node says of itself, or its animation.
+/// The node's own visibility, possibly animated.
 bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
   if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
@@ -52,9 +52,10 @@ std::vector<std::size_t> NodeTree::roots() const {
 
 DMat4 NodeTree::local(std::size_t index) const {
   const Model::Node& node = model_.nodes[index];
-  if (!node.matrix) return composed(node.translation, normalised(node.rotation), node.scale);
+  if (!node.matrix) return composed(node.translation, unit_quaternion(node.rotation), node.scale);
   DMat4 result = *node.matrix;
-  for (int i = 0; i < 4; ++i) result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of another row
+  for (int i = 0; i < 4; ++i)
+    result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of a different last row
   return result;
 }
 
@@ -65,7 +66,7 @@ DMat4 NodeTree::parent_from_node(std::size_t index, const PosedNodes& pose) cons
   if (!translation && !scale && !rotation) return parent_from_node_[index];
   const Model::Node& node = model_.nodes[index];
   return composed(translation.value_or(node.translation),
-                  rotation.value_or(normalised(node.rotation)), scale.value_or(node.scale));
+                  rotation.value_or(unit_quaternion(node.rotation)), scale.value_or(node.scale));
 }
 
 std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_asset,
@@ -79,7 +80,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   } else {
     first = model_.scenes[model_.scene];
   }
-  // A child that the scene names beside its ancestor, which it must not, has its place there.
+  // A child node listed as a root of the scene, which is invalid, is placed under its parent if the
+  // parent is drawn.
   std::stable_partition(first.begin(), first.end(),
                         [this](std::size_t node) { return !parents_[node]; });
   std::vector<bool> placed(parents_.size());
@@ -125,7 +127,7 @@ std::vector<DMat4> NodeTree::everywhere(const DMat4& world_from_asset,
 
 std::string NodeTree::name(std::size_t node) const {
   const std::string& given = model_.nodes[node].name;
-  return given.empty() ? "node" + std::to_string(node) : head(given, longest_name);
+  return given.empty() ? "node" + std::to_string(node) : head(given, kLongestName);
 }
 
 std::string NodeTree::path(std::size_t node) const {
@@ -136,7 +138,7 @@ std::string NodeTree::path(std::size_t node) const {
        parent = parents_[*parent]) {
     std::string above = name(*parent);
     size += above.size() + 1;
-    is_whole = size <= longest_path;
+    is_whole = size <= kLongestPath;
     if (is_whole) names.push_back(std::move(above));
   }
   std::string result = is_whole ? names.back() : ".../" + names.back();
@@ -161,7 +163,7 @@ std::string UniqueNames::make(const std::string& name) {
     uses_.emplace(name, 1);
     return name;
   }
-  std::size_t& use = first->second;  // stays where it is when names are added
+  std::size_t& use = first->second;  // valid even after further insertions
   std::string result;
   do {
     result = name + " (" + std::to_string(++use) + ")";

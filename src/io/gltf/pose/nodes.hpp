@@ -1,5 +1,5 @@
 #pragma once
-/// The node tree: checked, walked, and composed.
+/// The node tree: traversal and transforms.
 
 #include "io/gltf/animation/posed_nodes.hpp"
 #include "io/gltf/check/forest.hpp"
@@ -19,36 +19,37 @@
 
 namespace microtrace::io::gltf {
 
-/// A node of the scene being drawn.
+/// A node of the drawn scene.
 struct PlacedNode {
   std::size_t node;
   DMat4 world_from_node;
-  bool visible = true;  ///< itself and all above it (KHR_node_visibility); says nothing of cameras
+  bool visible = true;  ///< its own and its ancestors' visibility (KHR_node_visibility); irrelevant
+                        ///< for cameras
 };
 
-/// translation * rotation * scale, the rotation a quaternion (x, y, z, w) of unit length.
+/// translation * rotation * scale. The rotation is a unit quaternion (x, y, z, w).
 [[nodiscard]] DMat4 composed(const DVec3& translation, const glm::dvec4& rotation,
                              const DVec3& scale);
 
-/// The direction of a vector; nothing if its length is zero or not finite.
+/// The unit vector in the direction of v; nothing if v has zero or infinite length.
 [[nodiscard]] std::optional<DVec3> normalized(const DVec3& v);
 
 class NodeTree {
  public:
-  /// Of nodes that check_nodes has accepted.
+  /// Expects nodes that check_nodes has accepted.
   explicit NodeTree(const Model& model);
 
-  /// The nodes of the default scene, else of the first one, else all: parents before children,
-  /// children in their order.
+  /// The nodes of the default scene, else of the first, else all nodes: parents before children,
+  /// children in file order.
   [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
-  /// The same transforms by node, of those outside the scene too.
+  /// The same transforms for all nodes, even outside the scene.
   [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
-  /// The names of the node and those above it, with slashes between; at most 256 bytes, of which
-  /// the last are kept. A node without name is called node0 by its index.
+  /// The names of the node's ancestors and of the node, separated by slashes; at most the last 256
+  /// bytes. Nodes without a name are called node0, node1 and so on, by index.
   [[nodiscard]] std::string path(std::size_t node) const;
   [[nodiscard]] std::string name(std::size_t node) const;
 
@@ -58,11 +59,11 @@ class NodeTree {
   [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
   const Model& model_;
-  std::vector<std::optional<std::size_t>> parents_;  // of all nodes but roots
+  std::vector<std::optional<std::size_t>> parents_;  // of each node; nothing for roots
   std::vector<DMat4> parent_from_node_;
 };
 
-/// Hands out each name once: a second "Cube" is called "Cube (2)".
+/// Makes names unique: the second "Cube" becomes "Cube (2)".
 class UniqueNames {
  public:
   [[nodiscard]] std::string make(const std::string& name);
@@ -71,18 +72,18 @@ class UniqueNames {
  private:
   struct Hash {
     using is_transparent = void;
-    // Without noexcept, which makes libstdc++ store the hashes and spare most looks at names.
+    // Not noexcept: libstdc++ then stores the hashes, which avoids most string comparisons.
     std::size_t operator()(std::string_view name) const {
       return std::hash<std::string_view>{}(name);
     }
   };
 
-  // Millions of instances have names: an arena takes them, and gives them back, at once.
+  // There may be millions of instances: an arena allocates their names and frees them together.
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };
 
-/// At most `size` bytes from the start of UTF-8 text, cut between characters.
+/// At most `size` bytes from the start of UTF-8 text, never splitting a character.
 [[nodiscard]] std::string head(std::string_view text, std::size_t size);
 
 }  // namespace microtrace::io::gltf

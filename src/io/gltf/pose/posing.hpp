@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces as one pose of the asset has them.
+/// Surfaces in world space in one pose of the asset.
 
 #include "io/gltf/animation/posed_nodes.hpp"
 #include "io/gltf/bytes/accessors.hpp"
@@ -20,17 +20,17 @@ namespace microtrace::io::gltf {
 
 class Poser {
  public:
-  /// All must outlive the poser.
+  /// The arguments must outlive the poser.
   Poser(Asset& asset, const Model& model, AccessorReader& reader, const NodeTree& tree,
         const PosedNodes& pose, const DMat4& world_from_asset);
 
-  /// Whether joints and not the node say where the surface of its mesh stands.
+  /// True if joints, not the node's transform, place the surface.
   [[nodiscard]] bool has_skin(std::size_t node) const {
     return model_.nodes[node].skin.has_value();
   }
 
-  /// A surface of the node's mesh in the world: morphed, then moved by the skin's joints or,
-  /// without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
+  /// A surface of the node's mesh in world space: morphed, then transformed by the skin's joints
+  /// or, without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
 
  private:
@@ -38,7 +38,7 @@ class Poser {
 
   const Model& model_;
   const PosedNodes& pose_;
-  std::vector<DMat4> world_from_node_;  // of all nodes, where there are skins
+  std::vector<DMat4> world_from_node_;  // of all nodes; empty without skins
   Morpher morpher_;
   Skins skins_;
 };

@@ -31,7 +31,7 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
   if (!inverse_bind_matrices || result.empty()) return result;
   if (!reader_.has_data(*inverse_bind_matrices)) {
     asset_.warn(asset_.element("skins", skin).member("inverseBindMatrices"),
-                "need a buffer without data; they are taken to be 1");
+                "need a buffer that has no data; identity matrices are used");
     return result;
   }
   std::vector<std::uint32_t> numbers(result.size());
@@ -40,7 +40,7 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
   for (std::size_t i = 0; i < result.size(); ++i) {
     DMat4 joint_from_mesh(inverse[i]);
     for (glm::length_t column = 0; column < 4; ++column) {
-      joint_from_mesh[column][3] = column == 3 ? 1 : 0;  // as glTF 2.0 demands
+      joint_from_mesh[column][3] = column == 3 ? 1 : 0;  // glTF 2.0 requires this row
     }
     result[i] *= joint_from_mesh;
   }
@@ -89,7 +89,7 @@ void Skins::check_weights(const Element& attributes, JointBlend& blend) {
     }
     if (!(std::abs(sum) > 0) || !std::isfinite(sum)) {
       asset_.warn(attributes.member("WEIGHTS_0"),
-                  "leaves vertices without weights; they follow their first joint");
+                  "has vertices without weights; they follow their first joint");
       for (auto& set : blend.sets_) set.weights[i] = glm::vec4(0);
       blend.sets_[0].weights[i].x = 1;
     }

@@ -17,16 +17,16 @@
 
 namespace microtrace::io::gltf {
 
-/// What moves each vertex of a surface.
+/// The weighted joints of each vertex of a surface.
 class JointBlend {
  public:
-  /// The mean of its joints' matrices by the weights, in float64.
+  /// The weighted mean of the matrices of the vertex's joints, in float64.
   [[nodiscard]] DMat4 world_from_mesh(std::size_t vertex) const;
 
  private:
   friend class Skins;
   struct Influences {
-    std::vector<glm::uvec4> joints;  // by vertex; below the number of matrices
+    std::vector<glm::uvec4> joints;  // by vertex; less than the number of matrices
     std::vector<glm::vec4> weights;
   };
   const std::vector<DMat4>* world_from_mesh_ = nullptr;  // by joint
@@ -36,14 +36,15 @@ class JointBlend {
 /// The skins of an asset in one pose.
 class Skins {
  public:
-  /// By node: where all nodes are, those of the scene and others. All must outlive the skins.
+  /// `world_from_node` holds all nodes, even outside the scene. The arguments must outlive the
+  /// skins.
   Skins(Asset& asset, const Model& model, AccessorReader& reader,
         const std::vector<DMat4>& world_from_node)
       : asset_(asset), model_(model), reader_(reader), world_from_node_(world_from_node) {}
 
-  /// Nothing where the skin has no joints or the primitive no JOINTS_0: it stands in its node's
-  /// place. Weights that do not add up to 1 are scaled, and warned of; vertices without any follow
-  /// their first joint. Throws Error (invalid_scene) for a joint that the skin does not have.
+  /// Nothing if the skin has no joints or the primitive no JOINTS_0; the node's transform then
+  /// places it. Scales weights that don't add up to 1, with a warning. Vertices without weights
+  /// follow their first joint. Throws Error (invalid_scene) for a joint missing from the skin.
   [[nodiscard]] std::optional<JointBlend> blend(std::size_t skin, std::size_t mesh,
                                                 const Surface& surface);
 

@@ -12,7 +12,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Only position and orientation of the node: scale does not distort what a camera sees.
+/// Uses only the position and orientation of the node. Scale doesn't distort a camera's view.
 std::optional<Pose> pose_of(const DMat4& world_from_node) {
   const DVec3 position(world_from_node[3]);
   const auto direction = normalized(-DVec3(world_from_node[2]));
@@ -52,7 +52,7 @@ std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root, const
     const std::optional<Pose> pose = pose_of(placed.world_from_node);
     if (!pose) {
       asset.warn(asset.element("nodes", placed.node).member("camera"),
-                 "has no position and orientation in the world; the camera is left out");
+                 "has no valid position and orientation; the camera is left out");
       continue;
     }
     const JsonValue& camera = root.find("cameras")->items[*index];

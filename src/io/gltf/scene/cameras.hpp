@@ -1,5 +1,5 @@
 #pragma once
-/// Cameras of nodes, and a camera for assets that have none.
+/// Cameras of nodes.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -11,9 +11,9 @@
 
 namespace microtrace::io::gltf {
 
-/// The cameras of these nodes in their order, with the properties that the root object has. One
-/// whose node has no position and orientation left (a scale of zero, numbers beyond float64) is
-/// left out with a warning.
+/// The cameras of these nodes in their order, with the properties given in `root`. Leaves out, with
+/// a warning, a camera whose node has no valid position and orientation, because of a zero scale or
+/// numbers beyond float64.
 [[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
                                                     const Model& model, const NodeTree& tree,
                                                     const std::vector<PlacedNode>& nodes);

@@ -11,14 +11,14 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr const char* name_of_extension = "KHR_lights_punctual";
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr const char* kExtensionName = "KHR_lights_punctual";
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What all kinds of light have.
+/// Properties of all kinds of lights.
 struct Common {
   Vec3 color{1};
   float intensity = 1;
-  double range = infinity;
+  double range = kInfinity;
 };
 
 struct Cone {
@@ -41,7 +41,7 @@ Cone cone_of(const JsonValue& light) {
   return result;
 }
 
-/// Nothing if the light has no place in the world.
+/// Nothing if the light has no valid position or direction.
 std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node) {
   const std::string& type = light.find("type")->string;
   const auto [color, intensity, range] = common_of(light);
@@ -73,20 +73,19 @@ std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node
 std::vector<NamedLight> make_lights(Asset& asset, const Element& root, const Model& model,
                                     const NodeTree& tree, const std::vector<PlacedNode>& nodes) {
   std::vector<NamedLight> result;
-  const std::optional<Element> all = extension(root, name_of_extension);
+  const std::optional<Element> all = extension(root, kExtensionName);
   if (!all) return result;
   const Element lights = all->member("lights");
   UniqueNames names;
   for (const PlacedNode& node : nodes) {
-    const auto reference = extension(asset.element("nodes", node.node), name_of_extension);
+    const auto reference = extension(asset.element("nodes", node.node), kExtensionName);
     if (!reference || !node.visible) continue;
     const Element light =
         lights.item(index(asset, *reference, "light", lights.value->items.size()));
     std::optional<Light> in_world = placed(*light.value, node.world_from_node);
     if (!in_world) {
-      asset.warn(
-          reference->member("light"),
-          "has no known type, or no position and direction in the world; the light is left out");
+      asset.warn(reference->member("light"),
+                 "has an unknown type, or no valid position or direction; the light is left out");
       continue;
     }
     const JsonValue* own = light.value->find("name");

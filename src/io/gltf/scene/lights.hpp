@@ -10,10 +10,9 @@
 
 namespace microtrace::io::gltf {
 
-/// The lights of visible nodes, in the order of the nodes, with the properties that the root object
-/// has, named by their nodes or, where a node
-/// has no name, by themselves. A node's scale has no effect on them. One without position or
-/// direction in the world is left out with a warning. Throws Error (invalid_scene).
+/// The lights of visible nodes in node order, with the properties given in `root`. A light is named
+/// after its node or, if that has no name, by its own. The node's scale has no effect. Leaves out,
+/// with a warning, lights without a valid position or direction. Throws Error (invalid_scene).
 [[nodiscard]] std::vector<NamedLight> make_lights(Asset& asset, const Element& root,
                                                   const Model& model, const NodeTree& tree,
                                                   const std::vector<PlacedNode>& nodes);

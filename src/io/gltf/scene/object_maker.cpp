@@ -14,8 +14,8 @@ bool is_finite(const Mesh& mesh) {
                              [](const Vec3& p) { return microtrace::is_finite(p); });
 }
 
-/// An object with its name, which is in the set of names too.
-constexpr std::size_t bytes_of_object = sizeof(Object) + 512;
+/// An object and its name, which is also stored in UniqueNames.
+constexpr std::size_t kBytesOfObject = sizeof(Object) + 512;
 
 }  // namespace
 
@@ -29,17 +29,18 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
     const std::size_t times = instances != nullptr ? instances->size() : 1;
     objects += times * surfaces_[*mesh].size();
     for (const Surface& surface : surfaces_[*mesh]) {
-      const std::size_t segments = surface.mesh.segments.size();  // widened to draw them
+      const std::size_t segments =
+          surface.mesh.segments.size();  // each is drawn as a quadrilateral
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
-      bytes += times * (bytes_of_object + memory_of(surface.mesh));
+      bytes += times * (kBytesOfObject + memory_of(surface.mesh));
     }
-    if (std::max(triangles, vertices) <= max_elements) continue;
+    if (std::max(triangles, vertices) <= kMaxElements) continue;
     asset_.fail(asset_.element("nodes", placed.node).member("mesh"),
-                "brings the scene to more than 2^27 triangles or vertices, the most that is read",
+                "brings the scene to more than 2^27 triangles or vertices, the limit",
                 ErrorKind::limit);
   }
-  take_memory(bytes, "the meshes of the scene, instances counted");
+  take_memory(bytes, "the meshes of the scene with all instances");
   objects_.reserve(objects);
   names_.reserve(objects);
 }
@@ -50,7 +51,7 @@ void ObjectMaker::add_mesh(const PlacedNode& placed) {
   const std::vector<DMat4>* instances = instances_.of(placed.node);
   if (instances != nullptr && poser_.has_skin(placed.node)) {
     asset_.warn(asset_.element("nodes", placed.node),
-                "has instances of a skinned mesh, all in the place of its joints; one is drawn");
+                "has instances of a skinned mesh, which its joints place alike; one is drawn");
     instances = nullptr;
   }
   if (instances == nullptr) return add_mesh(placed.node, placed.world_from_node, path);
@@ -77,7 +78,7 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
 }
 
 Mesh ObjectMaker::posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh) {
-  MemoryAccount work(memory_account().budget());  // the mesh itself is counted already
+  MemoryAccount work(memory_account().budget());  // make_room has counted the mesh itself
   const MemoryScope scope(work);
   return poser_.posed(node, surface, world_from_mesh);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// From nodes to the objects of a scene.
+/// Conversion of nodes to the objects of a scene.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -18,7 +18,7 @@ namespace microtrace::io::gltf {
 
 class ObjectMaker {
  public:
-  /// All must outlive it.
+  /// The arguments must outlive the object.
   ObjectMaker(Asset& asset, const Model& model, const NodeTree& tree,
               const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
               Poser& poser)
@@ -29,10 +29,11 @@ class ObjectMaker {
         instances_(instances),
         poser_(poser) {}
 
-  /// Throws Error (limit) before memory is taken for too many instances. Counts the memory of all.
+  /// Counts the memory of all objects. Throws Error (limit) before any is allocated if there are
+  /// too many instances.
   void make_room(const std::vector<PlacedNode>& nodes);
 
-  /// An object for each surface of the node's mesh, if it has one and is seen.
+  /// Adds an object for each surface of the node's mesh, if the node has a mesh and is visible.
   void add_mesh(const PlacedNode& placed);
 
   [[nodiscard]] std::vector<Object> take() { return std::move(objects_); }

@@ -18,7 +18,7 @@ void add_corners(const PointBounds& box, const DMat4& world_from_box, PointBound
 PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
                       const std::vector<std::vector<Surface>>& surfaces,
                       const Instances& instances) {
-  std::vector<PointBounds> boxes(surfaces.size());  // of meshes
+  std::vector<PointBounds> boxes(surfaces.size());  // by mesh
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     for (const Surface& surface : surfaces[i]) {
       for (const Vec3& p : surface.mesh.positions) boxes[i].add(DVec3(p));

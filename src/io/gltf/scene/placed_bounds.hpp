@@ -9,8 +9,8 @@
 
 namespace microtrace::io::gltf {
 
-/// About all that can be seen, and the cameras: morphed surfaces are taken for what they are
-/// without, skinned ones for where their nodes are.
+/// Approximate bounds of all visible surfaces and of the cameras. Ignores morph targets, and places
+/// skinned surfaces by their nodes.
 [[nodiscard]] PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
                                     const std::vector<std::vector<Surface>>& surfaces,
                                     const Instances& instances);

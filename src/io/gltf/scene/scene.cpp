@@ -38,13 +38,13 @@ namespace {
 
 using gltf::Asset, gltf::Model, gltf::NodeTree, gltf::PlacedNode, gltf::Surface;
 
-/// Runs a part of the reading; whatever it throws becomes an Error.
+/// Runs one step of loading and converts all exceptions to Error.
 template <typename Part>
 auto guarded(const std::string& name, Part&& part) {
   try {
     return part();
   } catch (const Error& error) {
-    // Those of the memory budget don't know the file.
+    // Errors of the memory budget don't name a file.
     if (!error.diagnostic().file.empty()) throw;
     throw Error(error.kind(), name, error.diagnostic().message);
   } catch (const std::bad_alloc&) {
@@ -56,7 +56,7 @@ auto guarded(const std::string& name, Part&& part) {
 
 }  // namespace
 
-/// Everything but poses, in the order in which it is read and checked.
+/// Everything but poses, in the order of reading and checking.
 struct GltfFile::Content {
   Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
@@ -65,7 +65,7 @@ struct GltfFile::Content {
         clock(times),
         name(file_name),
         container(gltf::open_container(bytes, name)),
-        json(container.json, container.is_glb ? name + " (JSON chunk)" : name, max_json_values,
+        json(container.json, container.is_glb ? name + " (JSON chunk)" : name, kMaxJsonValues,
              RepeatedKeys::last_counts),
         asset(json),
         model(checked_model(options.variant)),
@@ -83,7 +83,7 @@ struct GltfFile::Content {
     gltf::warn_of_ignored_features(asset, detail);
     if (!container.is_aligned) {
       asset.tolerate(asset.root(),
-                     "chunks of the GLB file have lengths that are no multiples of 4");
+                     "chunks of the GLB file have lengths that are not multiples of 4");
     }
     if (container.extra_bytes != 0) {
       asset.warn(asset.root(), std::to_string(container.extra_bytes) +
@@ -113,9 +113,9 @@ struct GltfFile::Content {
   gltf::PosedAsset pose_at(double time) {
     if (!player) {
       if (animations.empty()) {
-        asset.warn(asset.root(), "the asset has no animation; the time makes no difference");
+        asset.warn(asset.root(), "the asset has no animation; the time has no effect");
       }
-      const MemoryScope scope(memory);  // it stays with the file
+      const MemoryScope scope(memory);  // its memory belongs to the file, not to a pose
       player.emplace(asset, model, reader, animations);
     }
     return player->at(time);
@@ -127,7 +127,7 @@ struct GltfFile::Content {
 
   LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset) {
     LoadClock lap(times);
-    Asset own = asset;  // each pose adds warnings of its own
+    Asset own = asset;  // each pose adds its own warnings
     const gltf::Element root{pose.properties ? &*pose.properties : own.root().value, {}};
     const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
     gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
@@ -149,13 +149,13 @@ struct GltfFile::Content {
     return result;
   }
 
-  /// A layer that is invisible now may appear.
   std::vector<std::vector<Surface>> made_surfaces() {
     auto result = gltf::make_surfaces(asset, model, reader, materials, detail, unlit);
     gltf::add_unlit_copies(materials, unlit);
     return result;
   }
 
+  /// Keeps layers that are invisible now if an animation may show them.
   [[nodiscard]] std::vector<Material> needed_materials() const {
     const bool may_change = gltf::animate_materials(asset, animations);
     return gltf::make_materials(
@@ -177,7 +177,7 @@ struct GltfFile::Content {
     return gltf::image_uses(materials, drawn, textures, asset.array("images").size(), detail);
   }
 
-  MemoryAccount& memory = memory_account();  // of the file, not of one pose
+  MemoryAccount& memory = memory_account();  // of the file, not of a pose
   SurfaceDetail detail;
   LoadTimes* times;
   LoadClock clock;
@@ -191,14 +191,14 @@ struct GltfFile::Content {
   std::vector<gltf::Buffer> buffers;
   gltf::BufferViews views;
   gltf::AccessorReader reader;
-  std::vector<std::size_t> animations;  // chosen
-  std::vector<Material> materials;      // with what any pose needs of them
-  std::vector<std::uint32_t> unlit;     // those of which there are unlit copies
+  std::vector<std::size_t> animations;  // the selected ones
+  std::vector<Material> materials;      // including everything that some pose needs
+  std::vector<std::uint32_t> unlit;     // materials that have unlit copies
   std::vector<Texture> textures;
   std::vector<std::vector<Surface>> surfaces;
   std::vector<std::shared_ptr<const Image>> images;
   gltf::Instances instances;
-  std::optional<gltf::AnimationPlayer> player;  // of them, once a time was asked for
+  std::optional<gltf::AnimationPlayer> player;  // made when a pose first needs it
 };
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,

@@ -1,6 +1,6 @@
 #pragma once
-/// glTF 2.0 (Khronos, ISO/IEC 12113:2022), text and binary, into a Scene. docs/gltf.md lists what
-/// is honoured, what is warned about, and the limits.
+/// Reads glTF 2.0 (Khronos, ISO/IEC 12113:2022), text or binary. docs/gltf.md lists the supported
+/// features, the warnings and the limits.
 
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
@@ -13,25 +13,25 @@
 
 namespace microtrace::io {
 
-/// One asset, read and checked, to be posed at any number of times.
+/// An asset that is read and checked once and can be posed at any number of times.
 class GltfFile {
  public:
-  /// Reads the bytes of a .gltf or .glb file, told apart by their first four; they must outlive it.
-  /// `name` stands in messages; external buffers are sought in `folder` and nowhere above it.
-  /// Throws Error: invalid_scene, unsupported (a required extension, another version), io (a
-  /// buffer's file), limit, usage (an animation that is not there).
+  /// Reads the bytes of a .gltf or .glb file, distinguished by their first four. They must outlive
+  /// this object. Error messages name the file `name`. External files are loaded from `folder` or
+  /// below. Throws Error: invalid_scene, unsupported (a required extension, another version), io
+  /// (an external file), limit, usage (an unknown animation).
   GltfFile(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
            const LoadOptions& options = {});
   ~GltfFile();
   GltfFile(GltfFile&& other) noexcept;
   GltfFile& operator=(GltfFile&& other) noexcept;
 
-  /// The scene at a time, as LoadOptions says. Node transforms are composed in float64 and each
-  /// vertex is rounded once to float32, next to Scene::origin. Throws Error.
+  /// The scene at a time (see LoadOptions). Transforms are composed in float64; each vertex is
+  /// rounded to float32 once, relative to Scene::origin. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
-  /// The same as part of another scene, whose origin is its own: `world_from_asset` (affine) comes
-  /// first.
+  /// The same as part of another scene that has its own origin. The affine transform
+  /// `world_from_asset` is applied last.
   [[nodiscard]] LoadedScene placed(std::optional<double> time, const DMat4& world_from_asset);
 
  private:
@@ -39,7 +39,7 @@ class GltfFile {
   std::unique_ptr<Content> content_;
 };
 
-/// Reads one asset and poses it at options.time, as GltfFile::placed does.
+/// Reads one asset and poses it at options.time (see GltfFile::placed).
 [[nodiscard]] LoadedScene load_gltf(std::string_view bytes, const std::string& name,
                                     const std::filesystem::path& folder,
                                     const DMat4& world_from_asset = DMat4(1),

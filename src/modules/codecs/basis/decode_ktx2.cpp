@@ -29,11 +29,11 @@ Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char
 
 void decode_uastc(const Ktx2& ktx2, const Texels& texels) {
   std::vector<unsigned char> storage;
-  const std::size_t row = std::size_t{texels.blocks_x()} * uastc_block_size;
+  const std::size_t row = std::size_t{texels.blocks_x()} * kUastcBlockSize;
   const Bytes blocks = uastc_blocks(ktx2, row * texels.blocks_y(), storage);
   for (std::uint32_t y = 0; y < texels.blocks_y(); ++y) {
     for (std::uint32_t x = 0; x < texels.blocks_x(); ++x) {
-      const Bytes block = blocks.subspan(y * row + x * uastc_block_size, uastc_block_size);
+      const Bytes block = blocks.subspan(y * row + x * kUastcBlockSize, kUastcBlockSize);
       texels.set_block(x, y, decode_uastc_block(block), 0, texels.channels);
     }
   }

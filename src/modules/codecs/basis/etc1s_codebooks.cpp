@@ -3,7 +3,7 @@
 namespace basis {
 namespace {
 
-constexpr const char* damaged = "the BasisLZ global data is damaged";
+constexpr const char* kDamaged = "the BasisLZ global data is damaged";
 
 /// The index, out of three tables, for the difference to a channel's previous value.
 std::size_t delta_table(std::uint32_t previous) {
@@ -33,7 +33,7 @@ std::vector<Endpoint> read_endpoints(Bytes bytes, std::size_t count) {
 
 std::vector<Selector> read_selectors(Bytes bytes, std::size_t count) {
   BitReader bits(bytes);
-  if (bits.read(2) != 0) throw Damage(damaged);
+  if (bits.read(2) != 0) throw Damage(kDamaged);
   const bool is_raw = bits.read(1) != 0;
   const HuffmanTable deltas = is_raw ? HuffmanTable({}) : read_huffman_table(bits);
   std::vector<Selector> selectors(count);
@@ -51,25 +51,25 @@ std::vector<Selector> read_selectors(Bytes bytes, std::size_t count) {
 
 Codebooks read_codebooks(const Ktx2& ktx2) {
   const Bytes global = ktx2.global;
-  constexpr std::size_t head_size = 20, image_size = 20;
+  constexpr std::size_t kHeadSize = 20, kImageSize = 20;
   const std::size_t endpoint_count = number_at(global, 0, 2),
                     selector_count = number_at(global, 2, 2);
   const std::uint32_t endpoint_size = u32_at(global, 4), selector_size = u32_at(global, 8),
                       table_size = u32_at(global, 12);
-  if (endpoint_count == 0 || selector_count == 0) throw Damage(damaged);
+  if (endpoint_count == 0 || selector_count == 0) throw Damage(kDamaged);
 
-  constexpr std::uint32_t is_p_frame = 2;
-  const Bytes image = part_of(global, head_size, image_size, damaged);
-  if ((u32_at(image, 0) & is_p_frame) != 0)
+  constexpr std::uint32_t kIsPFrame = 2;
+  const Bytes image = part_of(global, kHeadSize, kImageSize, kDamaged);
+  if ((u32_at(image, 0) & kIsPFrame) != 0)
     throw Damage("is KTX2 of a video, whose frame depends on the one before");
   const auto slice = [&](std::size_t at) {
-    return part_of(ktx2.level, u32_at(image, at), u32_at(image, at + 4), damaged);
+    return part_of(ktx2.level, u32_at(image, at), u32_at(image, at + 4), kDamaged);
   };
 
-  std::uint64_t at = head_size + std::uint64_t{ktx2.levels} * image_size;
-  const Bytes endpoints = part_of(global, at, endpoint_size, damaged);
-  const Bytes selectors = part_of(global, at += endpoint_size, selector_size, damaged);
-  BitReader tables(part_of(global, at += selector_size, table_size, damaged));
+  std::uint64_t at = kHeadSize + std::uint64_t{ktx2.levels} * kImageSize;
+  const Bytes endpoints = part_of(global, at, endpoint_size, kDamaged);
+  const Bytes selectors = part_of(global, at += endpoint_size, selector_size, kDamaged);
+  BitReader tables(part_of(global, at += selector_size, table_size, kDamaged));
   Codebooks books{.endpoints = read_endpoints(endpoints, endpoint_count),
                   .selectors = read_selectors(selectors, selector_count),
                   .predictions = read_huffman_table(tables),

@@ -6,7 +6,7 @@
 namespace basis {
 namespace {
 
-constexpr const char* damaged = "an ETC1S slice is damaged";
+constexpr const char* kDamaged = "an ETC1S slice is damaged";
 
 /// A number in groups of `width` bits, each followed by a bit that tells whether another group
 /// follows.
@@ -17,7 +17,7 @@ std::uint64_t read_groups(BitReader& bits, unsigned width) {
     result |= std::uint64_t{group & ((1U << width) - 1)} << shift;
     if (group >> width == 0) return result;
   }
-  throw Damage(damaged);
+  throw Damage(kDamaged);
 }
 
 /// Recently used selectors, with approximate move-to-front order.
@@ -32,7 +32,7 @@ class History {
   }
 
   std::uint32_t use(std::size_t index) {
-    if (index >= values_.size()) throw Damage(damaged);
+    if (index >= values_.size()) throw Damage(kDamaged);
     const std::uint32_t value = values_[index];
     std::swap(values_[index], values_[index / 2]);
     return value;
@@ -61,18 +61,18 @@ class SliceDecoder {
     // row above.
     const std::uint32_t upper = above_[x];
     if (way == 0) {
-      if (x == 0) throw Damage(damaged);
+      if (x == 0) throw Damage(kDamaged);
     } else if (way == 1) {
-      if (y == 0) throw Damage(damaged);
+      if (y == 0) throw Damage(kDamaged);
       last_ = upper;
     } else if (way == 2) {
-      if (x == 0 || y == 0) throw Damage(damaged);
+      if (x == 0 || y == 0) throw Damage(kDamaged);
       last_ = upper_left_;
     } else {
       const auto count = static_cast<std::uint32_t>(books_.endpoints.size());
       last_ += books_.endpoint_deltas.decode(bits_);
       if (last_ >= count) last_ -= count;
-      if (last_ >= count) throw Damage(damaged);
+      if (last_ >= count) throw Damage(kDamaged);
     }
     upper_left_ = upper;
     above_[x] = last_;
@@ -90,15 +90,15 @@ class SliceDecoder {
  private:
   /// Predictions for 2 x 2 blocks, 2 bits each; the lower two are stored for the next row.
   std::uint32_t even_row_prediction(std::uint32_t x) {
-    constexpr std::uint32_t repeat = 256, least_repeats = 3;
+    constexpr std::uint32_t kRepeat = 256, kLeastRepeats = 3;
     if (repeats_ > 0) {
       --repeats_;
-    } else if (const std::uint32_t symbol = books_.predictions.decode(bits_); symbol < repeat) {
+    } else if (const std::uint32_t symbol = books_.predictions.decode(bits_); symbol < kRepeat) {
       last_prediction_ = symbol;
-    } else if (symbol == repeat) {
-      repeats_ = read_groups(bits_, 4) + least_repeats - 1;
+    } else if (symbol == kRepeat) {
+      repeats_ = read_groups(bits_, 4) + kLeastRepeats - 1;
     } else {
-      throw Damage(damaged);
+      throw Damage(kDamaged);
     }
     odd_row_[x / 2] = static_cast<std::uint8_t>(last_prediction_ >> 4U);
     return last_prediction_;
@@ -106,7 +106,7 @@ class SliceDecoder {
 
   /// An index into the codebook, or the codebook's size plus one plus an index into the history.
   std::uint32_t selector_symbol(std::uint32_t count) {
-    constexpr std::uint32_t least_run = 3, long_run = 63;
+    constexpr std::uint32_t kLeastRun = 3, kLongRun = 63;
     if (run_ > 0) {
       --run_;
       return count;
@@ -114,7 +114,7 @@ class SliceDecoder {
     const std::uint32_t symbol = books_.selector_symbols.decode(bits_);
     if (symbol != count + books_.history_size) return symbol;
     const std::uint32_t length = books_.history_runs.decode(bits_);
-    run_ = (length == long_run ? read_groups(bits_, 7) : length) + least_run - 1;
+    run_ = (length == kLongRun ? read_groups(bits_, 7) : length) + kLeastRun - 1;
     return count;
   }
 
@@ -128,14 +128,14 @@ class SliceDecoder {
 };
 
 /// ETC1's modifiers (Khronos Data Format Specification 1.3, table 116) in the order of selectors.
-constexpr std::array<std::array<int, 4>, 8> modifiers = {{{-8, -2, 2, 8},
-                                                          {-17, -5, 5, 17},
-                                                          {-29, -9, 9, 29},
-                                                          {-42, -13, 13, 42},
-                                                          {-60, -18, 18, 60},
-                                                          {-80, -24, 24, 80},
-                                                          {-106, -33, 33, 106},
-                                                          {-183, -47, 47, 183}}};
+constexpr std::array<std::array<int, 4>, 8> kModifiers = {{{-8, -2, 2, 8},
+                                                           {-17, -5, 5, 17},
+                                                           {-29, -9, 9, 29},
+                                                           {-42, -13, 13, 42},
+                                                           {-60, -18, 18, 60},
+                                                           {-80, -24, 24, 80},
+                                                           {-106, -33, 33, 106},
+                                                           {-183, -47, 47, 183}}};
 
 /// The four colors of a block.
 std::array<Color, 4> palette(const Endpoint& endpoint) {
@@ -144,7 +144,7 @@ std::array<Color, 4> palette(const Endpoint& endpoint) {
     for (std::size_t c = 0; c < 3; ++c) {
       const int base = endpoint.color[c] << 3 | endpoint.color[c] >> 2;
       result[i][c] =
-          static_cast<std::uint8_t>(std::clamp(base + modifiers[endpoint.intensity][i], 0, 255));
+          static_cast<std::uint8_t>(std::clamp(base + kModifiers[endpoint.intensity][i], 0, 255));
     }
     result[i][3] = result[i][1];  // for alpha slices
   }

@@ -6,7 +6,7 @@
 namespace basis {
 namespace {
 
-constexpr unsigned max_length = 16;
+constexpr unsigned kMaxLength = 16;
 
 /// Codes are stored highest bit first.
 std::uint32_t reversed(std::uint32_t code, unsigned length) {
@@ -20,17 +20,17 @@ struct Run {
   unsigned least, bits;
   bool of_zeros;
 };
-constexpr std::array<Run, 4> runs = {{{3, 3, true}, {11, 7, true}, {3, 2, false}, {7, 7, false}}};
-constexpr std::uint32_t first_run = 17;
+constexpr std::array<Run, 4> kRuns = {{{3, 3, true}, {11, 7, true}, {3, 2, false}, {7, 7, false}}};
+constexpr std::uint32_t kFirstRun = 17;
 
 HuffmanTable read_length_table(BitReader& bits) {
-  constexpr std::array<std::uint8_t, 21> order = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
-                                                  11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
+  constexpr std::array<std::uint8_t, 21> kOrder = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
+                                                   11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
   const std::uint32_t count = bits.read(5);
-  if (count < 1 || count > order.size()) throw Damage("a Huffman table is damaged");
-  std::array<std::uint8_t, order.size()> lengths{};
+  if (count < 1 || count > kOrder.size()) throw Damage("a Huffman table is damaged");
+  std::array<std::uint8_t, kOrder.size()> lengths{};
   for (std::uint32_t i = 0; i < count; ++i) {
-    lengths[order[i]] = static_cast<std::uint8_t>(bits.read(3));
+    lengths[kOrder[i]] = static_cast<std::uint8_t>(bits.read(3));
   }
   return HuffmanTable(lengths);
 }
@@ -38,18 +38,18 @@ HuffmanTable read_length_table(BitReader& bits) {
 }  // namespace
 
 HuffmanTable::HuffmanTable(std::span<const std::uint8_t> lengths) {
-  std::array<std::uint32_t, max_length + 2> count{};
+  std::array<std::uint32_t, kMaxLength + 2> count{};
   for (const std::uint8_t length : lengths) ++count[length];
   const auto used = static_cast<std::uint32_t>(lengths.size()) - count[0];
   count[0] = 0;
-  std::array<std::uint32_t, max_length + 2> next{};  // next code of each length
+  std::array<std::uint32_t, kMaxLength + 2> next{};  // next code of each length
   std::uint32_t space = 0;                           // used code space, of 2^16
-  for (unsigned length = 1; length <= max_length; ++length) {
+  for (unsigned length = 1; length <= kMaxLength; ++length) {
     next[length + 1] = (next[length] + count[length]) << 1U;
-    space += count[length] << (max_length - length);
+    space += count[length] << (kMaxLength - length);
     if (count[length] != 0) longest_ = length;
   }
-  if (used > 1 && space != 1U << max_length) throw Damage("a Huffman table is damaged");
+  if (used > 1 && space != 1U << kMaxLength) throw Damage("a Huffman table is damaged");
 
   entries_.resize(std::size_t{1} << longest_);
   for (std::size_t symbol = 0; symbol < lengths.size(); ++symbol) {
@@ -70,11 +70,11 @@ HuffmanTable read_huffman_table(BitReader& bits) {
   lengths.reserve(size);
   while (lengths.size() < size) {
     const std::uint32_t symbol = length_table.decode(bits);
-    if (symbol < first_run) {
+    if (symbol < kFirstRun) {
       lengths.push_back(static_cast<std::uint8_t>(symbol));
       continue;
     }
-    const Run& run = runs[symbol - first_run];
+    const Run& run = kRuns[symbol - kFirstRun];
     const std::uint8_t length = run.of_zeros || lengths.empty() ? 0 : lengths.back();
     if (!run.of_zeros && length == 0) throw Damage("a Huffman table is damaged");
     const std::size_t count = run.least + bits.read(run.bits);

@@ -14,9 +14,9 @@ namespace {
 enum Scheme : std::uint32_t { none = 0, basis_lz = 1, zstandard = 2, zlib = 3 };
 
 // Color models and channels of the Khronos Data Format Specification.
-constexpr std::uint32_t model_etc1s = 163, model_uastc = 166;
-constexpr std::uint32_t etc1s_rgb = 0, etc1s_rrr = 3, etc1s_aaa = 15;
-constexpr std::uint32_t uastc_rgb = 0, uastc_rgba = 3, uastc_rrr = 4;
+constexpr std::uint32_t kModelEtc1s = 163, kModelUastc = 166;
+constexpr std::uint32_t kEtc1sRgb = 0, kEtc1sRrr = 3, kEtc1sAaa = 15;
+constexpr std::uint32_t kUastcRgb = 0, kUastcRgba = 3, kUastcRrr = 4;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Damage("is KTX2 " + what +
@@ -25,46 +25,46 @@ constexpr std::uint32_t uastc_rgb = 0, uastc_rgba = 3, uastc_rrr = 4;
 }
 
 void check_shape(Bytes file) {
-  constexpr const char* damaged = "the KTX2 header is damaged";
+  constexpr const char* kDamaged = "the KTX2 header is damaged";
   const std::uint32_t width = u32_at(file, 20), height = u32_at(file, 24);
   const std::uint32_t depth = u32_at(file, 28), layers = u32_at(file, 32);
   const std::uint32_t faces = u32_at(file, 36), levels = u32_at(file, 40);
   if (const std::uint32_t format = u32_at(file, 12); format != 0) {
     refuse("in Vulkan format " + std::to_string(format));
   }
-  if (width == 0) throw Damage(damaged);
+  if (width == 0) throw Damage(kDamaged);
   if (height == 0) refuse("of one dimension");
   if (depth != 0) refuse("of three dimensions");
   if (layers != 0) refuse("with layers");
   if (faces != 1) refuse("with " + std::to_string(faces) + " faces");
   if (levels > static_cast<std::uint32_t>(std::bit_width(std::max(width, height)))) {
-    throw Damage(damaged);
+    throw Damage(kDamaged);
   }
 }
 
 /// Reads the basic block of the data format descriptor.
 void read_descriptor(Bytes file, Ktx2& ktx2) {
-  constexpr const char* damaged = "the data format descriptor is damaged";
-  const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), damaged);
-  constexpr std::size_t heads = 28, sample_size = 16;  // bytes before samples, and of each
-  if (dfd.size() < heads + sample_size || u32_at(dfd, 4) != 0) throw Damage(damaged);
+  constexpr const char* kDamaged = "the data format descriptor is damaged";
+  const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), kDamaged);
+  constexpr std::size_t kHeads = 28, kSampleSize = 16;  // bytes before samples, and of each
+  if (dfd.size() < kHeads + kSampleSize || u32_at(dfd, 4) != 0) throw Damage(kDamaged);
   const std::uint32_t block_size = u32_at(dfd, 8) >> 16U;
-  if (block_size < heads - 4 + sample_size || block_size > dfd.size() - 4) throw Damage(damaged);
-  const std::size_t samples = (block_size - (heads - 4)) / sample_size;
-  const auto channel = [&](std::size_t i) { return dfd[heads + i * sample_size + 3] & 0xFU; };
+  if (block_size < kHeads - 4 + kSampleSize || block_size > dfd.size() - 4) throw Damage(kDamaged);
+  const std::size_t samples = (block_size - (kHeads - 4)) / kSampleSize;
+  const auto channel = [&](std::size_t i) { return dfd[kHeads + i * kSampleSize + 3] & 0xFU; };
 
   const std::uint32_t model = dfd[12];
-  if (model == model_etc1s) {
+  if (model == kModelEtc1s) {
     ktx2.format = TexelFormat::etc1s;
     ktx2.has_alpha = samples > 1;
-    if (samples > 2 || (channel(0) != etc1s_rgb && channel(0) != etc1s_rrr) ||
-        (samples == 2 && channel(1) != etc1s_aaa)) {
+    if (samples > 2 || (channel(0) != kEtc1sRgb && channel(0) != kEtc1sRrr) ||
+        (samples == 2 && channel(1) != kEtc1sAaa)) {
       refuse("with channels other than RGB or RGBA");
     }
-  } else if (model == model_uastc) {
+  } else if (model == kModelUastc) {
     ktx2.format = TexelFormat::uastc;
-    ktx2.has_alpha = channel(0) == uastc_rgba;
-    if (samples != 1 || (!ktx2.has_alpha && channel(0) != uastc_rgb && channel(0) != uastc_rrr)) {
+    ktx2.has_alpha = channel(0) == kUastcRgba;
+    if (samples != 1 || (!ktx2.has_alpha && channel(0) != kUastcRgb && channel(0) != kUastcRrr)) {
       refuse("with channels other than RGB or RGBA");
     }
   } else {
@@ -87,11 +87,11 @@ void check_entry(Bytes entry) {
 }
 
 void check_metadata(Bytes file) {
-  constexpr const char* damaged = "the metadata is damaged";
-  Bytes left = part_of(file, u32_at(file, 56), u32_at(file, 60), damaged);
+  constexpr const char* kDamaged = "the metadata is damaged";
+  Bytes left = part_of(file, u32_at(file, 56), u32_at(file, 60), kDamaged);
   while (left.size() >= 4) {
     const std::uint32_t size = u32_at(left, 0);
-    check_entry(part_of(left, 4, size, damaged));
+    check_entry(part_of(left, 4, size, kDamaged));
     const std::uint64_t padded = (std::uint64_t{size} + 3) / 4 * 4;
     left = left.subspan(std::min<std::size_t>(left.size(), 4 + padded));
   }
@@ -99,9 +99,9 @@ void check_metadata(Bytes file) {
 
 /// Reads the first level, which is the largest one.
 void read_level(Bytes file, Ktx2& ktx2) {
-  constexpr std::size_t level_index = 80;
+  constexpr std::size_t kLevelIndex = 80;
   ktx2.levels = std::max(u32_at(file, 40), 1U);
-  ktx2.level = part_of(file, number_at(file, level_index, 8), number_at(file, level_index + 8, 8),
+  ktx2.level = part_of(file, number_at(file, kLevelIndex, 8), number_at(file, kLevelIndex + 8, 8),
                        "the base level is cut off");
   const std::uint32_t scheme = u32_at(file, 44);
   if (ktx2.format == TexelFormat::etc1s) {
@@ -116,8 +116,8 @@ void read_level(Bytes file, Ktx2& ktx2) {
   }
   ktx2.is_zstd = scheme == zstandard;
   const std::uint64_t size =
-      std::uint64_t{blocks_along(ktx2.width)} * blocks_along(ktx2.height) * uastc_block_size;
-  if (number_at(file, level_index + 16, 8) != size ||
+      std::uint64_t{blocks_along(ktx2.width)} * blocks_along(ktx2.height) * kUastcBlockSize;
+  if (number_at(file, kLevelIndex + 16, 8) != size ||
       (!ktx2.is_zstd && ktx2.level.size() != size)) {
     throw Damage("the base level does not have the size of its blocks");
   }

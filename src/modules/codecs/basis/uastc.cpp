@@ -12,7 +12,7 @@ using Ends = std::array<Color, 2>;
 
 /// ASTC's endpoint modes 8, 12 and 4, without blue contraction.
 std::array<Ends, 3> make_ends(const UastcMode& mode,
-                              const std::array<std::uint8_t, max_endpoint_values>& values) {
+                              const std::array<std::uint8_t, kMaxEndpointValues>& values) {
   std::array<Ends, 3> result{};
   for (std::size_t subset = 0; subset < mode.subsets; ++subset) {
     const std::uint8_t* v = values.data() + subset * mode.endpoint_values();

@@ -9,9 +9,9 @@
 
 namespace basis {
 
-inline constexpr std::size_t uastc_block_size = 16;  // bytes
+inline constexpr std::size_t kUastcBlockSize = 16;  // bytes
 
-/// Decodes a block of uastc_block_size bytes to linear 8-bit texels. Throws Damage.
+/// Decodes a block of kUastcBlockSize bytes to linear 8-bit texels. Throws Damage.
 [[nodiscard]] Block decode_uastc_block(Bytes bytes);
 
 }  // namespace basis

@@ -10,13 +10,13 @@ struct Digits {
   std::size_t group;
   std::array<unsigned, 6> bits;  ///< bits of a group with this many digits
 };
-constexpr Digits trits = {5, {0, 2, 4, 5, 7, 8}};
-constexpr Digits quints = {3, {0, 3, 5, 7}};
+constexpr Digits kTrits = {5, {0, 2, 4, 5, 7, 8}};
+constexpr Digits kQuints = {3, {0, 3, 5, 7}};
 
 /// ASTC's multipliers C of the trit or quint (Khronos Data Format Specification, table "ASTC color
 /// unquantization parameters"), by the number of bits below it.
-constexpr std::array<std::uint32_t, 7> trit_scales = {0, 204, 93, 44, 22, 11, 5};
-constexpr std::array<std::uint32_t, 6> quint_scales = {0, 113, 54, 26, 13, 6};
+constexpr std::array<std::uint32_t, 7> kTritScales = {0, 204, 93, 44, 22, 11, 5};
+constexpr std::array<std::uint32_t, 6> kQuintScales = {0, 113, 54, 26, 13, 6};
 
 /// The table's B: nine bits that repeat the value's bits except the lowest.
 std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
@@ -45,7 +45,7 @@ std::uint8_t unquantize(std::uint32_t digit, std::uint32_t value, const Endpoint
     return static_cast<std::uint8_t>(result);
   }
   const std::uint32_t scale =
-      range.values == 3 ? trit_scales[range.bits] : quint_scales[range.bits];
+      range.values == 3 ? kTritScales[range.bits] : kQuintScales[range.bits];
   const std::uint32_t flip = (value & 1U) != 0 ? 0x1FF : 0;
   const std::uint32_t result = (digit * scale + repeated_bits(value, range)) ^ flip;
   return static_cast<std::uint8_t>((flip & 0x80U) | result >> 2U);
@@ -53,12 +53,12 @@ std::uint8_t unquantize(std::uint32_t digit, std::uint32_t value, const Endpoint
 
 }  // namespace
 
-std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(BitReader& bits,
-                                                                   const EndpointRange& range,
-                                                                   std::size_t count) {
-  std::array<std::uint32_t, max_endpoint_values> digits{};
+std::array<std::uint8_t, kMaxEndpointValues> read_endpoint_values(BitReader& bits,
+                                                                  const EndpointRange& range,
+                                                                  std::size_t count) {
+  std::array<std::uint32_t, kMaxEndpointValues> digits{};
   if (range.values != 1) {
-    const Digits& form = range.values == 3 ? trits : quints;
+    const Digits& form = range.values == 3 ? kTrits : kQuints;
     for (std::size_t i = 0; i < count; i += form.group) {
       const std::size_t size = std::min(form.group, count - i);
       std::uint32_t number = bits.read(form.bits[size]);
@@ -67,7 +67,7 @@ std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(BitReader& bi
       }
     }
   }
-  std::array<std::uint8_t, max_endpoint_values> result{};
+  std::array<std::uint8_t, kMaxEndpointValues> result{};
   for (std::size_t i = 0; i < count; ++i) {
     result[i] = unquantize(digits[i], bits.read(range.bits), range);
   }

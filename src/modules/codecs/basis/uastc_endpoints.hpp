@@ -9,10 +9,10 @@
 
 namespace basis {
 
-inline constexpr std::size_t max_endpoint_values = 18;
+inline constexpr std::size_t kMaxEndpointValues = 18;
 
 /// Reads `count` numbers from 0 to 255. Throws Damage.
-[[nodiscard]] std::array<std::uint8_t, max_endpoint_values> read_endpoint_values(
+[[nodiscard]] std::array<std::uint8_t, kMaxEndpointValues> read_endpoint_values(
     BitReader& bits, const EndpointRange& range, std::size_t count);
 
 }  // namespace basis

@@ -38,7 +38,7 @@ struct UastcMode {
 };
 
 /// Index of mode 7, which has its own patterns.
-inline constexpr std::size_t uastc_mode_of_other_patterns = 7;
+inline constexpr std::size_t kUastcModeOfOtherPatterns = 7;
 
 /// Reads the mode of a block. Throws Damage.
 [[nodiscard]] std::size_t read_uastc_mode(BitReader& bits);

@@ -61,30 +61,30 @@ constexpr std::array<Pattern, size> make_patterns(const std::array<std::uint16_t
 }
 
 // "UASTC LDR 4x4 Texture Specification": the patterns common to ASTC and BC7, as ASTC seeds.
-constexpr auto two_subsets =
+constexpr auto kTwoSubsets =
     make_patterns<30>({28, 20,  16,  29, 91,  9,   107, 72,  149, 204, 50,  114, 496, 17,  78,
                        39, 252, 828, 43, 156, 116, 210, 476, 273, 684, 359, 246, 195, 694, 524},
                       2);
-constexpr auto three_subsets =
+constexpr auto kThreeSubsets =
     make_patterns<11>({260, 74, 32, 156, 183, 15, 745, 0, 335, 902, 254}, 3);
 /// ASTC patterns with two subsets that match BC7 patterns with three.
-constexpr auto other_two_subsets = make_patterns<19>(
+constexpr auto kOtherTwoSubsets = make_patterns<19>(
     {36, 48, 61, 137, 161, 183, 226, 281, 302, 307, 479, 495, 593, 594, 605, 799, 812, 988, 993},
     2);
-constexpr std::array<Pattern, 1> one_subset = {{{{}, {true}}}};
+constexpr std::array<Pattern, 1> kOneSubset = {{{{}, {true}}}};
 
 std::span<const Pattern> patterns(std::size_t mode, unsigned subsets) {
-  if (mode == uastc_mode_of_other_patterns) return other_two_subsets;
-  if (subsets == 3) return three_subsets;
-  if (subsets == 2) return two_subsets;
-  return one_subset;
+  if (mode == kUastcModeOfOtherPatterns) return kOtherTwoSubsets;
+  if (subsets == 3) return kThreeSubsets;
+  if (subsets == 2) return kTwoSubsets;
+  return kOneSubset;
 }
 
 }  // namespace
 
 unsigned pattern_bits(unsigned subsets) {
-  constexpr std::array<unsigned, 4> bits = {0, 0, 5, 4};
-  return bits[subsets];
+  constexpr std::array<unsigned, 4> kBits = {0, 0, 5, 4};
+  return kBits[subsets];
 }
 
 const Pattern& pattern(std::size_t mode, unsigned subsets, std::size_t number) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What messages say of the values that a rule allows.
+/// Descriptions of rules for error messages.
 
 #include "io/gltf/document/rules.hpp"
 
@@ -7,13 +7,13 @@
 
 namespace microtrace::io::gltf {
 
-/// With all the digits that tell it from others.
+/// The number with all digits needed to identify it.
 [[nodiscard]] std::string text_of(double number);
 
-/// As " of at least 0 and at most 1"; empty for a rule without a range.
+/// For example " of at least 0 and at most 1"; empty without a range.
 [[nodiscard]] std::string range_of(const Rule& rule);
 
-/// As "OPAQUE", "MASK", "BLEND".
+/// For example "OPAQUE", "MASK", "BLEND".
 [[nodiscard]] std::string values_of(const Rule& rule);
 
 }  // namespace microtrace::io::gltf

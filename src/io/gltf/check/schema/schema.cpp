@@ -42,7 +42,7 @@ class Checker {
       } else if (member.key == "name") {
         require(element, member.value.kind == Kind::string, "must be a string");
       } else if (member.key != "extras") {
-        asset_.warn(element, "is no property that glTF 2.0 has here; it is ignored");
+        asset_.warn(element, "is not a glTF 2.0 property of this object; it is ignored");
       }
     }
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
@@ -53,14 +53,14 @@ class Checker {
     if (!holds) asset_.fail(at, message);
   }
 
-  /// Which glTF 2.0 does not know, but programs write for what is absent.
+  /// glTF 2.0 forbids null, but some exporters write it for absent values.
   bool is_null(const Element& at) const {
     if (at.value->kind != Kind::null) return false;
-    asset_.tolerate(at, "is null, which is no value in glTF 2.0; it is taken to be absent");
+    asset_.tolerate(at, "is null, which glTF 2.0 forbids; it is treated as absent");
     return true;
   }
 
-  /// False where the value is to be dropped.
+  /// Returns false if the value must be dropped.
   bool property(const Element& at, const Rule& rule) {
     switch (rule.form) {
       case Form::boolean:
@@ -120,13 +120,13 @@ class Checker {
     return unknown(at, rule, text_of(number));
   }
 
-  /// A number out of its range; false where it is to be dropped.
+  /// Handles a number out of its range. Returns false if it must be dropped.
   bool repaired(const Element& at, const Rule& rule, const std::string& message) const {
     switch (rule.repair) {
       case Repair::none:
         asset_.fail(at, message);
       case Repair::clamp: {
-        asset_.tolerate(at, message + "; the nearest number of that range is taken");
+        asset_.tolerate(at, message + "; the nearest number in range is used");
         const double least = rule.above_min ? std::nextafter(rule.min, rule.min + 1) : rule.min;
         asset_.set(at, std::clamp(at.value->number, least, rule.max));
         return true;
@@ -150,7 +150,7 @@ class Checker {
     return unknown(at, rule, in_quotes(string));
   }
 
-  /// A value that is not in its list, which extensions may add to; false where it is to be dropped.
+  /// Handles an unknown value, which an extension may define. Returns false if it must be dropped.
   bool unknown(const Element& at, const Rule& rule, const std::string& found) const {
     const std::string message = "must be one of " + values_of(rule) + ", is " + found;
     if (rule.repair == Repair::none) asset_.fail(at, message);
@@ -216,9 +216,10 @@ class Checker {
       const bool has_name =
           of_instances ? is_instance_attribute_name(member.key) : is_attribute_name(member.key);
       if (!has_name) {
-        asset_.tolerate(attribute,
-                        "is no attribute of glTF 2.0, where an application's own begin with _; it "
-                        "is ignored");
+        asset_.tolerate(
+            attribute,
+            "is not a glTF 2.0 attribute, and names of custom attributes begin with _; it "
+            "is ignored");
         dropped.push_back(member.key);
       } else if (is_null(attribute)) {
         dropped.push_back(member.key);
@@ -246,7 +247,7 @@ class Checker {
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// False where it is to be dropped.
+  /// Returns false if the extension must be dropped.
   bool extension(const Element& at, const std::string& name, Place place) {
     if (!asset_.uses(name)) {
       asset_.tolerate(at, "is not declared in extensionsUsed; the extension is ignored here");
@@ -256,7 +257,8 @@ class Checker {
     if (known == nullptr || known->object_in(Place::anywhere) != nullptr) return true;
     const ExtensionObject* here = known->object_in(place);
     if (here == nullptr) {
-      asset_.tolerate(at, "is an extension that has no place in this object; it is ignored here");
+      asset_.tolerate(at,
+                      "is an extension that does not belong in this object; it is ignored here");
       return false;
     }
     const bool outer_lacks = std::exchange(lacks_other_part_, false);
@@ -265,7 +267,7 @@ class Checker {
   }
 
   Asset& asset_;
-  bool lacks_other_part_ = false;  // the extension being looked at names items of an absent array
+  bool lacks_other_part_ = false;  // the current extension refers to an absent array
 };
 
 }  // namespace

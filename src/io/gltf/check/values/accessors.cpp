@@ -6,8 +6,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-using Size =
-    std::uint64_t;  // numbers are at most 2^53 and strides 252: no sum or product overflows
+using Size = std::uint64_t;  // no sum or product overflows: numbers are at most 2^53, strides 252
 
 class Checker {
  public:
@@ -56,8 +55,8 @@ class Checker {
       const Element part_at = at.member(key);
       if (model_.buffer_views[view].stride != 0) {
         asset_.fail(part_at.member("bufferView"),
-                    "refers to a view with byteStride; sparse parts lie "
-                    "without gaps");
+                    "refers to a view with byteStride, but sparse data must be "
+                    "tightly packed");
       }
       fits(part_at, view, offset, sparse.count, stride, last);
       aligned(part_at, view, offset, alignment);

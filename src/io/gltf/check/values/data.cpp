@@ -13,10 +13,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::size_t max_components = 16;
+constexpr std::size_t kMaxComponents = 16;
 
 struct Bounds {
-  std::array<double, max_components> least{}, greatest{};
+  std::array<double, kMaxComponents> least{}, greatest{};
   bool all_finite = true;
 };
 
@@ -30,7 +30,7 @@ Bounds bounds_of(const Elements& elements) {
     for (std::size_t k = 0; k < components; ++k) {
       least[k] = element[k] < least[k] ? element[k] : least[k];
       greatest[k] = element[k] > greatest[k] ? element[k] : greatest[k];
-      // 0 times a number is 0, unless it is infinite or none.
+      // 0 times x is 0 unless x is infinite or NaN.
       if constexpr (std::is_floating_point_v<Number>) doubt[k] += element[k] * Number(0);
     }
   }
@@ -41,20 +41,20 @@ Bounds bounds_of(const Elements& elements) {
   return result;
 }
 
-/// By their exponents.
+/// Tests the exponents.
 bool all_finite(const Elements& elements) {
-  constexpr std::uint32_t exponent = 0x7F800000;
+  constexpr std::uint32_t kExponent = 0x7F800000;
   const std::size_t components = elements.components();
   std::uint32_t bad = 0;
   if (elements.stride() == components * sizeof(float)) {
     for (std::size_t i = 0; i < elements.count() * components; ++i) {
-      bad |= (elements.at<std::uint32_t>(0, i) & exponent) == exponent ? 1U : 0U;
+      bad |= (elements.at<std::uint32_t>(0, i) & kExponent) == kExponent ? 1U : 0U;
     }
     return bad == 0;
   }
   for (std::size_t i = 0; i < elements.count(); ++i) {
     for (std::size_t k = 0; k < components; ++k) {
-      bad |= (elements.at<std::uint32_t>(i, k) & exponent) == exponent ? 1U : 0U;
+      bad |= (elements.at<std::uint32_t>(i, k) & kExponent) == kExponent ? 1U : 0U;
     }
   }
   return bad == 0;
@@ -80,15 +80,15 @@ Bounds bounds_of(const Elements& elements) {
 
 Bounds bounds_of(const Elements& elements) {
   switch (elements.component_type()) {
-    case i8:
+    case kInt8:
       return bounds_of<std::int8_t>(elements);
-    case u8:
+    case kUint8:
       return bounds_of<std::uint8_t>(elements);
-    case i16:
+    case kInt16:
       return bounds_of<std::int16_t>(elements);
-    case u16:
+    case kUint16:
       return bounds_of<std::uint16_t>(elements);
-    case u32:
+    case kUint32:
       return bounds_of<std::uint32_t>(elements);
     default:
       return bounds_of<float>(elements);
@@ -101,7 +101,7 @@ class DataCheck {
       : asset_(asset), at_(at), elements_(elements) {}
 
   void bounds() const {
-    const bool is_float = elements_.component_type() == f32;
+    const bool is_float = elements_.component_type() == kFloat32;
     const bool has_bounds = at_.value->find("min") != nullptr || at_.value->find("max") != nullptr;
     if (!has_bounds) {
       if (is_float && !all_finite(elements_)) tolerate_not_finite();
@@ -114,7 +114,7 @@ class DataCheck {
   }
 
   void uses(const AccessorUses& uses) const {
-    if (elements_.component_type() != f32) return;
+    if (elements_.component_type() != kFloat32) return;
     if (uses.normals || uses.tangents) unit_vectors();
     if (uses.tangents) signs();
     if (uses.colors) colors();
@@ -124,7 +124,7 @@ class DataCheck {
   }
 
  private:
-  void same(const char* key, const std::array<double, max_components>& found, bool is_float) const {
+  void same(const char* key, const std::array<double, kMaxComponents>& found, bool is_float) const {
     const JsonValue* given = at_.value->find(key);
     if (given == nullptr) return;
     for (std::size_t k = 0; k < given->items.size(); ++k) {
@@ -161,7 +161,7 @@ class DataCheck {
     return square;
   }
 
-  /// Warns once where any element is not as the test asks.
+  /// Warns once, with the number of elements that fail the test.
   template <typename Test>
   void each(std::size_t step, std::size_t first, const char* message, Test&& test) const {
     std::size_t bad = 0;
@@ -170,7 +170,7 @@ class DataCheck {
   }
 
   void unit_vectors() const {
-    each(1, 0, " of its elements are no unit vectors, as normals and tangents must be",
+    each(1, 0, " of its elements are not unit vectors, as normals and tangents must be",
          [this](std::size_t i) { return std::abs(square_of(i, 3) - 1) <= 0.01F; });
   }
 
@@ -180,7 +180,7 @@ class DataCheck {
   }
 
   void colors() const {
-    each(1, 0, " of its colours are not within 0 and 1", [this](std::size_t i) {
+    each(1, 0, " of its colors are not between 0 and 1", [this](std::size_t i) {
       bool inside = true;
       for (std::size_t k = 0; k < elements_.components(); ++k) {
         const float value = elements_.at<float>(i, k);
@@ -190,9 +190,9 @@ class DataCheck {
     });
   }
 
-  /// Of a spline's triples the middle one is a rotation, the others are tangents.
+  /// In a cubic spline, every second of three elements is a rotation; the others are tangents.
   void quaternions(bool spline) const {
-    each(spline ? 3 : 1, spline ? 1 : 0, " of its rotations are no unit quaternions",
+    each(spline ? 3 : 1, spline ? 1 : 0, " of its rotations are not unit quaternions",
          [this](std::size_t i) { return std::abs(square_of(i, 4) - 1) <= 0.01F; });
   }
 
@@ -208,7 +208,7 @@ class DataCheck {
   }
 
   void matrices() const {
-    each(1, 0, " of its matrices do not end in a row of 0, 0, 0, 1", [this](std::size_t i) {
+    each(1, 0, " of its matrices do not have the last row 0, 0, 0, 1", [this](std::size_t i) {
       const auto is = [&](std::size_t k, float value) {
         return std::abs(elements_.at<float>(i, k) - value) <= 1e-5F;
       };
@@ -221,7 +221,7 @@ class DataCheck {
   const Elements& elements_;
 };
 
-/// Vertices of primitives that are not drawn for want of positions; surfaces check the others.
+/// Checks the indices of primitives without positions. make_surfaces checks those of the others.
 class IndexCheck {
  public:
   IndexCheck(Asset& asset, const Model& model, const BufferViews& views)
@@ -235,8 +235,9 @@ class IndexCheck {
     const std::size_t count = vertex_count(attributes);
     const std::optional<double> vertex = greatest(accessor);
     if (!vertex || *vertex < static_cast<double>(count)) return;
-    asset_.tolerate(asset_.element("accessors", accessor),
-                    "names vertices beyond the " + std::to_string(count) + " of the primitive");
+    asset_.tolerate(
+        asset_.element("accessors", accessor),
+        "has indices beyond the " + std::to_string(count) + " vertices of the primitive");
   }
 
  private:
@@ -245,7 +246,7 @@ class IndexCheck {
     return model_.accessors[static_cast<std::size_t>(attributes.members[0].value.number)].count;
   }
 
-  /// Nothing where the numbers are not at hand.
+  /// Nothing if Elements::of can't read the accessor.
   std::optional<double> greatest(std::size_t accessor) {
     std::optional<double>& result = greatest_[accessor];
     if (result) return result;
@@ -260,7 +261,7 @@ class IndexCheck {
   std::vector<std::optional<double>> greatest_;  // by accessor, once it was asked for
 };
 
-/// Accessors may overlap, so that a small file asks for the reading of much.
+/// Overlapping accessors could make a small file expensive to read.
 void check_size(const Asset& asset, const Model& model) {
   double bytes = 0;
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {
@@ -268,9 +269,9 @@ void check_size(const Asset& asset, const Model& model) {
     if (!accessor.view && !accessor.sparse) continue;
     bytes += static_cast<double>(accessor.count) *
              static_cast<double>(element_size(accessor.type, accessor.component_type));
-    if (bytes <= static_cast<double>(max_buffer_bytes)) continue;
+    if (bytes <= static_cast<double>(kMaxBufferBytes)) continue;
     asset.fail(asset.element("accessors", i).member("count"),
-               "brings the elements of all accessors to more than 4 GiB, the most that is read",
+               "brings the elements of all accessors to more than 4 GiB, the limit",
                ErrorKind::limit);
   }
 }

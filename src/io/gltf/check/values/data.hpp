@@ -1,16 +1,16 @@
 #pragma once
-/// What the numbers in accessors must be.
+/// Checks of the numbers in accessors.
 
 #include "io/gltf/bytes/accessors.hpp"
 
 namespace microtrace::io::gltf {
 
-/// Looks once at the numbers of every accessor whose data is at hand. Throws Error (invalid_scene)
-/// for sparse indices out of order or range and joints that a skin does not have. Warns of floats
-/// that are not finite, animation times that do not ascend, min and max that are not the least and
-/// the greatest, vectors, quaternions, colors, weights and matrices that are not what their use
-/// asks for, and, in primitives that are not drawn for want of positions, vertices that are not
-/// there. Throws Error (limit) where accessors hold more than max_buffer_bytes in all.
+/// Examines the numbers of each accessor whose data is available. Throws Error (invalid_scene) for
+/// sparse indices out of order or range and for joints missing from the skin, and (limit) if the
+/// accessors hold more than kMaxBufferBytes together. Warns of floats that are not finite;
+/// animation times that don't ascend; a wrong min or max; vectors, quaternions, colors, weights and
+/// matrices that are invalid for their use; and vertex indices out of range in primitives that are
+/// not drawn because they have no positions.
 void check_data(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf

@@ -5,8 +5,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Bytes of a sparse accessor that are put together at most.
-constexpr std::size_t max_sparse_bytes = std::size_t{1} << 26;
+/// Limit on the bytes of a sparse accessor that is assembled for checking.
+constexpr std::size_t kMaxSparseBytes = std::size_t{1} << 26;
 
 std::uint32_t unsigned_at(std::string_view bytes, std::size_t number, std::size_t size) {
   std::uint32_t result = 0;  // little-endian, as glTF's numbers are
@@ -29,12 +29,12 @@ class SparseParts {
   [[nodiscard]] bool has_data() const { return count_ > 0; }
 
   void check(const Asset& asset, std::size_t accessor) const {
-    std::uint64_t least = 0;  // of what the next index may be
+    std::uint64_t least = 0;  // least valid value of the next index
     for (std::size_t i = 0; i < count_; ++i) {
       const std::uint32_t target = unsigned_at(indices_, i, index_size_);
       if (target < least || target >= accessor_.count) {
         asset.fail(asset.element("accessors", accessor).member("sparse").member("indices"),
-                   "number " + std::to_string(i) + " is " + std::to_string(target) +
+                   "item " + std::to_string(i) + " is " + std::to_string(target) +
                        "; they must ascend and stay below the accessor's count, " +
                        std::to_string(accessor_.count));
       }
@@ -67,7 +67,7 @@ std::optional<Elements> Elements::of(const Asset& asset, const Model& model,
   result.components_ = component_count(accessor.type);
   result.stride_ = size;
   if (size != result.components_ * component_size(accessor.component_type)) {
-    return std::nullopt;  // padded columns of small integers, which no rule looks into
+    return std::nullopt;  // matrices of small integers have padded columns, but no check reads them
   }
   if (accessor.view) {
     const std::optional<std::string_view> bytes = views.bytes(*accessor.view);
@@ -82,7 +82,7 @@ std::optional<Elements> Elements::of(const Asset& asset, const Model& model,
   const SparseParts sparse(accessor, views);
   if (!sparse.has_data()) return std::nullopt;
   sparse.check(asset, index);
-  if (accessor.count > max_sparse_bytes / size) return std::nullopt;
+  if (accessor.count > kMaxSparseBytes / size) return std::nullopt;
   result.storage_.resize(accessor.count * size);
   for (std::size_t i = 0; accessor.view && i < accessor.count; ++i) {
     std::memcpy(&result.storage_[i * size], &result.bytes_[i * result.stride_], size);
@@ -94,15 +94,15 @@ std::optional<Elements> Elements::of(const Asset& asset, const Model& model,
 
 double Elements::number(std::size_t element, std::size_t component) const {
   switch (component_type_) {
-    case i8:
+    case kInt8:
       return at<std::int8_t>(element, component);
-    case u8:
+    case kUint8:
       return at<std::uint8_t>(element, component);
-    case i16:
+    case kInt16:
       return at<std::int16_t>(element, component);
-    case u16:
+    case kUint16:
       return at<std::uint16_t>(element, component);
-    case u32:
+    case kUint32:
       return at<std::uint32_t>(element, component);
     default:
       return static_cast<double>(at<float>(element, component));

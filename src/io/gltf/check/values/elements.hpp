@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers of an accessor where they lie, for checks that must be quick.
+/// Direct access to an accessor's elements, for fast checks.
 
 #include "io/gltf/bytes/accessors.hpp"
 
@@ -14,18 +14,18 @@ namespace microtrace::io::gltf {
 
 class Elements {
  public:
-  /// Nothing for an accessor whose numbers are not all at hand: no data, compressed, or sparse and
-  /// longer than is worth putting together. Throws Error (invalid_scene) where sparse indices are
-  /// out of order or range.
+  /// Nothing for an accessor without data, a compressed one, or a sparse one that is too large to
+  /// assemble. Throws Error (invalid_scene) if sparse indices are out of order or range.
   [[nodiscard]] static std::optional<Elements> of(const Asset& asset, const Model& model,
                                                   const BufferViews& views, std::size_t accessor);
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t components() const { return components_; }
-  [[nodiscard]] std::size_t stride() const { return stride_; }  ///< bytes from one to the next
+  /// Bytes between the starts of neighboring elements.
+  [[nodiscard]] std::size_t stride() const { return stride_; }
   [[nodiscard]] int component_type() const { return component_type_; }
 
-  /// Number may be an array of several.
+  /// Number may be a std::array.
   template <typename Number>
   [[nodiscard]] Number at(std::size_t element, std::size_t component) const {
     Number value;
@@ -33,7 +33,7 @@ class Elements {
     return value;
   }
 
-  /// One component as a number, whatever its type.
+  /// One component of an element, converted from any component type.
   [[nodiscard]] double number(std::size_t element, std::size_t component) const;
 
  private:
@@ -42,7 +42,7 @@ class Elements {
   }
 
   std::string_view bytes_;
-  std::string storage_;  // of sparse ones
+  std::string storage_;  // assembled elements of a sparse accessor
   std::size_t stride_ = 0, count_ = 0, components_ = 0;
   int component_type_ = 0;
 };

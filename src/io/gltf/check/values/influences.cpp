@@ -10,11 +10,11 @@
 namespace microtrace::io::gltf {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// By mesh: the joints of the smallest skin that moves it; `none` where none does.
+/// For each mesh, the number of joints of the smallest skin applied to it, or `none`.
 std::vector<std::size_t> joint_counts(const Asset& asset) {
-  std::vector<std::size_t> result(asset.array("meshes").size(), none);
+  std::vector<std::size_t> result(asset.array("meshes").size(), kNone);
   for (const JsonValue& node : asset.array("nodes")) {
     const JsonValue *mesh = node.find("mesh"), *skin = node.find("skin");
     if (mesh == nullptr || skin == nullptr) continue;
@@ -39,8 +39,8 @@ class InfluenceCheck {
       if (joints == nullptr || weights == nullptr) break;
       const auto index = static_cast<std::size_t>(joints->number);
       vertices_ += model_.accessors[index].count;
-      if (vertices_ > max_elements) {
-        asset_.fail(attributes, "brings the asset to more than 2^27 vertices that joints move",
+      if (vertices_ > kMaxElements) {
+        asset_.fail(attributes, "brings the asset to more than 2^27 skinned vertices",
                     ErrorKind::limit);
       }
       auto joint_elements = elements(*joints), weight_elements = elements(*weights);
@@ -57,15 +57,15 @@ class InfluenceCheck {
   }
 
   static std::size_t joint(const Elements& joints, std::size_t vertex, std::size_t k) {
-    return joints.component_type() == u8 ? std::size_t{joints.at<std::uint8_t>(vertex, k)}
-                                         : std::size_t{joints.at<std::uint16_t>(vertex, k)};
+    return joints.component_type() == kUint8 ? std::size_t{joints.at<std::uint8_t>(vertex, k)}
+                                             : std::size_t{joints.at<std::uint16_t>(vertex, k)};
   }
 
   static double weight(const Elements& weights, std::size_t vertex, std::size_t k) {
     switch (weights.component_type()) {
-      case u8:
+      case kUint8:
         return weights.number(vertex, k) / 255;
-      case u16:
+      case kUint16:
         return weights.number(vertex, k) / 65535;
       default:
         return weights.number(vertex, k);
@@ -76,7 +76,7 @@ class InfluenceCheck {
     for (std::size_t i = 0; i < joints.count(); ++i) {
       for (std::size_t k = 0; k < 4; ++k) {
         if (joint(joints, i, k) < joint_count) continue;
-        asset_.fail(at, "vertex " + std::to_string(i) + " is moved by joint " +
+        asset_.fail(at, "vertex " + std::to_string(i) + " refers to joint " +
                             std::to_string(joint(joints, i, k)) + " of a skin of only " +
                             std::to_string(joint_count));
       }
@@ -84,9 +84,9 @@ class InfluenceCheck {
   }
 
   void check_weights(const Element& at) const {
-    // glTF 2.0, section 3.7.3.3, says for each weight that is not 0 how far their sum may be from
-    // 1; integers that are off by one are farther.
-    constexpr double tolerance = 2e-7;
+    // glTF 2.0, section 3.7.3.3, allows this error of the sum for each weight that is not 0.
+    // Integers that are off by one exceed it.
+    constexpr double kTolerance = 2e-7;
     bool negative = false, twice = false;
     std::size_t unequal = 0;
     for (std::size_t i = 0; i < sets_[0].first.count(); ++i) {
@@ -103,21 +103,22 @@ class InfluenceCheck {
           }
         }
       }
-      unequal += std::abs(sum - 1) <= tolerance * terms ? 0 : 1;
+      unequal += std::abs(sum - 1) <= kTolerance * terms ? 0 : 1;
     }
     if (unequal != 0) {
-      asset_.tolerate(at, "has " + std::to_string(unequal) +
-                              " vertices whose weights do not add up to 1; they are scaled to");
+      asset_.tolerate(at,
+                      "has " + std::to_string(unequal) +
+                          " vertices whose weights do not add up to 1; the weights are normalized");
     }
     if (negative) asset_.tolerate(at, "has negative weights");
-    if (twice) asset_.tolerate(at, "has vertices that one joint moves twice");
+    if (twice) asset_.tolerate(at, "has vertices with the same joint twice");
   }
 
   Asset& asset_;
   const Model& model_;
   const BufferViews& views_;
   std::vector<std::pair<Elements, Elements>> sets_;  // joints and weights
-  std::size_t vertices_ = 0;                         // counted against max_elements
+  std::size_t vertices_ = 0;                         // counted against kMaxElements
 };
 
 }  // namespace
@@ -126,7 +127,7 @@ void check_influences(Asset& asset, const Model& model, const BufferViews& views
   InfluenceCheck check(asset, model, views);
   const std::vector<std::size_t> counts = joint_counts(asset);
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] == none) continue;
+    if (counts[i] == kNone) continue;
     const Element primitives = asset.element("meshes", i).member("primitives");
     for (std::size_t k = 0; k < primitives.value->items.size(); ++k) {
       check.primitive(primitives.item(k).member("attributes"), counts[i]);

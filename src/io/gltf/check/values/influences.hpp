@@ -1,13 +1,13 @@
 #pragma once
-/// The joints that move vertices, and how much each.
+/// Checks of the joints and weights of vertices.
 
 #include "io/gltf/bytes/accessors.hpp"
 
 namespace microtrace::io::gltf {
 
-/// Checks JOINTS_n and WEIGHTS_n of the meshes that skins move. Throws Error (invalid_scene) for a
-/// joint that a skin does not have; warns of weights that are negative and of joints that move a
-/// vertex twice. Whether weights sum up to 1 is seen where they are used.
+/// Checks JOINTS_n and WEIGHTS_n of skinned meshes. Throws Error (invalid_scene) for a joint
+/// missing from the skin. Warns of negative weights, of joints that occur twice in a vertex, and of
+/// weights that don't add up to 1.
 void check_influences(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf

@@ -1,5 +1,5 @@
 #pragma once
-/// What those who name an accessor ask of its numbers.
+/// The requirements of an accessor's users on its elements.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -10,10 +10,10 @@ namespace microtrace::io::gltf {
 struct AccessorUses {
   bool normals = false, tangents = false, colors = false, times = false, matrices = false;
   bool quaternions = false;
-  bool spline = false;  ///< the quaternions are a cubic spline's
+  bool spline = false;  ///< quaternions of a cubic spline
 };
 
-/// By accessor.
+/// By accessor index.
 [[nodiscard]] std::vector<AccessorUses> accessor_uses(const Asset& asset);
 
 }  // namespace microtrace::io::gltf
