@@ -23,7 +23,7 @@ struct PrintableText {
 /// `name` in double quotes, printable and truncated to 60 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view name);
 
-/// Whether this is a continuation byte of a UTF-8 character.
+/// True if this is a continuation byte of a UTF-8 character.
 [[nodiscard]] bool continues_character(char c);
 
 /// `text` without an incomplete UTF-8 character at its end.

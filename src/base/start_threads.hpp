@@ -13,7 +13,7 @@ namespace microtrace {
 [[nodiscard]] std::vector<std::jthread> start_threads(unsigned count,
                                                       const std::function<void()>& work);
 
-/// Whether the system can start this many threads now.
+/// True if the system can start this many threads now.
 [[nodiscard]] bool can_start_threads(unsigned count);
 
 }  // namespace microtrace

@@ -77,7 +77,7 @@ struct SamplingOptions {
 
   /// The shard's samples.
   [[nodiscard]] std::optional<SampleRange> range() const;
-  /// Whether samples are read from files or written while rendering.
+  /// True if samples are read from files or written while rendering.
   [[nodiscard]] bool uses_files() const {
     return !checkpoint.empty() || !resume.empty() || is_progressive;
   }

@@ -112,7 +112,7 @@ template <class Number>
   return (x * t.r + y * t.p).sign();
 }
 
-/// Whether a triangle with an area has a point on the segment from the origin to o + t d, all in
+/// True if a triangle with an area has a point on the segment from the origin to o + t d, all in
 /// one plane. If not, the line of an edge or of the segment separates them strictly. side_at(x, y)
 /// is the sign of x + t y.
 template <class Number>
@@ -135,7 +135,7 @@ template <class Number>
   return first == 0 || side(b) != first || side(c) != first;
 }
 
-/// Whether a triangle with an area has a point on the segment from the origin to o + t d, given
+/// True if a triangle with an area has a point on the segment from the origin to o + t d, given
 /// that the segment's ends are not both strictly on one side of its plane. Decided by the sides on
 /// which the segment's line clears_box the edges.
 template <class Number>

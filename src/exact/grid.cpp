@@ -61,7 +61,7 @@ struct ScaledRatio {
   }
 };
 
-/// Whether t is within the ray's interval; nothing if the bounds can't decide it.
+/// True if t is within the ray's interval; nothing if the bounds can't decide it.
 std::optional<bool> is_in_range(const Enclosure& t, const Ray& ray) {
   if (t.hi < ray.t_min || t.lo > ray.t_max) return false;
   if (t.lo >= ray.t_min && t.hi <= ray.t_max) return true;

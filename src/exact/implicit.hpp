@@ -51,7 +51,7 @@ class Implicit {
   Dyadic constant_;
 };
 
-/// Whether a triangle with an area has a point on the segment from q to o + t d, given that the
+/// True if a triangle with an area has a point on the segment from q to o + t d, given that the
 /// segment's ends are not both strictly on one side of its plane.
 [[nodiscard]] bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray,
                                  const Root& t);

@@ -12,7 +12,7 @@
 
 namespace microtrace::exact {
 
-/// Whether the ray is valid (see Ray); invalid rays hit nothing.
+/// True if the ray is valid (see Ray); invalid rays hit nothing.
 [[nodiscard]] bool is_valid(const Ray& ray);
 
 /// The least t in the closed [t_min, t_max] for which o + t d lies in the shape's closed point set;

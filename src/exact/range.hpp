@@ -12,7 +12,7 @@ namespace microtrace::exact {
 
 [[nodiscard]] bool is_finite(const Vec3& v);
 
-/// Whether t_min <= t <= t_max.
+/// True if t_min <= t <= t_max.
 [[nodiscard]] bool in_range(const Root& t, const Ray& ray);
 
 /// t itself if it is in range.

@@ -20,7 +20,7 @@ class TriangleHit {
   TriangleHit(const Triangle& triangle, const Ray& ray)
       : triangle_(triangle), ray_(&ray), narrow_(triangle, ray) {}
 
-  /// Whether the ray hits the triangle, as first_hit() defines it. The other functions require a
+  /// True if the ray hits the triangle, as first_hit() defines it. The other functions require a
   /// hit.
   [[nodiscard]] bool exists();
 
@@ -63,7 +63,7 @@ class TrianglePlane {
   [[nodiscard]] int slope(const Vec3& e);
   /// (b - a) x (c - a), rounded.
   [[nodiscard]] DVec3 normal();
-  /// Whether the normal is not zero.
+  /// True if the normal is not zero.
   [[nodiscard]] bool has_area();
 
  private:

@@ -45,8 +45,8 @@ Vec3 across(const Vec3& v, const Vec3& n) {
 /// Unit derivatives of a triangle's position by its texture coordinates.
 struct Frame {
   Vec3 s{0}, t{0};
-  bool preserves = false;  ///< whether texture space preserves the triangle's winding
-  bool joins_any = true;   ///< whether it has no direction of its own and joins any group
+  bool preserves = false;  ///< true if texture space preserves the triangle's winding
+  bool joins_any = true;   ///< true if it has no direction of its own and joins any group
 };
 
 class Grouping {

@@ -9,7 +9,7 @@
 
 namespace microtrace::oracle {
 
-/// Whether the ray is valid and meets the shape within its closed interval, by do_intersect over
+/// True if the ray is valid and meets the shape within its closed interval, by do_intersect over
 /// Mpzf.
 [[nodiscard]] bool hits(const Triangle& triangle, const Ray& ray);
 [[nodiscard]] bool hits(const Plane& plane, const Ray& ray);

@@ -20,7 +20,7 @@ template <class Real>
   return above && below && tight;
 }
 
-/// Whether f is the float32 nearest to t, ties to even, by comparison with the midpoints between f
+/// True if f is the float32 nearest to t, ties to even, by comparison with the midpoints between f
 /// and its neighbors.
 template <class Real>
 [[nodiscard]] bool is_nearest(float f, const Real& t) {

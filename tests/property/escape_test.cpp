@@ -85,7 +85,7 @@ class World {
   [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene_.objects[0].shape); }
   [[nodiscard]] float size() const { return size_; }
 
-  /// Whether q is inside the mesh.
+  /// True if q is inside the mesh.
   [[nodiscard]] bool is_inside(const Vec3& q) const {
     int inside = 0;
     for (int i = 0; i < 5; ++i) {
@@ -95,7 +95,7 @@ class World {
     return inside > 0;
   }
 
-  /// Whether a ray is inside the mesh just behind a hit; nothing if further hits at the same t may
+  /// True if a ray is inside the mesh just behind a hit; nothing if further hits at the same t may
   /// be on an edge or a vertex.
   [[nodiscard]] std::optional<bool> is_inside_behind(const Ray& ray, const Hit& hit) const {
     bool odd = false;
@@ -178,7 +178,7 @@ class World {
     return bvh_->occluded({.o = q, .t_min = 0, .d = {0, 0, 1}, .t_max = 0});
   }
 
-  // Whether a ray crosses the mesh an odd number of times. Triangles without area don't count.
+  // True if a ray crosses the mesh an odd number of times. Triangles without area don't count.
   [[nodiscard]] bool is_odd(const Ray& ray) const {
     bool odd = false;
     for (auto hit = bvh_->intersect(ray); hit; hit = bvh_->next(ray, *hit))

@@ -66,7 +66,7 @@ Rational beside(const Ray& ray, const exact::Root& t, bool before) {
   return {t.r * exact::vector(ray.o) + (t.p + little * t.r) * exact::vector(ray.d), t.r};
 }
 
-/// Whether the segment from w to q, without w, meets a triangle.
+/// True if the segment from w to q, without w, meets a triangle.
 bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
   const Vector from = exact::vector(q), to_w = w.point - w.weight * from;
   const Vector a = exact::vector(triangle.a) - from, b = exact::vector(triangle.b) - from,

@@ -143,7 +143,7 @@ TEST(ExactLaws, PlaneIsItsQuadric) {
   }
 }
 
-/// Whether the point at t lies in the plane.
+/// True if the point at t lies in the plane.
 bool is_in_plane_at(float t, const Plane& plane, Ray ray) {
   ray.t_min = ray.t_max = t;
   return first_hit(plane, ray).has_value();

@@ -50,7 +50,7 @@ std::vector<Pixel> line(const Vec3& a, const Vec3& b, const Camera& camera = kPi
   return drawn(scene_of({a, b}, {{0, 1}}), camera);
 }
 
-/// Whether the pixels are 8-connected.
+/// True if the pixels are 8-connected.
 bool is_connected(const std::vector<Pixel>& pixels) {
   if (pixels.empty()) return false;
   std::vector<bool> reached(pixels.size());

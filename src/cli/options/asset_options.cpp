@@ -46,13 +46,13 @@ constexpr std::array kAssetOptions{
     Option{.names = "--variant",
            .metavar = "NAME",
            .help = "material variant of a glTF asset, by name or by index from 0",
-           .default_value = "the materials that the primitives name",
+           .default_value = "the materials assigned in the file",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.load.variant = value.text; }},
     Option{.names = "--allow-path",
            .metavar = "FOLDER",
-           .help = "folder outside the scene's own that a glTF asset's files may be read from, and "
-                   "that symbolic links of any scene's files may lead to; may be repeated",
+           .help = "additional folder from which a glTF asset may load files, and to which "
+                   "symbolic links of any scene's files may lead; may be repeated",
            .default_value = "none",
            .samples = Samples::keep,
            .completion = Completion::folders,

@@ -58,7 +58,7 @@ std::vector<std::string> words_of(const Option& option) {
   return option.words != nullptr ? option.words() : std::vector<std::string>{};
 }
 
-/// Whether the next word is the option's value.
+/// True if the next word is the option's value.
 bool has_value(const Option& option) {
   return !option.is_flag();
 }

@@ -7,7 +7,7 @@
 
 namespace microtrace::cli {
 
-/// Whether the first argument is "completion".
+/// True if the first argument is "completion".
 [[nodiscard]] bool is_completion(int argc, char** argv);
 
 /// Prints the script to standard output; returns the exit code.

@@ -36,7 +36,7 @@ constexpr std::array kLightOptions{
         .help = "environment light: studio (built in), #rrggbb in sRGB, r,g,b in linear light, or "
                 "the file of a latitude-longitude map (.hdr, .exr, ...); flat pictures don't "
                 "depend on it",
-        .default_value = "as the scene says; the studio if it has neither lights nor environment",
+        .default_value = "the scene's; the studio if it has neither lights nor environment",
         .samples = Samples::change,
         .completion = Completion::files,
         .words = [] { return std::vector<std::string>{"studio"}; },
@@ -67,19 +67,20 @@ constexpr std::array kDisplayOptions{
     Option{.names = "--exposure",
            .metavar = "EV",
            .help = "exposure of 8-bit pictures in stops, -64 to 64: light is multiplied by 2^EV",
-           .default_value = "0; for merge as in the first checkpoint",
+           .default_value = "0; for merge the value in the first checkpoint",
            .samples = Samples::keep,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.display.exposure = value.number(-64, 64); }},
-    Option{.names = "--tonemap",
-           .metavar = "NAME",
-           .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
-           .default_value =
-               "khronos-pbr-neutral for path, else none; for merge as in the first checkpoint",
-           .samples = Samples::keep,
-           .words = tone_map_names,
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
+    Option{
+        .names = "--tonemap",
+        .metavar = "NAME",
+        .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
+        .default_value =
+            "khronos-pbr-neutral for path, else none; for merge the value in the first checkpoint",
+        .samples = Samples::keep,
+        .words = tone_map_names,
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.display.tone_map = parse_tone_map(value); }},
     Option{
         .names = "--ppm",
         .metavar = "KIND",

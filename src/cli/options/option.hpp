@@ -22,8 +22,8 @@ struct Arguments;
 /// The commands that take an option.
 enum class Command { render, merge };
 
-/// Whether the samples of a random integrator depend on an option. Samples of several runs can be
-/// combined only if these options are the same.
+/// Effect of an option on the samples of Monte Carlo integrators. Samples of several runs can be
+/// combined only if all options that change samples are the same.
 enum class Samples { undecided, change, keep };
 
 /// Values that shells complete, besides Option::words.
@@ -76,7 +76,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> common_options();
 [[nodiscard]] std::span<const Option> merge_options();
 
-/// Whether every row has names and a help text and says if samples depend on it.
+/// True if every row has names and a help text and states its effect on samples.
 constexpr bool is_complete(std::span<const Option> options) {
   return std::ranges::all_of(options, [](const Option& option) {
     return !option.names.empty() && !option.help.empty() && option.samples != Samples::undecided;

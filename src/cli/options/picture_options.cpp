@@ -26,7 +26,7 @@ constexpr std::array kPictureOptions{
     Option{.names = "--size",
            .metavar = "WxH",
            .help = "width and height in pixels",
-           .default_value = "as the scene says, or 640x480",
+           .default_value = "the scene's, else 640x480",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.size = parse_size(value); }},
     Option{.names = "--crop",
@@ -39,10 +39,9 @@ constexpr std::array kPictureOptions{
            .set = [](Arguments& a, const OptionValue& value) { a.crop = parse_crop(value); }},
     Option{.names = "--background",
            .metavar = "COLOR",
-           .help =
-               "what is visible behind all objects: #rrggbb in sRGB, r,g,b in linear light from "
-               "0 to 1, env (the environment), or transparent (an alpha channel)",
-           .default_value = "0.6,0.6,0.6 for path-traced glTF, else as the scene says, or black",
+           .help = "color behind all objects: #rrggbb in sRGB, r,g,b in linear light from "
+                   "0 to 1, env (the environment), or transparent (an alpha channel)",
+           .default_value = "0.6,0.6,0.6 for path-traced glTF, else the scene's, or black",
            .samples = Samples::change,
            .words =
                [] {

@@ -22,8 +22,8 @@ constexpr std::array kRunningOptions{
                      const OptionValue& value) { a.threads = value.whole_number(1, 1024); }},
     Option{.names = "--max-time",
            .metavar = "S",
-           .help = "end the run after S seconds with exit code 6 and no picture, whatever it is "
-                   "doing; for untrusted scenes",
+           .help = "end the run after S seconds, in any stage, with exit code 6 and no picture; "
+                   "for untrusted scenes",
            .default_value = "none",
            .samples = Samples::keep,
            .set = [](Arguments& a,
@@ -33,7 +33,7 @@ constexpr std::array kRunningOptions{
            .help =
                "maximum memory, in bytes or with K, M or G for KiB, MiB or GiB: a request beyond "
                "it ends the run with exit code 6",
-           .default_value = "three quarters of what is free",
+           .default_value = "three quarters of the free memory",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue& value) { a.memory_limit = value.bytes(); }},
     Option{.names = "--stats",
@@ -68,7 +68,7 @@ static_assert(is_complete(kRunningOptions));
 
 constexpr std::array kReportOptions{
     Option{.names = "-v,--verbose",
-           .help = "report what is read, how it is rendered and what is written",
+           .help = "report input, render settings and output",
            .samples = Samples::keep,
            .excludes = "--quiet",
            .set = [](Arguments& a, const OptionValue&) { a.verbose = true; }},
@@ -80,7 +80,7 @@ static_assert(is_complete(kReportOptions));
 
 constexpr std::array kCommonOptions{
     Option{.names = "-q,--quiet",
-           .help = "no warnings, no progress bar, no line about what was written",
+           .help = "no warnings, no progress bar, no line about the written files",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.quiet = true; }},
     Option{.names = "-h,--help", .help = "print this list", .samples = Samples::keep},

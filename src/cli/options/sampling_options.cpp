@@ -46,7 +46,7 @@ constexpr std::array kSamplingOptions{
                   const OptionValue& value) { a.sampling.filter = value.choice(kFilters); }},
     Option{.names = "--seed",
            .metavar = "N",
-           .help = "random seed, 0 to 4294967295: another one gives other noise",
+           .help = "random seed, 0 to 4294967295: a different seed gives different noise",
            .default_value = "0",
            .samples = Samples::change,
            .set =
@@ -64,9 +64,9 @@ constexpr std::array kSamplingOptions{
                   const OptionValue& value) { a.path.max_depth = value.whole_number(1, 65536); }},
     Option{.names = "--backfaces",
            .metavar = "KIND",
-           .help = "what the back of a one-sided surface does to light paths: pass (let them "
-                   "through, as for the camera) or occlude (end them, so that walls seen from "
-                   "outside keep the sun out)",
+           .help =
+               "light paths at backs of one-sided surfaces: pass (let them through, like camera "
+               "rays) or occlude (end them, so that one-sided walls keep the sun out)",
            .default_value = "pass",
            .samples = Samples::change,
            .words = [] { return names_of(kBackfaces); },

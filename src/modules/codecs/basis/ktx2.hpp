@@ -14,7 +14,7 @@ struct Ktx2 {
   std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
   TexelFormat format = TexelFormat::etc1s;
   bool has_alpha = false;
-  bool is_zstd = false;      ///< whether the level is compressed by Zstandard
+  bool is_zstd = false;      ///< true if the level is compressed by Zstandard
   Bytes level{};             ///< the level's data
   Bytes global{};            ///< ETC1S: data shared by all levels
   std::uint32_t levels = 1;  ///< in the file
