@@ -8,7 +8,8 @@ namespace microtrace {
 inline constexpr float kBrightest = 0x1p100F;
 
 /// Luminance of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
-inline float luminance(const Vec3& c) {
+template <class Color>
+auto luminance(const Color& c) {
   return 0.2126F * c.x + 0.7152F * c.y + 0.0722F * c.z;
 }
 inline double luminance(const DVec3& c) {

@@ -1,12 +1,12 @@
 #pragma once
-/// SIMD vectors of float32 and float64 for all kernels. `Float<N>` is the vector extension of GCC
-/// and Clang: N lanes, with + - * / and ?: per lane. N is 4, 8 or 16: at most the register width of
-/// the instruction set for which the including file is compiled. All widths give the same bits,
-/// because every operation is defined by IEEE 754. A set of lanes is an integer with one bit per
-/// lane.
+/// SIMD vectors of float32 and float64. `Float<N>` is the vector extension of GCC and Clang: N
+/// lanes, with + - * / and ?: per lane. N is at most the register width of the instruction set for
+/// which the including file is compiled: 4, 8 or 16; `Float<1>` is float, so that scalar code is
+/// an instance of the same templates. All widths give the same bits, because every operation is
+/// defined by IEEE 754. A set of lanes is an integer with one bit per lane.
 ///
-/// Everything has internal linkage, so that the linker can't merge code of different instruction
-/// sets.
+/// Each set of kernels has a namespace of its own (kernel_sources in src/simd/CMakeLists.txt), so
+/// that the linker can't merge code of different instruction sets.
 
 #include <cstdint>
 
@@ -16,20 +16,35 @@
 #include <cmath>
 #endif
 
+#ifndef MICROTRACE_KERNELS
+#define MICROTRACE_KERNELS scalar
+#endif
+
 namespace microtrace {
-namespace {
+inline namespace MICROTRACE_KERNELS {
 
 template <int N>
 struct FloatVector {
   typedef float type __attribute__((vector_size(4 * N)));
   typedef std::int32_t bits_type __attribute__((vector_size(4 * N)));
 };
+template <>
+struct FloatVector<1> {
+  using type = float;
+  using bits_type = std::int32_t;
+};
 template <int N>
 using Float = typename FloatVector<N>::type;
+template <int N>
+using Int = typename FloatVector<N>::bits_type;
 
 template <int N>
 struct UnsignedVector {
   typedef std::uint32_t type __attribute__((vector_size(4 * N)));
+};
+template <>
+struct UnsignedVector<1> {
+  using type = std::uint32_t;
 };
 template <int N>
 using Unsigned = typename UnsignedVector<N>::type;
@@ -39,17 +54,60 @@ struct DoubleVector {
   typedef double type __attribute__((vector_size(8 * N)));
   typedef std::int64_t bits_type __attribute__((vector_size(8 * N)));
 };
+template <>
+struct DoubleVector<1> {
+  using type = double;
+  using bits_type = std::int64_t;
+};
 template <int N>
 using Double = typename DoubleVector<N>::type;
+template <int N>
+using Long = typename DoubleVector<N>::bits_type;
+
+/// The lanes of float64 in a register that has N lanes of float32.
+template <int N>
+constexpr int kDoubleLanes = N == 1 ? 1 : N / 2;
 
 using Lanes = std::uint32_t;
 
 template <int N>
 constexpr Lanes kAllLanes = (Lanes{1} << N) - 1;
 
+/// The same bits as another type of the same size.
+template <class To, class From>
+inline To reinterpreted(const From& from) {
+  static_assert(sizeof(To) == sizeof(From));
+  To to;
+  __builtin_memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+/// Lane i of a vector or scalar.
+template <class V>
+inline auto lane(const V& v, int i) {
+  if constexpr (__is_same(V, float) || __is_same(V, double) || __is_same(V, std::int32_t))
+    return v;
+  else
+    return v[i];
+}
+template <class V, class Value>
+inline void set_lane(V& v, int i, const Value& value) {
+  if constexpr (__is_same(V, float) || __is_same(V, double) || __is_same(V, std::int32_t))
+    v = value;
+  else
+    v[i] = value;
+}
+
 template <int N>
 inline Float<N> load(const float* p) {
   Float<N> v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+template <int N>
+inline Unsigned<N> load_bits(const std::uint32_t* p) {
+  Unsigned<N> v;
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
@@ -76,17 +134,32 @@ inline V greater(const V& a, const V& b) {
 /// |a|, and 0 for -0: clears the sign bit.
 template <class V>
 inline V magnitude(const V& a) {
-  if constexpr (sizeof(a[0]) == 4)
-    return (V)((typename FloatVector<sizeof(V) / 4>::bits_type) a & 0x7fffffff);
+  if constexpr (sizeof(lane(a, 0)) == 4)
+    return reinterpreted<V>(reinterpreted<Int<sizeof(V) / 4>>(a) & 0x7fffffff);
   else
-    return (V)((typename DoubleVector<sizeof(V) / 8>::bits_type) a & 0x7fffffffffffffff);
+    return reinterpreted<V>(reinterpreted<Long<sizeof(V) / 8>>(a) & 0x7fffffffffffffff);
 }
 
 /// Lanes of a, negated where b is negative or -0.
 template <int N>
 inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
-  using Bits = typename FloatVector<N>::bits_type;
-  return (Float<N>)((Bits)a ^ ((Bits)b & INT32_MIN));
+  return reinterpreted<Float<N>>(reinterpreted<Int<N>>(a) ^ (reinterpreted<Int<N>>(b) & INT32_MIN));
+}
+
+/// Integers rounded toward zero; each lane must be in range.
+template <int N>
+inline Int<N> truncated(const Float<N>& a) {
+  if constexpr (N == 1)
+    return static_cast<Int<N>>(a);
+  else
+    return __builtin_convertvector(a, Int<N>);
+}
+template <int N>
+inline Float<N> to_float(const Int<N>& a) {
+  if constexpr (N == 1)
+    return static_cast<float>(a);
+  else
+    return __builtin_convertvector(a, Float<N>);
 }
 
 /// Loads N float32 as float64.
@@ -94,14 +167,21 @@ template <int N>
 inline Double<N> widened(const float* p) {
   Float<N> v;
   __builtin_memcpy(&v, p, sizeof v);
-  return __builtin_convertvector(v, Double<N>);
+  if constexpr (N == 1)
+    return v;
+  else
+    return __builtin_convertvector(v, Double<N>);
 }
 
 /// Rounds to float32 and stores.
 template <int N>
 inline void narrowed(const Double<N>& v, float* p) {
-  const Float<N> rounded = __builtin_convertvector(v, Float<N>);
-  __builtin_memcpy(p, &rounded, sizeof rounded);
+  if constexpr (N == 1) {
+    *p = static_cast<float>(v);
+  } else {
+    const Float<N> rounded = __builtin_convertvector(v, Float<N>);
+    __builtin_memcpy(p, &rounded, sizeof rounded);
+  }
 }
 
 /// Moves positive finite lanes by n units in the last place.
@@ -125,7 +205,7 @@ inline Lanes less_equal(const Float<N>& a, const Float<N>& b) {
   if constexpr (N == 4) return static_cast<Lanes>(_mm_movemask_ps(_mm_cmple_ps(a, b)));
 #endif
   Lanes lanes = 0;
-  for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(a[i] <= b[i]) << i;
+  for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(lane(a, i) <= lane(b, i)) << i;
   return lanes;
 }
 
@@ -143,7 +223,7 @@ inline Lanes less(const Float<N>& a, const Float<N>& b) {
   if constexpr (N == 4) return static_cast<Lanes>(_mm_movemask_ps(_mm_cmplt_ps(a, b)));
 #endif
   Lanes lanes = 0;
-  for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(a[i] < b[i]) << i;
+  for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(lane(a, i) < lane(b, i)) << i;
   return lanes;
 }
 
@@ -177,11 +257,10 @@ inline Float<N> square_root(const Float<N>& a) {
 #endif
 #if defined(__x86_64__)
   if constexpr (N == 4) return _mm_sqrt_ps(a);
-#else
-  Float<N> result;
-  for (int i = 0; i < N; ++i) result[i] = std::sqrt(a[i]);
-  return result;
 #endif
+  Float<N> result{};
+  for (int i = 0; i < N; ++i) set_lane(result, i, __builtin_sqrtf(lane(a, i)));
+  return result;
 }
 template <int N>
 inline Double<N> square_root(const Double<N>& a) {
@@ -193,12 +272,29 @@ inline Double<N> square_root(const Double<N>& a) {
 #endif
 #if defined(__x86_64__)
   if constexpr (N == 2) return _mm_sqrt_pd(a);
-#else
-  Double<N> result;
-  for (int i = 0; i < N; ++i) result[i] = std::sqrt(a[i]);
-  return result;
 #endif
+  Double<N> result{};
+  for (int i = 0; i < N; ++i) set_lane(result, i, __builtin_sqrt(lane(a, i)));
+  return result;
 }
 
-}  // namespace
+/// Whether a comparison's result is true in any lane.
+template <class Mask>
+inline bool any(const Mask& mask) {
+  if constexpr (sizeof mask <= sizeof(int)) {
+    return mask != 0;
+  } else {
+    constexpr int size = sizeof(mask) / sizeof(mask[0]);
+    auto lanes = mask[0];
+    for (int i = 1; i < size; ++i) lanes |= mask[i];
+    return lanes != 0;
+  }
+}
+
+template <class Mask>
+inline auto negated(const Mask& mask) {
+  return mask == 0;
+}
+
+}  // namespace MICROTRACE_KERNELS
 }  // namespace microtrace

@@ -3,10 +3,10 @@
 
 #include "render/bsdf/anisotropic_albedo.hpp"
 #include "render/bsdf/coating.hpp"
-#include "render/bsdf/general.hpp"
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
 #include "support/direction_pdf.hpp"
+#include "support/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,21 +38,21 @@ TEST(AlbedoTables, AnisotropicReflectors) {
   int count = 0;
   for (const float roughness : {0.35F, 0.6F, 0.9F}) {
     for (const float strength : {0.2F, 0.5F, 0.8F}) {
-      const AnisotropicGgx ggx(roughness, strength, {1, 0});
-      const AnisotropicGgxAlbedo albedo(ggx);
+      const AnisotropicGgx<1> ggx(roughness, strength, {1, 0});
+      const AnisotropicGgxAlbedo<1> albedo(ggx);
       for (const double theta : {0.1, 0.7, 1.1, 1.4}) {
         for (const double azimuth : {0.0, 0.8, 1.5}) {
           const Vec3 wo = direction(theta, azimuth);
           const auto returned = [&](auto fresnel) {
             return integral(250, [&](const Vec3& wi) {
-              const Vec3 h = unit(wo + wi);
+              const Vec3 h = unit<1>(wo + wi);
               const double f = ggx.distribution(h) * ggx.visibility(wo, wi) * wi.z;
               return f * fresnel(1 - glm::dot(wo, h));
             });
           };
           const double white = returned([](double) { return 1; });
           const double edge = returned([](double x) { return x * x * x * x * x; });
-          const Albedo got = albedo.at(wo);
+          const Albedo<1> got = albedo.at(wo);
           EXPECT_NEAR(got.f1, white, 0.012) << roughness << ' ' << strength << ' ' << theta;
           EXPECT_NEAR(got.schlick, edge, 0.03) << roughness << ' ' << strength << ' ' << theta;
           rms += (got.f1 - white) * (got.f1 - white);
@@ -69,12 +69,12 @@ TEST(AlbedoTables, AnisotropicReflectors) {
 TEST(AlbedoTables, MeansOfAnisotropicReflectors) {
   for (const float roughness : {0.1F, 0.4F, 0.8F}) {
     for (const float strength : {0.3F, 0.7F, 1.0F}) {
-      const AnisotropicGgxAlbedo albedo(AnisotropicGgx(roughness, strength, {0.6F, 0.8F}));
+      const AnisotropicGgxAlbedo<1> albedo(AnisotropicGgx<1>(roughness, strength, {0.6F, 0.8F}));
       const auto mean = [&](auto part) {
         return integral(200, [&](const Vec3& w) { return part(albedo.at(w)) * w.z; }) / kPi;
       };
-      EXPECT_NEAR(albedo.mean().f1, mean([](const Albedo& a) { return a.f1; }), 0.002);
-      EXPECT_NEAR(albedo.mean().schlick, mean([](const Albedo& a) { return a.schlick; }), 0.002);
+      EXPECT_NEAR(albedo.mean().f1, mean([](const Albedo<1>& a) { return a.f1; }), 0.002);
+      EXPECT_NEAR(albedo.mean().schlick, mean([](const Albedo<1>& a) { return a.schlick; }), 0.002);
     }
   }
 }
@@ -82,14 +82,14 @@ TEST(AlbedoTables, MeansOfAnisotropicReflectors) {
 TEST(AlbedoTables, EnergyDeficitUnderACoat) {
   for (const float roughness : {0.3F, 0.55F, 0.8F, 1.0F}) {
     for (const float coat_roughness : {0.0F, 0.4F}) {
-      const Coating coating({.coat = 1, .coat_roughness = coat_roughness},
-                            {.roughness = roughness});
-      const Ggx ggx(roughness);
+      const Coating<1> coating(
+          surface_of({.roughness = roughness}, {.coat = 1, .coat_roughness = coat_roughness}));
+      const Ggx<1> ggx(roughness);
       for (const double theta : {0.1, 0.6, 1.0, 1.3, 1.5}) {
         const Vec3 wo = direction(theta);
         double white = 0, edge = 0;
         integral(300, [&](const Vec3& wi) {
-          const Vec3 h = unit(wo + wi);
+          const Vec3 h = unit<1>(wo + wi);
           const double less = std::max(coating.transmittance(wo) - coating.transmittance(wi), 0.0F);
           const double root = std::sqrt(wi.z), x = 1 - glm::dot(wo, h);
           const double f = ggx.distribution(h) * ggx.visibility(wo, wi) * wi.z * less * 2 * root *
@@ -121,11 +121,11 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
   int count = 0;
   for (const float ior : {1.2F, 1.5F, 2.0F}) {
     const float r = (ior - 1) / (ior + 1);
-    const GreatestSchlick dielectric{.f0 = r * r, .f90 = 1};
+    const GreatestSchlick<1> dielectric{.f0 = r * r, .f90 = 1};
     for (const float roughness : {0.3F, 0.5F, 0.75F, 1.0F}) {
       for (const float eta : {ior, 1 / ior}) {
-        const RefractionLoss loss(roughness, eta, dielectric);
-        const Ggx ggx(roughness);
+        const RefractionLoss<1> loss(roughness, eta, dielectric);
+        const Ggx<1> ggx(roughness);
         for (const double theta : {0.1, 0.6, 1.0, 1.3}) {
           const Vec3 wo = direction(theta);
           // Over the normals visible from wo.
@@ -138,7 +138,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
             const Vec3 up = 2 * cosine * h - wo;
             const float square = 1 - (1 - cosine * cosine) / (eta * eta);
             const float thin = eta < 1 ? std::sqrt(std::max(square, 0.0F)) : cosine;
-            const float f = square > 0 ? Schlick{.f0 = Vec3(r * r)}(thin).x : 1;
+            const float f = square > 0 ? Schlick<1>{.f0 = Vec3(r * r)}(thin).x : 1;
             const auto g1 = [&](float z) { return 2 * z / (z + ggx.root(z)); };
             if (up.z > 0) {
               const float both = up.z * (wo.z + ggx.root(wo.z));
@@ -153,7 +153,8 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
           most = std::max(most, lost - got);
           rms += (got - lost) * (got - lost);
           ++count;
-          EXPECT_EQ(loss.above(wo.z), RefractionLoss(roughness, 1 / eta, dielectric).below(wo.z));
+          EXPECT_EQ(loss.above(wo.z),
+                    RefractionLoss<1>(roughness, 1 / eta, dielectric).below(wo.z));
         }
       }
     }
@@ -163,7 +164,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
 }
 
 TEST(AlbedoTables, MeanDeficitOfRoughGlass) {
-  const RefractionLoss loss(0.7F, 1.5F, {.f0 = 0.04F, .f90 = 1});
+  const RefractionLoss<1> loss(0.7F, 1.5F, {.f0 = 0.04F, .f90 = 1});
   const double above = integral(200, [&](const Vec3& w) { return loss.above(w.z) * w.z; }) / kPi;
   const double below = integral(200, [&](const Vec3& w) { return loss.below(w.z) * w.z; }) / kPi;
   EXPECT_NEAR(loss.mean_above(), above, 1e-3 * above);
@@ -172,11 +173,11 @@ TEST(AlbedoTables, MeanDeficitOfRoughGlass) {
 
 TEST(AlbedoTables, SheenReturnsItsAlbedo) {
   for (const float roughness : {0.05F, 0.1F, 0.2F, 0.3F, 0.5F, 0.85F, 1.0F}) {
-    const SheenLobe sheen(roughness);
+    const SheenLobe<1> sheen(roughness);
     for (const double theta : {0.0, 0.7, 1.2, 1.45, 1.53}) {
       const Vec3 wo = direction(theta);
       const double wanted = integral(400, [&](const Vec3& wi) {
-        return double(sheen.reflectance(wo, wi, unit(wo + wi))) * wi.z;
+        return double(sheen.reflectance(wo, wi, unit<1>(wo + wi))) * wi.z;
       });
       EXPECT_NEAR(sheen.albedo(wo.z), wanted, 0.012) << roughness << ' ' << theta;
       EXPECT_LE(wanted, 1.003) << roughness << ' ' << theta;

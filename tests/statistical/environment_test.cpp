@@ -1,6 +1,6 @@
 // Compares light from maps with quadrature by an independent float64 lookup.
 
-#include "render/bsdf/bsdf.hpp"
+#include "support/scattering.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -51,7 +51,7 @@ DVec3 lookup(const RadianceMap& map, const DVec3& d) {
 /// The reflected radiance of a wall with normal n, seen along n: the integral of radiance, cosine
 /// and reflectance.
 DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float albedo) {
-  const bsdf::Bsdf bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
+  const bsdf::Scattering bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   constexpr int kRows = 512;
   DVec3 sum(0);
   for (int j = 0; j < kRows; ++j) {

@@ -1,9 +1,9 @@
 // White furnace test: under uniform white light, non-absorbing objects are as bright as the light,
 // and no object is brighter.
 
-#include "render/bsdf/scattering.hpp"
 #include "render/sampling/sobol.hpp"
 #include "support/direction_pdf.hpp"
+#include "support/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,8 @@ namespace {
 
 /// The directional albedo for wo.
 DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Vec3& wo,
-              std::uint32_t samples) {
-  const Scattering bsdf(p, layers, wo);
+              std::uint32_t samples, const Vec3& coat_normal = {0, 0, 1}) {
+  const Scattering bsdf(p, layers, wo, coat_normal);
   DVec3 sum(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
     const sampling::Sobol sobol(7, k);
@@ -79,7 +79,7 @@ TEST(Furnace, ThinWall) {
   for (const float transmission : {0.5F, 1.0F}) {
     wall.transmission = transmission;
     expect_white("thin wall", wall, {}, 0.004);
-    wall.film = ThinFilm{};
+    wall.film = ThinFilm<1>{};
     if (transmission == 1) expect_white("thin wall under a film", wall, {}, 0.004);
     wall.film.reset();
   }
@@ -138,23 +138,29 @@ class AnyMaterial {
     if (chance(0.2F)) p.diffuse_transmission = factor();
     if (chance(0.3F)) p.anisotropy = factor();
     const double turn = 6.28 * number();
-    p.along = Vec2(std::cos(turn), std::sin(turn));
+    p.along = Vec3(std::cos(turn), std::sin(turn), 0);
     if (chance(0.3F))
       p.film =
-          ThinFilm{.share = number(), .ior = 1 + 1.5F * number(), .thickness = 1000 * number()};
+          ThinFilm<1>{.share = number(), .ior = 1 + 1.5F * number(), .thickness = 1000 * number()};
     return p;
   }
 
-  std::optional<Layers> layers(const Parameters& base) {
-    if (chance(0.5F)) return std::nullopt;
-    Layers l;
+  /// Layers, and the normal of their coat.
+  struct Cover {
+    std::optional<Layers> layers{};
+    Vec3 coat_normal{0, 0, 1};
+  };
+  Cover cover(const Parameters& base) {
+    if (chance(0.5F)) return {};
+    Cover result;
+    Layers& l = result.layers.emplace();
     if (chance(0.6F)) l.coat = factor();
     if (chance(0.6F)) l.sheen = color();
     l.coat_roughness = factor();
     l.sheen_roughness = factor();
-    if (chance(0.3F)) l.coat_normal = direction(0.5 * number(), 6.28 * number());
-    if (base.eta) l.side = *base.eta > 1 ? Layers::Side::above : Layers::Side::below;
-    return l;
+    if (chance(0.3F)) result.coat_normal = direction(0.5 * number(), 6.28 * number());
+    if (base.eta) l.side = *base.eta > 1 ? LayerSide::above : LayerSide::below;
+    return result;
   }
 
   Vec3 above() { return direction(std::min(std::acos(number()), 1.56F), 6.28 * number()); }
@@ -167,11 +173,12 @@ TEST(Furnace, NothingGainsEnergy) {
   AnyMaterial any(1);
   for (int i = 0; i < 1500; ++i) {
     const Parameters p = any.parameters();
-    auto layers = any.layers(p);
+    auto [layers, coat_normal] = any.cover(p);
     const Vec3 wo = any.above();
-    if (layers && !(glm::dot(layers->coat_normal, wo) > 0.01F)) layers->coat_normal = {0, 0, 1};
-    DVec3 sum = furnace(p, layers, wo, 1U << 11U);
-    if (std::max({sum.x, sum.y, sum.z}) > kMost) sum = furnace(p, layers, wo, 1U << 17U);
+    if (!(glm::dot(coat_normal, wo) > 0.01F)) coat_normal = {0, 0, 1};
+    DVec3 sum = furnace(p, layers, wo, 1U << 11U, coat_normal);
+    if (std::max({sum.x, sum.y, sum.z}) > kMost)
+      sum = furnace(p, layers, wo, 1U << 17U, coat_normal);
     // The bounds for anisotropic facets and films are not strict.
     const double bound = p.anisotropy > 0 || p.film ? 1.01 : kMost;
     for (int c = 0; c < 3; ++c)
@@ -190,11 +197,11 @@ TEST(Furnace, PdfsAreThoseOfTheSamples) {
     p.roughness = 0.35F + 0.65F * p.roughness;
     // Without refraction the lobes are narrower than the cells.
     if (p.eta) p.eta = *p.eta > 1 ? std::max(*p.eta, 1.2F) : std::min(*p.eta, 0.8F);
-    auto layers = any.layers(p);
+    auto [layers, coat_normal] = any.cover(p);
     if (layers) layers->coat_roughness = 0.35F + 0.65F * layers->coat_roughness;
     const Vec3 wo = direction(0.9F * any.number());
     const PdfTest test =
-        test_pdf(Scattering(p, layers, wo),
+        test_pdf(Scattering(p, layers, wo, coat_normal),
                  {.rows = 16, .columns = 12, .fine = 32, .samples = 50'000}, random);
     EXPECT_LT(test.mass, 1.003) << i;
     EXPECT_LT(test.excess, 5) << i;

@@ -1,7 +1,6 @@
-#include "render/bsdf/scattering.hpp"
-#include "render/bsdf/thin_film.hpp"
 #include "render/sampling/sobol.hpp"
 #include "support/direction_pdf.hpp"
+#include "support/scattering.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,16 +17,17 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-struct Surface {
+struct Example {
   const char* name;
   Parameters base;
   std::optional<Layers> layers{};
+  Vec3 coat_normal{0, 0, 1};
 };
 
 /// At least one material of each kind, without absorption except for colored reflection at normal
 /// incidence.
-std::vector<Surface> surfaces() {
-  std::vector<Surface> result;
+std::vector<Example> surfaces() {
+  std::vector<Example> result;
   for (const float roughness : {0.3F, 0.8F}) {
     const Parameters dielectric{.base_color = Vec3(1), .metallic = 0, .roughness = roughness};
     Parameters metal = dielectric, glass = dielectric, wall = dielectric, film = dielectric;
@@ -35,23 +35,23 @@ std::vector<Surface> surfaces() {
     wall.transmission = 0.6F;
     glass.transmission = 1;
     glass.eta = 1.5F;
-    film.film = ThinFilm{.share = 0.7F, .ior = 1.8F, .thickness = 500};
+    film.film = ThinFilm<1>{.share = 0.7F, .ior = 1.8F, .thickness = 500};
     Parameters brushed = metal, filmed = metal, all = dielectric, out = glass;
     brushed.anisotropy = 0.8F;
-    brushed.along = {0.6F, 0.8F};
-    filmed.film = ThinFilm{.thickness = 300};
+    brushed.along = {0.6F, 0.8F, 0};
+    filmed.film = ThinFilm<1>{.thickness = 300};
     out.eta = 1 / 1.5F;
     all.transmission = 0.3F;
     all.diffuse_transmission = 0.5F;
     all.anisotropy = 0.5F;
-    all.film = ThinFilm{.share = 0.5F};
+    all.film = ThinFilm<1>{.share = 0.5F};
     const Layers coat{.coat = 1, .coat_roughness = 0.2F};
     const Layers cloth{.sheen = {1, 0.5F, 0.2F}, .sheen_roughness = 0.4F};
     const Layers both{
         .sheen = {0.5F, 0.4F, 0.2F}, .sheen_roughness = 0.5F, .coat = 0.7F, .coat_roughness = 0.3F};
     Layers above = both, below = both;
-    above.side = Layers::Side::above;
-    below.side = Layers::Side::below;
+    above.side = LayerSide::above;
+    below.side = LayerSide::below;
     result.push_back({"brushed metal", brushed});
     result.push_back({"film on metal", filmed});
     result.push_back({"film", film});
@@ -63,27 +63,25 @@ std::vector<Surface> surfaces() {
     result.push_back({"glass under layers", out, below});
     Parameters mixed = wall;
     mixed.metallic = 0.4F;
-    Layers turned_coat = both, smooth_cloth = cloth;
-    turned_coat.coat_normal = direction(0.3, 1);
+    Layers smooth_cloth = cloth;
     smooth_cloth.sheen_roughness = 0.08F;
     result.push_back({"all at once", all, both});
     result.push_back({"thin wall", wall});
     result.push_back({"half metal, half wall", mixed});
     result.push_back({"glass", glass});
     result.push_back({"glass from within", out});
-    result.push_back({"turned coat", metal, turned_coat});
+    result.push_back({"turned coat", metal, both, direction(0.3, 1)});
     result.push_back({"smooth cloth", dielectric, smooth_cloth});
   }
   return result;
 }
 
 /// For wo on the other side of the surface: rotated upside down about x.
-Surface turned(Surface s) {
+Example turned(Example s) {
   if (s.base.eta) s.base.eta = 1 / *s.base.eta;
   s.base.along.y = -s.base.along.y;
-  if (!s.layers || s.layers->side == Layers::Side::both) return s;
-  s.layers->side =
-      s.layers->side == Layers::Side::above ? Layers::Side::below : Layers::Side::above;
+  if (!s.layers || s.layers->side == LayerSide::both) return s;
+  s.layers->side = s.layers->side == LayerSide::above ? LayerSide::below : LayerSide::above;
   return s;
 }
 
@@ -91,11 +89,11 @@ Vec3 turned(const Vec3& v) {
   return {v.x, -v.y, -v.z};
 }
 
-Scattering scattering(const Surface& s, const Vec3& wo) {
-  return {s.base, s.layers, wo};
+Scattering scattering(const Example& s, const Vec3& wo) {
+  return {s.base, s.layers, wo, s.coat_normal};
 }
 
-std::string text(const Surface& s, double theta) {
+std::string text(const Example& s, double theta) {
   return std::string(s.name) + " " + std::to_string(s.base.roughness) + " " + std::to_string(theta);
 }
 
@@ -122,7 +120,7 @@ DVec3 integrated(const Scattering& bsdf, int steps) {
 }
 
 TEST(Layered, NeverGainsEnergy) {
-  for (const Surface& s : surfaces()) {
+  for (const Example& s : surfaces()) {
     for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
       const DVec3 sum = scattered(scattering(s, direction(theta)), 1U << 16U);
       for (int c = 0; c < 3; ++c) EXPECT_LE(sum[c], 1.003) << text(s, theta);
@@ -130,17 +128,18 @@ TEST(Layered, NeverGainsEnergy) {
   }
 }
 
-TEST(Layered, WithoutLayersIsTheBase) {
+TEST(Layered, PlainSurfacesAreASpecialCase) {
   for (const float roughness : {0.1F, 0.4F, 0.9F}) {
     for (const float metallic : {0.0F, 0.3F, 1.0F}) {
       const Parameters p{
           .base_color = {0.9F, 0.5F, 0.2F}, .metallic = metallic, .roughness = roughness};
-      ASSERT_TRUE(p.is_plain());
+      ASSERT_EQ(features_of(p, {}).index(), 0);
       const Vec3 wo = direction(0.7), wi = direction(0.4, 2);
-      const Evaluation layered = LayeredBsdf(p, {}, wo).evaluate(wi);
-      const Evaluation bare = Bsdf(p, wo).evaluate(wi);
-      for (int c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(layered.value[c], bare.value[c]);
-      EXPECT_FLOAT_EQ(layered.pdf, bare.pdf);
+      const Evaluation<1> general =
+          Bsdf<1, IsotropicParts<1>>({}, surface_of(p), nullptr, wo).evaluate(wi);
+      const Evaluation<1> plain = Scattering(p, wo).evaluate(wi);
+      EXPECT_EQ(general.value, plain.value);
+      EXPECT_EQ(general.pdf, plain.pdf);
     }
   }
 }
@@ -149,8 +148,8 @@ TEST(Anisotropic, WithoutStrengthIsTheBase) {
   for (const float metallic : {0.0F, 1.0F}) {
     const Parameters p{.base_color = {0.9F, 0.5F, 0.2F}, .metallic = metallic, .roughness = 0.3F};
     const Vec3 wo = direction(0.7), wi = direction(0.5, 2.9);
-    const Vec3 plain = Bsdf(p, wo).evaluate(wi).value;
-    const Vec3 general = GeneralBsdf<AnisotropicGgx>(p, nullptr, wo).evaluate(nullptr, wi).value;
+    const Vec3 plain = Scattering(p, wo).evaluate(wi).value;
+    const Vec3 general = Scattering({.is_anisotropic = true}, surface_of(p), wo).evaluate(wi).value;
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(general[c] / plain[c], 1, 0.005);
   }
 }
@@ -163,7 +162,7 @@ TEST(Anisotropic, HighlightsAreElongated) {
 }
 
 TEST(Layered, SamplerAndQuadratureAgree) {
-  for (const Surface& s : surfaces()) {
+  for (const Example& s : surfaces()) {
     for (const double theta : {0.2, 1.0}) {
       const Scattering bsdf = scattering(s, direction(theta));
       const DVec3 a = scattered(bsdf, 1U << 14U), b = integrated(bsdf, 200);
@@ -175,7 +174,7 @@ TEST(Layered, SamplerAndQuadratureAgree) {
 TEST(Layered, IsReciprocal) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> u(0.02, 1);
-  for (const Surface& s : surfaces()) {
+  for (const Example& s : surfaces()) {
     for (int i = 0; i < 200; ++i) {
       const Vec3 a = direction(std::acos(u(random)), 6 * u(random));
       Vec3 b = direction(std::acos(u(random)), 6 * u(random));
@@ -195,7 +194,7 @@ TEST(Layered, IsReciprocal) {
 
 TEST(Layered, SamplesHaveTheirPdf) {
   std::mt19937 random(3);
-  for (const Surface& s : surfaces()) {
+  for (const Example& s : surfaces()) {
     const PdfTest test =
         test_pdf(scattering(s, direction(0.6)),
                  {.rows = 20, .columns = 14, .fine = 16, .samples = 100'000}, random);
@@ -205,13 +204,13 @@ TEST(Layered, SamplesHaveTheirPdf) {
 }
 
 TEST(ThinFilm, ZeroThicknessHasNoEffect) {
-  const Vec3 f0(0.04F, 0.3F, 0.9F), film = thin_film_reflectance(1, 1.3F, 0, f0);
+  const Vec3 f0(0.04F, 0.3F, 0.9F), film = thin_film_reflectance<1>(1, {.thickness = 0}, f0);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(film[c], f0[c], 0.02F);
 }
 
 TEST(ThinFilm, ColorsVaryWithThickness) {
-  const Vec3 thin = thin_film_reflectance(1, 1.33F, 300, Vec3(0.1F));
-  const Vec3 thick = thin_film_reflectance(1, 1.33F, 400, Vec3(0.1F));
+  const Vec3 thin = thin_film_reflectance<1>(1, {.ior = 1.33F, .thickness = 300}, Vec3(0.1F));
+  const Vec3 thick = thin_film_reflectance<1>(1, {.ior = 1.33F, .thickness = 400}, Vec3(0.1F));
   EXPECT_GT(glm::distance(thin, thick), 0.02F);
   EXPECT_GT(std::abs(thin.x - thin.z) + std::abs(thin.x - thin.y), 0.01F) << "has a color";
 }

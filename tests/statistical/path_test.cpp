@@ -1,4 +1,5 @@
-#include "render/bsdf/bsdf.hpp"
+
+#include "support/scattering.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -45,7 +46,7 @@ struct Floor {
 
 /// f of a rough dielectric, seen from straight above, lit at an angle.
 double rough_reflectance(float albedo, double cosine) {
-  const bsdf::Bsdf bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
+  const bsdf::Scattering bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.x / cosine;
 }
 

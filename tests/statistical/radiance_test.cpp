@@ -1,6 +1,6 @@
 /// Compares radiance with closed forms or quadrature, within the deviation of the estimates.
-#include "render/bsdf/bsdf.hpp"
 #include "support/pictures.hpp"
+#include "support/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,7 +40,7 @@ struct Floor {
 
 /// f |cos| of the floor's material toward its camera.
 double scattered(const Material& m, double cosine) {
-  const bsdf::Bsdf bsdf(
+  const bsdf::Scattering bsdf(
       {.base_color = Vec3(m.base_color), .metallic = m.metallic, .roughness = m.roughness},
       {0, 0, 1});
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.y;

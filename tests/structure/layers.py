@@ -16,7 +16,7 @@ MAY_INCLUDE = {
     "base": set(),
     "simd": {"base"},
     "exact": {"base"},
-    "scene": {"base"},
+    "scene": {"base", "simd"},
     "accel": {"base", "simd", "exact", "scene"},
     "render": {"base", "simd", "scene"},
     "io": {"base", "scene"},

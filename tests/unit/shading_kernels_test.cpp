@@ -1,19 +1,16 @@
-// Compares shading kernels with the scalar code, bit by bit, for every instruction set of this
-// machine.
-#include "render/bsdf/bsdf.hpp"
-#include "render/bsdf/frame.hpp"
+// Compares the shading kernels of every instruction set of this machine, bit by bit, with the
+// instance of one lane.
 #include "render/integrators/path_state.hpp"
-#include "render/integrators/plain_vertices.hpp"
+#include "render/integrators/vertex_queue.hpp"
 #include "render/kernels/dispatch.hpp"
+#include "render/kernels/find_normals.hpp"
+#include "render/kernels/find_points.hpp"
 #include "render/kernels/lane_access.hpp"
-#include "render/shading/normals.hpp"
-#include "render/shading/surface_point.hpp"
-
-#include <microtrace/primitives.hpp>
-#include <microtrace/scene.hpp>
+#include "render/kernels/scatter.hpp"
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -26,12 +23,12 @@ constexpr int kRounds = 500;
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
-  float unit() { return static_cast<float>(engine_() >> 8U) * 0x1p-24F; }
-  float signed_unit() { return 2 * unit() - 1; }
+  float number() { return static_cast<float>(engine_() >> 8U) * 0x1p-24F; }
+  float signed_unit() { return 2 * number() - 1; }
   std::uint32_t bits() { return static_cast<std::uint32_t>(engine_()); }
   Vec3 vector() { return {signed_unit(), signed_unit(), signed_unit()}; }
-  Vec3 color() { return {unit(), unit(), unit()}; }
-  Vec3 direction() { return bsdf::unit(vector() + Vec3(0, 0, 1e-3F)); }
+  Vec3 color() { return {number(), number(), number()}; }
+  Vec3 direction() { return unit<1>(vector() + Vec3(0, 0, 1e-3F)); }
   /// A direction above the plane with this normal.
   Vec3 above(const Vec3& n) {
     const Vec3 w = direction();
@@ -48,70 +45,55 @@ void expect_bits(float a, float b, const char* what) {
   ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b))
       << what << ": " << a << " instead of " << b;
 }
-void expect_bits(const Vec3& a, const Vec3& b, const char* what) {
-  for (int k = 0; k < 3; ++k) expect_bits(a[k], b[k], what);
+template <std::size_t count>
+void expect_bits(const LaneFloats (&a)[count], const LaneFloats (&b)[count], int lane,
+                 const char* what) {
+  for (std::size_t k = 0; k < count; ++k) expect_bits(a[k][lane], b[k][lane], what);
 }
 
 class ShadingKernelsTest : public testing::TestWithParam<const ShadingKernels*> {};
 
-TEST_P(ShadingKernelsTest, PointsEqualTheScalarCode) {
+TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
   Random random(1);
-  HitLanes lanes{};
   int asked = 0;
   for (int round = 0; round < kRounds; ++round) {
-    Mesh mesh{.positions = {}, .triangles = {}};
-    mesh.uv_sets.emplace_back();
-    for (std::uint32_t i = 0; i < kShadingLanes; ++i) {
+    HitLanes lanes{};
+    for (int i = 0; i < kShadingLanes; ++i) {
       const float size = std::exp2(20 * random.signed_unit());
-      for (int k = 0; k < 3; ++k) {
-        mesh.positions.push_back(size * random.vector());
+      std::array<Vec3, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = size * random.vector();
+        put(lanes.corners[k], i, corners[k]);
         // Some normals are zero.
-        mesh.normals.push_back(random.unit() < 0.1F ? Vec3(0) : random.direction());
-        mesh.uv_sets[0].push_back({random.signed_unit(), random.signed_unit()});
+        put(lanes.normals[k], i, random.number() < 0.1F ? Vec3(0) : random.direction());
+        lanes.uv[k][0][i] = random.signed_unit();
+        lanes.uv[k][1][i] = random.signed_unit();
       }
-      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+      const auto& [a, b, c] = corners;
+      const float u = random.number(), v = (1 - u) * random.number();
+      const Vec3 target = a + u * (b - a) + v * (c - a);
+      const Vec3 o = target + 3.0F * glm::length(b - a) * random.direction();
+      const Vec3 d = (target - o) * random.number();
+      const DVec3 n = glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
+      put(lanes.o, i, o);
+      put(lanes.d, i, d);
+      lanes.t[i] = static_cast<float>(glm::dot(DVec3(a) - DVec3(o), n) / glm::dot(n, DVec3(d)));
     }
-    Scene scene;
-    scene.objects.push_back({.name = "", .shape = mesh});
-    const Primitives primitives(scene);
-    std::array<Ray, kShadingLanes> rays;
-    std::array<Hit, kShadingLanes> hits;
-    for (int i = 0; i < kShadingLanes; ++i) {
-      const auto place = static_cast<std::size_t>(i);
-      const Triangle t = triangle_of(mesh, place);
-      const float u = random.unit(), v = (1 - u) * random.unit();
-      const Vec3 target = t.a + u * (t.b - t.a) + v * (t.c - t.a);
-      const Vec3 o = target + 3.0F * glm::length(t.b - t.a) * random.direction();
-      rays[place] = {.o = o, .t_min = 0, .d = (target - o) * random.unit()};
-      const DVec3 n = glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
-      const double along = glm::dot(n, DVec3(rays[place].d));
-      hits[place] = {.id = static_cast<PrimitiveId>(i),
-                     .t = static_cast<float>(glm::dot(DVec3(t.a) - DVec3(o), n) / along)};
-      put(lanes.o, i, rays[place].o);
-      put(lanes.d, i, rays[place].d);
-      lanes.t[i] = hits[place].t;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        put(lanes.corners[corner], i, mesh.positions[3 * place + corner]);
-        put(lanes.normals[corner], i, mesh.normals[3 * place + corner]);
-        lanes.uv[corner][0][i] = mesh.uv_sets[0][3 * place + corner].x;
-        lanes.uv[corner][1][i] = mesh.uv_sets[0][3 * place + corner].y;
-      }
-    }
+    HitLanes expected = lanes;
     GetParam()->find_points(lanes);
+    find_points<1>(expected);
     for (int i = 0; i < kShadingLanes; ++i) {
-      const auto place = static_cast<std::size_t>(i);
+      expect_bits(lanes.is_sure[i], expected.is_sure[i], "is_sure");
       if (lanes.is_sure[i] == 0) continue;
       ++asked;
-      const SurfacePoint at = surface_point(primitives, rays[place], hits[place], &mesh, place);
-      expect_bits(got(lanes.p, i), at.p, "p");
-      expect_bits(got(lanes.n, i), at.n, "n");
-      expect_bits(got(lanes.ns, i), at.ns, "ns");
-      expect_bits(got(lanes.weights, i), at.barycentrics, "weights");
-      expect_bits(lanes.first_uv[0][i], at.first_uv.x, "u");
-      expect_bits(lanes.first_uv[1][i], at.first_uv.y, "v");
-      expect_bits(lanes.uv_scale[i], at.uv_scale, "uv_scale");
-      expect_bits(lanes.distance[i], at.distance, "distance");
-      ASSERT_EQ(lanes.from_behind[i] == 0, at.front);
+      expect_bits(lanes.p, expected.p, i, "p");
+      expect_bits(lanes.n, expected.n, i, "n");
+      expect_bits(lanes.ns, expected.ns, i, "ns");
+      expect_bits(lanes.weights, expected.weights, i, "weights");
+      expect_bits(lanes.first_uv, expected.first_uv, i, "uv");
+      expect_bits(lanes.uv_scale[i], expected.uv_scale[i], "uv_scale");
+      expect_bits(lanes.distance[i], expected.distance[i], "distance");
+      expect_bits(lanes.from_behind[i], expected.from_behind[i], "from_behind");
     }
   }
   EXPECT_GT(asked, kRounds * kShadingLanes * 0.95);
@@ -124,133 +106,110 @@ TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
   for (const float sure : lanes.is_sure) EXPECT_EQ(sure, 0);
 }
 
-TEST_P(ShadingKernelsTest, NormalsEqualTheScalarCode) {
+TEST_P(ShadingKernelsTest, NormalsHaveTheBitsOfOneLane) {
   Random random(2);
-  NormalLanes lanes{};
   int turned = 0;
   for (int round = 0; round < kRounds; ++round) {
-    std::array<Vec3, kShadingLanes> expected;
+    NormalLanes points{};
+    NormalMapLanes map{};
     for (int i = 0; i < kShadingLanes; ++i) {
-      Mesh mesh{.positions = {}, .triangles = {}};
-      const float handedness = random.unit() < 0.5F ? 1.0F : -1.0F;
-      for (int corner = 0; corner < 3; ++corner)
-        mesh.tangents.emplace_back(random.direction(), handedness);
-      ShadingPoint point;
-      point.at.mesh = &mesh;
-      point.at.corners = {0, 1, 2};
-      point.at.barycentrics = random.color();
-      point.at.n = random.direction();
-      point.at.ns = bsdf::unit(point.at.n + random.unit() * random.vector());
-      point.at.front = random.unit() < 0.5F;
-      const float side = point.at.front ? 1.0F : -1.0F;
-      const Vec3 d = -random.above(side * point.at.n) * (random.unit() + 0.1F);
-      Image image{.width = 1, .height = 1, .channels = 3};
-      image.samples = std::vector<std::uint8_t>{static_cast<std::uint8_t>(random.bits()),
-                                                static_cast<std::uint8_t>(random.bits()),
-                                                static_cast<std::uint8_t>(random.bits())};
-      const TextureMap map(image, Sampler{}, ColorEncoding::linear);
-      const TextureUse use;
-      TextureSlot slot{.map = &map, .use = &use};
-      if (random.unit() < 0.3F) slot = {};
-      const float scale = 2 * random.unit();
-      expected[static_cast<std::size_t>(i)] = usable_normal(
-          side * mapped_normal(point, slot, scale), side * point.at.n, -bsdf::unit(d));
-      turned += expected[static_cast<std::size_t>(i)] == side * point.at.ns ? 0 : 1;
-      put(lanes.d, i, d);
-      put(lanes.n, i, point.at.n);
-      put(lanes.ns, i, point.at.ns);
-      lanes.side[i] = side;
-      put(lanes.texel, i, Vec3(slot.at(point)));
-      lanes.scale[i] = scale;
-      for (std::size_t corner = 0; corner < 3; ++corner)
-        put(lanes.tangents[corner], i, Vec3(mesh.tangents[corner]));
-      put(lanes.weights, i, point.at.barycentrics);
-      lanes.handedness[i] = slot.map == nullptr ? 0 : handedness;
+      const Vec3 n = random.direction();
+      points.side[i] = random.number() < 0.5F ? 1.0F : -1.0F;
+      put(points.n, i, n);
+      put(points.ns, i, unit<1>(n + random.number() * random.vector()));
+      put(points.d, i, -random.above(points.side[i] * n) * (random.number() + 0.1F));
+      for (auto& tangent : points.tangents) put(tangent, i, random.direction());
+      put(points.weights, i, random.color());
+      points.handedness[i] = static_cast<float>(random.bits() % 3) - 1;
+      map.is_mapped[i] = random.number() < 0.3F ? 0.0F : 1.0F;
+      put(map.texel, i, random.color());
+      map.scale[i] = 2 * random.number();
     }
-    GetParam()->find_normals(lanes);
-    for (int i = 0; i < kShadingLanes; ++i)
-      expect_bits(got(lanes.frame_n, i), expected[static_cast<std::size_t>(i)], "normal");
+    NormalMapLanes expected = map;
+    GetParam()->find_normals(points, map);
+    find_normals<1>(points, expected);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      expect_bits(map.normal, expected.normal, i, "normal");
+      turned += got(map.normal, i) == points.side[i] * got(points.ns, i) ? 0 : 1;
+    }
   }
   EXPECT_GT(turned, kRounds * kShadingLanes / 2);
 }
 
-struct Scattered {
-  Vec3 shadow{0}, wi{0}, throughput{0};
-  float pdf = 0;
-};
+void put_any_surface(SurfaceLanes& lanes, int i, Random& random) {
+  const auto factor = [&] { return std::clamp(1.5F * random.number() - 0.25F, 0.0F, 1.0F); };
+  put(lanes.base_color, i, random.number() < 0.2F ? Vec3(0) : random.color());
+  lanes.metallic[i] = factor();
+  lanes.roughness[i] = random.number() * random.number();
+  put(lanes.f0, i, random.number() < 0.5F ? Vec3(0.04F) : random.color());
+  lanes.f90[i] = random.number() < 0.5F ? 1 : random.number();
+  lanes.transmission[i] = factor();
+  lanes.eta[i] = random.number() < 0.5F ? 1 + random.number() : 1 / (1 + random.number());
+  lanes.diffuse_transmission[i] = factor();
+  put(lanes.diffuse_transmission_color, i, random.color());
+  lanes.anisotropy[i] = factor();
+  put(lanes.along, i, random.vector());
+  lanes.film_share[i] = factor();
+  lanes.film_ior[i] = 1 + random.number();
+  // Some beyond the range of the fast reduction of angles.
+  lanes.film_thickness[i] = random.number() < 0.1F ? 1e12F : 1000 * random.number();
+  put(lanes.sheen, i, random.number() < 0.2F ? Vec3(0) : random.color());
+  lanes.sheen_roughness[i] = random.number();
+  lanes.coat[i] = factor();
+  lanes.coat_roughness[i] = random.number();
+}
 
-/// The result of the scalar code.
-Scattered scattered(const ScatterLanes& lanes, int i, const WaveStep& step) {
-  Scattered result;
-  const bsdf::Frame frame = bsdf::Frame::about(got(lanes.frame_n, i));
-  Vec3 wo = frame.to_local(-bsdf::unit(got(lanes.d, i)));
-  wo.z = std::max(wo.z, 1e-5F);
-  const bsdf::Bsdf bsdf({.base_color = got(lanes.base_color, i),
-                         .metallic = lanes.metallic[i],
-                         .roughness = lanes.roughness[i],
-                         .dielectric = {.f0 = got(lanes.f0, i), .f90 = lanes.f90[i]}},
-                        wo);
-  const Vec3 outwards = got(lanes.outwards, i), throughput = got(lanes.throughput, i);
-  const Vec3 to_light = got(lanes.light_wi, i), light_wi = frame.to_local(to_light);
-  if (light_wi.z > 0 && glm::dot(to_light, outwards) > 0) {
-    const bsdf::Evaluation f = bsdf.evaluate(light_wi);
-    const float weight = lanes.light_pdf[i] > 0 ? power_heuristic(lanes.light_pdf[i], f.pdf) : 1;
-    result.shadow = throughput * f.value * got(lanes.light, i) * weight;
-  }
-  const sampling::Sobol sobol(lanes.key[i], lanes.index[i]);
-  const Vec2 chances = sobol.pair(step.pair(sampling::kLobePair));
-  const auto sample = bsdf.sample(sobol.pair(step.pair(sampling::kDirectionPair)), chances.x);
-  if (!sample) return result;
-  result.wi = frame.to_world(sample->wi);
-  if (!(glm::dot(result.wi, outwards) > 0)) return result;
-  result.throughput = throughput * sample->weight;
-  if (const float most = step.most_survival(); most < 1) {
-    const Vec3& t = result.throughput;
-    const float survival = std::min(std::max({t.x, t.y, t.z}), most);
-    if (!(chances.y < survival)) return result;
-    result.throughput /= survival;
-  }
-  result.pdf = sample->pdf;
+bsdf::Features any_features(Random& random) {
+  const auto chance = [&] { return random.number() < 0.3F; };
+  bsdf::Features result{.is_anisotropic = chance(), .has_film = chance(), .transmits = chance()};
+  result.refracts = result.transmits && random.number() < 0.5F;
+  if (chance()) result.layers = static_cast<bsdf::LayerSide>(random.bits() % 4);
   return result;
 }
 
-TEST_P(ShadingKernelsTest, ScatteringEqualsTheScalarCode) {
+TEST_P(ShadingKernelsTest, ScatteringHasTheBitsOfOneLane) {
   Random random(3);
-  ScatterLanes lanes{};
-  int lit = 0, alive = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  int lit = 0, alive = 0, below = 0;
+  for (int round = 0; round < 4 * kRounds; ++round) {
+    ScatterLanes lanes{};
     const WaveStep step{.depth = 1 + static_cast<std::uint32_t>(round % 6)};
+    const bsdf::Features features = any_features(random);
     for (int i = 0; i < kShadingLanes; ++i) {
-      const Vec3 n = random.direction(), outwards = bsdf::unit(n + 0.3F * random.vector());
+      const Vec3 n = random.direction(), outwards = unit<1>(n + 0.3F * random.vector());
       put(lanes.frame_n, i, n);
       put(lanes.outwards, i, outwards);
-      put(lanes.d, i, -random.above(n) * (random.unit() + 0.1F));
-      put(lanes.base_color, i, random.unit() < 0.2F ? Vec3(0) : random.color());
-      lanes.metallic[i] = std::clamp(1.5F * random.unit() - 0.25F, 0.0F, 1.0F);
-      lanes.roughness[i] = random.unit() * random.unit();
-      put(lanes.f0, i, random.unit() < 0.5F ? Vec3(0.04F) : random.color());
-      lanes.f90[i] = random.unit() < 0.5F ? 1 : random.unit();
+      put(lanes.d, i, -random.above(n) * (random.number() + 0.1F));
+      put_any_surface(lanes.surface, i, random);
+      put(lanes.surface.coat_normal, i,
+          random.number() < 0.5F ? n : unit<1>(n + 0.2F * random.vector()));
       put(lanes.throughput, i, 1.5F * random.color());
+      put(lanes.through_weight, i, random.color());
       put(lanes.light_wi, i, random.direction());
       put(lanes.light, i, 5.0F * random.color());
-      lanes.light_pdf[i] = random.unit() < 0.2F ? 0 : random.unit();
+      lanes.light_pdf[i] = random.number() < 0.2F ? 0 : random.number();
       lanes.key[i] = random.bits();
       lanes.index[i] = random.bits() >> (random.bits() & 31U);
     }
-    GetParam()->scatter(scatter_setup(step), lanes);
+    ScatterLanes expected = lanes;
+    GetParam()->scatter(scatter_setup(step, features), lanes);
+    scatter<1>(scatter_setup(step, features), expected);
     for (int i = 0; i < kShadingLanes; ++i) {
-      const Scattered expected = scattered(lanes, i, step);
-      expect_bits(got(lanes.shadow, i), expected.shadow, "shadow");
-      expect_bits(lanes.pdf[i], expected.pdf, "pdf");
-      lit += expected.shadow == Vec3(0) ? 0 : 1;
-      if (expected.pdf == 0) continue;
+      expect_bits(lanes.shadow, expected.shadow, i, "shadow");
+      expect_bits(lanes.pdf[i], expected.pdf[i], "pdf");
+      lit += got(lanes.shadow, i) == Vec3(0) ? 0 : 1;
+      ASSERT_FALSE(std::isnan(lanes.pdf[i]) || std::isnan(lanes.shadow[0][i]));
+      if (lanes.pdf[i] == 0) continue;
       ++alive;
-      expect_bits(got(lanes.wi, i), expected.wi, "wi");
-      expect_bits(got(lanes.next_throughput, i), expected.throughput, "throughput");
+      expect_bits(lanes.wi, expected.wi, i, "wi");
+      expect_bits(lanes.next_throughput, expected.next_throughput, i, "throughput");
+      if (!features.transmits) continue;
+      expect_bits(lanes.is_below[i], expected.is_below[i], "is_below");
+      below += lanes.is_below[i] != 0 ? 1 : 0;
     }
   }
-  EXPECT_GT(lit, kRounds * kShadingLanes / 4);
-  EXPECT_GT(alive, kRounds * kShadingLanes / 4);
+  EXPECT_GT(lit, kRounds * kShadingLanes);
+  EXPECT_GT(alive, kRounds * kShadingLanes);
+  EXPECT_GT(below, kRounds * kShadingLanes / 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Isa, ShadingKernelsTest, testing::ValuesIn(available_shading_kernels()),

@@ -20,10 +20,6 @@ struct Double3 {
   }
 };
 
-inline double magnitude(double x) {
-  return __builtin_fabs(x);
-}
-
 /// A triangle's plane relative to a ray's origin o: n = e1 x e2 and A.n with A = a - o.
 template <class D>
 struct SeenPlane {
@@ -67,11 +63,11 @@ inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, con
 }
 
 template <int N>
-inline Double3<Double<N>> widened(const float (*p)[kHitBatch], int i) {
+inline Double3<Double<N>> widened3(const float (*p)[kHitBatch], int i) {
   return {widened<N>(p[0] + i), widened<N>(p[1] + i), widened<N>(p[2] + i)};
 }
 template <int N>
-inline Double3<Double<N>> widened(const float* const (&p)[3], int i) {
+inline Double3<Double<N>> widened3(const float* const (&p)[3], int i) {
   return {widened<N>(p[0] + i), widened<N>(p[1] + i), widened<N>(p[2] + i)};
 }
 
@@ -87,9 +83,9 @@ template <int N>
 std::uint64_t round_t(HitBatch& hits) {
   std::uint64_t certain = 0;
   for (int i = 0; i < kHitBatch; i += N) {
-    const SeenPlane<Double<N>> plane(widened<N>(hits.o, i), widened<N>(hits.a, i),
-                                     widened<N>(hits.b, i), widened<N>(hits.c, i));
-    const auto d = widened<N>(hits.d, i);
+    const SeenPlane<Double<N>> plane(widened3<N>(hits.o, i), widened3<N>(hits.a, i),
+                                     widened3<N>(hits.b, i), widened3<N>(hits.c, i));
+    const auto d = widened3<N>(hits.d, i);
     certain |= std::uint64_t{round_t<N>(plane, d, size_error<N>(plane, d), hits.t + i)} << i;
   }
   return certain;

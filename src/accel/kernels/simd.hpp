@@ -26,7 +26,7 @@ inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
 template <int N, class Combine>
 inline float combined(const Float<N>& v, const Combine& combine) {
   if constexpr (N == 1) {
-    return v[0];
+    return v;
   } else {
     float lanes[N];
     store<N>(lanes, v);

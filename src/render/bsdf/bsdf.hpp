@@ -1,51 +1,178 @@
 #pragma once
-/// The BSDF of most surfaces: the metallic-roughness model of glTF 2.0, appendix B, opaque and
-/// without layers. general.hpp has the others. Local coordinates as in parameters.hpp.
+/// The BSDF of any surface, with or without layers, for N lanes. Local coordinates as in
+/// surface.hpp.
 
-#include "render/bsdf/dielectric_bound.hpp"
-#include "render/bsdf/ggx.hpp"
-#include "render/bsdf/parameters.hpp"
-#include "render/bsdf/schlick.hpp"
-
-#include <microtrace/math.hpp>
-
-#include <optional>
+#include "render/bsdf/base_bsdf.hpp"
+#include "render/bsdf/base_bsdf_lobes.hpp"
+#include "render/bsdf/base_bsdf_setup.hpp"
+#include "render/bsdf/coating.hpp"
+#include "render/bsdf/features.hpp"
+#include "render/bsdf/surface.hpp"
 
 namespace microtrace::bsdf {
 
-/// Diffuse reflection below specular reflection by GGX with Schlick's Fresnel term. It differs in
-/// two points from the formulas of section B.3, which lose energy on rough metals and gain energy
-/// on dielectrics at grazing angles: multiple scattering between microfacets is compensated (C.
-/// Kulla and A. Conty, Revisiting physically based shading at Imageworks, 2017), and the diffuse
-/// part is scaled by the energy that the specular part does not reflect, for both wo and wi (C.
-/// Kelemen and L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with
-/// importance sampling, 2001). The result is reciprocal and conserves energy.
+template <int N>
+struct PlainParts {
+  using FeaturesType = PlainFeatures;
+  using Microfacets = Ggx<N>;
+  using MicrofacetAlbedo = GgxAlbedo<N>;
+};
+template <int N>
+struct IsotropicParts {
+  using FeaturesType = Features;
+  using Microfacets = Ggx<N>;
+  using MicrofacetAlbedo = GgxAlbedo<N>;
+};
+template <int N>
+struct AnisotropicParts {
+  using FeaturesType = Features;
+  using Microfacets = AnisotropicGgx<N>;
+  using MicrofacetAlbedo = AnisotropicGgxAlbedo<N>;
+};
+
+/// A BaseBsdf below sheen below a clear coat. On refracting surfaces the layers are only on the
+/// outside, and absorb part of the light from inside.
+template <int N, class Parts>
 class Bsdf {
  public:
-  /// wo.z > 0. Only the parameters of plain surfaces are used.
-  Bsdf(const Parameters& parameters, const Vec3& wo);
+  using F = Float<N>;
+  using V = Floats3<N>;
+  using FeaturesType = typename Parts::FeaturesType;
 
-  [[nodiscard]] Evaluation evaluate(const Vec3& wi) const;
+  /// wo.z > 0. `coating` must outlive this; null if the features have no layers.
+  Bsdf(const FeaturesType& features, const Surface<N>& surface, const Coating<N>* coating,
+       const V& wo);
 
-  /// u selects the direction, `lobe`, in [0, 1), the lobe. Nothing if the sample is absorbed.
-  [[nodiscard]] std::optional<DirectionSample> sample(const Vec2& u, float lobe) const;
-
- private:
-  [[nodiscard]] Evaluation above(const Vec3& wi, const Vec3& h) const;
-
-  /// The fraction of light that the dielectric's specular part does not reflect.
-  [[nodiscard]] float unreflected(const Albedo& albedo) const {
-    return 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
+  [[nodiscard]] Evaluation<N> evaluate(const V& wi) const {
+    return evaluate(wi, base_.half_vector(wi));
   }
 
-  Vec3 wo_;
-  Ggx ggx_;
-  GgxAlbedo albedo_;
-  Schlick specular_;          ///< of metal and dielectric combined
-  GreatestSchlick greatest_;  ///< of the dielectric
-  float multiply_reflected_;  ///< its multiple-scattering factor
-  Vec3 diffuse_, multiple_;   ///< all factors that do not depend on wi
-  float facet_probability_;   ///< probability of sampling a microfacet normal
+  struct Sample {
+    V wi;  ///< zero if the sample is absorbed
+    Evaluation<N> evaluation;
+  };
+  /// u selects the direction, `lobe`, in [0, 1), the lobe. The pdf is 0 if the sample is absorbed.
+  [[nodiscard]] Sample sample(const Floats2<N>& u, const F& lobe) const;
+
+ private:
+  using Base = BaseBsdf<N, Parts>;
+
+  [[nodiscard]] static auto microfacets(const Surface<N>& s) {
+    if constexpr (__is_same(typename Parts::Microfacets, Ggx<N>))
+      return Ggx<N>(s.roughness);
+    else
+      return AnisotropicGgx<N>(s.roughness, s.anisotropy, s.along);
+  }
+  /// The coating that the base takes into account.
+  [[nodiscard]] const Coating<N>* base_coating() const {
+    return features_.layers == LayerSide::both ? coating_ : nullptr;
+  }
+  /// Whether there are layers on the side of wo.
+  [[nodiscard]] bool has_layers_above() const {
+    return features_.layers == LayerSide::both || features_.layers == LayerSide::above;
+  }
+  [[nodiscard]] Evaluation<N> evaluate(const V& wi, const V& h) const;
+  void absorb(const V& wi, V& value) const;
+  void add_sheen(const V& wi, const V& h, Evaluation<N>& e) const;
+  void add_coat(const V& wi, const V& h, Evaluation<N>& e) const;
+
+  FeaturesType features_;
+  V wo_;
+  const Coating<N>* coating_;
+  Base base_;
+  // Not set without layers above:
+  V sheen_;
+  F coat_;
+  F transmittance_;                         // transmittance for wo
+  F sheen_probability_, coat_probability_;  // sampling probabilities
 };
+
+template <int N, class Parts>
+Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
+                     const Coating<N>* coating, const V& wo)
+    : features_(features),
+      wo_(wo),
+      coating_(coating),
+      base_(features, surface, microfacets(surface), base_coating(), wo) {
+  if (!has_layers_above()) return;
+  sheen_ = surface.sheen;
+  coat_ = surface.coat;
+  transmittance_ = coating->transmittance(wo);
+  // In proportion to each layer's approximate albedo, with a minimum probability.
+  const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
+  const F of_sheen = larger_of(F(0.5F * greatest * coating->sheen().albedo(wo.z)), least);
+  const F of_coat = larger_of(F(0.8F * (1 - coating->coat_transmittance(wo))), least);
+  coat_probability_ = coat_ > 0 ? of_coat : F{};
+  sheen_probability_ = (greatest > 0 ? of_sheen : F{}) * (1 - coat_probability_);
+}
+
+template <int N, class Parts>
+void Bsdf<N, Parts>::add_sheen(const V& wi, const V& h, Evaluation<N>& e) const {
+  const auto has_sheen = (coating_->greatest_sheen() > 0) & (wi.z > 0);
+  if (!any(has_sheen)) return;
+  const F through = smaller_of(coating_->coat_transmittance(wo_), coating_->coat_transmittance(wi));
+  const V value = sheen_ * (coating_->sheen().reflectance(wo_, wi, h) * through * wi.z);
+  e.value = select3(has_sheen, V(e.value + value), e.value);
+  e.pdf = has_sheen ? e.pdf + sheen_probability_ * coating_->sheen().pdf(wi.z) : e.pdf;
+}
+
+template <int N, class Parts>
+void Bsdf<N, Parts>::add_coat(const V& wi, const V& h, Evaluation<N>& e) const {
+  const Frame<N>& frame = coating_->coat_frame();
+  const V o = frame.to_local(wo_), i = frame.to_local(wi);
+  const auto has_coat = (coat_ != 0) & (wi.z > 0) & (o.z > 0) & (i.z > 0);
+  if (!any(has_coat)) return;
+  const Ggx<N>& facets = coating_->coat();
+  const F d = facets.distribution(frame.to_local(h));
+  const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
+  // The smaller of the cosines with either normal, for both directions: reciprocal, and never above
+  // the coat's albedo.
+  const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
+  const F value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
+  e.value = select3(has_coat, V(e.value + all3<N>(value)), e.value);
+  e.pdf = has_coat ? e.pdf + coat_probability_ * facets.reflected_pdf(o.z, d) : e.pdf;
+}
+
+template <int N, class Parts>
+void Bsdf<N, Parts>::absorb(const V& wi, V& value) const {
+  if (features_.layers == LayerSide::above) {
+    const F through = smaller_of(transmittance_, coating_->transmittance(wi));
+    value *= wi.z > 0 ? through : transmittance_;
+  } else if (features_.layers == LayerSide::below) {
+    value *= wi.z < 0 ? coating_->transmittance(mirrored(wi)) : all<N>(1);
+  }
+}
+
+template <int N, class Parts>
+Evaluation<N> Bsdf<N, Parts>::evaluate(const V& wi, const V& h) const {
+  Evaluation<N> e = base_.evaluate(base_coating(), wi, h);
+  absorb(wi, e.value);
+  if (!has_layers_above()) return e;
+  e.pdf *= 1 - coat_probability_ - sheen_probability_;
+  add_sheen(wi, h, e);
+  add_coat(wi, h, e);
+  return e;
+}
+
+template <int N, class Parts>
+auto Bsdf<N, Parts>::sample(const Floats2<N>& u, const F& lobe) const -> Sample {
+  if (!has_layers_above()) {
+    const typename Base::Direction direction = base_.sample(u, lobe);
+    return {direction.wi, evaluate(direction.wi, direction.h)};
+  }
+  const F layers = coat_probability_ + sheen_probability_;
+  const F rest = lobe < layers ? F{} : sampling::reused<N>(lobe, layers, 1 - layers);
+  V wi = base_.sample(u, rest).wi;
+  const auto is_coat = lobe < coat_probability_, is_sheen = lobe < layers;
+  wi = select3(is_sheen, coating_->sheen().direction(u), wi);
+  if (any(is_coat)) {
+    const Frame<N>& frame = coating_->coat_frame();
+    const V o = frame.to_local(wo_), h = coating_->coat().visible_normal(o, u);
+    const V i = (2 * dot(o, h)) * h - o, coated = frame.to_world(i);
+    const auto is_above = (i.z > 0) & (coated.z > 0);
+    wi = select3(is_coat, select3(is_above, coated, all3<N>(0)), wi);
+  }
+  return {wi, evaluate(wi)};
+}
 
 }  // namespace microtrace::bsdf

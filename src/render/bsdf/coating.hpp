@@ -1,59 +1,113 @@
 #pragma once
-/// Transmittance of coatings. Local coordinates as in parameters.hpp.
+/// Transmittance of coatings, for N lanes. Local coordinates as in surface.hpp.
 
-#include "render/bsdf/coating_table.hpp"
 #include "render/bsdf/frame.hpp"
-#include "render/bsdf/ggx.hpp"
-#include "render/bsdf/layers.hpp"
-#include "render/bsdf/parameters.hpp"
-#include "render/bsdf/schlick.hpp"
+#include "render/bsdf/ggx_albedo.hpp"
 #include "render/bsdf/sheen.hpp"
-
-#include <microtrace/math.hpp>
-
-#include <array>
-#include <cstddef>
+#include "render/bsdf/surface.hpp"
 
 namespace microtrace::bsdf {
-
-/// Index of refraction 1.5.
-inline constexpr Schlick kCoat{};
 
 /// Sheen below a clear coat. The base is scaled by the fraction of light that the layers do not
 /// reflect, for wo or wi, whichever is smaller (as in KHR_materials_sheen). Microfacets scatter
 /// light into directions of lower transmittance: deficit() is this energy deficit, which the base
 /// compensates in other directions.
+template <int N>
 class Coating {
  public:
-  Coating(const Layers& layers, const Parameters& base);
+  using F = Float<N>;
+  using V = Floats3<N>;
+
+  /// Index of refraction 1.5.
+  static Schlick<N> fresnel() { return {}; }
+
+  explicit Coating(const Surface<N>& surface)
+      : coat_weight_(surface.coat),
+        greatest_sheen_(greatest_component(surface.sheen)),
+        sheen_(surface.sheen_roughness),
+        coat_(surface.coat_roughness),
+        coat_albedo_(coat_),
+        coat_frame_(Frame<N>::about(surface.coat_normal)) {
+    const V& n = surface.coat_normal;
+    // A coat with its own normal transmits most along that normal.
+    const auto is_turned = (coat_weight_ > 0) & ((n.x != 0) | (n.y != 0) | (n.z != 1));
+    const F one = all<N>(1);
+    for (int k = 0; k < kNodes; ++k) {
+      const F z = all<N>(kTables.coating_node[k]);
+      node_transmittance_[k] = coat_transmittance(is_turned ? one : z) * sheen_transmittance(z);
+    }
+    // The table's deficit is too large if sheen is narrower than the distance of nodes, and for
+    // anisotropic facets.
+    F trust = surface.anisotropy > 0 ? all<N>(0.4F) : one;
+    const F wide = clamped(F(5 * surface.sheen_roughness - 0.25F), F{}, one);
+    trust = greatest_sheen_ > 0 ? trust * wide : trust;
+    // It has no energy deficit for coats with their own normal.
+    trust = is_turned ? F{} : trust;
+    const int rows = kCoatingRows;
+    const Cell<N> row(square_root<N>(surface.roughness) * static_cast<float>(rows - 1), rows);
+    for (int i = 0; i < kColumns; ++i) {
+      deficit_f1_[i] = mixed(kTables.deficit_f1, row, i) * trust;
+      deficit_schlick_[i] = mixed(kTables.deficit_schlick, row, i) * trust;
+    }
+  }
 
   /// The transmittance of the coat, or of all layers, for a direction above.
-  [[nodiscard]] float coat_transmittance(const Vec3& w) const;
-  [[nodiscard]] float transmittance(const Vec3& w) const;
+  [[nodiscard]] F coat_transmittance(const V& w) const {
+    return coat_transmittance(clamped(coat_frame_.to_local(w).z, F{}, all<N>(1)));
+  }
+  [[nodiscard]] F transmittance(const V& w) const {
+    return coat_transmittance(w) * sheen_transmittance(w.z);
+  }
 
   /// The energy deficit for light to or from z = cos(theta): the albedo of the facets if all
   /// directions had the transmittance of z, minus the actual one.
-  [[nodiscard]] Albedo deficit(float z) const;
+  [[nodiscard]] Albedo<N> deficit(const F& z) const {
+    const Cell<N> cell(square_root<N>(z) * (kColumns - 1), kColumns);
+    return {cell.mixed(picked<N>(deficit_f1_, cell.first), picked<N>(deficit_f1_ + 1, cell.first)),
+            cell.mixed(picked<N>(deficit_schlick_, cell.first),
+                       picked<N>(deficit_schlick_ + 1, cell.first))};
+  }
 
-  /// An upper bound of transmittance() at kCoatingNode[k].
-  [[nodiscard]] float transmittance_at_node(std::size_t k) const { return node_transmittance_[k]; }
+  /// An upper bound of transmittance() at node k.
+  [[nodiscard]] const F& transmittance_at_node(int k) const { return node_transmittance_[k]; }
 
-  [[nodiscard]] const SheenLobe& sheen() const { return sheen_; }
-  [[nodiscard]] float greatest_sheen() const { return greatest_sheen_; }
-  [[nodiscard]] const Ggx& coat() const { return coat_; }
-  [[nodiscard]] const Frame& coat_frame() const { return coat_frame_; }
+  [[nodiscard]] const SheenLobe<N>& sheen() const { return sheen_; }
+  [[nodiscard]] const F& greatest_sheen() const { return greatest_sheen_; }
+  [[nodiscard]] const Ggx<N>& coat() const { return coat_; }
+  [[nodiscard]] const Frame<N>& coat_frame() const { return coat_frame_; }
 
  private:
-  [[nodiscard]] float coat_transmittance(float z) const;
-  [[nodiscard]] float sheen_transmittance(float z) const;
+  static constexpr int kNodes = kCoatingNodes, kColumns = kCoatingColumns;
 
-  float coat_weight_, greatest_sheen_;  // greatest_sheen_: maximum over the channels
-  SheenLobe sheen_;
-  Ggx coat_;
-  GgxAlbedo coat_albedo_;
-  Frame coat_frame_;
-  std::array<float, kCoatingNodes> node_transmittance_;
-  std::array<Albedo, kCoatingColumns> deficit_{};
+  [[nodiscard]] F coat_transmittance(const F& z) const {
+    const Albedo<N> albedo = coat_albedo_.at(z);
+    const Schlick<N> schlick = fresnel();
+    const F left =
+        1 - coat_weight_ * (schlick.f0.x * (albedo.f1 - albedo.schlick) + albedo.schlick);
+    return coat_weight_ == 0 ? all<N>(1) : left;
+  }
+  [[nodiscard]] F sheen_transmittance(const F& z) const {
+    const F left = 1 - greatest_sheen_ * sheen_.albedo(z);
+    return greatest_sheen_ > 0 ? left : all<N>(1);
+  }
+  [[nodiscard]] F mixed(const std::int16_t* table, const Cell<N>& row, int column) const {
+    F upper{}, lower{};
+    for (int k = 0; k < kNodes; ++k) {
+      const std::int16_t* entries = table + column * kNodes + k;
+      const Int<N> index = row.first * (kNodes * kColumns);
+      upper += node_transmittance_[k] * gathered<N>(entries, index);
+      lower += node_transmittance_[k] * gathered<N>(entries + kNodes * kColumns, index);
+    }
+    return larger_of(row.mixed(upper, lower) * kDeficitUnit, F{});
+  }
+
+  F coat_weight_, greatest_sheen_;  // greatest_sheen_: maximum over the channels
+  SheenLobe<N> sheen_;
+  Ggx<N> coat_;
+  GgxAlbedo<N> coat_albedo_;
+  Frame<N> coat_frame_;
+  F node_transmittance_[kCoatingNodes];
+  F deficit_f1_[kCoatingColumns], deficit_schlick_[kCoatingColumns];
 };
 
 }  // namespace microtrace::bsdf

@@ -1,11 +1,10 @@
 #pragma once
-/// Input and output of BSDFs.
-///
-/// Local coordinates: z is the shading normal on the side of wo. Directions are unit vectors that
-/// point away from the surface: wo to the previous vertex of the path, wi to the next, above or
-/// below.
+/// The parameters of a BSDF at one point, as shading code collects them. surface.hpp has them in
+/// lanes.
 
+#include "render/bsdf/features.hpp"
 #include "render/bsdf/schlick.hpp"
+#include "render/bsdf/thin_film.hpp"
 
 #include <microtrace/math.hpp>
 
@@ -13,20 +12,11 @@
 
 namespace microtrace::bsdf {
 
-/// Covers part of a surface (KHR_materials_iridescence).
-struct ThinFilm {
-  float share = 1;        ///< covered fraction, in [0, 1]
-  float ior = 1.3F;       ///< at least 1
-  float thickness = 400;  ///< nanometers
-
-  bool operator==(const ThinFilm&) const = default;
-};
-
 /// The material parameters at one point, from textures and factors.
 struct Parameters {
   Vec3 base_color{1};                 ///< linear Rec. 709, each in [0, 1]
   float metallic = 0, roughness = 1;  ///< each in [0, 1]
-  Schlick dielectric{};               ///< reflectance of the nonmetallic part
+  Schlick<1> dielectric{};            ///< reflectance of the nonmetallic part
   /// The fraction of the light entering the dielectric that is transmitted
   /// (KHR_materials_transmission).
   float transmission = 0;
@@ -37,40 +27,32 @@ struct Parameters {
   /// (KHR_materials_diffuse_transmission).
   float diffuse_transmission = 0;
   Vec3 diffuse_transmission_color{1};
-  /// Strength in [0, 1], and the direction of the longer highlights, of unit length
-  /// (KHR_materials_anisotropy).
+  /// Strength in [0, 1], and the direction of the longer highlights, in world space, of any length
+  /// (KHR_materials_anisotropy). Only its part along the surface counts.
   float anisotropy = 0;
-  Vec2 along{1, 0};
-  std::optional<ThinFilm> film{};
-
-  bool operator==(const Parameters&) const = default;
-
-  /// Whether Bsdf implements these parameters: the first four below. The other three have no effect
-  /// alone. A parameter that is not listed here is not plain.
-  [[nodiscard]] bool is_plain() const {
-    const Parameters standard;
-    Parameters rest = *this;
-    rest.base_color = standard.base_color;
-    rest.metallic = standard.metallic;
-    rest.roughness = standard.roughness;
-    rest.dielectric = standard.dielectric;
-    rest.eta = standard.eta;
-    rest.diffuse_transmission_color = standard.diffuse_transmission_color;
-    rest.along = standard.along;
-    return rest == standard;
-  }
+  Vec3 along{1, 0, 0};
+  std::optional<ThinFilm<1>> film{};
 };
 
-/// f(wo, wi) |cos(theta_i)|, and the pdf with which sample() returns wi, per solid angle.
-struct Evaluation {
-  Vec3 value{0};
-  float pdf = 0;
+/// Layers above a surface. The defaults mean no layer.
+struct Layers {
+  Vec3 sheen{0};              ///< color, linear Rec. 709, each in [0, 1] (KHR_materials_sheen)
+  float sheen_roughness = 0;  ///< in [0, 1]
+  float coat = 0, coat_roughness = 0;  ///< each in [0, 1] (KHR_materials_clearcoat)
+  LayerSide side = LayerSide::both;
+
+  [[nodiscard]] bool are_visible() const { return coat != 0 || sheen != Vec3(0); }
 };
 
-struct DirectionSample {
-  Vec3 wi{0, 0, 1};
-  Vec3 weight{0};  ///< value / pdf
-  float pdf = 0;   ///< per solid angle
-};
+/// The parts that the BSDF needs for these parameters. An index of refraction alone needs none.
+[[nodiscard]] inline Features features_of(const Parameters& p, const Layers& layers) {
+  Features result{.is_anisotropic = p.anisotropy > 0,
+                  .has_film = p.film.has_value(),
+                  .transmits = p.transmission > 0 || p.diffuse_transmission > 0,
+                  .layers = layers.are_visible() ? layers.side : LayerSide::none};
+  result.refracts = result.index() != 0 && p.eta.has_value();
+  result.transmits |= result.refracts;
+  return result;
+}
 
 }  // namespace microtrace::bsdf

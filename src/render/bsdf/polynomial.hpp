@@ -1,4 +1,6 @@
 #pragma once
+#include "simd/vectors.hpp"
+
 #include <array>
 #include <cstddef>
 
@@ -8,32 +10,33 @@ namespace microtrace::bsdf {
 template <std::size_t rows, std::size_t columns>
 using Polynomial2 = std::array<std::array<float, columns>, rows>;
 
-/// Horner's scheme.
-template <std::size_t rows, std::size_t columns>
-[[nodiscard]] float value(const Polynomial2<rows, columns>& p, float x, float y) {
-  std::array<float, columns> sum = p[rows - 1];
-  for (std::size_t k = rows - 1; k-- > 0;)
-    for (std::size_t i = 0; i < columns; ++i) sum[i] = sum[i] * x + p[k][i];
-  float result = sum[columns - 1];
-  for (std::size_t i = columns - 1; i-- > 0;) result = result * y + sum[i];
+/// Horner's scheme for a Polynomial2, whose coefficients are numbers or lanes.
+template <int N, int rows, int columns, class Coefficient>
+[[nodiscard]] Float<N> value(const Coefficient* p, const Float<N>& x, const Float<N>& y) {
+  Float<N> result{};
+  for (int i = columns - 1; i >= 0; --i) {
+    Float<N> sum = Float<N>{} + p[(rows - 1) * columns + i];
+    for (int k = rows - 2; k >= 0; --k) sum = sum * x + p[k * columns + i];
+    result = i == columns - 1 ? sum : result * y + sum;
+  }
   return result;
 }
 
-/// Inserts the first two of four variables; returns the polynomial of the other two.
-template <std::size_t n, typename Plane>
-[[nodiscard]] Plane plane_at(const std::array<std::array<Plane, n>, n>& planes, float x, float y) {
-  Plane sum{};
-  float row_power = 1;
-  for (const auto& row : planes) {
-    float power = row_power;
-    for (const Plane& plane : row) {
-      for (std::size_t i = 0; i < plane.size(); ++i)
-        for (std::size_t k = 0; k < plane[i].size(); ++k) sum[i][k] += power * plane[i][k];
+/// Inserts the first two of four variables into n x n Polynomial2 of `size` coefficients each, and
+/// returns the coefficients of the polynomial of the other two.
+template <int N, int n, int size>
+void insert(const float* planes, const Float<N>& x, const Float<N>& y, Float<N> (&sum)[size]) {
+  for (Float<N>& coefficient : sum) coefficient = Float<N>{};
+  Float<N> row_power = Float<N>{} + 1;
+  for (int row = 0; row < n; ++row) {
+    Float<N> power = row_power;
+    for (int column = 0; column < n; ++column) {
+      const float* plane = planes + (row * n + column) * size;
+      for (int i = 0; i < size; ++i) sum[i] += power * plane[i];
       power *= y;
     }
     row_power *= x;
   }
-  return sum;
 }
 
 }  // namespace microtrace::bsdf

@@ -1,62 +1,162 @@
 #pragma once
-#include "render/bsdf/dielectric_bound.hpp"
-#include "render/bsdf/refraction_loss_table.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
+#include "render/bsdf/ggx_albedo.hpp"
+#include "render/bsdf/tables.hpp"
 
 namespace microtrace::bsdf {
+
+/// Lagrange's parabola through three neighboring points out of n in [0, 1].
+template <int N>
+struct Parabola {
+  Int<N> first;
+  Float<N> weights[3];
+
+  Parabola(const Float<N>& x, int n) {
+    const Float<N> step = x * static_cast<float>(n - 1);
+    // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+    const Int<N> nearest = truncated<N>(step + 0.5F);
+    const Int<N> least = Int<N>{} + 1, last = Int<N>{} + (n - 3);
+    const Int<N> before = larger_of(nearest, least) - 1;
+    first = smaller_of(before, last);
+    const Float<N> p = step - to_float<N>(first);
+    weights[0] = (p - 1) * (p - 2) * 0.5F;
+    weights[1] = p * (2 - p);
+    weights[2] = p * (p - 1) * 0.5F;
+  }
+};
+
+template <int n>
+struct HatWeights {
+  float value[n];
+};
+
+/// Integrals over [0, 1] of (m + 1) x^m times the piecewise linear hat functions of n equidistant
+/// points.
+template <int m, int n>
+constexpr HatWeights<n> hat_weights() {
+  const auto power = [](double x, int k) {
+    double result = 1;
+    while (k-- > 0) result *= x;
+    return result;
+  };
+  HatWeights<n> result{};
+  const double cells = n - 1;
+  for (int i = 0; i + 1 < n; ++i) {
+    const double a = i / cells, b = (i + 1) / cells;
+    const double all = power(b, m + 1) - power(a, m + 1);
+    const double moment = (power(b, m + 2) - power(a, m + 2)) * (m + 1) / (m + 2);
+    const double upper = (moment - a * all) * cells;
+    result.value[i] += static_cast<float>(all - upper);
+    result.value[i + 1] += static_cast<float>(upper);
+  }
+  return result;
+}
 
 /// The energy deficit of single scattering at a rough refracting boundary, on both sides, and the
 /// division of its multiple scattering between the sides (C. Kulla and A. Conty, Revisiting
 /// physically based shading at Imageworks, 2017). Never more than the actual loss.
+template <int N>
 class RefractionLoss {
  public:
+  using F = Float<N>;
+
   /// No loss.
   RefractionLoss() = default;
 
   /// eta: the index of refraction below divided by that above, not 1.
-  RefractionLoss(float roughness, float eta, const GreatestSchlick& dielectric);
+  RefractionLoss(const F& roughness, const F& eta, const GreatestSchlick<N>& dielectric);
 
   /// The loss for light to or from z = cos(theta) above the surface, or -z below it.
-  [[nodiscard]] float above(float z) const { return above_is_thinner_ ? outside(z) : within(z); }
-  [[nodiscard]] float below(float z) const { return above_is_thinner_ ? within(z) : outside(z); }
+  [[nodiscard]] F above(const F& z) const { return at(z, above_is_thinner_); }
+  [[nodiscard]] F below(const F& z) const { return at(z, 1 - above_is_thinner_); }
 
   /// Cosine-weighted means of the losses.
-  [[nodiscard]] float mean_above() const {
-    return above_is_thinner_ ? mean_outside_ : mean_within_;
+  [[nodiscard]] F mean_above() const {
+    return above_is_thinner_ != 0 ? mean_outside_ : mean_within_;
   }
-  [[nodiscard]] float mean_below() const {
-    return above_is_thinner_ ? mean_within_ : mean_outside_;
+  [[nodiscard]] F mean_below() const {
+    return above_is_thinner_ != 0 ? mean_within_ : mean_outside_;
   }
 
   /// The fraction of the loss above that multiple scattering transmits; the rest is reflected.
-  [[nodiscard]] float through() const { return through_; }
+  [[nodiscard]] const F& through() const { return through_; }
 
  private:
-  using Columns = std::array<float, kLossColumns>;
+  static constexpr int kColumns = kLossColumns, kHalf = (kLossColumns + 1) / 2;
 
-  [[nodiscard]] static float mixed(const Columns& columns, float step) {
-    const auto first = std::min(static_cast<std::size_t>(step), kLossColumns - 2);
-    return columns[first] +
-           (step - static_cast<float>(first)) * (columns[first + 1] - columns[first]);
-  }
-  [[nodiscard]] float outside(float z) const {
-    return mixed(outside_, std::sqrt(z) * (kLossColumns - 1));
-  }
-  [[nodiscard]] float within(float z) const {
-    constexpr std::size_t middle = (kLossColumns - 1) / 2;
-    constexpr auto half = static_cast<float>(middle);
-    if (z < critical_) return mixed(within_, half * std::sqrt(z / critical_));
-    return mixed(within_, half + half * std::sqrt((z - critical_) / (1 - critical_)));
-  }
+  void add(const F& weight, const Int<N>& row);
+  [[nodiscard]] F at(const F& z, const F& is_outside) const;
 
-  bool above_is_thinner_ = true;
-  float critical_ = 0.5F;  // cosine of the critical angle
-  Columns outside_{}, within_{};
-  float mean_outside_ = 0, mean_within_ = 0, through_ = 0;
+  F above_is_thinner_ = all<N>(1);  // or 0
+  F critical_ = all<N>(0.5F);       // cosine of the critical angle
+  F outside_[kLossColumns]{}, within_[kLossColumns]{};
+  F mean_outside_{}, mean_within_{}, through_{};
 };
+
+template <int N>
+void RefractionLoss<N>::add(const F& weight, const Int<N>& row) {
+  for (int i = 0; i < kColumns; ++i) {
+    outside_[i] += weight * gathered<N>(kTables.loss_from_outside + i, row * kColumns);
+    within_[i] += weight * gathered<N>(kTables.loss_from_within + i, row * kColumns);
+  }
+}
+
+template <int N>
+RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
+                                  const GreatestSchlick<N>& dielectric) {
+  const F zero{}, one = all<N>(1);
+  const auto above_is_thinner = eta > 1;
+  above_is_thinner_ = above_is_thinner ? one : zero;
+  const F q = above_is_thinner ? 1 / eta : eta, r = (1 - q) / (1 + q);
+  critical_ = square_root<N>(1 - q * q);
+  const Parabola<N> index(smaller_of(critical_ / kGreatestCritical, one), kLossIndices);
+  const Parabola<N> row(clamped(roughness, zero, one), kLossRows);
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      const int rows = kLossRows;
+      add(index.weights[k] * row.weights[j] * kRefractionUnit,
+          (index.first + k) * rows + (row.first + j));
+    }
+  }
+  // The tables use the reflectance that follows from the index. If the actual reflectance is
+  // smaller by a factor, at least this fraction of the loss remains; other differences allow no
+  // conclusion.
+  const F unsure = magnitude(F(dielectric.f0 - dielectric.f90 * r * r));
+  constexpr auto weights = hat_weights<3, kColumns>();
+  constexpr auto cubic = hat_weights<3, kHalf>();
+  constexpr auto linear = hat_weights<1, kHalf>();
+  for (int i = 0; i < kColumns; ++i) {
+    outside_[i] = clamped(F(dielectric.f90 * outside_[i] - unsure), zero, one);
+    within_[i] = clamped(F(dielectric.f90 * within_[i] - unsure), zero, one);
+    mean_outside_ += weights.value[i] * outside_[i];
+  }
+  const F c = critical_;
+  for (int i = 0; i < kHalf; ++i) {
+    const F above = 2 * c * linear.value[i] + (1 - c) * cubic.value[i];
+    mean_within_ += c * c * cubic.value[i] * within_[i] + (1 - c) * above * within_[i + kHalf - 1];
+  }
+  mean_outside_ = larger_of(mean_outside_, all<N>(1e-6F));
+  mean_within_ = larger_of(mean_within_, all<N>(1e-6F));
+  // Reciprocity: through / eta^2 divided by the other side's mean is the same from both sides.
+  const F fresnel = dielectric.f0 + (dielectric.f90 - dielectric.f0) * (1 / 21.0F);
+  const F ratio = eta * eta * mean_below() / mean_above();
+  through_ = (1 - fresnel) * smaller_of(one, ratio);
+}
+
+template <int N>
+auto RefractionLoss<N>::at(const F& z, const F& is_outside) const -> F {
+  constexpr auto half = static_cast<float>((kColumns - 1) / 2);
+  const auto is_totally_reflected = z < critical_;
+  const F part = is_totally_reflected ? z / critical_ : (z - critical_) / (1 - critical_);
+  const F within = half * square_root<N>(part);
+  const auto outside = is_outside != 0;
+  const Cell<N> cell(outside                ? square_root<N>(z) * (kColumns - 1)
+                     : is_totally_reflected ? within
+                                            : half + within,
+                     kColumns);
+  const F first = outside ? picked<N>(outside_, cell.first) : picked<N>(within_, cell.first);
+  const F second =
+      outside ? picked<N>(outside_ + 1, cell.first) : picked<N>(within_ + 1, cell.first);
+  return cell.mixed(first, second);
+}
 
 }  // namespace microtrace::bsdf

@@ -1,19 +1,24 @@
 #pragma once
-#include <microtrace/math.hpp>
+#include "simd/vector3.hpp"
 
 namespace microtrace::bsdf {
 
 /// Schlick's Fresnel approximation (C. Schlick, An inexpensive BRDF model for physically-based
 /// rendering, 1994).
+template <int N>
 struct Schlick {
-  Vec3 f0{0.04F};  ///< at normal incidence
-  float f90 = 1;   ///< at grazing angles
+  Floats3<N> f0 = all3<N>(0.04F);  ///< at normal incidence
+  Float<N> f90 = all<N>(1);        ///< at grazing angles
 
-  bool operator==(const Schlick&) const = default;
+  bool operator==(const Schlick&) const requires(N == 1) = default;
 
-  [[nodiscard]] Vec3 operator()(float cosine) const {
-    const float x = 1 - cosine, square = x * x;
-    return f0 + (Vec3(f90) - f0) * (square * square * x);
+  /// The second part of the reflectance: f0 + (f90 - f0) edge.
+  static Float<N> edge(const Float<N>& cosine) {
+    const Float<N> x = 1 - cosine, square = x * x;
+    return square * square * x;
+  }
+  [[nodiscard]] Floats3<N> operator()(const Float<N>& cosine) const {
+    return f0 + (f90 - f0) * edge(cosine);
   }
 };
 

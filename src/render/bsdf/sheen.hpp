@@ -1,39 +1,111 @@
 #pragma once
 /// Sheen: fibers on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen
-/// BRDF, 2017), as in KHR_materials_sheen. Local coordinates as in ggx.hpp.
+/// BRDF, 2017), as in KHR_materials_sheen, for N lanes. Local coordinates as in ggx.hpp.
 
-#include "render/bsdf/sheen_table.hpp"
+#include "render/bsdf/ggx_albedo.hpp"
+#include "simd/exponential.hpp"
 
-#include <microtrace/math.hpp>
+#include <numbers>
 
 namespace microtrace::bsdf {
 
 /// Minimum roughness: such fibers are visible only within some five degrees of the surface.
 inline constexpr float kLeastSheenRoughness = 0.05F;
 
+/// The terms of the model that need float64.
+template <int N>
+struct SheenTerms {
+  using D = Double<N>;
+
+  D alpha;
+
+  /// The exponent of the paper's fit of the masking function.
+  [[nodiscard]] D fit(const D& x) const {
+    const D t = (1 - alpha) * (1 - alpha);
+    const auto mix = [&](double rough, double smooth) { return rough + t * (smooth - rough); };
+    const D a = mix(21.5473, 25.3245), b = mix(3.82987, 3.32435), c = mix(0.19823, 0.16801),
+            d = mix(-1.97760, -1.27393), e = mix(-4.32054, -4.85967);
+    return a / (1 + b * power<N>(x, c)) + d * x + e;
+  }
+
+  [[nodiscard]] D lambda(const D& cosine) const {
+    const auto is_low = cosine < 0.5;
+    const D at = fit(is_low ? cosine : 1 - cosine);
+    return exponential<N>(is_low ? at : 2 * fit(D{} + 0.5) - at);
+  }
+
+  /// D V, where h.z = sqrt(1 - sine_square).
+  [[nodiscard]] D reflectance(const D& z_o, const D& z_i, const D& sine_square) const {
+    const D d = (2 + 1 / alpha) * power<N>(smaller_of(sine_square, D{} + 1), 0.5 / alpha) *
+                (0.5 * std::numbers::inv_pi);
+    return d / (4 * (1 + lambda(z_o) + lambda(z_i)) * z_o * z_i);
+  }
+};
+
 /// The published model has an albedo of up to 4 for smooth fibers at grazing angles. There it is
 /// divided by its albedo for wo or wi, whichever is larger.
+template <int N>
 class SheenLobe {
  public:
-  explicit SheenLobe(float roughness);
+  using F = Float<N>;
+  using V = Floats3<N>;
+
+  explicit SheenLobe(const F& roughness)
+      : roughness_(clamped(roughness, all<N>(kLeastSheenRoughness), all<N>(1))),
+        row_(square_root<N>((roughness_ - kLeastSheenRoughness) / (1 - kLeastSheenRoughness)) *
+                 (kSheenRows - 1),
+             kSheenRows) {}
 
   /// D V without color, for directions above the surface and their half vector.
-  [[nodiscard]] float reflectance(const Vec3& wo, const Vec3& wi, const Vec3& h) const;
+  [[nodiscard]] F reflectance(const V& wo, const V& wi, const V& h) const {
+    constexpr int n = kDoubleLanes<N>;
+    alignas(64) float roughness[N], z_o[N], z_i[N], x[N], y[N], values[N];
+    store<N>(roughness, roughness_);
+    store<N>(z_o, wo.z);
+    store<N>(z_i, wi.z);
+    store<N>(x, h.x);
+    store<N>(y, h.y);
+    for (int i = 0; i < N; i += n) {
+      const Double<n> r = widened<n>(roughness + i), h_x = widened<n>(x + i),
+                      h_y = widened<n>(y + i);
+      const SheenTerms<n> terms{r * r};
+      narrowed<n>(
+          terms.reflectance(widened<n>(z_o + i), widened<n>(z_i + i), h_x * h_x + h_y * h_y),
+          values + i);
+    }
+    const F most =
+        larger_of(look_up(kTables.raw_sheen_albedo, wo.z), look_up(kTables.raw_sheen_albedo, wi.z));
+    return load<N>(values) / larger_of(most, all<N>(1));
+  }
 
   /// The directional albedo for z = cos(theta), at most 1.
-  [[nodiscard]] float albedo(float z) const { return look_up(kSheenAlbedo, z); }
+  [[nodiscard]] F albedo(const F& z) const { return look_up(kTables.sheen_albedo, z); }
 
-  /// Samples a direction above the surface, lower for smoother fibers, and its pdf.
-  [[nodiscard]] Vec3 direction(const Vec2& u) const;
-  [[nodiscard]] float pdf(float z) const;
+  /// Samples a direction above the surface, lower for smoother fibers. z has the pdf
+  /// b (1 + b) / (z + b)^2.
+  [[nodiscard]] V direction(const Floats2<N>& u) const {
+    const F b = 2 * roughness_, z = smaller_of(u.y * b / (1 + b - u.y), all<N>(1));
+    const auto [cosine, sine] = sampling::unit_pair<N>(u.x);
+    const F r = square_root<N>(1 - z * z);
+    return {r * cosine, r * sine, z};
+  }
+  [[nodiscard]] F pdf(const F& z) const {
+    const F b = 2 * roughness_;
+    return 0.5F * kInversePi * b * (1 + b) / ((z + b) * (z + b));
+  }
 
  private:
-  [[nodiscard]] float look_up(const SheenTable& table, float z) const;
-  [[nodiscard]] double lambda(double cosine) const;
+  [[nodiscard]] F look_up(const float* table, const F& z) const {
+    const F bend = 0.5F * roughness_, height = clamped(z, F{}, all<N>(1));
+    const Cell<N> column(height * (1 + bend) / (height + bend) * (kSheenColumns - 1),
+                         kSheenColumns);
+    const int columns = kSheenColumns;
+    const Int<N> row = row_.first * columns;
+    return row_.mixed(column.in_row(table, row), column.in_row(table + columns, row));
+  }
 
-  float roughness_;
-  double alpha_;
-  float row_;  // position in the tables
+  F roughness_;
+  Cell<N> row_;  // position in the tables
 };
 
 }  // namespace microtrace::bsdf

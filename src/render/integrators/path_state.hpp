@@ -1,4 +1,5 @@
 #pragma once
+#include "render/integrators/power_heuristic.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
@@ -42,11 +43,5 @@ struct WaveStep {
   /// Russian roulette starts at this path length.
   static constexpr std::uint32_t kFirstRoulette = 4;
 };
-
-/// E. Veach, Robust Monte Carlo methods for light transport simulation, 1997, section 9.2.2.
-inline float power_heuristic(float pdf, float other) {
-  const float square = pdf * pdf;
-  return square / (square + other * other);
-}
 
 }  // namespace microtrace

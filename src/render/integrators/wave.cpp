@@ -1,5 +1,6 @@
 #include "render/integrators/wave.hpp"
 
+#include "render/bsdf/frame.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "scene/exponential.hpp"
 
@@ -11,13 +12,6 @@
 
 namespace microtrace {
 namespace {
-
-/// Whether a direction is on one side of the surface, the ray's side if `above`, by both the
-/// geometric and the shading normal.
-bool agrees(const ShadingPoint& point, const Vec3& wi, bool above) {
-  const float cosine = glm::dot(wi, point.at.n);
-  return point.at.front == above ? cosine > 0 : cosine < 0;
-}
 
 /// Transmittance of a medium.
 Vec3 transmittance(const Vec3& absorption, float distance) {
@@ -52,7 +46,7 @@ void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const 
   shading_ = world.shading;
   lighting_ = world.lighting;
   step_ = {.sample_width = 1 / std::sqrt(static_cast<float>(world.samples))};
-  plain_.begin(*lighting_);
+  vertices_.begin(*shading_, *lighting_);
   count_ = rays.size();
   for (std::size_t i = 0; i < count_; ++i) {
     rays_[i] = rays[i];
@@ -91,11 +85,11 @@ void Wave::step() {
     }
     for (std::size_t i = 0; i < size; ++i) step(first + i, points[i]);
   }
-  plain_.finish(step_, departures_);
+  vertices_.finish(step_, departures_);
 }
 
 void Wave::escape(const Ray& ray, const PathState& path) {
-  const Vec3 wi = bsdf::unit(ray.d);
+  const Vec3 wi = unit<1>(ray.d);
   if (path.pdf > 0) {
     const EnvironmentLight::Lookup light = lighting_->environment(path.from, wi);
     colors_[path.slot] += path.throughput * light.radiance * power_heuristic(path.pdf, light.pdf);
@@ -144,7 +138,7 @@ Wave::Behind Wave::look_behind(std::size_t i, const Hit& first, ShadingPoint poi
     do {
       hit = next(i, *hit, point);
       ++layer;
-      if (!hit) return {.is_open = lighting_->environment(bsdf::unit(rays_[i].d)) != Vec3(0)};
+      if (!hit) return {.is_open = lighting_->environment(unit<1>(rays_[i].d)) != Vec3(0)};
     } while (!stops(paths_[i], point, layer));
   }
   if (!point.look->shines() || shading_->emission(point) == Vec3(0)) return {};
@@ -169,27 +163,22 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
     path.throughput *= transmittance(path.absorption, point.at.distance);
   if (from_camera) alphas_[path.slot] = 1;
   if (const Vec3 emission = shading_->emission(point); emission != Vec3(0)) {
-    const Vec3 d = bsdf::unit(ray.d);
+    const Vec3 d = unit<1>(ray.d);
     const float cosine = std::abs(glm::dot(d, point.at.n));
     const float other = lighting_->emitter_pdf(hit->id, path.from, point.at.distance, cosine);
     const float weight = from_camera ? 1 : power_heuristic(path.pdf, other);
     colors_[path.slot] += path.throughput * emission * weight;
   }
   if (step_.depth >= options_.max_depth || point.look->material->unlit) return;
-  if (point.look->is_plain)
-    return plain_.add(step_, *shading_, ray, *hit, point, path, departures_);
-
-  const Vec3 d = bsdf::unit(ray.d);
-  const int channel = channel_of(*point.look->material, path);
-  const bsdf::Frame frame = shading_->frame(point, -d);
-  Vec3 wo = frame.to_local(-d);
-  wo.z = std::max(wo.z, 1e-5F);  // above the surface, despite rounding
-  const bsdf::Scattering bsdf(shading_->parameters(point, frame, channel),
-                              shading_->layers(point, frame, -d), wo);
+  const Material& material = *point.look->material;
   const Vertex vertex{
-      .ray = ray, .hit = *hit, .point = point, .frame = frame, .bsdf = bsdf, .channel = channel};
-  if (lighting_->can_sample()) ask_light(vertex, path);
-  scatter(vertex, path);
+      .ray = ray,
+      .hit = *hit,
+      .point = point,
+      .path = path,
+      .channel = channel_of(material, path),
+      .absorption = encloses_medium(material) ? shading_->absorption(point) : path.absorption};
+  vertices_.add(step_, vertex, departures_);
 }
 
 int Wave::channel_of(const Material& material, const PathState& path) const {
@@ -197,58 +186,6 @@ int Wave::channel_of(const Material& material, const PathState& path) const {
     return path.channel;
   return std::min(static_cast<int>(3 * path.sobol.pair(step_.pair(sampling::kLightChoicePair)).y),
                   2);
-}
-
-Vec3 Wave::one_channel(const Vertex& vertex, const PathState& path) {
-  if (path.channel == vertex.channel) return Vec3(1);
-  Vec3 mask(0);
-  mask[vertex.channel] = 3;
-  return mask;
-}
-
-void Wave::ask_light(const Vertex& vertex, const PathState& path) {
-  const std::optional<LightSample> light =
-      lighting_->sample({.p = vertex.point.at.p, .n = vertex.frame.n},
-                        path.sobol.pair(step_.pair(sampling::kLightPair)),
-                        path.sobol.one(step_.pair(sampling::kLightChoicePair)));
-  if (!light) return;
-  const Vec3 wi = vertex.frame.to_local(light->wi);
-  if (!agrees(vertex.point, light->wi, wi.z > 0)) return;
-  bsdf::Evaluation f = vertex.bsdf.evaluate(wi);
-  if (f.value == Vec3(0)) return;
-  if (wi.z < 0) f.value *= one_channel(vertex, path);
-  const float weight = light->pdf > 0 ? power_heuristic(light->pdf, f.pdf) : 1;
-  departures_.add_shadow(vertex.ray, vertex.hit, *light,
-                         path.throughput * f.value * light->light * weight, path.slot);
-}
-
-void Wave::scatter(const Vertex& vertex, const PathState& path) {
-  const Vec2 chances = path.sobol.pair(step_.pair(sampling::kLobePair));
-  const auto sample =
-      vertex.bsdf.sample(path.sobol.pair(step_.pair(sampling::kDirectionPair)), chances.x);
-  if (!sample) return;
-  const Vec3 wi = vertex.frame.to_world(sample->wi);
-  const bool above = sample->wi.z > 0;
-  if (!agrees(vertex.point, wi, above)) return;
-  PathState next = path;
-  next.throughput *= sample->weight;
-  if (!above) {
-    next.throughput *= one_channel(vertex, path);
-    next.channel = vertex.channel;
-    if (encloses_medium(*vertex.point.look->material))
-      next.absorption = shading_->absorption(vertex.point);
-  }
-  if (const float most = step_.most_survival(); most < 1) {
-    const Vec3& t = next.throughput;
-    const float survival = std::min(std::max({t.x, t.y, t.z}), most);
-    if (!(chances.y < survival)) return;
-    next.throughput /= survival;
-  }
-  next.pdf = sample->pdf;
-  next.from = {.p = vertex.point.at.p, .n = vertex.frame.n};
-  next.begin = vertex.point.width;
-  next.spread += step_.spread(sample->pdf);
-  departures_.add_path(vertex.ray, vertex.hit, wi) = next;
 }
 
 }  // namespace microtrace

@@ -1,12 +1,10 @@
 #pragma once
 /// A wavefront of paths that advance one bounce at a time, so that rays are traced in batches.
 
-#include "render/bsdf/frame.hpp"
-#include "render/bsdf/scattering.hpp"
 #include "render/integrators/departures.hpp"
 #include "render/integrators/path_state.hpp"
-#include "render/integrators/plain_vertices.hpp"
 #include "render/integrators/shadow_rays.hpp"
+#include "render/integrators/vertex_queue.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/shading/shading.hpp"
@@ -37,15 +35,6 @@ class Wave {
 
  private:
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
-  /// A path vertex.
-  struct Vertex {
-    const Ray& ray;
-    Hit hit;
-    const ShadingPoint& point;
-    const bsdf::Frame& frame;
-    const bsdf::Scattering& bsdf;
-    int channel;  ///< color channel for refraction by a dispersive surface
-  };
   /// Sets the point's footprint and texel address.
   void prepare(std::size_t i, ShadingPoint& point);
   /// Whether the path's current segment ends at a point, chosen at random for partial opacity.
@@ -70,13 +59,9 @@ class Wave {
   /// Sets the footprint of a camera path.
   void widen(const Ray& ray, PathState& path) const;
   void escape(const Ray& ray, const PathState& path);
-  void ask_light(const Vertex& vertex, const PathState& path);
-  void scatter(const Vertex& vertex, const PathState& path);
   /// The color channel with which a path continues through the surface, chosen at random if it has
   /// all channels.
   [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
-  /// The weight of a path that is reduced from all channels to one.
-  [[nodiscard]] static Vec3 one_channel(const Vertex& vertex, const PathState& path);
 
   // State of the current batch:
   RayCounts counts_{};
@@ -85,7 +70,7 @@ class Wave {
   const Lighting* lighting_ = nullptr;
   WaveStep step_;
   PathOptions options_;
-  PlainVertices plain_;
+  VertexQueues vertices_;
   Departures departures_;
   ShadowRays shadow_rays_;
   const ShadingKernels* kernels_;

@@ -1,9 +1,9 @@
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
+#include "render/kernels/random_pairs.hpp"
 #include "render/kernels/scatter.hpp"
-#include "render/kernels/sobol_lanes.hpp"
 
 namespace microtrace {
-const ShadingKernels kAvx2Shading{"avx2", random_pairs<8>, find_points<8>, find_normals<8>,
-                                  scatter<8>};
+const ShadingKernels kAvx2Shading{"avx2", random_pairs<8>, find_points<8, kShadingLanes>,
+                                  find_normals<8>, scatter<8>};
 }

@@ -3,67 +3,72 @@
 /// functions. Plain data only: code of headers that other files include must not be compiled for a
 /// specific instruction set.
 ///
-/// A kernel performs the same computation for up to kShadingLanes paths, with the same bits, as the
-/// scalar function named beside it.
+/// A kernel performs the same computation for up to kShadingLanes paths.
+
+#include "render/bsdf/features.hpp"
+#include "render/kernels/surface_lanes.hpp"
 
 #include <cstdint>
 
 namespace microtrace {
 
-inline constexpr int kShadingLanes = 16;
+/// Hits of mesh triangles, `width` of them: SurfacePoint.
+template <int width>
+struct alignas(width * sizeof(float)) HitArrays {
+  using Floats = float[width];
 
-/// One float per path.
-using LaneFloats = float[kShadingLanes];
-
-/// Hits of mesh triangles: SurfacePoint, see surface_point().
-struct alignas(64) HitLanes {
-  LaneFloats o[3], d[3], t;
-  LaneFloats corners[3][3];  ///< [corner][axis]
-  LaneFloats normals[3][3];  ///< of the vertices; zero if the mesh has none
-  LaneFloats uv[3][2];       ///< of set 0; zero if the mesh has none
+  Floats o[3], d[3], t;
+  Floats corners[3][3];  ///< [corner][axis]
+  Floats normals[3][3];  ///< of the vertices; zero if the mesh has none
+  Floats uv[3][2];       ///< of set 0; zero if the mesh has none
   // ---- set by the kernel:
-  LaneFloats is_sure;  ///< 1 if the other results are valid; else 0
-  LaneFloats p[3], n[3], ns[3], weights[3], first_uv[2];
-  LaneFloats from_behind;  ///< 1 if the ray arrives from behind, else 0
-  LaneFloats distance, uv_scale;
+  Floats is_sure;  ///< 1 if the other results are valid; else 0
+  Floats p[3], n[3], ns[3], weights[3], first_uv[2];
+  Floats from_behind;  ///< 1 if the ray arrives from behind, else 0
+  Floats distance, uv_scale;
+  Floats area;  ///< twice the triangle's area
 };
+using HitLanes = HitArrays<kShadingLanes>;
 
-/// Input and output of Shading::frame().
+/// Points on surfaces, for shading normals.
 struct alignas(64) NormalLanes {
-  LaneFloats d[3];             ///< direction of the incoming ray
-  LaneFloats n[3], ns[3];      ///< geometric and interpolated, of the front
-  LaneFloats side;             ///< 1 in front, -1 behind
-  LaneFloats texel[3], scale;  ///< of the normal texture
-  LaneFloats tangents[3][3];   ///< of the vertices, [vertex][axis]
-  LaneFloats weights[3];       ///< barycentric
-  LaneFloats handedness;       ///< of the tangents; 0: no normal texture
+  LaneFloats d[3];            ///< direction of the incoming ray
+  LaneFloats n[3], ns[3];     ///< geometric and interpolated, of the front
+  LaneFloats side;            ///< 1 in front, -1 behind
+  LaneFloats tangents[3][3];  ///< of the vertices, [vertex][axis]
+  LaneFloats weights[3];      ///< barycentric
+  LaneFloats handedness;      ///< of the tangents; 0: none
+};
+/// A normal texture at these points.
+struct alignas(64) NormalMapLanes {
+  LaneFloats texel[3], scale;
+  LaneFloats is_mapped;  ///< 0: no texture
   // ---- set by the kernel:
-  LaneFloats frame_n[3];
+  LaneFloats normal[3];  ///< on the ray's side
 };
 
-/// Direct light and the next direction at surfaces of bsdf::Bsdf without film and transmission:
-/// Wave::ask_light() and Wave::scatter().
+/// Direct light and the next direction at surfaces with the same bsdf::Features.
 struct alignas(64) ScatterLanes {
   LaneFloats d[3];  ///< direction of the incoming ray
   LaneFloats frame_n[3];
   LaneFloats outwards[3];  ///< geometric normal on the ray's side
-  LaneFloats base_color[3], metallic, roughness, f0[3], f90;  ///< bsdf::Parameters
+  SurfaceLanes surface;
   LaneFloats throughput[3];
+  LaneFloats through_weight[3];                 ///< weight of light that crosses the surface
   LaneFloats light_wi[3], light[3], light_pdf;  ///< LightSample; light is 0 if there is none
   std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< of sampling::Sobol
   // ---- set by the kernel:
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none
+  LaneFloats is_below;   ///< 1 if the next direction is below the surface, else 0
   LaneFloats wi[3], next_throughput[3];
 };
 
 /// Parameters common to all paths of a ScatterLanes.
 struct ScatterSetup {
+  bsdf::Features features;
   std::uint32_t direction_pair, lobe_pair;
   float most_survival;  ///< maximum survival probability; 1: no Russian roulette
-  // GgxAlbedo's tables, in rows of `albedo_steps`, and their means.
-  int albedo_steps;
-  const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
 };
 
 struct ShadingKernels {
@@ -72,7 +77,7 @@ struct ShadingKernels {
   void (*random_pairs)(const std::uint32_t* keys, const std::uint32_t* indices,
                        std::uint32_t number, float* x, float* y);
   void (*find_points)(HitLanes& lanes);
-  void (*find_normals)(NormalLanes& lanes);
+  void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
 };
 

@@ -8,13 +8,15 @@
 
 namespace microtrace {
 
-inline void put(LaneFloats (&lanes)[3], int lane, const Vec3& v) {
+template <int width>
+void put(float (&lanes)[3][width], int lane, const Vec3& v) {
   lanes[0][lane] = v.x;
   lanes[1][lane] = v.y;
   lanes[2][lane] = v.z;
 }
 
-[[nodiscard]] inline Vec3 got(const LaneFloats (&lanes)[3], int lane) {
+template <int width>
+[[nodiscard]] Vec3 got(const float (&lanes)[3][width], int lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
 

@@ -1,67 +1,124 @@
 #pragma once
 /// Direct light, and sampling of the next direction.
 
-#include "render/kernels/bsdf_lanes.hpp"
+#include "render/bsdf/bsdf.hpp"
+#include "render/integrators/power_heuristic.hpp"
 #include "render/kernels/kernel.hpp"
-#include "render/kernels/sobol_lanes.hpp"
-#include "render/kernels/vector3.hpp"
+#include "render/kernels/random_pairs.hpp"
 
 namespace microtrace {
-namespace {
 
-template <int N>
-inline Float<N> power_heuristic(const Float<N>& pdf, const Float<N>& other) {
-  const Float<N> square = pdf * pdf;
-  return square / (square + other * other);
-}
-
-/// The contribution of the light sample.
-template <int N>
-inline void light(const BsdfLanes<N>& bsdf, const FrameLanes<N>& frame, const Vector3<Float<N>>& wo,
-                  ScatterLanes& lanes, int i) {
+/// N vertices of paths on surfaces of one kind, starting at i.
+template <int N, class Parts>
+class Vertices {
+ public:
   using F = Float<N>;
-  const auto wi_world = load3<N>(lanes.light_wi, i), wi = frame.to_local(wi_world);
-  const F pdf = load<N>(lanes.light_pdf + i), one = all<N>(1);
-  const auto f = bsdf.above(wi, unit<N>(wo + wi));
-  const F weight = pdf > 0 ? power_heuristic<N>(pdf, f.pdf) : one;
-  const auto color = weight * (load3<N>(lanes.throughput, i) * f.value * load3<N>(lanes.light, i));
-  const auto reaches = (wi.z > 0) & (dot(wi_world, load3<N>(lanes.outwards, i)) > 0);
-  store3<N>(lanes.shadow, i, select3(reaches, color, Vector3<F>{}));
-}
+  using V = Floats3<N>;
+  using FeaturesType = typename Parts::FeaturesType;
 
-template <int N>
-inline void go_on(const ScatterSetup& setup, const BsdfLanes<N>& bsdf, const FrameLanes<N>& frame,
-                  ScatterLanes& lanes, int i) {
-  using F = Float<N>;
-  const SobolLanes<N> sobol(lanes.key + i, lanes.index + i);
-  const auto u = sobol.pair(setup.direction_pair), chances = sobol.pair(setup.lobe_pair);
-  const auto direction = bsdf.sample(u.x, u.y, chances.x);
-  const auto e = bsdf.above(direction.wi, direction.h);
-  const auto wi = frame.to_world(direction.wi);
-  auto next = load3<N>(lanes.throughput, i) * (e.value / e.pdf);
-  auto survives = (direction.wi.z > 0) & (e.pdf > 0) & (dot(wi, load3<N>(lanes.outwards, i)) > 0);
-  if (setup.most_survival < 1) {
-    const F survival =
-        smaller_of(larger_of(larger_of(next.x, next.y), next.z), all<N>(setup.most_survival));
-    survives &= chances.y < survival;
-    next = next / survival;
+  Vertices(const FeaturesType& features, ScatterLanes& lanes, int i)
+      : features_(features),
+        lanes_(lanes),
+        i_(i),
+        frame_(bsdf::Frame<N>::about(load3<N>(lanes.frame_n, i))),
+        outwards_(load3<N>(lanes.outwards, i)),
+        throughput_(load3<N>(lanes.throughput, i)) {}
+
+  void scatter(const ScatterSetup& setup) {
+    const bsdf::Surface<N> surface = load_surface();
+    if (features_.layers == bsdf::LayerSide::none) {
+      scatter(setup, surface, nullptr);
+    } else {
+      const bsdf::Coating<N> coating(surface);
+      scatter(setup, surface, &coating);
+    }
   }
-  store3<N>(lanes.wi, i, wi);
-  store3<N>(lanes.next_throughput, i, next);
-  store<N>(lanes.pdf + i, survives ? e.pdf : F{});
+
+ private:
+  using Bsdf = bsdf::Bsdf<N, Parts>;
+
+  [[nodiscard]] bsdf::Surface<N> load_surface() const {
+    if constexpr (__is_same(FeaturesType, bsdf::PlainFeatures))
+      return bsdf::Surface<N>::plain(lanes_.surface, i_);
+    else
+      return bsdf::Surface<N>::extended(lanes_.surface, i_, frame_);
+  }
+
+  void scatter(const ScatterSetup& setup, const bsdf::Surface<N>& surface,
+               const bsdf::Coating<N>* coating) {
+    V wo = frame_.to_local(-unit<N>(load3<N>(lanes_.d, i_)));
+    wo.z = larger_of(wo.z, all<N>(1e-5F));  // above the surface, despite rounding
+    const Bsdf bsdf(features_, surface, coating, wo);
+    light(bsdf);
+    go_on(setup, bsdf);
+  }
+
+  /// The lanes in which a direction is on the same side by the geometric and the shading normal.
+  [[nodiscard]] auto is_consistent(const V& wi, const F& local_z) const {
+    const F cosine = dot(wi, outwards_);
+    if (!features_.transmits) return (local_z > 0) & (cosine > 0);
+    return ((local_z > 0) & (cosine > 0)) | ((local_z < 0) & (cosine < 0));
+  }
+
+  /// The contribution of the light sample.
+  void light(const Bsdf& bsdf) {
+    const V wi_world = load3<N>(lanes_.light_wi, i_), wi = frame_.to_local(wi_world);
+    const F pdf = load<N>(lanes_.light_pdf + i_);
+    const bsdf::Evaluation<N> f = bsdf.evaluate(wi);
+    const F weight = pdf > 0 ? power_heuristic(pdf, f.pdf) : all<N>(1);
+    V value = f.value;
+    if (features_.transmits) {
+      const V crossing = load3<N>(lanes_.through_weight, i_);
+      value = select3(wi.z < 0, V(value * crossing), value);
+    }
+    const V color = (throughput_ * value * load3<N>(lanes_.light, i_)) * weight;
+    store3<N>(lanes_.shadow, i_, select3(is_consistent(wi_world, wi.z), color, all3<N>(0)));
+  }
+
+  void go_on(const ScatterSetup& setup, const Bsdf& bsdf) {
+    const auto sobol = load_sobol<N>(lanes_.key + i_, lanes_.index + i_);
+    const auto chances = sobol.pair(setup.lobe_pair);
+    const auto [local, e] = bsdf.sample(sobol.pair(setup.direction_pair), chances.x);
+    const V wi = frame_.to_world(local);
+    V next = throughput_ * (e.value / e.pdf);
+    const auto is_below = local.z < 0;
+    if (features_.transmits) {
+      const V crossing = load3<N>(lanes_.through_weight, i_);
+      next = select3(is_below, V(next * crossing), next);
+      store<N>(lanes_.is_below + i_, is_below ? all<N>(1) : F{});
+    }
+    auto survives = (e.pdf > 0) & is_consistent(wi, local.z);
+    if (setup.most_survival < 1) {
+      const F survival = smaller_of(greatest_component(next), all<N>(setup.most_survival));
+      survives = survives & (chances.y < survival);
+      next = next / survival;
+    }
+    store3<N>(lanes_.wi, i_, wi);
+    store3<N>(lanes_.next_throughput, i_, next);
+    store<N>(lanes_.pdf + i_, survives ? e.pdf : F{});
+  }
+
+  FeaturesType features_;
+  ScatterLanes& lanes_;
+  int i_;
+  bsdf::Frame<N> frame_;
+  V outwards_, throughput_;
+};
+
+template <int N, class Parts>
+void scatter_all(const typename Parts::FeaturesType& features, const ScatterSetup& setup,
+                 ScatterLanes& lanes) {
+  for (int i = 0; i < kShadingLanes; i += N) Vertices<N, Parts>(features, lanes, i).scatter(setup);
 }
 
 template <int N>
 void scatter(const ScatterSetup& setup, ScatterLanes& lanes) {
-  for (int i = 0; i < kShadingLanes; i += N) {
-    const FrameLanes<N> frame(load3<N>(lanes.frame_n, i));
-    auto wo = frame.to_local(-unit<N>(load3<N>(lanes.d, i)));
-    wo.z = larger_of(wo.z, all<N>(1e-5F));
-    const BsdfLanes<N> bsdf(setup, lanes, i, wo);
-    light<N>(bsdf, frame, wo, lanes, i);
-    go_on<N>(setup, bsdf, frame, lanes, i);
-  }
+  if (setup.features.index() == 0)
+    scatter_all<N, bsdf::PlainParts<N>>({}, setup, lanes);
+  else if (setup.features.is_anisotropic)
+    scatter_all<N, bsdf::AnisotropicParts<N>>(setup.features, setup, lanes);
+  else
+    scatter_all<N, bsdf::IsotropicParts<N>>(setup.features, setup, lanes);
 }
 
-}  // namespace
 }  // namespace microtrace

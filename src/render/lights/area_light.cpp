@@ -45,7 +45,7 @@ DVec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
   const auto [cosine, sine] = sampling::unit_pair(u.x);
   const float r = std::sqrt(u.y);
   return DVec3(s.center) +
-         double{s.radius} * DVec3(bsdf::Frame::about(n).to_world({r * cosine, r * sine, 0}));
+         double{s.radius} * DVec3(bsdf::Frame<1>::about(n).to_world({r * cosine, r * sine, 0}));
 }
 DVec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
   const DVec2 w(sampling::triangle_weights(u));
@@ -122,7 +122,7 @@ std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u)
   const double h = double{u.y} * cone.height, sine = std::sqrt(h * (2 - h));
   const auto [cos_phi, sin_phi] = sampling::unit_pair(u.x);
   const Vec3 local(DVec3(sine * double{cos_phi}, sine * double{sin_phi}, 1 - h));
-  const Vec3 wi = bsdf::Frame::about(cone.axis).to_world(local);
+  const Vec3 wi = bsdf::Frame<1>::about(cone.axis).to_world(local);
   const double off_center = cone.distance * sine, r = s.radius;
   const double half_chord = std::sqrt(std::max(r * r - off_center * off_center, 0.0));
   return ShapeSample{

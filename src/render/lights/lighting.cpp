@@ -1,6 +1,6 @@
 #include "render/lights/lighting.hpp"
 
-#include "render/bsdf/frame.hpp"
+#include "render/bsdf/ggx.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #pragma once
-/// Integer hashes.
+/// Integer hashes, of uint32 or of lanes of uint32.
 
 #include <cstdint>
 
@@ -7,7 +7,8 @@ namespace microtrace::sampling {
 
 /// A bijection of 32 bits in which each input bit affects every output bit (C. Wellons, Prospecting
 /// for hash functions, 2018: "lowbias32").
-constexpr std::uint32_t mixed(std::uint32_t x) {
+template <class Bits>
+constexpr Bits mixed(Bits x) {
   x ^= x >> 16U;
   x *= 0x7feb352dU;
   x ^= x >> 15U;
@@ -16,11 +17,13 @@ constexpr std::uint32_t mixed(std::uint32_t x) {
   return x;
 }
 
-constexpr std::uint32_t hash(std::uint32_t key, std::uint32_t value) {
-  return mixed(key ^ mixed(value + 0x9e3779b9U));
+template <class Bits>
+constexpr Bits hash(const Bits& key, std::uint32_t value) {
+  return mixed(Bits(key ^ mixed(value + 0x9e3779b9U)));
 }
 
-constexpr std::uint32_t reversed_bits(std::uint32_t x) {
+template <class Bits>
+constexpr Bits reversed_bits(Bits x) {
   x = (x & 0x55555555U) << 1U | (x >> 1U & 0x55555555U);
   x = (x & 0x33333333U) << 2U | (x >> 2U & 0x33333333U);
   x = (x & 0x0f0f0f0fU) << 4U | (x >> 4U & 0x0f0f0f0fU);

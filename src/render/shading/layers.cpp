@@ -1,5 +1,3 @@
-#include "render/bsdf/layered.hpp"
-#include "render/shading/normals.hpp"
 #include "render/shading/shading.hpp"
 #include "scene/trigonometry.hpp"
 
@@ -10,8 +8,7 @@
 
 namespace microtrace {
 
-void Shading::add_anisotropy(const ShadingPoint& point, const bsdf::Frame& frame,
-                             bsdf::Parameters& p) {
+void Shading::add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p) {
   const Anisotropy& a = *point.look->material->anisotropy;
   const Vec4 tangent = point.at.tangent();
   if (tangent.w == 0) return;
@@ -26,22 +23,16 @@ void Shading::add_anisotropy(const ShadingPoint& point, const bsdf::Frame& frame
   const auto sine = static_cast<float>(sin_radians(a.rotation));
   along = {cosine * along.x - sine * along.y, sine * along.x + cosine * along.y};
   const Vec3 t(tangent), b = tangent.w * glm::cross(point.at.ns, t);
-  const Vec2 local(frame.to_local(along.x * t + along.y * b));
-  const float square = glm::dot(local, local);
-  if (!(square > 0)) return;
   p.anisotropy = strength;
-  p.along = local / std::sqrt(square);
+  p.along = along.x * t + along.y * b;
 }
 
-std::optional<bsdf::Layers> Shading::layers(const ShadingPoint& point, const bsdf::Frame& frame,
-                                            const Vec3& wo) const {
+bsdf::Layers Shading::layers(const ShadingPoint& point) const {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
-  if (!m.clearcoat && !m.sheen) return std::nullopt;
   bsdf::Layers result;
-  if (encloses_medium(m)) {
-    result.side = point.at.front ? bsdf::Layers::Side::above : bsdf::Layers::Side::below;
-  }
+  if (encloses_medium(m))
+    result.side = point.at.front ? bsdf::LayerSide::above : bsdf::LayerSide::below;
   if (const auto& sheen = m.sheen) {
     result.sheen = sheen->color * Vec3(look[MaterialTexture::sheen_color].at(point));
     result.sheen_roughness = sheen->roughness * look[MaterialTexture::sheen_roughness].at(point).w;
@@ -50,12 +41,7 @@ std::optional<bsdf::Layers> Shading::layers(const ShadingPoint& point, const bsd
     result.coat = coat->factor * look[MaterialTexture::clearcoat].at(point).x;
     result.coat_roughness =
         coat->roughness * look[MaterialTexture::clearcoat_roughness].at(point).y;
-    const Vec3 n =
-        mapped_normal(point, look[MaterialTexture::clearcoat_normal], coat->normal_scale);
-    const float side = point.at.front ? 1.0F : -1.0F;
-    result.coat_normal = frame.to_local(usable_normal(side * n, side * point.at.n, wo));
   }
-  if (result.coat == 0 && result.sheen == Vec3(0)) return std::nullopt;
   return result;
 }
 

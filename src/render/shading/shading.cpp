@@ -1,7 +1,6 @@
 #include "render/shading/shading.hpp"
 
 #include "render/luminance.hpp"
-#include "render/shading/normals.hpp"
 #include "render/shading/texture_slots.hpp"
 
 #include <algorithm>
@@ -114,7 +113,7 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
-bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) const {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),
@@ -138,15 +137,7 @@ bsdf::Parameters Shading::plain_parameters(const ShadingPoint& point) const {
     p.roughness = 1 - archived->glossiness * t.w;
     p.dielectric = {.f0 = archived->specular * Vec3(t), .f90 = 1};
   }
-  return p;
-}
-
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Frame& frame,
-                                     int channel) const {
-  const TexturedMaterial& look = *point.look;
-  const Material& m = *look.material;
-  bsdf::Parameters p = plain_parameters(point);
-  if (m.anisotropy) add_anisotropy(point, frame, p);
+  if (m.anisotropy) add_anisotropy(point, p);
   if (const auto& t = m.transmission) {
     p.transmission = t->factor * look[MaterialTexture::transmission].at(point).x;
     if (encloses_medium(m)) {
@@ -156,7 +147,7 @@ bsdf::Parameters Shading::parameters(const ShadingPoint& point, const bsdf::Fram
     }
   }
   if (const auto& i = m.iridescence) {
-    const bsdf::ThinFilm film{
+    const bsdf::ThinFilm<1> film{
         .share = i->factor * look[MaterialTexture::iridescence].at(point).x,
         .ior = i->ior,
         .thickness = glm::mix(i->thickness_minimum, i->thickness_maximum,
@@ -175,13 +166,6 @@ Vec3 Shading::absorption(const ShadingPoint& point) const {
   const Material& m = *point.look->material;
   if (!point.at.front || !encloses_medium(m)) return Vec3(0);
   return point.look->absorption;
-}
-
-bsdf::Frame Shading::frame(const ShadingPoint& point, const Vec3& wo) const {
-  const Vec3 n = mapped_normal(point, (*point.look)[MaterialTexture::normal],
-                               point.look->material->normal_scale);
-  const float side = point.at.front ? 1.0F : -1.0F;
-  return bsdf::Frame::about(usable_normal(side * n, side * point.at.n, wo));
 }
 
 }  // namespace microtrace

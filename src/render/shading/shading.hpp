@@ -1,9 +1,7 @@
 #pragma once
 /// Material evaluation at the vertices of paths.
 
-#include "render/bsdf/bsdf.hpp"
-#include "render/bsdf/frame.hpp"
-#include "render/bsdf/layered.hpp"
+#include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/shading/surface_point.hpp"
 #include "render/texture_map.hpp"
@@ -52,7 +50,6 @@ struct TexturedMaterial {
   /// The slot whose texel address is reused by every slot with shares_place; often by all.
   TextureSlot layout{};
   Vec3 absorption{0};          ///< of the enclosed medium, in powers of two per length
-  bool is_plain = false;       ///< whether plain_parameters() is complete
   bool has_open_back = false;  ///< whether Backfaces::pass lets light through the back
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
@@ -134,26 +131,16 @@ class Shading {
   /// their color.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
-  /// Material parameters on the ray's side, in the coordinates of frame(). `channel` is the color
-  /// channel of a path through dispersive media, 0 to 2; 3: none.
-  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, const bsdf::Frame& frame,
-                                            int channel) const;
+  /// Material parameters on the ray's side. `channel` is the color channel of a path through
+  /// dispersive media, 0 to 2; 3: none.
+  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, int channel) const;
 
-  /// The same for materials that only use metallic-roughness, ior and specular, or
-  /// specular-glossiness.
-  [[nodiscard]] bsdf::Parameters plain_parameters(const ShadingPoint& point) const;
-
-  /// The layers above, if there are any; `wo` is in world space.
-  [[nodiscard]] std::optional<bsdf::Layers> layers(const ShadingPoint& point,
-                                                   const bsdf::Frame& frame, const Vec3& wo) const;
+  /// The layers above.
+  [[nodiscard]] bsdf::Layers layers(const ShadingPoint& point) const;
 
   /// The absorption of the medium below the surface, in powers of two per length; 0 if there is
   /// none.
   [[nodiscard]] Vec3 absorption(const ShadingPoint& point) const;
-
-  /// The shading frame on the ray's side, from the normal texture if there is one, with tangents.
-  /// The unit vector `wo` is above it.
-  [[nodiscard]] bsdf::Frame frame(const ShadingPoint& point, const Vec3& wo) const;
 
  private:
   struct Entry {
@@ -163,8 +150,7 @@ class Shading {
   };
 
   [[nodiscard]] Vec4 base_color(const ShadingPoint& point) const;
-  static void add_anisotropy(const ShadingPoint& point, const bsdf::Frame& frame,
-                             bsdf::Parameters& p);
+  static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;

@@ -6,6 +6,7 @@
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
+#include <microtrace/surface_interaction.hpp>
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,9 @@ struct SurfacePoint {
  private:
   [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
 };
+
+/// The point of any shape, from the careful computation.
+[[nodiscard]] SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit);
 
 /// `hit` must be a hit of `ray`. `mesh` is null if the primitive is not a mesh triangle, else
 /// `triangle` is its index in the mesh.

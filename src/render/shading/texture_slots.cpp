@@ -48,35 +48,10 @@ bool is_shaded(MaterialTexture texture) {
   return texture != MaterialTexture::occlusion && texture != MaterialTexture::thickness;
 }
 
-/// Whether Shading::plain_parameters() say all. A property that is not here is not plain.
-bool is_plain(const Material& m) {
-  return m == Material{.name = m.name,
-                       .base_color = m.base_color,
-                       .base_color_texture = m.base_color_texture,
-                       .alpha_mode = m.alpha_mode,
-                       .alpha_cutoff = m.alpha_cutoff,
-                       .double_sided = m.double_sided,
-                       .unlit = m.unlit,
-                       .metallic = m.metallic,
-                       .roughness = m.roughness,
-                       .metallic_roughness_texture = m.metallic_roughness_texture,
-                       .normal_texture = m.normal_texture,
-                       .normal_scale = m.normal_scale,
-                       .occlusion_texture = m.occlusion_texture,
-                       .occlusion_strength = m.occlusion_strength,
-                       .emissive = m.emissive,
-                       .emissive_texture = m.emissive_texture,
-                       .ior = m.ior,
-                       .dispersion = m.dispersion,  // of what is refracted
-                       .specular = m.specular,
-                       .volume = m.volume,  // behind what transmits
-                       .specular_glossiness = m.specular_glossiness};
-}
-
 }  // namespace
 
 TexturedMaterial TextureMaps::slots(const Material& m) {
-  TexturedMaterial look{.material = &m, .is_plain = is_plain(m)};
+  TexturedMaterial look{.material = &m};
   for_each_named_texture(
       m, [&](MaterialTexture texture, const TextureUse& use, ColorEncoding encoding) {
         if (is_shaded(texture)) look[texture] = slot(use, encoding);

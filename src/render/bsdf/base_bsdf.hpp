@@ -1,0 +1,116 @@
+#pragma once
+/// The BSDF below the layers, for N lanes. Local coordinates as in surface.hpp.
+
+#include "render/bsdf/anisotropic_albedo.hpp"
+#include "render/bsdf/anisotropic_ggx.hpp"
+#include "render/bsdf/coating.hpp"
+#include "render/bsdf/features.hpp"
+#include "render/bsdf/ggx_albedo.hpp"
+#include "render/bsdf/multiple_scattering.hpp"
+#include "render/bsdf/refraction_loss.hpp"
+#include "render/bsdf/surface.hpp"
+#include "render/luminance.hpp"
+
+namespace microtrace::bsdf {
+
+/// The metallic-roughness model of glTF 2.0, appendix B, and the material extensions. Diffuse
+/// reflection lies below specular reflection by GGX with Schlick's Fresnel term. It differs in two
+/// points from the formulas of section B.3, which lose energy on rough metals and gain energy on
+/// dielectrics at grazing angles: multiple scattering between microfacets is compensated (C. Kulla
+/// and A. Conty, Revisiting physically based shading at Imageworks, 2017), and the diffuse part is
+/// scaled by the energy that the specular part does not reflect, for both wo and wi (C. Kelemen and
+/// L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with importance sampling,
+/// 2001). The result is reciprocal and conserves energy.
+///
+/// The multiple-scattering lobe of transmission through thin walls is cosine-distributed, as that
+/// of reflection. Together the two lobes compensate all energy that single scattering loses.
+///
+/// Refraction (B. Walter et al., Microfacet models for refraction, 2007) omits the squared index of
+/// refraction: radiance divided by it is the same before entering and after leaving.
+///
+/// Parts is a struct of the types FeaturesType (Features or PlainFeatures), Microfacets (Ggx<N> or
+/// AnisotropicGgx<N>) and MicrofacetAlbedo.
+template <int N, class Parts>
+class BaseBsdf {
+ public:
+  using F = Float<N>;
+  using V = Floats3<N>;
+  using FeaturesType = typename Parts::FeaturesType;
+  using Microfacets = typename Parts::Microfacets;
+
+  /// wo.z > 0. `coating` is the coating above the surface, if there is one on both sides.
+  BaseBsdf(const FeaturesType& features, const Surface<N>& surface, const Microfacets& microfacets,
+           const Coating<N>* coating, const V& wo);
+
+  /// h: half_vector(wi).
+  [[nodiscard]] Evaluation<N> evaluate(const Coating<N>* coating, const V& wi, const V& h) const;
+
+  /// The unit half vector of wo and wi, mirrored to above if it is below.
+  [[nodiscard]] V half_vector(const V& wi) const {
+    return unit<N>(wo_ + V{wi.x, wi.y, magnitude(wi.z)});
+  }
+
+  struct Direction {
+    V wi;  ///< zero if the sample is absorbed
+    V h;   ///< half_vector(wi)
+  };
+  /// u selects the direction, `lobe`, in [0, 1), the lobe; evaluate() returns the pdf.
+  [[nodiscard]] Direction sample(const Floats2<N>& u, const F& lobe) const;
+
+ private:
+  static constexpr bool kIsPlain = __is_same(FeaturesType, PlainFeatures);
+
+  /// Energy not reflected by facets in single scattering for F = 1, and energy that the
+  /// dielectric's facets leave for the diffuse part.
+  struct Left {
+    F f1, diffuse;
+  };
+  [[nodiscard]] Left left(const Albedo<N>& albedo) const;
+  [[nodiscard]] Left left(const Albedo<N>& albedo, const F& transmittance,
+                          const Albedo<N>& deficit) const;
+  [[nodiscard]] Left left(const Coating<N>* coating, const V& w) const;
+  [[nodiscard]] Left mean_left(const Coating<N>* coating) const;
+
+  [[nodiscard]] Evaluation<N> above(const Coating<N>* coating, const V& wi, const V& h) const;
+  [[nodiscard]] Evaluation<N> below(const Coating<N>* coating, const V& wi, const V& h) const;
+  void refract(const V& wi, Evaluation<N>& e) const;
+  void add_transmission(const Surface<N>& surface, const V& f0, const F& white_mean,
+                        const F& several);
+  void add_refraction_loss(const Surface<N>& surface);
+
+  /// The fractions of light that facets reflect at this cosine, and that enters the dielectric.
+  struct Shares {
+    V reflected, entering;
+  };
+  [[nodiscard]] Shares shares(const F& cosine) const;
+  [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
+  /// The probability of reflection when a facet is sampled.
+  [[nodiscard]] F reflection_probability(const Shares& shares) const;
+  /// Sets the base of the film; returns its approximate reflectance at normal incidence.
+  V add_film(const Schlick<N>& schlick);
+  /// The transmittance of the coating for wo or wi, whichever is smaller.
+  [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
+    return smaller_of(transmittance_, coating.transmittance(wi));
+  }
+
+  FeaturesType features_;
+  V wo_;
+  Microfacets ggx_;
+  typename Parts::MicrofacetAlbedo albedo_;
+  Schlick<N> specular_;          ///< of metal and dielectric combined
+  GreatestSchlick<N> greatest_;  ///< of the dielectric
+  F multiply_reflected_;         ///< its multiple-scattering factor
+  V diffuse_, multiple_;         ///< all factors that do not depend on wi
+  F facet_probability_;          ///< probability of sampling a facet normal
+  // Not set without the feature:
+  F transmittance_;  ///< transmittance of the coating
+  Schlick<N> dielectric_, metal_;
+  ThinFilm<N> film_;
+  F metallic_, eta_;
+  V diffuse_below_, multiple_below_, transmitted_;
+  RefractionLoss<N> loss_;
+  V lost_, lost_below_;  ///< multiple scattering of refraction
+  F below_probability_;  ///< probability of sampling below the surface, if not a facet normal
+};
+
+}  // namespace microtrace::bsdf

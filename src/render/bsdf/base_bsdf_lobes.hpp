@@ -1,0 +1,160 @@
+#pragma once
+/// The values, pdfs and samples of a BaseBsdf.
+
+#include "render/bsdf/base_bsdf.hpp"
+
+namespace microtrace::bsdf {
+
+/// The direction mirrored at the surface, for transmission.
+template <class V>
+V mirrored(const V& w) {
+  return {w.x, w.y, -w.z};
+}
+
+// Schlick's term uses the angle in the thinner medium.
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine) const -> V {
+  if (!features_.has_film) return schlick(cosine);
+  return mixed(schlick(cosine), thin_film_reflectance<N>(cosine, film_, schlick.f0), film_.share);
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
+  if (!features_.transmits) return {reflectance(specular_, angle_cosine), all3<N>(0)};
+  F cosine = angle_cosine, is_total{};
+  if (features_.refracts) {
+    const F square = 1 - (1 - cosine * cosine) / (eta_ * eta_);
+    const auto from_denser = eta_<1, enters = square> 0;
+    cosine = from_denser ? square_root<N>(enters ? square : F{}) : cosine;
+    is_total = from_denser ? (enters ? F{} : all<N>(1)) : F{};
+  }
+  const auto is_opaque = is_zero(transmitted_);
+  V reflected = reflectance(dielectric_, cosine);
+  const V entering = complement(reflected) * transmitted_;
+  const auto is_mixed = (metallic_ != 0) & negated(is_opaque);
+  if (any(is_mixed)) {
+    // Below a film, the reflectances of metal and dielectric do not follow from those without film.
+    const V both = features_.has_film ? mixed(reflected, reflectance(metal_, cosine), metallic_)
+                                      : specular_(cosine);
+    reflected = select3(is_mixed, both, reflected);
+  }
+  if (any(is_opaque)) reflected = select3(is_opaque, reflectance(specular_, cosine), reflected);
+  const V none = all3<N>(0);
+  return {select3(is_total != 0, all3<N>(1), reflected),
+          select3((is_total != 0) | is_opaque, none, entering)};
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::reflection_probability(const Shares& shares) const -> F {
+  const F reflected = luminance(shares.reflected), through = luminance(shares.entering);
+  const F sum = reflected + through;
+  const auto is_shared = (sum > 0) & negated(is_zero(transmitted_));
+  return is_shared ? reflected / sum : all<N>(1);
+}
+
+template <int N, class Parts>
+Evaluation<N> BaseBsdf<N, Parts>::above(const Coating<N>* coating, const V& wi, const V& h) const {
+  const F d = ggx_.distribution(h);
+  const Shares facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
+  const Left there = left(coating, wi);
+  V single = facet.reflected * (d * ggx_.visibility(wo_, wi));
+  if (coating != nullptr) single *= transmittance(*coating, wi);
+  V f = single + diffuse_ * there.diffuse + multiple_ * there.f1;
+  F facets = facet_probability_, rest = 1 - facet_probability_;
+  if (features_.refracts) f += lost_ * loss_.above(wi.z);
+  if (features_.transmits) {
+    facets *= reflection_probability(facet);
+    rest *= 1 - below_probability_;
+  }
+  return {f * wi.z, facets * ggx_.reflected_pdf(wo_, d) + rest * kInversePi * wi.z};
+}
+
+template <int N, class Parts>
+Evaluation<N> BaseBsdf<N, Parts>::below(const Coating<N>* coating, const V& wi, const V& h) const {
+  const V up = mirrored(wi);
+  const Left there = left(coating, up);
+  V spread = diffuse_below_ * there.diffuse + multiple_below_ * there.f1;
+  if (features_.refracts) spread += lost_below_ * loss_.below(up.z);
+  Evaluation<N> e{spread * up.z, (1 - facet_probability_) * below_probability_ * kInversePi * up.z};
+  if (features_.refracts) {
+    refract(wi, e);
+    return e;
+  }
+  const F d = ggx_.distribution(h);
+  const Shares facet = shares(smaller_of(dot(wo_, h), all<N>(1)));
+  F single = d * ggx_.visibility(wo_, up) * up.z;
+  if (coating != nullptr) single *= transmittance(*coating, up);
+  const auto is_opaque = is_zero(transmitted_);
+  const F pdf =
+      facet_probability_ * (1 - reflection_probability(facet)) * ggx_.reflected_pdf(wo_, d);
+  return {select3(is_opaque, e.value, V(e.value + facet.entering * single)),
+          is_opaque ? e.pdf : e.pdf + pdf};
+}
+
+template <int N, class Parts>
+void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
+  const V sum = wo_ + eta_ * wi;
+  const F square = dot(sum, sum);
+  V h = sum / square_root<N>(square);
+  h = select3(h.z < 0, V(-h), h);
+  const F cos_o = dot(wo_, h), cos_i = dot(wi, h);
+  const F denominator = cos_o + eta_ * cos_i;
+  const Shares facet = shares(smaller_of(cos_o, all<N>(1)));
+  // The Jacobian from microfacet normals to directions; and the facets visible from each direction,
+  // 2 / (z + root) = G1 / z.
+  const F spreading = eta_ * eta_ * -cos_i / (denominator * denominator);
+  const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (-wi.z + ggx_.root(wi));
+  const F seen = ggx_.distribution(h) * cos_o * here * spreading;
+  // A facet visible from one side is masked only if fewer are visible from the other side, so a
+  // boundary of equal indices is invisible.
+  const F unmasked = smaller_of(all<N>(1), F(there * -wi.z / (here * wo_.z)));
+  const auto refracts =
+      (square > 0) & (cos_o > 0) & (cos_i < 0) & (seen < 1e30F) & negated(is_zero(transmitted_));
+  const F pdf = facet_probability_ * (1 - reflection_probability(facet)) * seen;
+  e.value = select3(refracts, V(e.value + facet.entering * (seen * unmasked)), e.value);
+  e.pdf = refracts ? e.pdf + pdf : e.pdf;
+}
+
+template <int N, class Parts>
+Evaluation<N> BaseBsdf<N, Parts>::evaluate(const Coating<N>* coating, const V& wi,
+                                           const V& h) const {
+  const auto is_above = wi.z > 0, is_below = wi.z < 0;
+  Evaluation<N> e{all3<N>(0), F{}};
+  if (any(is_above)) {
+    const Evaluation<N> up = above(coating, wi, h);
+    e = {select3(is_above, up.value, e.value), is_above ? up.pdf : e.pdf};
+  }
+  if (features_.transmits && any(is_below)) {
+    const Evaluation<N> down = below(coating, wi, h);
+    e = {select3(is_below, down.value, e.value), is_below ? down.pdf : e.pdf};
+  }
+  return e;
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::sample(const Floats2<N>& u, const F& lobe) const -> Direction {
+  const V h = ggx_.visible_normal(wo_, u);
+  const F cosine = smaller_of(dot(wo_, h), all<N>(1));
+  const V mirror = (2 * cosine) * h - wo_, spread = sampling::cosine_hemisphere<N>(u);
+  const auto is_facet = lobe < facet_probability_;
+  const V none = all3<N>(0);
+  const V reflected = select3(mirror.z > 0, mirror, none);
+  if (!features_.transmits) {
+    const V wi = select3(is_facet, reflected, spread);
+    return {wi, kIsPlain ? select3(is_facet, h, half_vector(spread)) : half_vector(wi)};
+  }
+  V through = select3(mirror.z > 0, mirrored(mirror), none);
+  if (features_.refracts) {
+    // Total reflection has no transmitted sample.
+    const F along = 1 - (1 - cosine * cosine) / (eta_ * eta_);
+    const V refracted = (cosine / eta_ - square_root<N>(larger_of(along, F{}))) * h - wo_ / eta_;
+    through = select3(refracted.z < 0, refracted, none);
+  }
+  const auto is_reflected = lobe < facet_probability_ * reflection_probability(shares(cosine));
+  const auto is_below = lobe - facet_probability_ < (1 - facet_probability_) * below_probability_;
+  const V wi = select3(is_facet, select3(is_reflected, reflected, through),
+                       select3(is_below, mirrored(spread), spread));
+  return {wi, half_vector(wi)};
+}
+
+}  // namespace microtrace::bsdf

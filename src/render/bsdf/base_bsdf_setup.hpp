@@ -1,0 +1,178 @@
+#pragma once
+/// What a BaseBsdf computes once for wo.
+
+#include "render/bsdf/base_bsdf.hpp"
+
+namespace microtrace::bsdf {
+
+template <int N, class Parts>
+BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
+                             const Microfacets& microfacets, const Coating<N>* coating, const V& wo)
+    : features_(features),
+      wo_(wo),
+      ggx_(microfacets),
+      albedo_(ggx_),
+      specular_{p.dielectric.f0 + p.metallic * (p.base_color - p.dielectric.f0),
+                p.dielectric.f90 + p.metallic * (1 - p.dielectric.f90)},
+      greatest_{greatest_component(p.dielectric.f0), p.dielectric.f90} {
+  const F least = all<N>(1e-6F), dielectric = 1 - p.metallic;
+  if (coating != nullptr) transmittance_ = coating->transmittance(wo);
+  V f0 = specular_.f0;
+  if (features_.transmits || features_.has_film) {
+    metallic_ = p.metallic;
+    dielectric_ = p.dielectric;
+    metal_ = {p.base_color, all<N>(1)};
+  }
+  if (features_.has_film) {
+    film_ = p.film;
+    f0 = add_film(specular_);
+  }
+  const Albedo<N> white_mean = albedo_.mean(), there = albedo_.at(wo);
+  multiply_reflected_ = multiple_scattering(greatest_.f0, greatest_.f90, white_mean.f1);
+  const Left mean = mean_left(coating), here = left(coating, wo);
+  const F several = kInversePi / larger_of(mean.f1, least) * here.f1;
+  multiple_ = multiple_scattering(f0, specular_.f90, white_mean.f1) * several;
+  const F mean_diffuse = larger_of(mean.diffuse, least);
+  F opaque = all<N>(1);
+  if (features_.transmits) {
+    opaque = 1 - p.transmission;
+    if (features_.refracts) {
+      // From inside, the diffuse part is not visible.
+      opaque = p.eta < 1 ? F{} : opaque;
+      // Refracted light has its own energy compensation.
+      multiple_ *= 1 - dielectric * p.transmission;
+    }
+  }
+  const F diffuse = dielectric * opaque * kInversePi * here.diffuse / mean_diffuse;
+  diffuse_ = diffuse * p.base_color;
+  if (features_.transmits) {
+    diffuse_ = ((1 - p.diffuse_transmission) * diffuse) * p.base_color;
+    diffuse_below_ = (p.diffuse_transmission * diffuse) * p.diffuse_transmission_color;
+    add_transmission(p, f0, white_mean.f1, several);
+  }
+
+  // In proportion to each lobe's approximate albedo, with a minimum probability unless the lobe is
+  // negligible.
+  F facets = luminance(f0 * (there.f1 - there.schlick)) + specular_.f90 * there.schlick;
+  F spread = luminance(diffuse_) * mean_diffuse + luminance(multiple_) * mean.f1;
+  if (features_.transmits) {
+    facets += luminance(transmitted_) * here.diffuse;
+    F down = luminance(diffuse_below_) * mean_diffuse + luminance(multiple_below_) * mean.f1;
+    if (features_.refracts) {
+      spread += luminance(lost_) * loss_.mean_above();
+      down += luminance(lost_below_) * loss_.mean_below();
+    }
+    spread /= kInversePi;
+    down /= kInversePi;
+    spread += down;
+    const F share = clamped(F(down / spread), all<N>(0.1F), all<N>(0.9F));
+    below_probability_ = down > 0 ? share : F{};
+  } else {
+    spread /= kInversePi;
+  }
+  const F share = clamped(F(facets / (facets + spread)), all<N>(0.1F), all<N>(0.9F));
+  facet_probability_ = spread > (kIsPlain ? 0.01F : 0.002F) ? share : all<N>(1);
+}
+
+template <int N, class Parts>
+void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, const F& white_mean,
+                                          const F& several) {
+  const F dielectric = 1 - p.metallic;
+  if (!features_.refracts) {
+    transmitted_ = (dielectric * p.transmission) * p.base_color;
+    const V returned = multiple_scattering(f0, specular_.f90, white_mean);
+    const V kept = select3(
+        p.metallic > 0, multiple_scattering(dielectric_.f0, dielectric_.f90, white_mean), returned);
+    multiple_below_ =
+        least_components(V(complement(kept) * transmitted_), complement(returned)) * several;
+    return;
+  }
+  // Indices closer to 1 than this are not refracted.
+  constexpr float least = 0.003F;
+  const auto is_usable = magnitude(F(p.eta - 1)) >= least;
+  eta_ = is_usable ? p.eta : p.eta < 1 ? all<N>(1 - least) : all<N>(1 + least);
+  // The base color of a volume counts once for entering and leaving together, as in renderers
+  // without walls.
+  const V root{square_root<N>(p.base_color.x), square_root<N>(p.base_color.y),
+               square_root<N>(p.base_color.z)};
+  transmitted_ = (dielectric * p.transmission) * root;
+  multiple_below_ = lost_ = lost_below_ = all3<N>(0);
+  add_refraction_loss(p);
+}
+
+template <int N, class Parts>
+void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
+  // There are no tables for films and anisotropic facets.
+  if (features_.has_film || features_.is_anisotropic) return;
+  loss_ = RefractionLoss<N>(p.roughness, eta_, greatest_);
+  const F through = loss_.through(), here = loss_.above(wo_.z) * kInversePi;
+  const F entering = (1 - p.metallic) * p.transmission;
+  // Light that never enters keeps its color.
+  const F inside = larger_of(F(1 - through - multiply_reflected_), F{});
+  const V reflected = entering * multiply_reflected_ + transmitted_ * inside;
+  const auto is_opaque = is_zero(transmitted_);
+  lost_ = select3(is_opaque, lost_, V(reflected * (here / loss_.mean_above())));
+  lost_below_ =
+      select3(is_opaque, lost_below_, V(transmitted_ * (through * here / loss_.mean_below())));
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
+  // The film's reflectance oscillates with the angle. The base gets the energy left at the
+  // brightest of these angles, with a margin for the angles between.
+  constexpr float cosines[] = {1.0F, 0.8F, 0.6F, 0.42F, 0.28F, 0.17F, 0.09F, 0.03F};
+  constexpr int of_mean = 4;
+  constexpr float margin = 0.05F;
+  const auto is_mixed = metallic_ < 1;
+  V mean = all3<N>(0);
+  F bound = greatest_.f0;
+  for (int k = 0; k < (any(is_mixed) ? 8 : of_mean); ++k) {
+    const F cosine = all<N>(cosines[k]), edge = all<N>(0) + Schlick<N>::edge(cosine);
+    const V f = thin_film_reflectance<N>(cosine, film_, schlick.f0);
+    const V head_on = greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
+    if (k < of_mean) mean += head_on * all<N>(1.0F / of_mean);
+    const F greatest = greatest_component(head_on) + margin;
+    bound = (k < of_mean) | is_mixed ? larger_of(bound, greatest) : bound;
+  }
+  greatest_.f0 += film_.share * (smaller_of(bound, all<N>(1)) - greatest_.f0);
+  greatest_.f90 += film_.share * (1 - greatest_.f90);
+  return mixed(schlick.f0, mean, film_.share);
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo) const -> Left {
+  return {1 - albedo.f1,
+          larger_of(F(1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1)), F{})};
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo, const F& transmittance,
+                              const Albedo<N>& deficit) const -> Left {
+  const F diffuse = 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
+  const F returned = greatest_.albedo(deficit) - multiply_reflected_ * deficit.f1;
+  return {transmittance * (1 - albedo.f1) + deficit.f1,
+          larger_of(F(transmittance * diffuse + returned), F{})};
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::left(const Coating<N>* coating, const V& w) const -> Left {
+  const Albedo<N> albedo = albedo_.at(w);
+  if (coating == nullptr) return left(albedo);
+  return left(albedo, coating->transmittance(w), coating->deficit(w.z));
+}
+
+template <int N, class Parts>
+auto BaseBsdf<N, Parts>::mean_left(const Coating<N>* coating) const -> Left {
+  if (coating == nullptr) return left(albedo_.mean());
+  Left sum{};
+  for (int k = 0; k < static_cast<int>(kCoatingNodes); ++k) {
+    const F z = all<N>(kTables.coating_node[k]);
+    const Left part =
+        left(albedo_.around(z), coating->transmittance_at_node(k), coating->deficit(z));
+    sum.f1 += kTables.coating_weight[k] * part.f1;
+    sum.diffuse += kTables.coating_weight[k] * part.diffuse;
+  }
+  return sum;
+}
+
+}  // namespace microtrace::bsdf

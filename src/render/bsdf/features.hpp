@@ -1,0 +1,39 @@
+#pragma once
+/// The kinds of BSDFs. All lanes of a kernel have the same kind.
+
+#include <cstdint>
+
+namespace microtrace::bsdf {
+
+/// Where a surface has layers.
+enum class LayerSide : std::uint8_t {
+  none,
+  both,   ///< on both sides of a thin wall
+  above,  ///< on the side of wo
+  below,
+};
+
+/// The parts of a BSDF beyond metallic-roughness. Plain data, shared by the kernels of all
+/// instruction sets.
+struct Features {
+  bool is_anisotropic = false, has_film = false;
+  bool transmits = false;  ///< light may leave below the surface
+  bool refracts = false;   ///< transmits to another index of refraction
+  LayerSide layers = LayerSide::none;
+
+  static constexpr int kCount = 64;
+  /// A number below kCount; 0 without features.
+  [[nodiscard]] int index() const {
+    return int{is_anisotropic} + 2 * int{has_film} + 4 * int{transmits} + 8 * int{refracts} +
+           16 * static_cast<int>(layers);
+  }
+};
+
+/// No features, known when the kernel is compiled.
+struct PlainFeatures {
+  static constexpr bool is_anisotropic = false, has_film = false, transmits = false,
+                        refracts = false;
+  static constexpr LayerSide layers = LayerSide::none;
+};
+
+}  // namespace microtrace::bsdf

@@ -1,0 +1,87 @@
+#pragma once
+/// Directional albedos of facets, for N lanes.
+
+#include "render/bsdf/ggx.hpp"
+#include "render/bsdf/tables.hpp"
+#include "simd/gather.hpp"
+
+namespace microtrace::bsdf {
+
+/// The directional albedo of single scattering: for F = 1, and for F = (1 - cos)^5, the other part
+/// of Schlick's Fresnel term. The albedo for F0 is F0 f1 + (1 - F0) schlick.
+template <int N>
+struct Albedo {
+  Float<N> f1, schlick;
+};
+
+/// Schlick's Fresnel term of the brightest channel: the base gets the energy that it leaves.
+template <int N>
+struct GreatestSchlick {
+  Float<N> f0, f90;
+
+  [[nodiscard]] Float<N> albedo(const Albedo<N>& a) const {
+    return f0 * (a.f1 - a.schlick) + f90 * a.schlick;
+  }
+};
+
+/// A position between two entries of a table of `count` entries. Numbers out of range, which lanes
+/// without use may have, are at its ends.
+template <int N>
+struct Cell {
+  Int<N> first;
+  Float<N> share;
+
+  /// At the entry with number `step`.
+  Cell(const Float<N>& step, int count) {
+    const Float<N> last = all<N>(static_cast<float>(count - 2));
+    const Float<N> within = step > 0 ? step : Float<N>{};
+    first = truncated<N>(within < last ? within : last);
+    share = step - to_float<N>(first);
+  }
+  [[nodiscard]] Float<N> mixed(const Float<N>& a, const Float<N>& b) const {
+    return a + share * (b - a);
+  }
+  /// The value in a row that starts at this index.
+  [[nodiscard]] Float<N> in_row(const float* table, const Int<N>& row) const {
+    return mixed(gathered<N>(table, row + first), gathered<N>(table + 1, row + first));
+  }
+};
+
+/// Directional albedos for one roughness.
+template <int N>
+class GgxAlbedo {
+ public:
+  using F = Float<N>;
+
+  explicit GgxAlbedo(const Ggx<N>& ggx) : GgxAlbedo(ggx.alpha()) {}
+  explicit GgxAlbedo(const F& alpha)
+      : alpha_(alpha), row_(square_root<N>(alpha) * (kAlbedoSteps - 1), kAlbedoSteps) {}
+
+  /// The albedo for light to or from z = cos(theta), in [0, 1].
+  [[nodiscard]] Albedo<N> at(const F& z) const {
+    return {between_rows(kTables.albedo_f1, z * (1 + alpha_) / (z + alpha_)),
+            between_rows(kTables.albedo_schlick, square_root<N>(z))};
+  }
+
+  // The same by directions, like AnisotropicGgxAlbedo.
+  [[nodiscard]] Albedo<N> at(const Floats3<N>& w) const { return at(w.z); }
+  [[nodiscard]] Albedo<N> around(const F& z) const { return at(z); }
+
+  /// The cosine-weighted mean over all directions.
+  [[nodiscard]] Albedo<N> mean() const {
+    return {row_.in_row(kTables.mean_albedo_f1, Int<N>{}),
+            row_.in_row(kTables.mean_albedo_schlick, Int<N>{})};
+  }
+
+ private:
+  [[nodiscard]] F between_rows(const float* table, const F& place) const {
+    const Cell<N> column(place * (kAlbedoSteps - 1), kAlbedoSteps);
+    const Int<N> row = row_.first * kAlbedoSteps;
+    return row_.mixed(column.in_row(table, row), column.in_row(table + kAlbedoSteps, row));
+  }
+
+  F alpha_;
+  Cell<N> row_;
+};
+
+}  // namespace microtrace::bsdf

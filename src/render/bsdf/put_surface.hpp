@@ -1,0 +1,39 @@
+#pragma once
+/// Stores the parameters of one surface in lanes. Not to be included by the kernels' own
+/// translation units.
+
+#include "render/bsdf/parameters.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/kernels/surface_lanes.hpp"
+
+namespace microtrace::bsdf {
+
+/// The parameters that all surfaces have.
+inline void put_surface(SurfaceLanes& lanes, int lane, const Parameters& p) {
+  put(lanes.base_color, lane, p.base_color);
+  lanes.metallic[lane] = p.metallic;
+  lanes.roughness[lane] = p.roughness;
+  put(lanes.f0, lane, p.dielectric.f0);
+  lanes.f90[lane] = p.dielectric.f90;
+}
+
+/// All others, except for the normal of the coat.
+inline void put_extensions(SurfaceLanes& lanes, int lane, const Parameters& p,
+                           const Layers& layers) {
+  lanes.transmission[lane] = p.transmission;
+  lanes.eta[lane] = p.eta.value_or(1);
+  lanes.diffuse_transmission[lane] = p.diffuse_transmission;
+  put(lanes.diffuse_transmission_color, lane, p.diffuse_transmission_color);
+  lanes.anisotropy[lane] = p.anisotropy;
+  put(lanes.along, lane, p.along);
+  const ThinFilm<1> film = p.film.value_or(ThinFilm<1>{});
+  lanes.film_share[lane] = film.share;
+  lanes.film_ior[lane] = film.ior;
+  lanes.film_thickness[lane] = film.thickness;
+  put(lanes.sheen, lane, layers.sheen);
+  lanes.sheen_roughness[lane] = layers.sheen_roughness;
+  lanes.coat[lane] = layers.coat;
+  lanes.coat_roughness[lane] = layers.coat_roughness;
+}
+
+}  // namespace microtrace::bsdf

@@ -1,0 +1,32 @@
+#pragma once
+/// The tables of albedos as plain pointers, because kernels must not instantiate templates of the
+/// standard library (simd/vectors.hpp).
+
+#include "render/bsdf/anisotropic_loss_table.hpp"
+#include "render/bsdf/coating_table.hpp"
+#include "render/bsdf/ggx_albedo_table.hpp"
+#include "render/bsdf/refraction_loss_table.hpp"
+#include "render/bsdf/sheen_table.hpp"
+
+#include <cstdint>
+
+namespace microtrace::bsdf {
+
+struct Tables {
+  // GGX: rows of kAlbedoSteps, and their means.
+  const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
+  // Anisotropic GGX: coefficients.
+  const float *anisotropic_loss, *anisotropic_schlick;
+  const float *mean_anisotropic_loss, *mean_anisotropic_schlick;
+  // Coatings: nodes, their weights; columns of kCoatingNodes in rows of kCoatingColumns.
+  const float *coating_node, *coating_weight;
+  const std::int16_t *deficit_f1, *deficit_schlick;
+  // Refraction: columns, in rows of kLossRows.
+  const std::int16_t *loss_from_outside, *loss_from_within;
+  // Sheen: rows of kSheenColumns.
+  const float *raw_sheen_albedo, *sheen_albedo;
+};
+
+extern const Tables kTables;
+
+}  // namespace microtrace::bsdf

@@ -1,0 +1,179 @@
+#include "render/integrators/vertex_queue.hpp"
+
+#include "render/bsdf/put_surface.hpp"
+#include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
+
+#include <cstring>
+#include <optional>
+
+namespace microtrace {
+namespace {
+
+void put_point(NormalLanes& lanes, int lane, const Ray& ray, const SurfacePoint& at) {
+  put(lanes.d, lane, ray.d);
+  put(lanes.n, lane, at.n);
+  put(lanes.ns, lane, at.ns);
+  lanes.side[lane] = at.front ? 1.0F : -1.0F;
+}
+
+void put_tangents(NormalLanes& lanes, int lane, const SurfacePoint& at) {
+  lanes.handedness[lane] = 0;
+  if (at.mesh == nullptr || at.mesh->tangents.empty()) return;
+  for (std::size_t corner = 0; corner < 3; ++corner)
+    put(lanes.tangents[corner], lane, Vec3(at.mesh->tangents[at.corners[corner]]));
+  lanes.handedness[lane] = at.mesh->tangents[at.corners[0]].w;
+  put(lanes.weights, lane, at.barycentrics);
+}
+
+void put_map(NormalMapLanes& lanes, int lane, const ShadingPoint& point, const TextureSlot& slot,
+             float scale) {
+  lanes.is_mapped[lane] = slot.map == nullptr ? 0.0F : 1.0F;
+  if (slot.map == nullptr) return;
+  put(lanes.texel, lane, Vec3(slot.at(point)));
+  lanes.scale[lane] = scale;
+}
+
+/// The weight of a path that crosses the surface: reduced from all channels to one, if the surface
+/// is dispersive.
+Vec3 through_weight(const Vertex& vertex) {
+  if (vertex.path.channel == vertex.channel) return Vec3(1);
+  Vec3 weight(0);
+  weight[vertex.channel] = 3;
+  return weight;
+}
+
+}  // namespace
+
+ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features) {
+  return {.features = features,
+          .direction_pair = step.pair(sampling::kDirectionPair),
+          .lobe_pair = step.pair(sampling::kLobePair),
+          .most_survival = step.most_survival()};
+}
+
+void VertexQueue::begin(const Lighting& lighting) {
+  if (!lighting.can_sample()) std::memset(scatter_.light, 0, sizeof scatter_.light);
+}
+
+void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
+                      const bsdf::Layers& layers) {
+  const int lane = count_++;
+  const ShadingPoint& point = vertex.point;
+  const PathState& path = vertex.path;
+  waiting_[static_cast<std::size_t>(lane)] = {.ray = &vertex.ray,
+                                              .hit = vertex.hit,
+                                              .path = &path,
+                                              .p = point.at.p,
+                                              .width = point.width,
+                                              .channel = vertex.channel,
+                                              .absorption = vertex.absorption};
+  put_point(points_, lane, vertex.ray, point.at);
+  add_normal_maps(lane, point);
+  put(scatter_.d, lane, vertex.ray.d);
+  put(scatter_.outwards, lane, points_.side[lane] * point.at.n);
+  put(scatter_.throughput, lane, path.throughput);
+  scatter_.key[lane] = path.sobol.key();
+  scatter_.index[lane] = path.sobol.index();
+  put_surface(scatter_.surface, lane, parameters);
+  if (features_.index() == 0) return;
+  put_extensions(scatter_.surface, lane, parameters, layers);
+  put(scatter_.through_weight, lane, through_weight(vertex));
+}
+
+void VertexQueue::add_normal_maps(int lane, const ShadingPoint& point) {
+  const TexturedMaterial& look = *point.look;
+  const TextureSlot& base = look[MaterialTexture::normal];
+  const TextureSlot& coat = look[MaterialTexture::clearcoat_normal];
+  if (base.map != nullptr || coat.map != nullptr) put_tangents(points_, lane, point.at);
+  put_map(normals_, lane, point, base, look.material->normal_scale);
+  if (features_.layers != bsdf::LayerSide::none && look.material->clearcoat)
+    put_map(coat_normals_, lane, point, coat, look.material->clearcoat->normal_scale);
+}
+
+void VertexQueue::find_frames() {
+  kernels_.find_normals(points_, normals_);
+  std::memcpy(scatter_.frame_n, normals_.normal, sizeof scatter_.frame_n);
+  if (features_.layers == bsdf::LayerSide::none) return;
+  kernels_.find_normals(points_, coat_normals_);
+  std::memcpy(scatter_.surface.coat_normal, coat_normals_.normal,
+              sizeof scatter_.surface.coat_normal);
+}
+
+void VertexQueue::ask_lights(const WaveStep& step, const Lighting& lighting) {
+  alignas(64) LaneFloats u, v, choice, unused;
+  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair), u, v);
+  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair), choice,
+                        unused);
+  for (int lane = 0; lane < count_; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    const std::optional<LightSample> light = lighting.sample(
+        {.p = waiting_[i].p, .n = got(scatter_.frame_n, lane)}, {u[lane], v[lane]}, choice[lane]);
+    lights_[i] = light.value_or(LightSample{});
+    put(scatter_.light_wi, lane, lights_[i].wi);
+    put(scatter_.light, lane, lights_[i].light);
+    scatter_.light_pdf[lane] = lights_[i].pdf;
+  }
+}
+
+void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Departures& departures) {
+  if (count_ == 0) return;
+  find_frames();
+  if (lighting.can_sample()) ask_lights(step, lighting);
+  kernels_.scatter(scatter_setup(step, features_), scatter_);
+  for (int lane = 0; lane < count_; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    if (const Vec3 color = got(scatter_.shadow, lane); color != Vec3(0)) {
+      departures.add_shadow(*waiting_[i].ray, waiting_[i].hit, lights_[i], color,
+                            waiting_[i].path->slot);
+    }
+    if (scatter_.pdf[lane] > 0) go_on(lane, step, departures);
+  }
+  count_ = 0;
+}
+
+void VertexQueue::go_on(int lane, const WaveStep& step, Departures& departures) const {
+  const Waiting& vertex = waiting_[static_cast<std::size_t>(lane)];
+  const float pdf = scatter_.pdf[lane];
+  PathState& next = departures.add_path(*vertex.ray, vertex.hit, got(scatter_.wi, lane));
+  next = *vertex.path;
+  next.throughput = got(scatter_.next_throughput, lane);
+  next.pdf = pdf;
+  next.from = {.p = vertex.p, .n = got(scatter_.frame_n, lane)};
+  next.begin = vertex.width;
+  next.spread += step.spread(pdf);
+  if (!features_.transmits || scatter_.is_below[lane] == 0) return;
+  next.channel = vertex.channel;
+  next.absorption = vertex.absorption;
+}
+
+VertexQueues::VertexQueues() : kernels_(best_shading_kernels()) {}
+
+void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
+  shading_ = &shading;
+  lighting_ = &lighting;
+  for (const auto& queue : queues_) {
+    if (queue) queue->begin(lighting);
+  }
+}
+
+void VertexQueues::add(const WaveStep& step, const Vertex& vertex, Departures& departures) {
+  const bsdf::Parameters parameters = shading_->parameters(vertex.point, vertex.channel);
+  const bsdf::Layers layers = shading_->layers(vertex.point);
+  const bsdf::Features features = features_of(parameters, layers);
+  std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(features.index())];
+  if (!queue) {
+    queue = std::make_unique<VertexQueue>(features, kernels_);
+    queue->begin(*lighting_);
+  }
+  queue->add(vertex, parameters, layers);
+  if (queue->is_full()) queue->finish(step, *lighting_, departures);
+}
+
+void VertexQueues::finish(const WaveStep& step, Departures& departures) {
+  for (const auto& queue : queues_) {
+    if (queue) queue->finish(step, *lighting_, departures);
+  }
+}
+
+}  // namespace microtrace

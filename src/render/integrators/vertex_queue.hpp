@@ -1,0 +1,93 @@
+#pragma once
+/// Path vertices wait here until there are sixteen of the same kind for the shading kernels.
+
+#include "render/bsdf/parameters.hpp"
+#include "render/integrators/departures.hpp"
+#include "render/integrators/path_state.hpp"
+#include "render/kernels/kernel.hpp"
+#include "render/lights/lighting.hpp"
+#include "render/shading/shading.hpp"
+
+#include <microtrace/hit.hpp>
+#include <microtrace/ray.hpp>
+
+#include <array>
+#include <memory>
+
+namespace microtrace {
+
+/// A path vertex whose light and next direction are to be sampled.
+struct Vertex {
+  const Ray& ray;
+  const Hit& hit;
+  const ShadingPoint& point;
+  const PathState& path;
+  int channel;      ///< color channel for refraction by a dispersive surface; 3: all
+  Vec3 absorption;  ///< below the surface
+};
+
+/// The parameters of all paths of a bounce.
+[[nodiscard]] ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features);
+
+/// Vertices on surfaces with the same features.
+class VertexQueue {
+ public:
+  VertexQueue(const bsdf::Features& features, const ShadingKernels& kernels)
+      : features_(features), kernels_(kernels) {}
+
+  /// Without light sampling, no light of another scene may be left over.
+  void begin(const Lighting& lighting);
+
+  /// The vertex's ray and path must remain valid until the bounce is finished.
+  void add(const Vertex& vertex, const bsdf::Parameters& parameters, const bsdf::Layers& layers);
+
+  [[nodiscard]] bool is_full() const { return count_ == kShadingLanes; }
+
+  /// Samples all vertices in the queue, and empties it.
+  void finish(const WaveStep& step, const Lighting& lighting, Departures& departures);
+
+ private:
+  /// What the next vertex of a path needs.
+  struct Waiting {
+    const Ray* ray;
+    Hit hit;
+    const PathState* path;
+    Vec3 p;
+    float width;
+    int channel;
+    Vec3 absorption;  ///< below the surface
+  };
+
+  void add_normal_maps(int lane, const ShadingPoint& point);
+  void find_frames();
+  void ask_lights(const WaveStep& step, const Lighting& lighting);
+  void go_on(int lane, const WaveStep& step, Departures& departures) const;
+
+  bsdf::Features features_;
+  const ShadingKernels& kernels_;
+  int count_ = 0;
+  std::array<Waiting, kShadingLanes> waiting_{};
+  std::array<LightSample, kShadingLanes> lights_{};
+  NormalLanes points_{};
+  NormalMapLanes normals_{}, coat_normals_{};
+  ScatterLanes scatter_{};
+};
+
+/// The queues of all kinds.
+class VertexQueues {
+ public:
+  VertexQueues();
+
+  void begin(const Shading& shading, const Lighting& lighting);
+  void add(const WaveStep& step, const Vertex& vertex, Departures& departures);
+  /// Finishes the bounce.
+  void finish(const WaveStep& step, Departures& departures);
+
+ private:
+  const ShadingKernels& kernels_;
+  const Shading* shading_ = nullptr;
+  const Lighting* lighting_ = nullptr;
+  std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by index()
+};
+
+}  // namespace microtrace

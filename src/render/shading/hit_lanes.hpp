@@ -1,0 +1,63 @@
+#pragma once
+/// The hits of mesh triangles in lanes, and the points that kernels compute from them. Not to be
+/// included by the kernels' own translation units.
+
+#include "render/kernels/kernel.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/shading/surface_point.hpp"
+
+namespace microtrace {
+
+[[nodiscard]] inline bool has_uv(const Mesh& mesh) {
+  return !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
+}
+
+template <int width>
+void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
+                    const std::array<std::uint32_t, 3>& corners) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t corner = corners[i];
+    put(lanes.normals[i], lane, mesh.normals.empty() ? Vec3(0) : mesh.normals[corner]);
+    const Vec2 uv = has_uv(mesh) ? mesh.uv_sets[0][corner] : Vec2(0);
+    lanes.uv[i][0][lane] = uv.x;
+    lanes.uv[i][1][lane] = uv.y;
+  }
+}
+
+template <int width>
+void put_hit(HitArrays<width>& lanes, int lane, const Ray& ray, const Hit& hit, const Mesh& mesh,
+             const std::array<std::uint32_t, 3>& corners) {
+  put(lanes.o, lane, ray.o);
+  put(lanes.d, lane, ray.d);
+  lanes.t[lane] = hit.t;
+  for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, mesh.positions[corners[i]]);
+  put_attributes(lanes, lane, mesh, corners);
+}
+
+/// Sets what interpolate() computes; at.mesh must be set.
+template <int width>
+void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
+  at.n = got(lanes.n, lane);
+  at.ns = got(lanes.ns, lane);
+  const bool is_textured = has_uv(*at.mesh);
+  at.first_uv = is_textured ? Vec2(lanes.first_uv[0][lane], lanes.first_uv[1][lane]) : Vec2(0);
+  at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
+}
+
+/// Sets all that find_points() computes; at.mesh and at.corners must be set. Edge-on and without
+/// area, which is rare, the point needs the careful computation.
+template <int width>
+void get_point(const HitArrays<width>& lanes, int lane, const Primitives& primitives,
+               const Ray& ray, const Hit& hit, SurfacePoint& at) {
+  if (lanes.is_sure[lane] == 0) {
+    at = rounded(interact(primitives, ray, hit), ray, hit);
+    return;
+  }
+  at.p = got(lanes.p, lane);
+  at.front = lanes.from_behind[lane] == 0;
+  at.distance = lanes.distance[lane];
+  at.barycentrics = got(lanes.weights, lane);
+  get_attributes(lanes, lane, at);
+}
+
+}  // namespace microtrace

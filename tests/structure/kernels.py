@@ -1,0 +1,27 @@
+#!/usr/bin/env python3
+"""Checks that no function of the kernels for AVX2 and AVX-512 stands in another translation unit too.
+
+The linker keeps one copy of a function that several translation units define (a weak symbol). Were one of them compiled for
+AVX-512 and kept, the program would end with an illegal instruction on older processors.
+
+usage: kernels.py NM LIBRARY.a
+"""
+
+import subprocess
+import sys
+
+symbols = subprocess.run([sys.argv[1], "-A", "--defined-only", sys.argv[2]], capture_output=True, text=True,
+                         check=True).stdout
+owners = {}  # of each weak function
+for line in symbols.splitlines():
+    _, place, symbol = line.split(":", 2)  # the library, the object file, "address kind name"
+    _, kind, name = symbol.split(maxsplit=2)
+    if kind == "W":
+        owners.setdefault(name, []).append(place)
+shared = {name: places for name, places in owners.items()
+          if len(places) > 1 and any("avx" in place for place in places)}
+for name, places in sorted(shared.items()):
+    print(f"{name}: in {', '.join(sorted(places))}")
+kernels = sum(any("avx" in place for place in places) for places in owners.values())
+print(f"{len(shared)} of the kernels' {kernels} functions stand elsewhere too")
+sys.exit(1 if shared or kernels == 0 else 0)

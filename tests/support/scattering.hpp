@@ -1,0 +1,77 @@
+#pragma once
+/// BSDFs of single points: the templates' instances of one lane.
+
+#include "render/bsdf/bsdf.hpp"
+#include "render/bsdf/parameters.hpp"
+#include "render/bsdf/put_surface.hpp"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
+
+namespace microtrace::bsdf {
+
+/// In local coordinates.
+inline Surface<1> surface_of(const Parameters& parameters, const Layers& layers = {},
+                             const Vec3& coat_normal = {0, 0, 1}) {
+  SurfaceLanes lanes{};
+  put_surface(lanes, 0, parameters);
+  put_extensions(lanes, 0, parameters, layers);
+  put(lanes.coat_normal, 0, coat_normal);
+  return Surface<1>::extended(lanes, 0, Frame<1>::about({0, 0, 1}));
+}
+
+struct DirectionSample {
+  Vec3 wi{0, 0, 1};
+  Vec3 weight{0};  ///< value / pdf
+  float pdf = 0;   ///< per solid angle
+};
+
+template <class Model>
+std::optional<DirectionSample> sample_of(const Model& model, const Vec2& u, float lobe) {
+  const auto [wi, e] = model.sample(u, lobe);
+  if (!(e.pdf > 0)) return std::nullopt;
+  return DirectionSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf};
+}
+
+/// Has the features that the parameters need, as the vertices of paths.
+class Scattering {
+ public:
+  /// wo.z > 0, in local coordinates like all directions.
+  Scattering(const Parameters& parameters, const std::optional<Layers>& layers, const Vec3& wo,
+             const Vec3& coat_normal = {0, 0, 1})
+      : Scattering(features_of(parameters, layers.value_or(Layers{})),
+                   surface_of(parameters, layers.value_or(Layers{}), coat_normal), wo) {}
+  Scattering(const Features& features, const Surface<1>& surface, const Vec3& wo)
+      : coating_(features.layers == LayerSide::none ? nullptr
+                                                    : std::make_shared<Coating<1>>(surface)),
+        model_(model(features, surface, coating_.get(), wo)) {}
+  /// Without layers.
+  Scattering(const Parameters& parameters, const Vec3& wo)
+      : Scattering(parameters, std::nullopt, wo) {}
+
+  [[nodiscard]] Evaluation<1> evaluate(const Vec3& wi) const {
+    return std::visit([&](const auto& model) { return model.evaluate(wi); }, model_);
+  }
+  [[nodiscard]] std::optional<DirectionSample> sample(const Vec2& u, float lobe) const {
+    return std::visit([&](const auto& model) { return sample_of(model, u, lobe); }, model_);
+  }
+
+ private:
+  using Model = std::variant<Bsdf<1, PlainParts<1>>, Bsdf<1, IsotropicParts<1>>,
+                             Bsdf<1, AnisotropicParts<1>>>;
+
+  static Model model(const Features& features, const Surface<1>& surface, const Coating<1>* coating,
+                     const Vec3& wo) {
+    if (features.is_anisotropic)
+      return Bsdf<1, AnisotropicParts<1>>(features, surface, coating, wo);
+    if (features.index() == 0) return Bsdf<1, PlainParts<1>>({}, surface, nullptr, wo);
+    return Bsdf<1, IsotropicParts<1>>(features, surface, coating, wo);
+  }
+
+  std::shared_ptr<const Coating<1>> coating_;
+  Model model_;
+};
+
+}  // namespace microtrace::bsdf
