@@ -1,4 +1,3 @@
-
 #include "support/scattering.hpp"
 
 #include <microtrace/path.hpp>

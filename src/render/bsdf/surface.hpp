@@ -61,7 +61,10 @@ struct Surface {
     s.sheen_roughness = load<N>(lanes.sheen_roughness + i);
     s.coat = load<N>(lanes.coat + i);
     s.coat_roughness = load<N>(lanes.coat_roughness + i);
-    s.coat_normal = frame.to_local(load3<N>(lanes.coat_normal, i));
+    // Where it is the shading normal, exactly z despite rounding: Coating compensates energy there.
+    const V n = load3<N>(lanes.coat_normal, i);
+    const auto is_shading_normal = is_zero(V(n - frame.n));
+    s.coat_normal = select3(is_shading_normal, V{F{}, F{}, all<N>(1)}, frame.to_local(n));
     return s;
   }
 };
