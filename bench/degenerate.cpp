@@ -49,7 +49,7 @@ Mesh with_segments(Mesh mesh, std::uint64_t count, double length) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const Vec3 p = place(2 * i, 1.2), q = p + place(2 * i + 1, length);
-    mesh.positions.insert(mesh.positions.end(), {p, q});
+    for (const Vec3& end : {p, q}) mesh.positions.push_back(end);
     mesh.triangles.push_back({first, first + 1, first});
   }
   return mesh;

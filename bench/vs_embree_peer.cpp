@@ -155,7 +155,7 @@ PeerRays::PeerRays(std::span<const Ray> rays) : single(rays.begin(), rays.end())
 
 PeerScene::PeerScene(const Mesh& mesh, const PeerOptions& options)
     : bytes_(std::make_unique<std::atomic<std::ptrdiff_t>>(0)) {
-  if (mesh.positions.capacity() == mesh.positions.size())
+  if (!mesh.positions.is_borrowed())
     throw std::runtime_error("Embree needs room behind the last position");
   const std::string configuration = "threads=" + std::to_string(options.threads) +
                                     (options.isa.empty() ? "" : ",isa=" + options.isa);

@@ -7,9 +7,12 @@
 #include <microtrace/primitives.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <numbers>
+#include <span>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 
@@ -18,9 +21,16 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
+/// In memory that goes on behind the last position, because Embree reads 16 bytes of each.
+Array<Vec3> padded(Array<Vec3> positions) {
+  const std::size_t size = positions.size();
+  const auto owner = std::make_shared<std::vector<Vec3>>(std::move(positions.edit()));
+  owner->resize(size + 1);
+  return Array<Vec3>::borrow(std::span(*owner).first(size), owner);
+}
+
 BenchScene make_scene(std::string name, Mesh mesh, const Pose& pose, double vertical_fov) {
-  // Embree reads 16 bytes of each position.
-  mesh.positions.reserve(mesh.positions.size() + 2);
+  mesh.positions = padded(std::move(mesh.positions));
   BenchScene made{.name = std::move(name),
                   .scene = {},
                   .camera = {.pose = pose, .vertical_fov = vertical_fov * kDegree}};
@@ -63,7 +73,7 @@ BenchScene scene_from_file(const std::string& path) {
   Mesh all;
   const auto add = [&](const Triangle& triangle) {
     const auto first = static_cast<std::uint32_t>(all.positions.size());
-    all.positions.insert(all.positions.end(), {triangle.a, triangle.b, triangle.c});
+    for (const Vec3& p : {triangle.a, triangle.b, triangle.c}) all.positions.push_back(p);
     all.triangles.push_back({first, first + 1, first + 2});
   };
   Primitives(scene).for_each([&](PrimitiveId, const auto& shape) {

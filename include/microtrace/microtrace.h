@@ -66,8 +66,8 @@ MT_API mt_status mt_scene_load(const char* path, const mt_load_options* options,
 MT_API mt_status mt_scene_parse(const void* bytes, size_t byte_count, const char* folder,
                                 const mt_load_options* options, mt_scene** scene);
 
-/* Triangles in arrays of the caller's, which are copied. Strides are in bytes from one element to
- * the next; 0: elements follow each other. */
+/* Triangles in arrays of the caller's. Strides are in bytes from one element to the next; 0:
+ * elements follow each other. The arrays are copied unless `borrow` is set. */
 typedef struct mt_mesh {
   size_t size;
   const float* positions; /* three for each vertex */
@@ -84,6 +84,12 @@ typedef struct mt_mesh {
   float emission[3];    /* radiance */
   int32_t double_sided; /* whether cameras see its back */
   float metallic, roughness;
+  const uint16_t* short_indices; /* in place of indices; always copied */
+  const float* colors;           /* four for each vertex, linear Rec. 709 and alpha; or NULL */
+  size_t color_stride;
+  /* 1: arrays whose elements follow each other are used in place. They must neither change nor be
+   * freed before the scene is released. Others are copied. */
+  int32_t borrow;
 } mt_mesh;
 
 MT_API void mt_mesh_init(mt_mesh* mesh);

@@ -2,6 +2,7 @@
 /// All of the library.
 
 #include <microtrace/aov.hpp>
+#include <microtrace/array.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/checkpoint.hpp>

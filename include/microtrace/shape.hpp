@@ -5,6 +5,7 @@
 /// To add one: a struct here and in `Shape`, its hit in src/exact/, its filter there too, its
 /// reader in src/io/scene_json/scene.cpp and the JSON schema, a scene in scenes/, an oracle test.
 
+#include <microtrace/array.hpp>
 #include <microtrace/math.hpp>
 
 #include <array>
@@ -45,21 +46,21 @@ struct Quadric {
 };
 
 /// Indexed triangles. Each vertex attribute exists either for all vertices or for none; then its
-/// vector is empty.
+/// array is empty. Arrays are made from vectors, or borrow the caller's memory: see Array.
 struct Mesh {
-  std::vector<Vec3> positions;  ///< world space
+  Array<Vec3> positions;  ///< world space
   /// Indices into positions, each below its size. Vertices are counterclockwise as seen from the
   /// front.
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Vec3> normals{};   ///< world space, on the front side; unit length or zero
-  std::vector<Vec4> tangents{};  ///< world space, unit length; w = 1 or -1: bitangent = w (n x t)
+  Array<std::array<std::uint32_t, 3>> triangles;
+  Array<Vec3> normals{};   ///< world space, on the front side; unit length or zero
+  Array<Vec4> tangents{};  ///< world space, unit length; w = 1 or -1: bitangent = w (n x t)
   /// Sets of texture coordinates; a set may be empty. (0, 0) is the corner of an image at its first
   /// pixel, v points down.
-  std::vector<std::vector<Vec2>> uv_sets{};
-  std::vector<Vec4> colors{};  ///< linear Rec. 709 and alpha; multiplied with the material
+  std::vector<Array<Vec2>> uv_sets{};
+  Array<Vec4> colors{};  ///< linear Rec. 709 and alpha; multiplied with the material
   /// Lines between vertices; points if both ends are the same vertex. They have no area, so no ray
   /// hits them: `render` draws them one pixel wide with widen_segments.
-  std::vector<std::array<std::uint32_t, 2>> segments{};
+  Array<std::array<std::uint32_t, 2>> segments{};
 };
 
 using Shape = std::variant<Sphere, Plane, Disc, Triangle, Quadric, Mesh>;

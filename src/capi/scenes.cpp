@@ -2,8 +2,10 @@
 
 #include <microtrace/validate.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -29,29 +31,29 @@ mt_scene* prepared(LoadedScene loaded, std::uint32_t threads) {
                       .warnings = std::move(warnings)};
 }
 
-/// The values of an array, `Width` numbers each.
-template <class Value, int Width, class Number>
-std::vector<Value> copied(const Number* first, std::size_t count, std::size_t stride) {
-  static_assert(sizeof(Value) == Width * sizeof(Number));
-  std::vector<Value> values(count);
-  const std::size_t step = stride != 0 ? stride : sizeof(Value);
-  const auto* bytes = reinterpret_cast<const unsigned char*>(first);
-  for (Value& value : values) {
-    std::memcpy(&value, bytes, sizeof value);
-    bytes += step;
-  }
-  return values;
+using Corners = std::array<std::uint32_t, 3>;
+
+/// A member of a mesh: `count` elements, or none if it is NULL.
+template <class T, class Number>
+Array<T> array_of(const Number* first, std::size_t count, std::size_t stride, bool borrow) {
+  if (first == nullptr) return {};
+  const std::size_t tight = sizeof(T) / sizeof(typename T::value_type) * sizeof(Number);
+  auto array =
+      Array<T>::strided(first, count, static_cast<std::ptrdiff_t>(stride != 0 ? stride : tight));
+  if (!borrow) (void)array.edit();
+  return array;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangles_of(const mt_mesh& mesh) {
+Array<Corners> triangles_of(const mt_mesh& mesh, bool borrow) {
   if (mesh.indices != nullptr)
-    return copied<std::array<std::uint32_t, 3>, 3>(mesh.indices, mesh.triangle_count,
-                                                   mesh.index_stride);
+    return array_of<Corners>(mesh.indices, mesh.triangle_count, mesh.index_stride, borrow);
+  if (mesh.short_indices != nullptr)
+    return array_of<Corners>(mesh.short_indices, mesh.triangle_count, mesh.index_stride, borrow);
   if (mesh.triangle_count > mesh.position_count / 3)
     throw Error(ErrorKind::invalid_scene, "", "a mesh has fewer than three vertices a triangle");
-  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.triangle_count);
+  std::vector<Corners> triangles(mesh.triangle_count);
   std::uint32_t next = 0;
-  for (auto& corners : triangles) {
+  for (Corners& corners : triangles) {
     for (std::uint32_t& corner : corners) corner = next++;
   }
   return triangles;
@@ -62,19 +64,22 @@ Mesh mesh_of(const mt_mesh& from) {
   if (from.position_count > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, "", "a mesh has 2^32 vertices or more");
   const std::size_t count = from.position_count;
-  Mesh mesh{.positions = copied<Vec3, 3>(from.positions, count, from.position_stride),
-            .triangles = triangles_of(from)};
-  if (from.normals != nullptr)
-    mesh.normals = copied<Vec3, 3>(from.normals, count, from.normal_stride);
-  if (from.uvs != nullptr) mesh.uv_sets = {copied<Vec2, 2>(from.uvs, count, from.uv_stride)};
+  const bool borrow = from.borrow != 0;
+  Mesh mesh{.positions = array_of<Vec3>(from.positions, count, from.position_stride, borrow),
+            .triangles = triangles_of(from, borrow),
+            .normals = array_of<Vec3>(from.normals, count, from.normal_stride, borrow),
+            .colors = array_of<Vec4>(from.colors, count, from.color_stride, borrow)};
+  if (from.uvs != nullptr) mesh.uv_sets = {array_of<Vec2>(from.uvs, count, from.uv_stride, borrow)};
   return mesh;
 }
 
-Material material_of(const mt_mesh& from) {
+Material material_of(const mt_mesh& from, const Mesh& mesh) {
   const float* c = from.base_color;
   const float* e = from.emission;
+  const bool is_opaque =
+      !(c[3] < 1) && std::ranges::none_of(mesh.colors, [](const Vec4& v) { return v.a < 1; });
   return {.base_color = Vec4(c[0], c[1], c[2], c[3]),
-          .alpha_mode = c[3] < 1 ? AlphaMode::blend : AlphaMode::opaque,
+          .alpha_mode = is_opaque ? AlphaMode::opaque : AlphaMode::blend,
           .double_sided = from.double_sided != 0,
           .metallic = from.metallic,
           .roughness = from.roughness,
@@ -135,10 +140,11 @@ mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t thr
     const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
     const std::size_t stride = count > 0 ? meshes->size : 0;
     for (std::size_t i = 0; i < count; ++i, bytes += stride) {
-      const mt_mesh mesh = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
+      const mt_mesh from = complete(reinterpret_cast<const mt_mesh*>(bytes), mt_mesh_init);
+      Mesh mesh = capi::mesh_of(from);
+      loaded.scene.materials.push_back(capi::material_of(from, mesh));
       loaded.scene.objects.push_back(
-          {.name = "", .shape = capi::mesh_of(mesh), .material = static_cast<std::uint32_t>(i)});
-      loaded.scene.materials.push_back(capi::material_of(mesh));
+          {.name = "", .shape = std::move(mesh), .material = static_cast<std::uint32_t>(i)});
     }
     validate(loaded.scene);
     *scene = capi::prepared(std::move(loaded), threads);

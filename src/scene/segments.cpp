@@ -18,8 +18,9 @@ struct Source {
 
 /// Appends four values for each wide segment to the values of the existing vertices.
 template <typename Value, typename Mix>
-void extend(std::vector<Value>& values, const std::vector<Source>& sources, Mix&& mix) {
-  if (values.empty()) return;
+void extend(Array<Value>& array, const std::vector<Source>& sources, Mix&& mix) {
+  if (array.empty()) return;
+  std::vector<Value>& values = array.edit();
   values.reserve(values.size() + 2 * sources.size());
   for (const Source& source : sources) {
     const Value value = mix(values[source.from], values[source.to], source.t);
@@ -60,7 +61,7 @@ void widen(Mesh& mesh, const SegmentWidener& widened) {
   extend(mesh.normals, sources, nearer<Vec3>);
   extend(mesh.tangents, sources, nearer<Vec4>);
   extend(mesh.colors, sources, between<Vec4>);
-  for (std::vector<Vec2>& set : mesh.uv_sets) extend(set, sources, between<Vec2>);
+  for (Array<Vec2>& set : mesh.uv_sets) extend(set, sources, between<Vec2>);
 }
 
 }  // namespace

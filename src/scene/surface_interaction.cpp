@@ -158,7 +158,7 @@ class Interaction {
 
 /// The interpolated vertex attribute, if the mesh has it.
 template <typename Result, typename Value>
-std::optional<Result> interpolate(const TrianglePoint& at, const std::vector<Value>& values) {
+std::optional<Result> interpolate(const TrianglePoint& at, const Array<Value>& values) {
   if (values.empty()) return std::nullopt;
   return at.barycentrics.x * Result(values[at.corners[0]]) +
          at.barycentrics.y * Result(values[at.corners[1]]) +

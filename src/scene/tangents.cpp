@@ -15,8 +15,7 @@ namespace {
 
 /// The values with these indices, if there are any values.
 template <typename Value>
-std::vector<Value> picked(const std::vector<Value>& values,
-                          std::span<const std::uint32_t> numbers) {
+std::vector<Value> picked(const Array<Value>& values, std::span<const std::uint32_t> numbers) {
   std::vector<Value> result;
   if (values.empty()) return result;
   result.reserve(numbers.size());
@@ -36,8 +35,9 @@ Vec3 flat_normal(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle)
 /// triangles.
 std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   const std::size_t vertex_count = mesh.positions.size();
+  std::vector<std::array<std::uint32_t, 3>>& triangles = mesh.triangles.edit();
   const auto vertex_at = [&](std::size_t corner) -> std::uint32_t& {
-    return mesh.triangles[corner / 3][corner % 3];
+    return triangles[corner / 3][corner % 3];
   };
   // Counting sort of corners by vertex.
   std::vector<std::uint32_t> first(vertex_count + 1);
@@ -70,7 +70,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
     origin.push_back(v);
     mesh.tangents.push_back(tangent_across(mesh.normals.empty() ? Vec3(0) : mesh.normals[v]));
   }
-  for (auto& segment : mesh.segments) {
+  for (auto& segment : mesh.segments.edit()) {
     for (std::uint32_t& vertex : segment) vertex = standard[vertex];
   }
   mesh.positions = picked(mesh.positions, origin);

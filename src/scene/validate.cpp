@@ -108,8 +108,7 @@ Rule check_attributes(const Mesh& mesh) {
 }
 
 template <typename Primitive>
-Rule check_indices(const char* field, const std::vector<Primitive>& primitives,
-                   std::size_t positions) {
+Rule check_indices(const char* field, const Array<Primitive>& primitives, std::size_t positions) {
   for (const Primitive& primitive : primitives) {
     for (const std::uint32_t index : primitive) {
       if (index < positions) continue;

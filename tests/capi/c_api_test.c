@@ -4,6 +4,7 @@
 #include <microtrace/version.h>
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -132,6 +133,69 @@ static void wrong_meshes(void) {
   CHECK(mt_scene_from_meshes(&mesh, 1, 1, NULL) == MT_USAGE);
 }
 
+/* The texture coordinate u at the middle of a triangle. */
+static double u_at_middle(const mt_mesh* mesh, float* uvs, float later) {
+  mt_scene* scene = NULL;
+  CHECK(mt_scene_from_meshes(mesh, 1, 1, &scene) == MT_OK);
+  for (int i = 0; i < 6; ++i) uvs[i] = later;
+  const mt_ray down = ray(0.25F, 0.25F, 1, 0, 0, -1);
+  mt_hit hit;
+  mt_surface surface;
+  CHECK(mt_intersect(scene, &down, 1, 1, &hit) == MT_OK && hit.t == 1);
+  CHECK(mt_surfaces(scene, &down, &hit, 1, 1, &surface) == MT_OK);
+  mt_scene_release(scene);
+  return surface.uv[0];
+}
+
+/* Only texture coordinates are changed under a scene, which is not allowed, to see where they are:
+ * the tree doesn't depend on them. */
+static void borrowed_arrays(void) {
+  const float positions[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const uint16_t corners[3] = {0, 1, 2};
+  float uvs[6] = {5, 5, 5, 5, 5, 5};
+  mt_mesh mesh;
+  mt_mesh_init(&mesh);
+  mesh.positions = positions[0];
+  mesh.position_count = 3;
+  mesh.triangle_count = 1;
+  mesh.short_indices = corners;
+  mesh.uvs = uvs;
+  CHECK(fabs(u_at_middle(&mesh, uvs, 7) - 5) < 1e-6);
+  mesh.borrow = 1;
+  CHECK(fabs(u_at_middle(&mesh, uvs, 3) - 3) < 1e-6);
+  /* An older header has no such members: no borrowing, and vertices 0 1 2. */
+  mesh.size = offsetof(mt_mesh, short_indices);
+  CHECK(fabs(u_at_middle(&mesh, uvs, 9) - 3) < 1e-6);
+}
+
+static void colored_vertices(void) {
+  const float positions[3][3] = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const float colors[3][5] = {{0.5F, 1, 0, 1, 0}, {0.5F, 1, 0, 0.5F, 0}, {0.5F, 1, 0, 0.5F, 0}};
+  mt_mesh mesh;
+  mt_mesh_init(&mesh);
+  mesh.positions = positions[0];
+  mesh.position_count = 3;
+  mesh.triangle_count = 1;
+  mesh.colors = colors[0];
+  mesh.color_stride = sizeof colors[0];
+  mt_scene* scene = NULL;
+  CHECK(mt_scene_from_meshes(&mesh, 1, 1, &scene) == MT_OK);
+  const mt_camera camera = {{1, 1, 5}, {1, 1, 0}, {0, 1, 0}, 10};
+  mt_render_options options;
+  mt_render_options_init(&options);
+  options.width = options.height = 1;
+  options.camera = &camera;
+  options.transparent = 1;
+  mt_film* film = NULL;
+  CHECK(mt_render(scene, &options, &film) == MT_OK);
+  float rgba[4];
+  CHECK(mt_film_rgba(film, rgba) == MT_OK);
+  /* At barycentric coordinates (1/2, 1/4, 1/4). */
+  CHECK(fabsf(rgba[3] - 0.75F) < 1e-4F && fabsf(rgba[0] - 0.375F) < 1e-4F && rgba[2] == 0);
+  mt_film_release(film);
+  mt_scene_release(scene);
+}
+
 static int32_t cancel(void* user, double fraction) {
   ++*(int*)user;
   return fraction < 0;
@@ -248,6 +312,8 @@ int main(int argc, char** argv) {
   pictures(scene, argv[2]);
   mt_scene_release(scene);
   wrong_meshes();
+  borrowed_arrays();
+  colored_vertices();
   files(argv[1]);
   printf("%d failures\n", failures);
   return failures != 0;

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 Vec3 corner(const LoadedScene& loaded, std::size_t number = 7) {
-  return std::get<Mesh>(loaded.scene.objects.at(0).shape).positions.at(number);
+  return std::get<Mesh>(loaded.scene.objects.at(0).shape).positions[number];
 }
 
 Vec3 corner_at(const AssetBuilder& asset, double time, const char* animation = "") {

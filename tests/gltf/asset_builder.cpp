@@ -204,7 +204,7 @@ std::vector<std::array<Vec3, 3>> triangles_of(const Object& object) {
   const Mesh& mesh = std::get<Mesh>(object.shape);
   std::vector<std::array<Vec3, 3>> result;
   for (const auto& [a, b, c] : mesh.triangles) {
-    result.push_back({mesh.positions.at(a), mesh.positions.at(b), mesh.positions.at(c)});
+    result.push_back({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
   }
   return result;
 }

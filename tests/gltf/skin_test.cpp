@@ -16,7 +16,7 @@ Mesh first_mesh(const LoadedScene& loaded) {
   return std::get<Mesh>(loaded.scene.objects.at(0).shape);
 }
 
-void expect_near(const std::vector<Vec3>& values, const std::vector<Vec3>& wanted) {
+void expect_near(const Array<Vec3>& values, const std::vector<Vec3>& wanted) {
   ASSERT_EQ(values.size(), wanted.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(values[i][k], wanted[i][k], 1e-6) << i << ' ' << k;
@@ -112,8 +112,8 @@ TEST(GltfSkin, MirroringJointsReverseTheWinding) {
   AssetBuilder asset = arm();
   asset.json["nodes"][1]["scale"] = {1, -1, 1};
   const LoadedScene loaded = load(asset);
-  std::vector<std::array<std::uint32_t, 3>> turned = first_mesh(load(arm())).triangles;
-  for (auto& corners : turned) std::swap(corners[1], corners[2]);
+  Array<std::array<std::uint32_t, 3>> turned = first_mesh(load(arm())).triangles;
+  for (auto& corners : turned.edit()) std::swap(corners[1], corners[2]);
   EXPECT_EQ(first_mesh(loaded).triangles, turned);
   EXPECT_EQ(first_mesh(loaded).normals[0], Vec3(0, 0, 1));
 }

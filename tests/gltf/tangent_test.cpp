@@ -45,8 +45,8 @@ TEST(GltfTangent, IsGeneratedIfTheMaterialNeedsIt) {
   const Mesh mesh = mesh_of(asset);
   ASSERT_EQ(mesh.tangents.size(), 8U);
   for (std::size_t t = 0; t < 4; ++t) {
-    for (const std::uint32_t vertex : mesh.triangles.at(t)) {
-      EXPECT_EQ(mesh.tangents.at(vertex), t < 2 ? Vec4(1, 0, 0, 1) : Vec4(-1, 0, 0, -1));
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+      EXPECT_EQ(mesh.tangents[vertex], t < 2 ? Vec4(1, 0, 0, 1) : Vec4(-1, 0, 0, -1));
     }
   }
   EXPECT_THAT(mesh_of(asset, {.detail = SurfaceDetail::color}).tangents, IsEmpty());
@@ -112,8 +112,8 @@ TEST(GltfTangent, IsTransformedByItsNode) {
   const Mesh mesh = mesh_of(asset);
   ASSERT_EQ(mesh.tangents.size(), 8U);
   for (std::size_t t = 0; t < 4; ++t) {
-    for (const std::uint32_t vertex : mesh.triangles.at(t)) {
-      EXPECT_EQ(mesh.tangents.at(vertex), t < 2 ? Vec4(-1, 0, 0, -1) : Vec4(1, 0, 0, 1));
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+      EXPECT_EQ(mesh.tangents[vertex], t < 2 ? Vec4(-1, 0, 0, -1) : Vec4(1, 0, 0, 1));
     }
   }
 }

@@ -94,7 +94,7 @@ TEST(ValidateShape, MeshIndicesExist) {
   EXPECT_EQ(field(Mesh{}), "");
   mesh.triangles.push_back({0, 3, 1});
   EXPECT_EQ(broken(Shape(mesh)), "triangles: index 3 is not below the number of positions, 3");
-  mesh.positions[1].y = kNan;
+  mesh.positions.edit()[1].y = kNan;
   EXPECT_EQ(field(mesh), "positions");
 }
 

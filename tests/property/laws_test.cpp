@@ -28,7 +28,7 @@ using Move = std::function<Vec3(Vec3)>;
 Scene moved(Scene scene, const Move& point, const Move& normal, float length) {
   for (Object& object : scene.objects) {
     if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
-      for (Vec3& p : mesh->positions) p = point(p);
+      for (Vec3& p : mesh->positions.edit()) p = point(p);
     } else if (auto* sphere = std::get_if<Sphere>(&object.shape)) {
       *sphere = {point(sphere->center), sphere->radius * length};
     } else if (auto* disc = std::get_if<Disc>(&object.shape)) {
@@ -110,7 +110,7 @@ TEST_P(Laws, OrderOfVerticesHasNoEffect) {
     for (Object& object : turned.objects) {
       auto* mesh = std::get_if<Mesh>(&object.shape);
       if (mesh == nullptr) continue;
-      for (auto& triangle : mesh->triangles) {
+      for (auto& triangle : mesh->triangles.edit()) {
         std::rotate(triangle.begin(), triangle.begin() + random.between(0, 2), triangle.end());
         if (random.one_in(2)) std::swap(triangle[0], triangle[1]);
       }
@@ -132,7 +132,7 @@ TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
     for (std::size_t i = 0; i < old_place.size(); ++i) {
       shuffled.objects[i] = c.scene.objects[old_place[i]];
       if (auto* mesh = std::get_if<Mesh>(&shuffled.objects[i].shape))
-        std::reverse(mesh->triangles.begin(), mesh->triangles.end());
+        std::ranges::reverse(mesh->triangles.edit());
     }
     const Primitives before(c.scene), after(shuffled);
     const auto old_id = [&](PrimitiveId id) {

@@ -25,7 +25,7 @@ INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(available_kernels()),
 
 void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c});
+  for (const Vec3& p : {a, b, c}) mesh.positions.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 

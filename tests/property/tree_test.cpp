@@ -46,7 +46,7 @@ Mesh soup(std::size_t triangles, float size) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < triangles; ++i) {
     const Triangle t = random.triangle(size);
-    mesh.positions.insert(mesh.positions.end(), {t.a, t.b, t.c});
+    for (const Vec3& p : {t.a, t.b, t.c}) mesh.positions.push_back(p);
     mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return mesh;
@@ -120,7 +120,7 @@ TEST(Tree, SplitsObliqueTriangles) {
   // Many needles across a cube, and a cluster of tiny triangles.
   Mesh needles = soup(20000, 0.001F);
   Random random;
-  for (std::size_t i = 0; i < 3000; i += 3) needles.positions[i] = random.in_cube();
+  for (std::size_t i = 0; i < 3000; i += 3) needles.positions.edit()[i] = random.in_cube();
   check(scene_of({needles}), Place::blocks);
   EXPECT_GT(references(needles), 1.1 * triangles(needles));
   EXPECT_LE(references(needles), 1.3 * triangles(needles));
@@ -246,15 +246,17 @@ TEST(Tree, StoresDuplicatesOnce) {
   EXPECT_EQ(duplicates(copies(2, [](Corners&) {})), 20001U);
   EXPECT_EQ(duplicates(copies(3, [](Corners& t) { std::swap(t[0], t[2]); })), 40002U);
   Mesh shuffled = copies(2, [](Corners& t) { t = {t[1], t[2], t[0]}; });
-  std::shuffle(shuffled.triangles.begin(), shuffled.triangles.end(), std::minstd_rand(1));
+  std::ranges::shuffle(shuffled.triangles.edit(), std::minstd_rand(1));
   EXPECT_EQ(duplicates(shuffled), 20001U);
 
   // One copy of a few triangles among many, and zeros of both signs.
   Mesh few = soup(30000, 0.01F);
   few.triangles.push_back(few.triangles[7]);
   EXPECT_EQ(duplicates(few), 1U);
-  few.positions.insert(few.positions.end(), {{0.0F, 1, 0}, {1, -0.0F, 0}, {-0.0F, 0, 1}});
-  few.positions.insert(few.positions.end(), {{-0.0F, 1, 0}, {1, 0.0F, -0.0F}, {0.0F, 0, 1}});
+  for (const Vec3& p : std::initializer_list<Vec3>{{0.0F, 1, 0}, {1, -0.0F, 0}, {-0.0F, 0, 1}})
+    few.positions.push_back(p);
+  for (const Vec3& p : std::initializer_list<Vec3>{{-0.0F, 1, 0}, {1, 0.0F, -0.0F}, {0.0F, 0, 1}})
+    few.positions.push_back(p);
   few.triangles.push_back({90000, 90001, 90002});
   few.triangles.push_back({90003, 90004, 90005});
   EXPECT_EQ(duplicates(few), 2U);
@@ -288,7 +290,8 @@ TEST(Tree, HandlesInseparableCentroids) {
   Mesh boxed;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const float t = static_cast<float>(i) * 0x1p-15F;
-    boxed.positions.insert(boxed.positions.end(), {{0, t, 0}, {1, 0, 0}, {0.5F, 1, 1}});
+    for (const Vec3& p : std::initializer_list<Vec3>{{0, t, 0}, {1, 0, 0}, {0.5F, 1, 1}})
+      boxed.positions.push_back(p);
     boxed.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   EXPECT_TRUE(check(scene_of({boxed}), Place::blocks).duplicates.ids().empty());
@@ -297,7 +300,8 @@ TEST(Tree, HandlesInseparableCentroids) {
   Mesh nested;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const auto r = static_cast<float>(i);
-    nested.positions.insert(nested.positions.end(), {{-r, -r, 0}, {r, r, 0}, {r, -r, 0}});
+    for (const Vec3& p : std::initializer_list<Vec3>{{-r, -r, 0}, {r, r, 0}, {r, -r, 0}})
+      nested.positions.push_back(p);
     nested.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   check(scene_of({nested}), Place::blocks);
@@ -321,14 +325,14 @@ TEST(Tree, HasBoundedDepth) {
 TEST(Tree, HandlesAnyScale) {
   for (const float scale : {0x1p-149F, 0x1p-140F, 0x1p-100F, 0x1p-60F, 0x1p30F, 0x1p37F}) {
     Mesh mesh = soup(3000, 0.1F);
-    for (Vec3& p : mesh.positions) p *= scale;
+    for (Vec3& p : mesh.positions.edit()) p *= scale;
     check(scene_of({mesh}), Place::blocks);
     // With one triangle of maximum size.
     Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
     check(scene, Place::blocks);
   }
   Mesh huge = soup(3000, 0.5F);
-  for (Vec3& p : huge.positions) p *= 0x1p127F;
+  for (Vec3& p : huge.positions.edit()) p *= 0x1p127F;
   check(scene_of({huge}), Place::others);
 }
 

@@ -151,7 +151,7 @@ TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   model.add(sheet, kMatt);
   EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
-  for (auto& triangle : sheet.triangles) std::swap(triangle[1], triangle[2]);
+  for (auto& triangle : sheet.triangles.edit()) std::swap(triangle[1], triangle[2]);
   model.scene.objects.back().shape = sheet;
   EXPECT_NEAR(model.seen(Backfaces::pass).mean, lit, 1e-6);
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);

@@ -109,7 +109,7 @@ TEST(Radiance, OneSidedWalls) {
   floor.scene.environment = Environment{.content = Vec3(1)};
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .double_sided = false});
   Mesh inside_out = ball({0, 3, 0}, 1);
-  for (auto& triangle : inside_out.triangles) std::swap(triangle[1], triangle[2]);
+  for (auto& triangle : inside_out.triangles.edit()) std::swap(triangle[1], triangle[2]);
   floor.scene.objects.push_back({.name = "ball", .shape = inside_out, .material = 1});
   const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
   const Estimate shaded = estimate(floor.scene, floor.camera, shot, kSeeds);

@@ -22,7 +22,7 @@ std::uint64_t random_bits(std::uint64_t counter) {
 /// Vertices counterclockwise and not shared, as exporters write flat faces.
 void add_quad(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-  mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
+  for (const Vec3& p : {a, b, c, d}) mesh.positions.push_back(p);
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
@@ -90,7 +90,7 @@ ArchitectureScene skewed_room() {
   ArchitectureScene scene = room();
   scene.name = "skewed room";
   std::uint64_t counter = 0;
-  for (Vec3& p : scene.mesh.positions) {
+  for (Vec3& p : scene.mesh.positions.edit()) {
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint64_t bits = random_bits(++counter);
       const float by = static_cast<float>(bits % 5) - 2;
@@ -179,7 +179,7 @@ ArchitectureScene stepped_terrain() {
       .lamp = {},
       .views = {{.position = {1.13, 0.87, 1.29}, .direction = {-1.07, -0.83, -1.21}},
                 {.position = {0, 0.5, 1.5}, .direction = {0, 0, -1}}}};
-  for (Vec3& p : scene.mesh.positions) p.y = std::floor(16 * p.y) / 16;
+  for (Vec3& p : scene.mesh.positions.edit()) p.y = std::floor(16 * p.y) / 16;
   add_lamp(scene, {0, 2, 0}, 0.5F);
   return scene;
 }

@@ -114,13 +114,13 @@ Mesh hull(std::vector<Vec3> points) {
     return exact::Implicit(triangle).value(exact::vector(mesh.positions[i])).sign();
   };
   if (side(mesh.triangles[0], 3) > 0) {
-    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    for (auto& t : mesh.triangles.edit()) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
     // Edges by their vertices, with the direction of one face along each. If rounding makes faces
     // overlap, several may share an edge; an even number of them cancels.
     std::map<Edge, Edge> edges;
-    std::erase_if(mesh.triangles, [&](const auto& t) {
+    std::erase_if(mesh.triangles.edit(), [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;
       for (std::size_t k = 0; k < 3; ++k) {
         const Edge edge{t[k], t[(k + 1) % 3]};

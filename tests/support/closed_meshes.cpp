@@ -9,14 +9,14 @@ namespace {
 
 // Differences and small multiples of grid points are exact, so rays can be aimed exactly.
 Mesh on_grid(Mesh mesh, float spacing) {
-  for (Vec3& p : mesh.positions) {
+  for (Vec3& p : mesh.positions.edit()) {
     for (int k = 0; k < 3; ++k) p[k] = std::nearbyint(p[k] / spacing) * spacing;
   }
   return mesh;
 }
 
 Mesh scaled(Mesh mesh, const Vec3& scale, const Vec3& offset) {
-  for (Vec3& p : mesh.positions) p = p * scale + offset;
+  for (Vec3& p : mesh.positions.edit()) p = p * scale + offset;
   return mesh;
 }
 

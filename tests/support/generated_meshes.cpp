@@ -170,7 +170,7 @@ DVec3 turned(const DVec3& p) {
 }
 
 Mesh turned(Mesh mesh) {
-  for (Vec3& p : mesh.positions) p = Vec3(turned(DVec3(p)));
+  for (Vec3& p : mesh.positions.edit()) p = Vec3(turned(DVec3(p)));
   return mesh;
 }
 

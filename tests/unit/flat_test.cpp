@@ -89,8 +89,8 @@ TEST(Flat, SharedEdgesAreOneSurface) {
   Stack stack;
   Mesh& mesh = stack.add(blend({1, 0, 0, 0.5F}));
   EXPECT_EQ(stack.pixel(), Vec3(0.5F, 0, 0) + 0.5F * kBackground);
-  mesh.positions.insert(mesh.positions.end(), mesh.positions.begin(), mesh.positions.end());
-  mesh.triangles[1] = {4, 6, 7};
+  for (std::size_t i = 0; i < 4; ++i) mesh.positions.push_back(mesh.positions[i]);
+  mesh.triangles.edit()[1] = {4, 6, 7};
   EXPECT_EQ(stack.pixel(), Vec3(0.5F, 0, 0) + 0.5F * kBackground) << "with a seam";
   mesh.positions = {{-9, 0, -1}, {9, 0, -1}, {0, 9, -5}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 1}};
@@ -116,7 +116,7 @@ TEST(Flat, BacksAreDrawnOnlyOfDoubleSidedMaterials) {
   stack.add({.base_color = {1, 0, 0, 1}, .double_sided = false});
   stack.add({.base_color = {0, 1, 0, 1}});
   EXPECT_EQ(stack.pixel(), Vec3(1, 0, 0));
-  for (auto& corners : std::get<Mesh>(stack.scene.objects[0].shape).triangles)
+  for (auto& corners : std::get<Mesh>(stack.scene.objects[0].shape).triangles.edit())
     std::swap(corners[0], corners[1]);
   EXPECT_EQ(stack.pixel(), Vec3(0, 1, 0));
   stack.scene.materials[0].double_sided = true;

@@ -58,7 +58,7 @@ Sheet with_uv(Sheet sheet, std::function<Vec2(double, double)> uv) {
 }
 
 /// The generated tangents of the mesh's vertices.
-std::vector<Vec4> tangents_of(Mesh mesh) {
+Array<Vec4> tangents_of(Mesh mesh) {
   make_tangents(mesh, 0);
   return mesh.tangents;
 }
@@ -105,7 +105,7 @@ TEST(Tangents, OfASpherePointEast) {
   };
   const Sheet sphere{.position = on_sphere, .normal = on_sphere, .uv = kPlane.uv};
   constexpr std::uint32_t columns = 64;
-  const std::vector<Vec4> tangents = tangents_of(grid(sphere, columns, 32));
+  const Array<Vec4> tangents = tangents_of(grid(sphere, columns, 32));
   for (std::uint32_t i = 0; i < tangents.size(); ++i) {
     const std::uint32_t column = i % (columns + 1);
     if (column == 0 || column == columns) continue;  // the seam has neighbors only on one side
@@ -151,7 +151,7 @@ TEST(Tangents, SplitVerticesBetweenMirroredTriangles) {
   const auto folded = [](double x, double y) { return Vec2(std::abs(x - 0.5), 1 - y); };
   Mesh mesh = grid(with_uv(kPlane, folded), 2, 1);
   mesh.colors.assign(6, Vec4(1));
-  mesh.colors[1] = Vec4(0.5F);
+  mesh.colors.edit()[1] = Vec4(0.5F);
   mesh.segments = {{1, 4}};
   const Mesh before = mesh;
   const std::vector<std::uint32_t> origin = make_tangents(mesh, 0);
@@ -180,8 +180,8 @@ TEST(Tangents, TrianglesWithoutTextureAreaUseTheirNeighbors) {
   Mesh mesh = grid(kPlane, 2, 1);
   // The right half maps to one point of the image, so its left vertices have the tangents of the
   // left half.
-  for (const std::size_t i : {1U, 2U, 4U, 5U}) mesh.uv_sets[0][i].x = 0.5F;
-  const std::vector<Vec4> tangents = tangents_of(mesh);
+  for (const std::size_t i : {1U, 2U, 4U, 5U}) mesh.uv_sets[0].edit()[i].x = 0.5F;
+  const Array<Vec4> tangents = tangents_of(mesh);
   ASSERT_EQ(tangents.size(), 6U);
   for (const std::size_t i : {0U, 1U, 3U, 4U}) expect_near(tangents[i], {1, 0, 0, 1});
 }
@@ -206,8 +206,9 @@ TEST(Tangents, WithoutTextureAreaAnyPerpendicularDirectionIsValid) {
 
 TEST(Tangents, TrianglesWithoutAreaUseTheirVertices) {
   Mesh mesh = grid(kPlane, 1, 1);
-  mesh.triangles.insert(mesh.triangles.begin(), {1, 1, 3});
-  const std::vector<Vec4> tangents = tangents_of(mesh);
+  std::vector<std::array<std::uint32_t, 3>>& triangles = mesh.triangles.edit();
+  triangles.insert(triangles.begin(), {1, 1, 3});
+  const Array<Vec4> tangents = tangents_of(mesh);
   ASSERT_EQ(tangents.size(), 4U);
   for (const Vec4& t : tangents) expect_near(t, {1, 0, 0, 1});
 }
@@ -301,7 +302,7 @@ TEST(Tangents, IndexingHasNoEffect) {
       apart.uv_sets[0].push_back(mesh.uv_sets[0][vertex]);
     }
   }
-  const std::vector<Vec4> wanted = tangents_of(mesh), actual = tangents_of(apart);
+  const Array<Vec4> wanted = tangents_of(mesh), actual = tangents_of(apart);
   ASSERT_EQ(actual.size(), 3 * mesh.triangles.size());
   for (std::size_t i = 0; i < actual.size(); ++i) {
     EXPECT_EQ(actual[i], wanted[mesh.triangles[i / 3][i % 3]]);
@@ -320,7 +321,7 @@ TEST(Tangents, AFanOfManyTrianglesTakesLinearTime) {
   }
   mesh.normals.assign(count + 2, {0, 0, 1});
   for (std::uint32_t i = 1; i <= count; ++i) mesh.triangles.push_back({0, i, i + 1});
-  const std::vector<Vec4> tangents = tangents_of(mesh);
+  const Array<Vec4> tangents = tangents_of(mesh);
   expect_near(tangents[0], {1, 0, 0, 1}, 1e-3F);
 }
 

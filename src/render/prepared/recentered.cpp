@@ -13,7 +13,10 @@ template <class AnyShape, class F>
 bool for_each_point(AnyShape& shape, const F& f) {
   using Kind = std::remove_const_t<AnyShape>;
   if constexpr (std::is_same_v<Kind, Mesh>) {
-    for (auto& p : shape.positions) f(p);
+    if constexpr (std::is_const_v<AnyShape>)
+      for (const Vec3& p : shape.positions) f(p);
+    else
+      for (Vec3& p : shape.positions.edit()) f(p);
   } else if constexpr (std::is_same_v<Kind, Triangle>) {
     f(shape.a);
     f(shape.b);

@@ -14,7 +14,7 @@ namespace microtrace {
 namespace {
 
 template <typename Value>
-Value weighed(const SurfacePoint& at, const std::vector<Value>& values) {
+Value weighed(const SurfacePoint& at, const Array<Value>& values) {
   return at.barycentrics.x * values[at.corners[0]] + at.barycentrics.y * values[at.corners[1]] +
          at.barycentrics.z * values[at.corners[2]];
 }

@@ -41,7 +41,7 @@ bool leave_out_infinite(Surface& surface) {
   const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };
   const auto has_bad = [&](const auto& corners) { return std::ranges::any_of(corners, is_bad); };
   const std::size_t bad =
-      std::erase_if(mesh.triangles, has_bad) + std::erase_if(mesh.segments, has_bad);
+      std::erase_if(mesh.triangles.edit(), has_bad) + std::erase_if(mesh.segments.edit(), has_bad);
   if (bad == 0) return false;
   std::vector<std::uint32_t> vertices;
   std::vector<Vec3> positions;

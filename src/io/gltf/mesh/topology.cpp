@@ -39,10 +39,10 @@ bool add_run(Model::Mode mode, std::span<const std::uint32_t> v, Mesh& mesh) {
 
 template <typename Visit>
 void for_each_index(Mesh& mesh, Visit&& visit) {
-  for (auto& corners : mesh.triangles) {
+  for (auto& corners : mesh.triangles.edit()) {
     for (std::uint32_t& index : corners) visit(index);
   }
-  for (auto& ends : mesh.segments) {
+  for (auto& ends : mesh.segments.edit()) {
     for (std::uint32_t& index : ends) visit(index);
   }
 }

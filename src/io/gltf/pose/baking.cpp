@@ -39,7 +39,7 @@ struct VertexTransform {
 
 /// The morphed vector if there is one, otherwise the mesh's.
 template <typename Own>
-DVec3 vector_of(const std::vector<Own>& own, const std::vector<DVec3>& morphed, std::size_t i) {
+DVec3 vector_of(const Array<Own>& own, const std::vector<DVec3>& morphed, std::size_t i) {
   return morphed.empty() ? DVec3(own[i]) : morphed[i];
 }
 
@@ -48,7 +48,10 @@ template <typename TransformOf>
 Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const TransformOf& transform_of) {
   Mesh result;
   result.uv_sets = morphed.uv_sets.empty() ? mesh.uv_sets : morphed.uv_sets;
-  result.colors = morphed.colors.empty() ? mesh.colors : morphed.colors;
+  if (morphed.colors.empty())
+    result.colors = mesh.colors;
+  else
+    result.colors = morphed.colors;
   result.triangles = mesh.triangles;
   result.segments = mesh.segments;
   result.positions.reserve(mesh.positions.size());
@@ -72,7 +75,8 @@ Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const TransformOf& trans
           transform.mirrored ? -handedness : handedness);
     }
   }
-  for (auto& corners : result.triangles) {
+  if (std::ranges::find(mirrored, true) == mirrored.end()) return result;
+  for (auto& corners : result.triangles.edit()) {
     if (mirrored[corners[0]]) std::swap(corners[1], corners[2]);
   }
   return result;

@@ -9,13 +9,13 @@ namespace microtrace::io::gltf {
 namespace {
 
 template <typename To, typename From>
-std::vector<To> converted(const std::vector<From>& from) {
+std::vector<To> converted(const Array<From>& from) {
   return {from.begin(), from.end()};
 }
 
 /// Adds weight * delta to the sums, which start as the base vectors.
 template <typename Sum, typename Base, typename Delta>
-void add_weighted(std::vector<Sum>& sum, const std::vector<Base>& base, double weight,
+void add_weighted(std::vector<Sum>& sum, const Array<Base>& base, double weight,
                   const std::vector<Delta>& deltas) {
   if (base.empty()) return;
   if (sum.empty()) sum = converted<Sum>(base);
@@ -87,7 +87,7 @@ void Morpher::add(std::size_t accessor, const std::string& name, double weight,
     const std::size_t set = set_in(name).value_or(0);
     if (set >= mesh.uv_sets.size() || mesh.uv_sets[set].empty()) return;
     if (result.uv_sets.empty()) result.uv_sets = mesh.uv_sets;
-    add_weighted(result.uv_sets[set], mesh.uv_sets[set], weight, deltas(Vec2()));
+    add_weighted(result.uv_sets[set].edit(), mesh.uv_sets[set], weight, deltas(Vec2()));
   } else if (name == "COLOR_0" && !mesh.colors.empty()) {
     if (model_.accessors[accessor].type == ElementType::vec4) {
       add_weighted(result.colors, mesh.colors, weight, deltas(Vec4()));

@@ -6,6 +6,7 @@
 #include "io/gltf/document/model.hpp"
 #include "io/gltf/mesh/surfaces.hpp"
 
+#include <microtrace/array.hpp>
 #include <microtrace/math.hpp>
 
 #include <cstddef>
@@ -23,7 +24,7 @@ inline constexpr std::size_t kLeastDisplacements = 64;
 /// Morphed attributes, which replace the mesh's own. Empty if no target changes them.
 struct Morphed {
   std::vector<DVec3> positions{}, normals{}, tangents{};  ///< not normalized
-  std::vector<std::vector<Vec2>> uv_sets{};
+  std::vector<Array<Vec2>> uv_sets{};
   std::vector<Vec4> colors{};
 };
 

@@ -1,0 +1,150 @@
+#pragma once
+/// Arrays of a scene: values of its own, or memory of the caller's that is used in place.
+
+#include <microtrace/error.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace microtrace {
+
+/// Reads like a `const std::vector<T>` and grows like a vector; edit() gives the elements to be
+/// changed. An array either owns its values or borrows memory, see borrow(). A copy copies owned
+/// values, as a vector's does; a copy of a borrowed array refers to the same memory.
+///
+/// T consists of numbers of one type without padding: Vec2, Vec3, Vec4, std::array of integers.
+///
+/// Thread safety is that of std::vector. Borrowed memory must not change while an array refers to
+/// it and is read.
+template <class T>
+class Array {
+ public:
+  using value_type = T;
+  using size_type = std::size_t;
+  using difference_type = std::ptrdiff_t;
+  using const_reference = const T&;
+  using reference = const_reference;
+  using const_iterator = const T*;
+  using iterator = const_iterator;
+  using Number = typename T::value_type;  ///< float, std::uint32_t
+
+  Array() = default;
+  Array(std::vector<T> values) noexcept : own_(std::move(values)) {}
+  Array(std::initializer_list<T> values) : own_(values) {}
+
+  /// Refers to `values` without copying them. They must stay as they are while this array or a copy
+  /// exists, scenes that contain it included. `owner` keeps the memory alive until then; without
+  /// one the caller does.
+  [[nodiscard]] static Array borrow(std::span<const T> values,
+                                    std::shared_ptr<const void> owner = {}) noexcept {
+    Array result;
+    if (values.empty()) return result;
+    result.view_ = std::shared_ptr<const T>(std::move(owner), values.data());
+    result.view_size_ = values.size();
+    return result;
+  }
+
+  /// `count` elements in memory; each consists of sizeof(T) / sizeof(Number) numbers and begins
+  /// `stride` bytes after the one before, which may be any distance: 0 repeats an element, a
+  /// negative stride runs backwards. Borrows the memory, with `owner` as in borrow(), if its layout
+  /// is that of an array of T: the same type of numbers but for the sign of integers, aligned for
+  /// it, with stride sizeof(T). Otherwise copies: floating-point numbers are rounded to float;
+  /// integers that T can't hold throw Error (invalid_scene).
+  template <class Source>
+  requires(std::integral<Source>&& std::integral<Number>) ||
+      (std::floating_point<Source> && std::floating_point<Number>) [[nodiscard]] static Array
+      strided(const Source* first, std::size_t count,
+              std::ptrdiff_t stride = kWidth * sizeof(Source),
+              std::shared_ptr<const void> owner = {}) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(first);
+    if constexpr (is_same_number<Source>) {
+      const bool is_aligned = reinterpret_cast<std::uintptr_t>(first) % alignof(T) == 0;
+      if (is_aligned && stride == std::ptrdiff_t{sizeof(T)})
+        return borrow({reinterpret_cast<const T*>(bytes), count}, std::move(owner));
+    }
+    std::vector<T> values(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      Source from[kWidth];
+      std::memcpy(from, bytes + static_cast<std::ptrdiff_t>(i) * stride, sizeof from);
+      Number to[kWidth];
+      std::ranges::transform(from, to, converted<Source>);
+      std::memcpy(&values[i], to, sizeof to);
+    }
+    return values;
+  }
+
+  [[nodiscard]] bool is_borrowed() const noexcept { return view_ != nullptr; }
+
+  [[nodiscard]] const T* data() const noexcept { return view_ ? view_.get() : own_.data(); }
+  [[nodiscard]] std::size_t size() const noexcept { return view_ ? view_size_ : own_.size(); }
+  [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+  [[nodiscard]] const T* begin() const noexcept { return data(); }
+  [[nodiscard]] const T* end() const noexcept { return data() + size(); }
+  [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return data()[i]; }
+  [[nodiscard]] const T& front() const noexcept { return *begin(); }
+  [[nodiscard]] const T& back() const noexcept { return end()[-1]; }
+
+  /// The values as a vector that may be changed, valid until the array is assigned to, moved or
+  /// destroyed. Copies borrowed values first.
+  [[nodiscard]] std::vector<T>& edit() {
+    if (view_) *this = std::vector<T>(begin(), end());
+    return own_;
+  }
+
+  /// From now on, copies of this array share its values.
+  void share() {
+    if (view_) return;
+    const auto owner = std::make_shared<const std::vector<T>>(std::move(own_));
+    *this = borrow(*owner, owner);
+  }
+
+  /// As those of std::vector, on edit().
+  void push_back(T value) { edit().push_back(value); }
+  template <class... Arguments>
+  void emplace_back(Arguments&&... arguments) {
+    push_back(T(std::forward<Arguments>(arguments)...));
+  }
+  void reserve(std::size_t size) { edit().reserve(size); }
+  void resize(std::size_t size) { edit().resize(size); }
+  void assign(std::size_t size, const T& value) { *this = std::vector<T>(size, value); }
+  void clear() noexcept { *this = Array(); }
+
+  friend bool operator==(const Array& a, const Array& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  static constexpr std::size_t kWidth = sizeof(T) / sizeof(Number);
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) == kWidth * sizeof(Number));
+
+  template <class Source>
+  static constexpr bool is_same_number = std::is_same_v<Source, Number> ||
+                                         (std::integral<Source> && std::integral<Number> &&
+                                          sizeof(Source) == sizeof(Number));
+
+  template <class Source>
+  static Number converted(Source value) {
+    if constexpr (std::integral<Source> && !is_same_number<Source>) {
+      if (!std::in_range<Number>(value))
+        throw Error(ErrorKind::invalid_scene, "",
+                    "index " + std::to_string(value) + " is not in the range of 32-bit numbers");
+    }
+    return static_cast<Number>(value);
+  }
+
+  std::vector<T> own_;
+  std::shared_ptr<const T> view_;  ///< null: own_ has the values
+  std::size_t view_size_ = 0;
+};
+
+}  // namespace microtrace
