@@ -1,6 +1,5 @@
 #pragma once
-/// How a scene is rendered unless its user asks for something else. The program without options
-/// does the same.
+/// Default settings for rendering a scene. The program without options uses them too.
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
@@ -24,8 +23,9 @@ struct FlatOptions {};
 
 /// An integrator of the library and its options. An Aov is a picture of that quantity.
 ///
-/// To add one: its options here, its case in make_integrator, its name in
-/// src/cli/options/values.cpp.
+/// To add one: its options here, its integrator in src/render/defaults.cpp, its name in
+/// src/cli/options/values.cpp and src/capi/pictures.cpp, its help text in
+/// src/cli/options/sampling_options.cpp, a line in docs/command-line.md.
 using IntegratorOptions = std::variant<FlatOptions, PathOptions, Aov>;
 
 [[nodiscard]] MICROTRACE_EXPORT std::unique_ptr<Integrator> make_integrator(
@@ -37,8 +37,8 @@ using IntegratorOptions = std::variant<FlatOptions, PathOptions, Aov>;
 /// Samples per pixel: 64 for path tracing, else 1.
 [[nodiscard]] MICROTRACE_EXPORT std::uint32_t default_samples(const IntegratorOptions& integrator);
 
-/// Linear Rec. 709; nothing: the scene's own. Path-traced glTF assets, which can't name a
-/// background, are in front of gray: lighter than shadows and darker than highlights.
+/// Linear Rec. 709; nothing means the scene's own. Path-traced glTF assets, which can't specify a
+/// background, get gray: lighter than shadows and darker than highlights.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> default_background(
     SceneFormat format, const IntegratorOptions& integrator);
 
@@ -50,7 +50,7 @@ struct RenderSettings {
   RenderOptions options{};  ///< with the integrator, its samples and the default background
 };
 
-/// The settings for a loaded scene, and for a given integrator if it is not the default one.
+/// The settings for a loaded scene with the default integrator or a given one.
 [[nodiscard]] MICROTRACE_EXPORT RenderSettings default_settings(const Scene& scene,
                                                                 SceneFormat format);
 [[nodiscard]] MICROTRACE_EXPORT RenderSettings

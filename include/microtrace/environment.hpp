@@ -25,13 +25,15 @@ inline constexpr float kMaxRadiance = 1e9F;
 /// The built-in environment: a gray room with large area lights, symmetric left and right.
 struct Studio {};
 
-/// To add a kind: a struct for it in `content`, its radiance in src/render/lights.
+/// To add a kind: a struct in `content`, its radiance in src/render/lights/environment_light.cpp,
+/// its readers in src/io/scene_json/light.cpp and src/cli/options/light_options.cpp, its members
+/// in docs/scene.schema.json and docs/scene-format.md, a line in docs/light.md.
 struct Environment {
   /// A Vec3 is uniform radiance, linear Rec. 709. Maps are never null.
   std::variant<Vec3, std::shared_ptr<const RadianceMap>, Studio> content{Vec3{1}};
   double rotation = 0;  ///< of the content about +y, radians, counterclockwise as seen from above
   float intensity = 1;  ///< multiplies the content
-  /// Whether path-traced pictures show it where camera rays hit nothing, with alpha 1; otherwise
+  /// If true, path-traced pictures show it where camera rays hit nothing, with alpha 1; otherwise
   /// they show the scene's background.
   bool is_background = false;
 };

@@ -1,7 +1,10 @@
 #pragma once
 /// Punctual lights, with the units of KHR_lights_punctual. They have no effect on flat pictures.
 ///
-/// To add one: a struct here and in `Light`, its reader in src/io/gltf/scene/lights.cpp.
+/// To add one: a struct here and in `Light`, its sampling and bounds in
+/// src/render/lights/punctual.cpp, its readers in src/io/gltf/scene/lights.cpp and
+/// src/io/scene_json/light.cpp, its members in docs/scene.schema.json and docs/scene-format.md, a
+/// test in tests/statistical/path_test.cpp.
 
 #include <microtrace/math.hpp>
 

@@ -10,15 +10,16 @@
 
 namespace microtrace {
 
-/// To add one: a value here and in kSampledAovs, its row and its value in
-/// src/render/sampled_aov_painter.cpp, a line in docs/outputs.md.
+/// To add one: a value here and in kSampledAovs, its channels and its value in
+/// src/render/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
+/// line in docs/outputs.md, a test in tests/unit/sampled_aov_test.cpp.
 enum class SampledAov {
   variance,        ///< Y: estimated variance of the mean luminance (PixelSum::variance)
   samples,         ///< N: number of samples of the pixel
   denoise_albedo,  ///< R, G, B: base color of the first visible surface, in [0, 1]; 0 without a
                    ///< surface
-  denoise_normal,  ///< X, Y, Z: its shading normal in world space, on the side that is seen; 0
-                   ///< where nothing is; shorter than 1 where normals differ
+  denoise_normal,  ///< X, Y, Z: its shading normal in world space, facing the viewer; 0 without
+                   ///< a surface; shorter than 1 where normals differ
 };
 
 inline constexpr std::array kSampledAovs = {SampledAov::variance, SampledAov::samples,

@@ -2,8 +2,12 @@
 /// Shapes as plain data in world space. Each is a closed set of real points, defined by the float32
 /// numbers stored here; a shape with a number that is not finite is empty.
 ///
-/// To add one: a struct here and in `Shape`, its hit in src/exact/, its filter there too, its
-/// reader in src/io/scene_json/scene.cpp and the JSON schema, a scene in scenes/, an oracle test.
+/// To add one: a struct here and in `Shape`, its exact hit in src/exact, its filter in
+/// src/accel/filters, its boxes in src/accel/build, its ray origins in src/accel/spawn, its bounds
+/// in src/scene/support.hpp, its surface in src/scene/surface_interaction.cpp, its rules in
+/// src/scene/validate.cpp, its reader in src/io/scene_json/shape.cpp, its name in
+/// src/io/sidecar/describe_picture.cpp, docs/scene.schema.json and docs/scene-format.md, a scene
+/// in scenes, an oracle in tests/oracle.
 
 #include <microtrace/array.hpp>
 #include <microtrace/math.hpp>

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+#include <variant>
 
 #include <glm/geometric.hpp>
 
@@ -52,19 +54,22 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
     down_ = frame.up * (-2 * half / size.height);
     corner_ = middle - frame.right * (half * aspect(size)) + frame.up * half;
   };
-  if (const auto* perspective = std::get_if<PerspectiveCamera>(&camera)) {
-    const double half = tan_radians(perspective->vertical_fov / 2);
-    set_plane(Kind::perspective, fitted(half, perspective->aspect_ratio, size), forward_);
-    depth_ = perspective->depth;
-  } else if (const auto* orthographic = std::get_if<OrthographicCamera>(&camera)) {
-    const double half = orthographic->height / 2;
-    set_plane(Kind::orthographic, fitted(half, orthographic->aspect_ratio, size), position_);
-    depth_ = orthographic->depth;
-  } else {
-    kind_ = Kind::environment;
-    right_ = frame.right;
-    down_ = -frame.up;
-  }
+  const auto set = [&]<typename AnyCamera>(const AnyCamera& c) {
+    if constexpr (std::is_same_v<AnyCamera, PerspectiveCamera>) {
+      const double half = tan_radians(c.vertical_fov / 2);
+      set_plane(Kind::perspective, fitted(half, c.aspect_ratio, size), forward_);
+      depth_ = c.depth;
+    } else if constexpr (std::is_same_v<AnyCamera, OrthographicCamera>) {
+      set_plane(Kind::orthographic, fitted(c.height / 2, c.aspect_ratio, size), position_);
+      depth_ = c.depth;
+    } else {
+      static_assert(std::is_same_v<AnyCamera, EnvironmentCamera>);
+      kind_ = Kind::environment;
+      right_ = frame.right;
+      down_ = -frame.up;
+    }
+  };
+  std::visit(set, camera);
 }
 
 Ray RayGenerator::operator()(double x, double y) const {

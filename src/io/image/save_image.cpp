@@ -55,7 +55,8 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" has no alpha; write .png or .exr, or give the background a color");
 }
 
-/// The writer for files with one extension; loads its module if necessary.
+/// The writer for files with one extension; loads its module if necessary. Formats that need no
+/// library are written here, as PPM is; their capabilities are in format_.
 class Writer {
  public:
   Writer(const std::filesystem::path& path, const std::string& ending) : ending_(ending) {

@@ -58,6 +58,7 @@ DMat4 inverse(const DMat4& rigid) {
 
 std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origin) {
   constexpr std::array kTypes = {"perspective", "orthographic", "environment"};
+  static_assert(std::variant_size_v<Camera> == kTypes.size());
   CameraModel model = RayGenerator(camera, size).model();
   model.world_from_camera[3] += DVec4(origin, 0);
   std::string text = "{\n    \"type\": \"";
