@@ -44,9 +44,9 @@ class MICROTRACE_EXPORT Bvh {
   /// does not hit.
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
 
-  /// The origin of a ray that leaves the hit of `ray` in `direction`: as spawn_origin in spawn.hpp,
-  /// but taking the other surfaces into account. All guarantees there hold except the distance: the
-  /// origin may be some 2^10 float32 steps away.
+  /// The origin of a ray that leaves the hit of `ray` in `direction`. Like spawn_origin in
+  /// spawn.hpp, but takes other surfaces into account. All guarantees there hold except the
+  /// distance: the origin may be some 2^10 float32 steps away.
   ///
   /// Let w be the point of `ray` just before the hit, if the new ray returns to that side of the
   /// surface, else the point just behind it. The segment from w to the origin, excluding w, meets
@@ -54,12 +54,11 @@ class MICROTRACE_EXPORT Bvh {
   /// is on the same side as w. A path therefore leaves a closed mesh only where it passes through a
   /// surface on purpose, not in creases and corners. Exceptions:
   ///
-  /// - If `ray` runs within a surface, w is a point of it, and there is no side to keep: the origin
-  ///   may be on either side of that surface.
-  /// - Triangles without area bound nothing: the segment may cross them.
+  /// - If `ray` runs within a surface, w lies on it, and the origin may be on either side of it.
+  /// - The segment may cross triangles without area.
   ///
   /// Nothing if there is no such float32 point, because the walls are too close together. The
-  /// answer does not depend on BvhOptions, and no coordinate is -0.
+  /// result does not depend on BvhOptions, and no coordinate is -0. The new ray may have t_min = 0.
   [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
                                                  const Vec3& direction) const;
 
@@ -70,20 +69,20 @@ class MICROTRACE_EXPORT Bvh {
     Vec3 direction;  ///< of the new ray
   };
 
-  /// origins[i] is spawn_origin's answer to spawns[i], bit for bit, in any batch; both spans have
-  /// the same size. Much faster than single calls, especially if the spawns of one hit are
-  /// consecutive.
+  /// origins[i] equals spawn_origin for spawns[i], bit for bit, in any batch; both spans have the
+  /// same size. Much faster than single calls, especially if the spawns of one hit are consecutive.
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
   /// True if the ray hits anything. Faster than intersect.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// hits[i] is the answer for rays[i]; both spans have the same size. Faster than single calls;
-  /// fastest for runs of coherent rays with a common origin, such as those of neighboring pixels.
+  /// hits[i] is the nearest hit of rays[i]; both spans have the same size. Faster than single
+  /// calls; fastest for runs of coherent rays with a common origin, such as those of neighboring
+  /// pixels.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
-  /// results[i] tells whether rays[i] hits anything; both spans have the same size. Faster than
-  /// single calls, for any order of the rays.
+  /// results[i] is true if rays[i] hits anything; both spans have the same size. Faster than single
+  /// calls, for any order of the rays.
   void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
   [[nodiscard]] const Primitives& primitives() const;

@@ -17,7 +17,7 @@ struct Checkpoint {
   /// Everything that the samples depend on: lines with a name, a tab and a value. Only files with
   /// equal identities may be merged.
   std::string identity;
-  bool has_alpha = false;     ///< whether the picture has alpha
+  bool has_alpha = false;     ///< true if the picture has alpha
   std::uint32_t samples = 1;  ///< requested samples per pixel
   Display display{};          ///< exposure and tone map of the picture
   SampleSums sums{};

@@ -1,5 +1,5 @@
 #pragma once
-/// What a shared library shows of itself. All else is hidden.
+/// Marks the symbols that a shared library exports. All others are hidden.
 
 #define MICROTRACE_EXPORT [[gnu::visibility("default")]]
 #define MICROTRACE_HIDDEN [[gnu::visibility("hidden")]]  // for a class within an exported one

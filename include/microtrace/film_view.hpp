@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a finished picture shows anything.
+/// Detects pictures that show nothing or are almost black.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>

@@ -24,9 +24,9 @@ struct View {
 /// the picture, touch two opposite edges of this region, and are centered along the other axis. If
 /// this would bring the camera closer than 1/64 of their bounding box's diagonal to the nearest
 /// point, measured along the view, the camera keeps that distance. Planes, quadrics other than
-/// ellipsoids, and vertices that are not finite are ignored. If all shapes are one point the
-/// distance is 1; without shapes this point is the origin. The same bits everywhere: only + - * /
-/// and sqrt.
+/// ellipsoids, and vertices that are not finite are ignored. If all shapes coincide in one point,
+/// the distance is 1; without shapes this point is the origin. Gives the same bits on every
+/// machine, because it uses only + - * / and sqrt.
 class MICROTRACE_EXPORT Framing {
  public:
   Framing(const View& view, ImageSize size);
@@ -37,7 +37,8 @@ class MICROTRACE_EXPORT Framing {
 
   [[nodiscard]] PerspectiveCamera camera() const;
 
-  /// The camera that looks at the target from this distance, whatever it sees. distance > 0.
+  /// A camera that looks at the target from this distance, even if it doesn't see all shapes.
+  /// distance > 0.
   [[nodiscard]] PerspectiveCamera camera_around(const DVec3& target, double distance) const;
 
   /// The center of the bounding box; (0, 0, 0) if there are no shapes.

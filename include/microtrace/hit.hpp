@@ -1,5 +1,5 @@
 #pragma once
-/// A ray's hit.
+/// The result of an intersection query.
 
 #include <cstdint>
 

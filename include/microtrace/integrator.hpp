@@ -21,16 +21,16 @@ class Lighting;
 class Shading;
 class Surfaces;
 
-/// The scene as integrators see it. Rays, points and normals are in the scene's own coordinates,
-/// whose origin is at Scene::origin in the world; for integrators that are random they may have
-/// another origin, next to the camera.
+/// The scene as integrators see it. Rays, points and normals are in scene coordinates, whose origin
+/// is at Scene::origin in world space. Monte Carlo integrators may get another origin near the
+/// camera.
 struct MICROTRACE_EXPORT World {
   const Scene& scene;
   const Bvh& bvh;
   const RayGenerator& camera;
   std::uint32_t seed = 0;     ///< random seed
   std::uint32_t samples = 1;  ///< samples per pixel for which base_color filters textures
-  const Surfaces& surfaces;   ///< for the integrators of the library, as the next two
+  const Surfaces& surfaces;   ///< this and the next two are for the library's own integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
 
@@ -39,13 +39,13 @@ struct MICROTRACE_EXPORT World {
     return interact(bvh.primitives(), ray, hit);
   }
 
-  /// Base color at a hit of a camera ray, linear Rec. 709: factor, texture and vertex color, the
-  /// texture filtered over the sample's part of the pixel. Alpha is the surface's coverage: 0 for
-  /// the back of a one-sided surface and where a mask cuts it out, 1 where it is opaque (glTF 2.0,
-  /// sections 3.9.4 and 3.9.6).
+  /// Base color at a hit of a camera ray, linear Rec. 709: the product of factor, texture and
+  /// vertex color. The texture is filtered over the sample's part of the pixel. Alpha is the
+  /// surface's coverage: 0 for the back of a one-sided surface and where a mask cuts it out, 1
+  /// where it is opaque (glTF 2.0, sections 3.9.4 and 3.9.6).
   [[nodiscard]] Vec4 base_color(const Ray& ray, const Hit& hit) const;
 
-  /// The first hit of a camera ray, from `hit` on, where coverage is above 0.
+  /// The first hit of a camera ray, from `hit` on, with coverage above 0.
   [[nodiscard]] std::optional<Hit> first_visible(const Ray& ray, std::optional<Hit> hit) const;
 };
 
@@ -86,12 +86,12 @@ class MICROTRACE_EXPORT Integrator {
 
   /// samples[i] is the result for rays[i] with ids[i]; all spans have the same size, at most
   /// kMaxBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors, so that they form
-  /// packets for Bvh::intersect. Each result must depend only on its own ray and id. Called
-  /// concurrently by any number of threads.
+  /// packets for Bvh::intersect. Each result must depend only on its own ray and id. Many threads
+  /// call this function at the same time.
   virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 
-  /// Whether the samples are arbitrary data instead of radiance: data is not filtered, and not
+  /// True if the samples are arbitrary data instead of radiance. Data is not filtered, and not
   /// composited over the background.
   [[nodiscard]] virtual bool is_data() const { return false; }
 
@@ -99,8 +99,8 @@ class MICROTRACE_EXPORT Integrator {
   /// kRandomBatch rays.
   [[nodiscard]] virtual bool is_random() const { return false; }
 
-  /// The rays of all calls of trace() so far; zero if they are not counted. The numbers only depend
-  /// on the picture, the seconds do not.
+  /// The rays of all calls of trace() so far; zero if they are not counted. The numbers depend only
+  /// on the picture, but the seconds vary.
   [[nodiscard]] virtual RayCounts ray_counts() const { return {}; }
 
   /// How 8-bit formats should show the finished film.

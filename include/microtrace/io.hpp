@@ -1,5 +1,5 @@
 #pragma once
-/// Files in and out.
+/// Reading scenes, reading environment maps, and writing pictures.
 
 #include <microtrace/error.hpp>
 #include <microtrace/export.hpp>
@@ -19,67 +19,68 @@ namespace microtrace {
 
 struct LoadedScene {
   Scene scene;
-  /// In file order: oddities, features without effect, and broken rules of the format
-  /// (Severity::error) that were repaired or worked around.
+  /// In file order: oddities, features without effect, and repaired violations of the format
+  /// (Severity::error).
   std::vector<Diagnostic> warnings;
   SceneFormat format = SceneFormat::json;
 };
 
-/// How much of surfaces is read.
+/// The surface attributes to load.
 enum class SurfaceDetail {
-  shape,  ///< normals and texture coordinates, of images those alone whose alpha decides what is
-          ///< seen: for depth, ids and other quantities without color
-  color,  ///< what a flat picture shows: base colours, their images and texture coordinates
-  all,    ///< normals, tangents, all images and texture coordinates too
-  usual,  ///< color in JSON scenes, all in glTF assets: what these are usually drawn with
+  shape,  ///< normals, texture coordinates, and images whose alpha affects visibility: for depth,
+          ///< ids and other quantities without color
+  color,  ///< the same with base colors and their images: for flat pictures
+  all,    ///< everything, including tangents and all images
+  usual,  ///< color for JSON scenes, all for glTF assets: the needs of the default integrators
 };
 
-/// Where the time of loading went, in seconds.
+/// Loading times in seconds.
 struct LoadTimes {
-  double read = 0;      ///< the scene file, buffers beside it or in data URIs
-  double validate = 0;  ///< from bytes to JSON that is known to be right
-  double bake = 0;      ///< vertices, images and all else, placed in the world
+  double read = 0;      ///< reading the scene file, and buffers in files and data URIs
+  double validate = 0;  ///< parsing and validating
+  double bake = 0;      ///< decoding images and transforming vertices to world space
 };
 
-/// How a scene file is read.
+/// Options for loading a scene file.
 struct LoadOptions {
   SurfaceDetail detail = SurfaceDetail::all;
-  /// The variant of a glTF asset's materials (KHR_materials_variants): its name, else its index
-  /// from 0; empty: the materials that primitives name themselves.
+  /// Material variant of a glTF asset (KHR_materials_variants), by name or by index from 0. Empty:
+  /// the materials assigned in the file.
   std::string variant{};
-  /// Seconds since the start of an animation of a glTF asset, clamped to where it is defined;
-  /// nothing: the pose that the file gives without any animation.
+  /// Animation time of a glTF asset in seconds, clamped to the animation's range. Nothing: the pose
+  /// stored in the file.
   std::optional<double> time{};
-  /// The animation that `time` is of: its name, else its index from 0; "all": all together, where
-  /// none has that name; empty: the first.
+  /// The animation to evaluate, by name, by index from 0, or "all" for all at once; names take
+  /// precedence. Empty: the first.
   std::string animation{};
-  /// Folders beside the scene's own in which a glTF asset's buffers and images may lie, and to
-  /// which symbolic links of any scene's files may lead.
+  /// Additional folders from which a glTF asset may load buffers and images, and to which symbolic
+  /// links of any scene's files may lead.
   std::vector<std::filesystem::path> allowed_folders{};
-  LoadTimes* times = nullptr;  ///< if given, added to
-  /// If given, counts what is read and made; must outlive the SceneFile and its scenes. What a
-  /// scene takes is counted until its file gives another one or ends.
+  LoadTimes* times = nullptr;  ///< if given, loading times are added
+  /// If given, counts the memory of loading and of the loaded data. Must outlive the SceneFile and
+  /// its scenes. The memory of a scene is counted until its SceneFile makes another scene or is
+  /// destroyed.
   MemoryBudget* memory = nullptr;
 };
 
-/// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb), told apart by content for
-/// other endings. "-" is standard input; files that its scene names are sought in the current
-/// folder. Throws Error.
+/// Reads a scene file: microtrace JSON (.json) or glTF 2.0 (.gltf, .glb); for other extensions the
+/// content selects the format. "-" reads standard input; files named in its scene are relative to
+/// the current folder. Throws Error.
 [[nodiscard]] MICROTRACE_EXPORT LoadedScene load_scene(const std::filesystem::path& path,
                                                        const LoadOptions& options = {});
 
-/// The same from memory; `name` stands in messages, files named in the scene are sought in
-/// `folder`. Throws Error.
+/// The same from memory. Error messages name the file `name`; files named in the scene are relative
+/// to `folder`. Throws Error.
 [[nodiscard]] MICROTRACE_EXPORT LoadedScene parse_scene(std::string_view bytes,
                                                         const std::string& name,
                                                         const std::filesystem::path& folder,
                                                         const LoadOptions& options = {});
 
-/// A scene file that is read and checked once, to be posed at many times. What a JSON scene's
-/// meshes are made of is read anew for each.
+/// A scene file that is read and checked once and can be posed at many times. The geometry of a
+/// JSON scene's meshes is loaded again for each time.
 class MICROTRACE_EXPORT SceneFile {
  public:
-  /// Reads as load_scene does; the options' time plays no part. Throws Error.
+  /// Reads like load_scene, but ignores options.time. Throws Error.
   explicit SceneFile(const std::filesystem::path& path, LoadOptions options = {});
   ~SceneFile();
   SceneFile(SceneFile&& other) noexcept;
@@ -87,7 +88,7 @@ class MICROTRACE_EXPORT SceneFile {
 
   [[nodiscard]] SceneFormat format() const;
 
-  /// The scene at that time, as load_scene would read it. Throws Error.
+  /// The scene at a time, equal to the result of load_scene. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
  private:
@@ -100,48 +101,47 @@ struct LoadedRadianceMap {
   std::vector<Diagnostic> warnings;
 };
 
-/// Reads a latitude-longitude map by OpenEXR (.exr) or OpenImageIO, whose module is loaded then.
-/// Numbers of 8 and 16 bits are taken for sRGB, floating-point ones (.hdr, .exr) for linear; both
-/// for Rec. 709. One channel is grey; alpha is left out. Numbers that are negative or none become 0
-/// and those above kMaxRadiance that, with a warning. Throws Error: io where the file can't be read
-/// or decoded, limit for one with a side above 65536 or more than 2^27 pixels, unsupported without
-/// the module.
-/// `memory`, if given, counts the map for as long as that lives, and must outlive it.
+/// Reads a latitude-longitude map by OpenEXR (.exr) or OpenImageIO, loading the module. Integer
+/// samples (8 and 16 bits) are decoded as sRGB; floating-point samples (.hdr, .exr) are linear;
+/// both are assumed to be Rec. 709. Single-channel maps are gray; alpha is ignored. Negative values
+/// and NaN become 0, and larger values become kMaxRadiance, with a warning. Throws Error: io if the
+/// file can't be read or decoded, limit for a side above 65536 or more than 2^27 pixels,
+/// unsupported without the module. `memory`, if given, counts the map during its lifetime and must
+/// outlive it.
 [[nodiscard]] MICROTRACE_EXPORT LoadedRadianceMap
 load_radiance_map(const std::filesystem::path& path, MemoryBudget* memory = nullptr);
 
 enum class PpmEncoding { binary, ascii };  ///< P6 or P3
 
-/// A text to be written beside a picture.
+/// A text file to be written beside a picture.
 struct Sidecar {
   std::filesystem::path path;
   std::string text;
 };
 
-/// Writes a picture; the kind is the ending's: .ppm by the library itself, .png by
-/// libpng, .exr by OpenEXR, any other by OpenImageIO, whose modules are loaded then. Float formats
-/// (.exr, .hdr) hold the film's numbers, the others 8 bits as its display says. Alpha is multiplied
-/// into the colours of float formats and divided out of the others, before they are encoded. Only
-/// .exr takes further channels; there a film that is a part of a picture has the whole as its
-/// display window. The file appears whole or not at all. "-" is standard output, and takes PPM. A
-/// sidecar is written whole before either file takes its place. Throws Error: usage where the
-/// format lacks what the film has.
+/// Writes a picture. The extension selects the format: .ppm by the library itself, .png by libpng,
+/// .exr by OpenEXR, others by OpenImageIO; modules are loaded when needed. Float formats (.exr,
+/// .hdr) store the film's values; others store 8 bits according to its display settings. Colors are
+/// premultiplied in float formats and unassociated in others. Only .exr stores further channels,
+/// and the position of a crop in the whole picture. The file appears whole or not at all. "-"
+/// writes PPM to standard output. A sidecar is completely written before either file replaces its
+/// target. Throws Error (usage) if the format can't store the film's contents.
 MICROTRACE_EXPORT void save_image(const Film& film, const std::filesystem::path& path,
                                   PpmEncoding ppm = PpmEncoding::binary,
                                   const Sidecar* sidecar = nullptr);
 
-/// What a film has beside colours.
+/// The contents of a film besides colors.
 struct FilmContents {
   bool alpha = false;
   bool channels = false;
 };
 
-/// Throws the Error that save_image would throw at once for this path and such a film, and writes
-/// nothing: to be asked before a long rendering.
+/// Throws the Error that save_image would throw immediately for this path and such a film, without
+/// writing. Call it before a long rendering.
 MICROTRACE_EXPORT void check_image_path(const std::filesystem::path& path,
                                         const FilmContents& contents = {});
 
-/// The same for a sidecar's path beside that of its picture.
+/// The same for the path of a sidecar beside its picture.
 MICROTRACE_EXPORT void check_sidecar_path(const std::filesystem::path& path,
                                           const std::filesystem::path& picture);
 

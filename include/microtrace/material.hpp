@@ -38,8 +38,8 @@ struct Transmission {
 };
 
 /// The surface encloses a medium (KHR_materials_volume); otherwise it is a thin wall without
-/// refraction. Absorption uses the actual path length, so only whether the thickness is zero
-/// matters.
+/// refraction. Absorption depends on the actual path length; the thickness only distinguishes walls
+/// (0) from volumes.
 struct Volume {
   float thickness = 0;                  ///< mesh's own space, not negative; 0: a thin wall
   std::optional<TextureUse> texture{};  ///< linear; g: thickness

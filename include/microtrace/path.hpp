@@ -11,11 +11,12 @@
 
 namespace microtrace {
 
-/// The behavior of light at the back of one-sided surfaces (glTF's doubleSided false), which the
-/// camera looks through. Surfaces that enclose a medium (KHR_materials_volume) are two-sided.
+/// Effect of the backs of one-sided surfaces (glTF's doubleSided false) on light paths. The backs
+/// are invisible to the camera. Surfaces that enclose a medium (KHR_materials_volume) are
+/// two-sided.
 enum class Backfaces {
   pass,     ///< passes through, like camera rays: hulls seen from inside don't block light
-  occlude,  ///< is blocked: walls that the camera looks through from outside block sunlight
+  occlude,  ///< is blocked: one-sided walls seen from outside block sunlight
 };
 
 struct PathOptions {

@@ -1,5 +1,5 @@
 #pragma once
-/// A scene with all that rays and pictures need, prepared once for any number of them.
+/// A scene prepared for ray queries and rendering.
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/export.hpp>
@@ -23,49 +23,49 @@ struct PrepareOptions {
   /// If given, counts the memory of tree, mip maps and light tables; must outlive all copies of the
   /// scene, and of those that share its tables.
   MemoryBudget* memory = nullptr;
-  /// tables() of another scene, say the last frame of an animation: mip maps and environment tables
-  /// are shared where both scenes hold the same Image and RadianceMap objects.
+  /// tables() of another scene, such as the previous frame of an animation: mip maps and
+  /// environment tables are shared if both scenes hold the same Image and RadianceMap objects.
   std::shared_ptr<const SharedTables> tables{};
 };
 
-/// Immutable, and cheap to copy: copies share everything. Any number of threads may use it at a
-/// time. Tree and scene are ready when the constructor returns; mip maps and light tables are made
-/// by the first picture that needs them.
+/// Immutable and cheap to copy; copies share everything. Any number of threads may use it at the
+/// same time. The constructor builds the tree; mip maps and light tables are made by the first
+/// picture that needs them.
 ///
-/// Rays, points and normals are in world space. Where Scene::origin is not zero, the origin of a
-/// ray is moved by it in float64 and rounded to float32 once; use bvh() with rays in the scene's
-/// own coordinates to leave that out.
+/// Rays, points and normals are in world space. If Scene::origin is not zero, ray origins are
+/// translated in float64 and rounded to float32 once. To avoid this rounding, use bvh() with rays
+/// in scene coordinates.
 class MICROTRACE_EXPORT PreparedScene {
  public:
-  /// Throws Error: invalid_scene where an index of the scene is out of range, or the number of a
-  /// mesh's attributes is not that of its positions; limit where memory or primitive numbers run
+  /// Throws Error: invalid_scene if an index of the scene is out of range, or if the number of a
+  /// mesh's attributes differs from that of its positions; limit if memory or primitive numbers run
   /// out.
   explicit PreparedScene(Scene scene, const PrepareOptions& options = {});
-  /// The same for a scene that must not change any more.
+  /// The same for a shared scene, which must no longer change.
   explicit PreparedScene(std::shared_ptr<const Scene> scene, const PrepareOptions& options = {});
 
   [[nodiscard]] const Scene& scene() const;
-  /// The tree, which works in the scene's own coordinates.
+  /// The tree, in scene coordinates.
   [[nodiscard]] const Bvh& bvh() const;
 
-  /// As the functions of Bvh.
+  /// See the functions of Bvh.
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
   void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
-  /// Position, normals, texture coordinates, object and triangle at a hit of `ray`. It points into
-  /// the scene, which this or a copy must keep alive.
+  /// Position, normals, texture coordinates, object and triangle at a hit of `ray`. Refers to the
+  /// scene, which this object or a copy must keep alive.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const;
 
-  /// Mip maps and environment tables, for PrepareOptions.
+  /// Mip maps and environment tables, for PrepareOptions::tables.
   [[nodiscard]] std::shared_ptr<const SharedTables> tables() const;
 
-  /// A ray of world space in the scene's own coordinates.
+  /// Converts a ray from world space to scene coordinates.
   [[nodiscard]] Ray in_scene(const Ray& ray) const;
 
-  /// For the library.
+  /// Internal.
   class MICROTRACE_HIDDEN Content;
   explicit PreparedScene(std::shared_ptr<const Content> content);
   [[nodiscard]] const Content& content() const { return *content_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// From a PrimitiveId to the shape that bears it.
+/// Maps a PrimitiveId to its shape.
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -19,7 +19,7 @@ namespace microtrace {
   return {.a = mesh.positions[a], .b = mesh.positions[b], .c = mesh.positions[c]};
 }
 
-/// All primitives of a scene by number. The scene must outlive this and stay as it is.
+/// All primitives of a scene by number. The scene must outlive this object and must not change.
 class MICROTRACE_EXPORT Primitives {
  public:
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
@@ -29,18 +29,18 @@ class MICROTRACE_EXPORT Primitives {
   /// Numbers run from 0 to count() - 1.
   [[nodiscard]] PrimitiveId count() const { return count_; }
 
-  /// The place in Scene::objects of the object that a primitive belongs to.
+  /// The index in Scene::objects of the object that contains the primitive.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
-  /// The least number of that object's primitives.
+  /// The lowest number of that object's primitives.
   [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
-  /// The least number of the primitives of an object of the scene.
+  /// The lowest number of an object's primitives.
   [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const { return first_ids_[object]; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
   }
 
-  /// f(shape) for the primitive's own shape; a Triangle if it is one of a mesh.
+  /// Calls f(shape) with the primitive's own shape, a Triangle for a part of a mesh.
   template <class F>
   decltype(auto) visit(PrimitiveId id, F&& f) const {
     const std::size_t k = object_index(id);
@@ -54,7 +54,7 @@ class MICROTRACE_EXPORT Primitives {
         scene_->objects[k].shape);
   }
 
-  /// The primitive's shape if it is a triangle, alone or one of a mesh.
+  /// The primitive's shape if it is a triangle, alone or part of a mesh.
   [[nodiscard]] std::optional<Triangle> triangle(PrimitiveId id) const {
     return visit(id, []<class AnyShape>(const AnyShape& shape) -> std::optional<Triangle> {
       if constexpr (std::is_same_v<AnyShape, Triangle>)
@@ -64,7 +64,7 @@ class MICROTRACE_EXPORT Primitives {
     });
   }
 
-  /// f(id, shape) for every primitive in the order of their numbers.
+  /// Calls f(id, shape) for every primitive in the order of their numbers.
   template <class F>
   void for_each(F&& f) const {
     for (std::size_t k = 0; k < scene_->objects.size(); ++k) {

@@ -67,15 +67,15 @@ struct Passes {
 
 struct RenderOptions {
   unsigned threads = 0;  ///< 0: default_threads()
-  /// Runs work() on up to `threads` threads of the host at a time, the caller's among them if it
-  /// likes, and returns when all calls have returned; one call is enough to do all the work, which
-  /// does not throw. Null: render starts threads of its own.
+  /// Runs work() on up to `threads` threads of the host at the same time, possibly including the
+  /// caller's, and returns when all calls have returned. One call of work() is enough to finish
+  /// everything. work() does not throw. Null: render starts its own threads.
   std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
   /// Called with the fraction of the picture that is done, in (0, 1]; by one thread at a time, not
   /// always the caller's. If it returns false, render stops at once and throws Error (canceled).
   std::function<bool(double)> progress{};
   RenderTimes* times = nullptr;            ///< if given, set at the end
-  const Integrator* integrator = nullptr;  ///< null: FlatIntegrator
+  const Integrator* integrator = nullptr;  ///< not owned; null: FlatIntegrator
   /// Samples per pixel, 1 to kMaxSamples. A single ray goes through the pixel's center. Several are
   /// distributed over its square, at the same positions in each pixel and with the same weight:
   /// sample k of n is at x = (k + 1/2) / n, y = (r(k) + 1/2) / n, where r is the order of the
@@ -100,12 +100,12 @@ struct RenderOptions {
   bool transparent = false;  ///< omits the background and gives the film alpha
 };
 
-/// Draws a picture: colors by the integrator, composited over scene.background; rays hit only in
-/// (scene.epsilon, infinity). The camera is in the scene's own coordinates, as Scene::cameras are.
-/// Threads, progress and times have no influence on the picture. Throws Error: usage where samples,
-/// passes, crop or aovs are not as above, an integrator of data is asked for more than one sample,
-/// or one that is not random for passes; limit where memory runs out; canceled. Any number of
-/// threads may render one scene at a time.
+/// Renders a picture: the integrator's colors composited over scene.background. Camera rays hit
+/// only in (scene.epsilon, infinity). The camera is in scene coordinates, as in Scene::cameras. The
+/// picture does not depend on threads, progress or times. Throws Error: usage for invalid samples,
+/// passes, crop or aovs, for more than one sample of an integrator of data, or for passes of one
+/// that is not a Monte Carlo integrator; limit if memory runs out; canceled. Many threads may
+/// render one scene at the same time.
 [[nodiscard]] MICROTRACE_EXPORT Film render(const PreparedScene& scene, const Camera& camera,
                                             ImageSize size, const RenderOptions& options = {});
 

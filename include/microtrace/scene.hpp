@@ -43,7 +43,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::shared_ptr<const Image>> images;  ///< null if not decoded
-  std::vector<NamedCamera> cameras;                  ///< if empty see default_camera
+  std::vector<NamedCamera> cameras;                  ///< if empty, see default_camera
   std::vector<NamedLight> lights{};
   std::optional<Environment> environment{};  ///< no effect on flat pictures
   ImageSize size;                            ///< default size of the picture

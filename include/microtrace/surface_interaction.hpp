@@ -1,5 +1,5 @@
 #pragma once
-/// The surface at a hit: where it is, how it lies, what its vertices carry.
+/// Surface properties at a hit: position, normals and vertex attributes.
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -18,19 +18,19 @@ namespace microtrace {
 struct TrianglePoint {
   /// Weights of a, b and c: none negative, their sum 1 up to rounding.
   DVec3 barycentrics{1, 0, 0};
-  const Mesh* mesh = nullptr;            ///< the triangle's mesh; null: it stands alone
+  const Mesh* mesh = nullptr;            ///< the triangle's mesh; null for a single triangle
   std::array<std::uint32_t, 3> corners;  ///< vertex indices into the mesh
 };
 
-/// Valid as long as the scene is. Computed in float64 by + - * / and sqrt alone from the numbers
-/// of the scene, so the bits are the same on every machine; relative error about 1e-15 of the
-/// coordinates' size unless the shape is seen edge on.
+/// Valid during the lifetime of the scene. Computed in float64 by + - * / and sqrt from the scene's
+/// numbers, so the bits are the same on every machine. The relative error is about 1e-15 of the
+/// coordinates' magnitude unless the shape is seen edge on.
 struct MICROTRACE_EXPORT SurfaceInteraction {
   DVec3 p{0};                 ///< position, on the surface rather than at Hit::t on the ray
   DVec3 n{0, 0, 1};           ///< geometric normal of the front side, unit length
   DVec3 ns{0, 0, 1};          ///< shading normal of the front side, unit length: interpolated from
                               ///< the vertices; n where they have none
-  bool front = true;          ///< whether the ray arrives at the front side
+  bool front = true;          ///< true if the ray arrives at the front side
   std::size_t object = 0;     ///< index into Scene::objects; material_of() gives its material
   PrimitiveId primitive = 0;  ///< index within the object: the triangle of a mesh, else 0
   std::optional<TrianglePoint> triangle{};  ///< for triangles
@@ -43,14 +43,13 @@ struct MICROTRACE_EXPORT SurfaceInteraction {
   [[nodiscard]] DVec4 color() const;
 };
 
-/// Whether a ray of direction d arrives at the triangle's front, or runs along it.
+/// True if a ray of direction d arrives at the triangle's front side, or is parallel to it.
 [[nodiscard]] MICROTRACE_EXPORT bool shows_front(const Triangle& triangle, const Vec3& d);
 
-/// The surface that `ray` meets at `hit`, one of its hits, in the coordinates of the ray. The front
-/// of a triangle is the side from which its corners go counterclockwise; of a sphere the outside;
-/// of a plane and a disc the side of the normal; of a quadric the side where the polynomial is
-/// positive. Where a surface has no normal (a triangle without area, a quadric's apex) the normal
-/// faces the ray.
+/// The surface at `hit`, one of the hits of `ray`, in the coordinates of the ray. The front side of
+/// a triangle is the one with counterclockwise vertices; of a sphere the outside; of a plane and a
+/// disc the side of the normal; of a quadric the side with positive polynomial. If the surface has
+/// no normal (a triangle without area, a quadric's apex), the normal faces the ray.
 [[nodiscard]] MICROTRACE_EXPORT SurfaceInteraction interact(const Primitives& primitives,
                                                             const Ray& ray, const Hit& hit);
 

@@ -1,21 +1,21 @@
 #pragma once
-/// Checks of scenes that were made in memory. Loaders check theirs.
+/// Validation of scenes that were made in memory. Loaders validate theirs.
 
 #include <microtrace/export.hpp>
 #include <microtrace/scene.hpp>
 
 namespace microtrace {
 
-/// Throws Error (invalid_scene) for the first rule that the scene breaks, with a JSON pointer to
-/// the member: "/objects/3/shape/triangles". The rules:
+/// Throws Error (invalid_scene) for the first rule that the scene violates, with a JSON pointer to
+/// the member, such as "/objects/3/shape/triangles". The rules:
 ///
-/// - Indices are below the size of what they index: vertices, materials, textures, images.
-/// - A mesh's normals, tangents, colors and texture coordinates are as many as its positions, or
-///   none. Images have as many samples as their size says. Environment maps are not null.
-/// - Numbers of shapes and cameras are finite and in the ranges that their structs document.
+/// - Indices of vertices, materials, textures and images are in range.
+/// - A mesh has as many normals, tangents, colors and texture coordinates as positions, or none.
+///   Images have as many samples as their size requires. Environment maps are not null.
+/// - Numbers of shapes and cameras are finite and in the documented ranges.
 ///
-/// PreparedScene and render() check the first two by themselves: they keep a program from undefined
-/// behavior. Without the third, a shape with a number that is not finite is empty.
+/// PreparedScene and render() always check the first two, which prevent undefined behavior. If the
+/// third is not checked, a shape with a number that is not finite is empty.
 MICROTRACE_EXPORT void validate(const Scene& scene);
 
 }  // namespace microtrace
