@@ -3,9 +3,9 @@ add_library(microtrace_flags INTERFACE)
 target_compile_features(microtrace_flags INTERFACE cxx_std_20)
 target_compile_options(microtrace_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  # a*b+c must round twice on every machine: fused, the bits would depend on compiler and instruction set.
+  # a*b+c must round twice on every machine. Fused operations would make the bits depend on compiler and instruction set.
   -ffp-contract=off
-  # Neither changes a result; without them square roots branch and conditions can't become selections.
+  # Neither option changes a result. Without them square roots branch, and conditions can't become selections.
   -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC bug 105651: a false alarm on "text" + std::string.

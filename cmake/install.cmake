@@ -1,8 +1,8 @@
-# What `cmake --install` puts where, beside the modules, and the package that find_package(microtrace) finds.
+# Installation, except of modules, and the package for find_package(microtrace).
 include(CMakePackageConfigHelpers)
 set(microtrace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microtrace)
 
-# One of the two libraries is installed; the other can be, by its component's name.
+# One of the two libraries is installed by default; the other can be installed by the name of its component.
 set(unless_shared EXCLUDE_FROM_ALL)
 set(unless_static)
 if(BUILD_SHARED_LIBS)
@@ -19,7 +19,7 @@ endforeach()
 
 install(TARGETS microtrace)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
-# The same folders as in the repository: links from page to page hold.
+# The same folders as in the repository, so that links between pages stay valid.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)
 

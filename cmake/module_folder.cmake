@@ -1,5 +1,5 @@
-# microtrace_add_module_folder(TARGET FOLDER): makes an object that tells programs, which are linked with it and with the static
-# library, of a folder with the library's modules. They may lie anywhere else.
+# microtrace_add_module_folder(TARGET FOLDER): compiles the path of the modules' folder into an object. Programs that link it and the
+# static library find the modules, wherever the programs are.
 function(microtrace_add_module_folder target folder)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[

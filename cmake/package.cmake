@@ -6,7 +6,7 @@ set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PACKAGE_FILE_NAME microtrace)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
-# What the program and its modules are linked with, by dpkg-shlibdeps; what programs that use the library are compiled with.
+# Dependencies: the libraries of the program and its modules, by dpkg-shlibdeps, and the headers that users of the library need.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libglm-dev, libtinygltf-dev")
 include(CPack)

@@ -19,7 +19,7 @@ from program import PROGRAM, ProgramTest
 
 
 def moving_square(start=0, way=4):
-    """A glTF file: a square of side 1 that moves from x = start by a way in two seconds; then another animation, "up", in y."""
+    """A glTF file with a square of side 1. Its first animation moves it along x from `start` in two seconds, its second, "up", along y."""
     parts = [
         struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
         struct.pack("<6H", 0, 1, 2, 2, 1, 3),
@@ -93,7 +93,7 @@ class Animation(ProgramTest):
         self.assertEqual(self.square_at("--time", "1", "--animation", "up"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "1"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "0"), (2, 0))
-        # Of two channels with one target the later one holds.
+        # Of two channels with the same target, the later one is used.
         self.assertEqual(self.square_at("--time", "1", "--animation", "all"), (0, 2))
 
     def test_invalid_animation_options_are_usage_errors(self):

@@ -62,7 +62,7 @@ class Bounds(ProgramTest):
                 self.assertEqual(process.returncode, 6, said)
                 self.assertIn(path.name, said)
                 self.assertIn("--memory-limit", said)
-                # Sanitizers need more of their own; the program takes some itself.
+                # Sanitizers need additional memory, and so does the program itself.
                 if "ASAN_OPTIONS" not in os.environ:
                     self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The command line: exit codes, messages, files that are written.
+"""The command line: exit codes, messages, written files.
 
 usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -267,7 +267,7 @@ class CommandLine(ProgramTest):
         many = [self.picture(SCENE, "--size", "64x48", "--spp", "16", "-t", t) for t in (1, 3)]
         self.assertEqual(many[0], many[1])
         colors = lambda rows: {row[i:i + 3] for row in rows for i in range(0, len(row), 3)}
-        self.assertLess(len(colors(one[2])), 10)  # flat colors alone
+        self.assertLess(len(colors(one[2])), 10)  # only flat colors
         self.assertGreater(len(colors(many[0][2])), 30)  # and mixtures on the edges
 
     def test_statistics(self):
@@ -295,10 +295,10 @@ class CommandLine(ProgramTest):
         for name in ("camera", "path", "shadow"):
             self.assertGreater(found[name]["rays"], 0)
             self.assertGreater(found[name]["s"], 0)
-        self.assertGreater(kinds(textures)["beyond"], 0)  # what is cut out lets rays through
+        self.assertGreater(kinds(textures)["beyond"], 0)  # rays pass through cut-out parts
         stages = json.loads(self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--integrator", "path", "-q",
                                              "--stats=json").stderr)["stages"]
-        self.assertGreater(stages["filters"], 0)  # a ball alone has no tree
+        self.assertGreater(stages["filters"], 0)  # a scene with only a ball has no tree
         self.assertGreater(stages["origins"], 0)
         self.assertIn(b"missing_origins", self.run_program(ball, "-o", "a.ppm", "--stats").stderr)
         short = rays(kinds(ball, "--max-depth", "1"))

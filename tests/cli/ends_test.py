@@ -28,7 +28,7 @@ class Ends(ProgramTest):
                                 env=environment(), **options)
 
     def wait_for_temporary(self):
-        """Until the program writes a file."""
+        """Waits until the program writes a file."""
         for _ in range(3000):
             if any(name.startswith(".microtrace-") for name in os.listdir(self.folder)):
                 return
@@ -146,7 +146,7 @@ class Ends(ProgramTest):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(b"known are portable, avx2 and avx512", result.stderr)
             self.assertEqual(os.listdir(self.folder), [])
-        for name in ["", "portable", "avx2", "avx512"]:  # those that the processor lacks are portable
+        for name in ["", "portable", "avx2", "avx512"]:  # missing ones fall back to portable
             result = self.run_program(SCENE, "--size", "8x6", "-o", "a.ppm", env=environment(MICROTRACE_ISA=name))
             self.assertEqual(result.returncode, 0, result.stderr)
 

@@ -1,7 +1,7 @@
 """Reads the OpenEXR files that the program writes: one part of scan lines, ZIP or no compression.
 
-Written from the file's specification (https://openexr.com/en/latest/OpenEXRFileLayout.html), so that tests do not
-trust the library that wrote the file.
+Implements the file format's specification (https://openexr.com/en/latest/OpenEXRFileLayout.html), so that tests don't
+depend on the library that wrote the file.
 """
 import struct
 import zlib
@@ -74,7 +74,7 @@ class Exr:
 
     @staticmethod
     def _unzip(chunk):
-        """Differences of bytes, then the even bytes before the odd ones."""
+        """Undoes the predictor (differences of bytes) and the separation of even and odd bytes."""
         raw = bytearray(zlib.decompress(chunk))
         for i in range(1, len(raw)):
             raw[i] = (raw[i - 1] + raw[i] - 128) & 0xFF

@@ -52,7 +52,7 @@ class Files(ProgramTest):
         return self.run_program(*arguments, *size, **options)
 
     def assert_refused(self, code, *arguments, says, **options):
-        """Fails with that code and a message that has these parts, and changes no file."""
+        """The program fails with this code and a message with all fragments, and changes no file."""
         before = self.contents()
         result = self.draw(*arguments, **options)
         message = result.stderr.decode()
@@ -129,7 +129,7 @@ class Files(ProgramTest):
         self.assertEqual(self.draw(*draw, "--resume", "ck", "--checkpoint", "ck").returncode, 0)
 
     def test_two_outputs_with_one_file(self):
-        os.symlink("b.ppm", self.folder / "link.ppm")  # leads to no file yet
+        os.symlink("b.ppm", self.folder / "link.ppm")  # its target doesn't exist yet
         draw = ["asset/model.gltf", "--spp", "1", "-o", "b.ppm"]
         for path in ["b.ppm", "./b.ppm", "asset/../b.ppm", "link.ppm"]:
             self.assert_refused(2, *draw, "--sidecar", path, says=["--output", "--sidecar"])
@@ -150,7 +150,7 @@ class Files(ProgramTest):
             os.remove(self.folder / "a.ppm")
             os.remove(self.asset / part)
             shutil.move(outside / part, self.asset / part)
-        # Also by a link to a folder, and from a JSON scene.
+        # The same through a link to a folder, and from a JSON scene.
         os.symlink("../outside", self.asset / "more")
         shutil.move(self.asset / "data.bin", outside / "data.bin")
         self.gltf["buffers"][0]["uri"] = "more/data.bin"

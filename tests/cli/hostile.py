@@ -1,7 +1,7 @@
-"""Scene files that are large in one respect: what they cost must grow no faster than they do.
+"""Scene files that are large in one respect: their cost must grow at most linearly.
 
-Each function makes the asset for a size n: about n things of the kind that it is named for. bounds_test.py tries all of
-them at a small size. As a program this holds processor time at N against that at 4 N, which no test does:
+Each function makes an asset with about n things of the kind in its name. bounds_test.py renders all of them at a small
+size. Run as a program, this script compares the processor times for N and 4 N, which no test does:
 
 usage: hostile.py PROGRAM N NAME,NAME,...|all [OPTION...]
 """
@@ -25,7 +25,7 @@ def data_uri(data, kind="application/octet-stream"):
 
 
 def asset(**members):
-    """One triangle, mesh 0, in node 0; members replace or add to that."""
+    """An asset with one triangle, mesh 0, on node 0; `members` are added or replace these."""
     result = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -42,7 +42,7 @@ def asset(**members):
 
 
 def png(width, height, color=0, depth=8):
-    """All zeros: a thousandth of its pixels."""
+    """An image of zeros, compressed to a thousandth of its size."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -94,7 +94,7 @@ def hidden_nodes(n):
                  scenes=[{"nodes": list(range(n))}])
 
 
-# glTF: everything else that stands in arrays
+# glTF: all other arrays
 
 def meshes(n):
     return asset(meshes=asset()["meshes"] * n, nodes=[{"mesh": i} for i in range(n)],
@@ -170,7 +170,7 @@ def joints(n):
 
 
 def skinned_nodes_of_many_joints(n):
-    """Of the square root of n each."""
+    """The square root of n nodes, each with a skin of as many joints."""
     side = int(n ** 0.5)
     result = joints(side)
     result["nodes"] += [{"mesh": 0, "skin": 0}] * side
@@ -192,7 +192,7 @@ def nodes_with_morph_targets(n):
 
 
 def keyed(data, accessors):
-    """One triangle and further numbers."""
+    """A scene of one triangle with additional members."""
     views = [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": len(data)}]
     data = TRIANGLE + data
     return asset(buffers=[{"byteLength": len(data), "uri": data_uri(data)}], bufferViews=views,
@@ -344,7 +344,7 @@ def instances(n):
 
 
 def zeros(n):
-    """Vertices of an accessor that has no data."""
+    """A mesh with vertices from an accessor without data."""
     accessor = {"componentType": FLOATS, "count": n // 3 * 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}
     return asset(accessors=[accessor])
 
@@ -412,7 +412,7 @@ def repeated_keys_under_a_long_one(n):
 
 
 def values_under_a_long_key(n):
-    """A schema knows the values, and not the key above."""
+    """The schema describes the values, but not the key that contains them."""
     return asset(extensionsUsed=["x" * 6 * n],
                  extensions={"x" * 6 * n: {"nodes": [{"unknown": 0, "extensions": {}}] * n}})
 
@@ -488,7 +488,7 @@ def write(name, n, folder):
 
 
 def cost_of(arguments, folder):
-    """The exit code, seconds of processor time and MiB of a run of at most a minute and 12 GiB."""
+    """Exit code, seconds of processor time and MiB of a run, limited to a minute and 12 GiB."""
     child = os.fork()
     if child == 0:
         resource.setrlimit(resource.RLIMIT_AS, (12 << 30, 12 << 30))

@@ -78,7 +78,7 @@ class Environments(ProgramTest):
 
 class Exposure(ProgramTest):
     def corner(self, *options, light=0.25):
-        """One pixel of a flat picture's background."""
+        """A pixel of the background in a flat picture."""
         return self.picture(CUBE, "--integrator", "flat", "--size", "40x30", "--background", f"{light},{light},{light}", *options)[2][0][:3]
 
     def test_values(self):
@@ -122,7 +122,7 @@ class Exposure(ProgramTest):
 
 
 class DarkPictures(ProgramTest):
-    """Warnings about pictures that show next to nothing."""
+    """Warnings about pictures that are black or nearly black."""
 
     def warnings(self, document, *options, code=0):
         (self.folder / "scene.json").write_text(json.dumps({

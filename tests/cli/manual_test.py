@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The options' descriptions in docs/ against --help: the manual page has the same texts, docs/command-line.md a row for each.
+"""Compares docs/ with --help: the manual page has the same texts, and docs/command-line.md a row for each option.
 
---update writes the options into the manual page.
+--update replaces the options in the manual page.
 
 usage: manual_test.py PROGRAM SOURCE_FOLDER [--update | unittest arguments]
 """
@@ -37,7 +37,7 @@ def bold_options(text):
 
 
 def wrapped(text, width=118):
-    """Lines that begin with a word: other characters mean something to scdoc there."""
+    """Wraps the text so that each line begins with a word; at the start of a line scdoc interprets other characters."""
     lines = [""]
     for word in text.split():
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width and re.match(r"\w|\*--", word):

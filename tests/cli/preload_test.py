@@ -48,7 +48,7 @@ class Preloaded(ProgramTest):
         (self.folder / "hills.gltf").write_text(hills())
 
     def draw(self, name, *arguments, **variables):
-        """The exit code, the bytes of the picture of hills, and standard error."""
+        """Renders the hills; returns the exit code, the bytes of the picture, and standard error."""
         result = self.run_program("hills.gltf", "--size", "48x36", "-o", name, *arguments,
                                   env=environment(**variables))
         path = self.folder / name

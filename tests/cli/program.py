@@ -1,4 +1,4 @@
-"""The program under test: the first argument of every script here."""
+"""Runs the program under test, the first argument of every script in this folder."""
 
 import os
 import subprocess
@@ -11,12 +11,12 @@ PROGRAM = os.path.abspath(sys.argv[1])
 
 
 def environment(**variables):
-    # Of a sanitizer's findings leaks do not count: libraries keep memory to the end.
+    # Leaks are ignored, because libraries keep memory until the program ends.
     return dict(os.environ, ASAN_OPTIONS="detect_leaks=0", **variables)
 
 
 class ProgramTest(unittest.TestCase):
-    """Has an empty folder for each test, in which the program runs."""
+    """Runs the program in an empty folder for each test."""
 
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()

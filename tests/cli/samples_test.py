@@ -101,7 +101,7 @@ class Samples(ProgramTest):
         # With other display options.
         self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
         self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
-        # One is missing: no picture unless --partial asks for it; a run can fill the gap.
+        # If samples are missing, there is a picture only with --partial; another run can add them.
         result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
         self.assertEqual(result.returncode, 2)
         self.assertIn(b"error: samples 16 to 32 of 50 are missing; ", result.stderr)
@@ -150,7 +150,7 @@ class Samples(ProgramTest):
         scene.write_text(json.dumps(gltf))
         self.render("-o", "a.ppm", "--checkpoint", "c", scene=scene)
         self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "2", scene=scene)
-        # Another place of the third corner, within the same bounds.
+        # The third corner is moved within the same bounds.
         (self.folder / "a.bin").write_bytes(vertices[:24] + (0x3F000000).to_bytes(4, "little") + vertices[28:])
         message = self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "3", code=2, scene=scene)
         self.assertIn("made with scene files ", message)

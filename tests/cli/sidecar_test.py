@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws scenes with exact quantities and checks the sidecar against the EXR file, by a reader and by formulas of its own.
+"""Renders scenes with exact quantities and compares the sidecar with the EXR file, using an independent reader and formulas.
 
 usage: sidecar_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -25,7 +25,7 @@ def transformed(rows, point):
 
 class Sidecar(ProgramTest):
     def draw(self, scene, *options):
-        """The sidecar and the picture, after the checks for every scene."""
+        """Renders a scene, makes the checks that apply to every scene, and returns the sidecar and the picture."""
         result = self.run_program(SOURCE / "scenes" / scene, "--aov", ALL, "-o", "a.exr", "--size", "60x45", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.exr", "a.exr.json"])
@@ -78,7 +78,7 @@ class Sidecar(ProgramTest):
         self.assertLessEqual({o["material"] for o in objects}, {0} | {m["id"] for m in sidecar["materials"]})
 
     def check_camera(self, sidecar, picture):
-        """Each position projects into the middle of its pixel, at its depth."""
+        """Checks that each position projects to the center of its pixel, at its depth."""
         camera = sidecar["camera"]
         there, back = camera["world_from_camera"], camera["camera_from_world"]
         for a in range(4):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Pictures by several threads have the bytes of one thread's, in every way of making them. Under the thread sanitizer the
-program ends with code 66 at a race.
+"""Pictures rendered by several threads equal those rendered by one, for every rendering method. Under the thread sanitizer,
+a race ends the program with code 66.
 
 usage: threads_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """

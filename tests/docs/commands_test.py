@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Runs what the documentation shows: each command of README.md, CONTRIBUTING.md and docs/*.md, and each JSON snippet.
+"""Runs each command and each JSON snippet of README.md, CONTRIBUTING.md and docs/*.md.
 
-Commands are read from code blocks and from code within lines. Those of microtrace run in a folder that holds the files that
-they name; pictures are made small. Other commands must be listed below, with what runs them.
+Commands are read from code blocks and inline code. Commands of microtrace run in a folder with the files that they name,
+with small pictures. Other commands must be listed below, with the place that runs them.
 
 usage: commands_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -24,7 +24,7 @@ from program import PROGRAM, ProgramTest, environment
 SOURCE = Path(sys.argv[2]).resolve()
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
-# Commands that something else runs.
+# Commands that are run elsewhere.
 RUN_ELSEWHERE = [
     r"\./demo$|\./test$",  # .ci/run
     r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test, with other presets
@@ -36,7 +36,7 @@ RUN_ELSEWHERE = [
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
-# Code blocks that are no commands: formulas and the like.
+# Code blocks that contain formulas and the like instead of commands.
 PROSE = {"derivations.md", "exactness.md"}
 
 
@@ -89,7 +89,7 @@ def has_placeholder(command):
 
 
 def small(command):
-    """The same with few pixels and samples."""
+    """The command with few pixels and samples."""
     command = re.sub(r"--size \S+", "", command)
     command = re.sub(r"(--spp|--samples) (\d+)", lambda m: f"{m[1]} {min(int(m[2]), 4)}", command)
     if re.match(r"microtrace (merge|completion)|microtrace --", command):
@@ -183,7 +183,7 @@ class Documentation(ProgramTest):
                 with self.subTest(page=page.name, line=line):
                     count += 1
                     text = text.strip()
-                    # A part of a scene is shown without its braces.
+                    # Snippets show parts of a scene without the enclosing braces.
                     scene = json.loads(text if text.startswith("{") else "{" + text + "}")
                     scene = {"version": 1, "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}], **scene}
                     (self.folder / "snippet.json").write_text(json.dumps(scene))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The library with its defaults, as README.md shows it, writes the pictures that the program writes without options.
+"""The library with the defaults, used as in README.md, writes the same pictures as the program without options.
 
 usage: library_test.py PROGRAM SOURCE_FOLDER README_PROGRAM [unittest arguments]
 """
@@ -34,7 +34,7 @@ class Library(ProgramTest):
         self.assertEqual(pictures[0], pictures[1], scene)
 
     def write_gltf(self, mode, camera):
-        """Three corners, as a triangle (4) or as lines (2), which are few pixels of what takes its time."""
+        """Writes a triangle (mode 4) or, for fewer shaded pixels, lines between its corners (mode 2)."""
         nodes = [{"mesh": 0}] + [{"camera": 0, "translation": [0, 0, 20]}] * camera
         positions = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
         (self.folder / "scene.gltf").write_text(json.dumps({

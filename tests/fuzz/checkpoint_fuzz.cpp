@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     expect(count == 0 && all.sums.count() == 0, "no sample is counted twice");
   } catch (const Error& error) {
     expect(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::io,
-           "what is no checkpoint is refused");
+           "invalid checkpoints are refused");
     expect(!error.diagnostic().message.empty(), "every error has a message");
   }
   return 0;

@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   const Image& image = *decoded.image;
-  expect(header.format != io::ImageFormat::unknown, "what is decoded is known by its first bytes");
+  expect(header.format != io::ImageFormat::unknown, "decoded images have a known format");
   expect(image.width == header.width && image.height == header.height, "the size is the header's");
   expect(image.channels >= 1 && image.channels <= 4, "there are one to four channels");
   const std::size_t count = std::size_t{image.width} * image.height * image.channels;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Writes what the fuzz targets begin with: seeds and dictionaries.
+"""Writes the seeds and dictionaries of the fuzz targets.
 
 usage: make_seeds.py PROJECT_FOLDER FOLDER
 
-A folder for each format holds small files, FORMAT.dict its words. glTF
-assets with a binary chunk are written in the target's own form: JSON, a zero byte, the chunk.
+Each format gets a folder of small files and a dictionary FORMAT.dict. glTF
+assets with a binary chunk are written in the target's special form: JSON, a zero byte, the chunk.
 """
 
 import base64
@@ -39,7 +39,7 @@ data:application/octet-stream;base64, data:image/png;base64, 5120 5121 5122 5123
 
 
 def words_of_schema(value):
-    """All names and fixed words of a JSON schema."""
+    """All property names and enumerated words of a JSON schema."""
     if isinstance(value, dict):
         for key, part in value.items():
             if key == "properties":
@@ -61,7 +61,7 @@ def dictionary(words):
 
 
 def png(width, height, depth=8, color=6, interlaced=0, **more):
-    """A picture, of 8-bit RGBA pixels if nothing else is said; `more` are chunks before its pixels."""
+    """A PNG image, by default of 8-bit RGBA pixels; `more` are chunks before its pixels."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     row = -(-width * depth * {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[color] // 8)
@@ -73,7 +73,7 @@ def png(width, height, depth=8, color=6, interlaced=0, **more):
 
 
 def images():
-    """Files of all kinds by their names."""
+    """Image files of all kinds, by name."""
     palette = {"PLTE": bytes(range(48)), "tRNS": b"\0\x80\xff"}
     files = {"grey1.png": png(19, 9, 1, 0), "grey16.png": png(5, 4, 16, 0, tRNS=b"\0\1"), "rgb.png": png(6, 5, 8, 2),
              "palette2.png": png(9, 5, 2, 3, **palette), "palette4.png": png(9, 5, 4, 3, **palette),
@@ -270,7 +270,7 @@ def lit():
 
 
 def materials():
-    """One material of each model of light, on quadrilaterals behind one another, with a lamp among them."""
+    """One material of each kind, on quadrilaterals behind one another, with an emitter among them."""
     asset = Asset()
     asset.attribute("TEXCOORD_0", "2f", "VEC2", [(0, 0), (1, 0), (1, 1), (0, 1)])
     asset.add("images", {"bufferView": asset.view(png(3, 2)), "mimeType": "image/png"})
@@ -303,7 +303,7 @@ def materials():
 
 
 def checkpoint(ranges, width=3, height=2):
-    """The samples of a picture as src/io/checkpoint/checkpoint.cpp writes them, but for the digest at the end."""
+    """A checkpoint as src/io/checkpoint/checkpoint.cpp writes it, without the digest at the end."""
     identity = b"--seed\t1\n"
     samples = sum(last - first for first, last in ranges)
     head = b"microtrace samples\n" + struct.pack("<II", 1, len(identity)) + identity

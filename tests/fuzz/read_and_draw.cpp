@@ -64,7 +64,7 @@ std::optional<Film> draw(const Scene& scene, const RenderOptions& options) {
     return render(scene, scene.cameras[0].camera, {.width = 4, .height = 3}, options);
   } catch (const Error& error) {
     expect(error.kind() == ErrorKind::usage || error.kind() == ErrorKind::limit,
-           "what is read can be drawn");
+           "accepted scenes can be rendered");
     return std::nullopt;
   }
 }

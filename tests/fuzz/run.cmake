@@ -1,14 +1,14 @@
 # A script: fuzzes one format for some seconds. Fails by FATAL_ERROR.
 #   BUILD    the build folder of the preset "fuzz"
 #   FORMAT   one of formats.cmake
-#   SECONDS  how long
+#   SECONDS  duration
 cmake_minimum_required(VERSION 3.25)
 
 set(program ${BUILD}/tests/fuzz/fuzz_${FORMAT})
 set(work ${BUILD}/tests/fuzz/${FORMAT})
 file(MAKE_DIRECTORY ${work}/corpus ${work}/findings)
-# An allocation of more than 256 MiB is a finding, as a file is a few KiB at most; so is a minute for one, which
-# leaves room for machines with other work.
+# An allocation of more than 256 MiB is a finding, because files have a few KiB at most. So is a run of more than a minute,
+# a limit that busy machines keep.
 execute_process(
   COMMAND ${program} ${work}/corpus ${BUILD}/tests/fuzz/seeds/${FORMAT}
     -dict=${BUILD}/tests/fuzz/seeds/${FORMAT}.dict -artifact_prefix=${work}/findings/
@@ -16,7 +16,7 @@ execute_process(
     -print_final_stats=1 -verbosity=1
   RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
 if(NOT status EQUAL 0)
-  message(FATAL_ERROR "${output}\n${program} ends with ${status}; what it was given is in ${work}/findings")
+  message(FATAL_ERROR "${output}\n${program} ended with ${status}; its input is in ${work}/findings")
 endif()
 string(REGEX MATCHALL "stat::[^\n]*" statistics "${output}")
 string(REPLACE ";" "\n" statistics "${statistics}")

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How far microtrace and the Khronos glTF validator agree on what is wrong with assets.
+"""Compares microtrace's validation of glTF assets with that of the Khronos validator.
 
 usage: khronos_agreement.py PROGRAM FOLDER [--list]
 
-Takes every asset below FOLDER that has the validator's report beside it, as NAME.gltf.report.json. The two agree where the
-report has errors and microtrace calls the asset invalid, or has none and microtrace calls it valid; what microtrace does not
-judge, for a required extension (exit code 4), counts as agreement. --list names the assets on which they differ.
+Examines every asset in FOLDER or below with a report of the validator beside it, NAME.gltf.report.json. The two agree if the
+report has errors and microtrace calls the asset invalid, or has none and microtrace calls it valid. Assets that microtrace
+does not check because of a required extension (exit code 4) count as agreement. --list names the assets on which they differ.
 """
 
 import json
@@ -19,7 +19,7 @@ UNSUPPORTED = 4
 
 
 def verdict(program, asset):
-    """What microtrace says of the asset, and the complaints as they are printed."""
+    """microtrace's verdict about the asset, and the printed messages."""
     run = subprocess.run([program, "--validate", asset], capture_output=True, text=True, errors="replace", timeout=300)
     if run.returncode == UNSUPPORTED:
         return "unsupported", run.stderr
@@ -33,7 +33,7 @@ def error_pointers(report):
 
 
 def names_one_of(complaints, pointers):
-    """Whether a complaint stands at, above or below the place of an error: the two programs differ in how deep they point."""
+    """True if a message has the pointer of an error, or one above or below it: the two programs differ in the depth of pointers."""
     places = [word.rstrip(":") for line in complaints.splitlines() if line.startswith("error:")
               for word in line.split() if word.startswith("/") and word.endswith(":")]
     return any(place.startswith(pointer) or pointer.startswith(place) for pointer in pointers for place in places)

@@ -2,7 +2,7 @@
 
     golden_test.py PROGRAM SCENES SHA256 FOLDER
 
-Each picture NAME.ppm is drawn flat from SCENES/NAME.json or SCENES/gltf/NAME.glb with one thread and with two, and as ASCII PPM.
+Each picture NAME.ppm is rendered flat from SCENES/NAME.json or SCENES/gltf/NAME.glb with one thread and with two, and as ASCII PPM.
 The binary pictures stay in FOLDER. The exit status is 1 if any differs.
 """
 import hashlib

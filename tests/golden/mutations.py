@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Puts the faults of mutations.txt into a copy of the source one by one, builds the program and asks it questions.txt: an
-answer has to change, or the fault goes unnoticed.
+"""Applies the faults of mutations.txt to a copy of the source, one at a time, builds the program and runs the command lines of
+questions.txt: an output must change, otherwise the fault is undetected.
 
 usage: mutations.py PROGRAM FOLDER [NAME...]
 
@@ -31,7 +31,7 @@ def read(path):
 
 
 def copy_changed(source, target):
-    """Copies a file if the other has something else, so that all else stays built."""
+    """Copies a file if it differs, so that nothing else is rebuilt."""
     if not Path(target).exists() or Path(source).read_bytes() != Path(target).read_bytes():
         shutil.copyfile(source, target)
 
@@ -41,7 +41,7 @@ def build(copy):
 
 
 def is_caught(copy):
-    """Whether an answer differs; the first that does."""
+    """The first output that differs, if any."""
     result = subprocess.run([sys.executable, "-B", TESTS / "pinned_test.py", copy / "build/release/src/cli/microtrace",
                              "--threads", "2", "--first-only"], capture_output=True, text=True, check=False)
     if result.returncode == 0:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Asks a program all questions of questions.txt and compares the answers with the SHA-256 that stand there.
+"""Runs all command lines of questions.txt and compares the SHA-256 of their outputs with the list.
 
 usage: pinned_test.py PROGRAM [--update] [--threads N,...] [--first-only]
 
@@ -28,7 +28,7 @@ def main():
             question.pins = questions.ask(arguments.program, question)
             continue
         for threads in map(int, arguments.threads.split(",")):
-            # With a checkpoint samples come in passes over the picture, without one tile by tile.
+            # With a checkpoint the picture is rendered in passes, otherwise tile by tile.
             answer = questions.ask(arguments.program, question, threads, with_samples=threads < 7)
             wrong = [name for name, digest in answer.items() if question.pins.get(name) != digest]
             print(f"{'DIFFERENT' if wrong else 'the same '}  {question.text}, threads {threads}", *wrong, flush=True)

@@ -1,4 +1,4 @@
-"""The command lines of questions.txt: reads and writes the list, and asks a program."""
+"""Reads, writes and runs the command lines of questions.txt."""
 
 import dataclasses
 import hashlib
@@ -16,10 +16,10 @@ PIXEL_BYTES, DIGEST_BYTES = 84, 8  # of a checkpoint, as src/io/checkpoint/check
 
 @dataclasses.dataclass
 class Question:
-    """A command line with what it should give; has_light where a checkpoint holds its samples."""
+    """A command line with the hashes of its outputs; has_light if it is path traced and can write a checkpoint."""
 
     text: str
-    pins: dict  # "picture", and "samples" where there is light
+    pins: dict  # "picture", and "samples" if path traced
 
     @property
     def has_light(self):
@@ -52,7 +52,7 @@ def sha256(data):
 
 
 def samples_of(checkpoint, picture):
-    """The bytes of a checkpoint that hold its pixels, as many as the PPM picture has."""
+    """The bytes of a checkpoint's pixels, for as many pixels as the PPM picture has."""
     width, height = map(int, picture.split(maxsplit=3)[1:3])
     size = width * height * PIXEL_BYTES
     assert len(checkpoint) > size + DIGEST_BYTES
@@ -60,7 +60,7 @@ def samples_of(checkpoint, picture):
 
 
 def ask(program, question, threads=1, isa=None, with_samples=True):
-    """What the program answers, by names as in pins. A question with light has to cast paths and shadow rays."""
+    """The hashes of the program's outputs, by the names in pins. A path-traced picture must cast path and shadow rays."""
     command = [program, *shlex.split(question.text), "--threads", str(threads)]
     environment = dict(os.environ)
     if isa:

@@ -4,7 +4,7 @@
     reference.py DIFFERENCES NAME=PPM...      NAME: perspective1, perspective2 or perspective3
 
 Compares each binary PPM with the reference, pixel by pixel. A pixel may differ only if the picture's
-exact boundary passes within rounding of the pixel's center, and only if it stands in the file
+exact boundary passes within rounding of the pixel's center, and only if it is listed in the file
 DIFFERENCES as `NAME X Y`. The exit status is 1 if another pixel differs or a listed one does not.
 
 It shares no code with the renderer, and neither its formulas: numbers are as written in the
@@ -168,7 +168,7 @@ def read_differences(path):
 
 
 def compare(name, reference, path, listed):
-    """Prints every difference. Returns how many are no mere matter of rounding, or not listed."""
+    """Prints every difference. Returns the number of those that exceed rounding or are not listed."""
     pixels = read_pixels(path)
     view = View(name)
     differing = {

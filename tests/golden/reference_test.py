@@ -1,4 +1,4 @@
-"""Shows that reference.py finds what it is there to find."""
+"""Tests that reference.py detects wrong pictures."""
 import contextlib
 import io
 import math
@@ -56,7 +56,7 @@ class Reference(unittest.TestCase):
         self.assertEqual(faults, 1)
         self.assertIn("WRONG", text)
 
-    def test_a_neighbour_of_an_edge_is_a_fault(self):
+    def test_a_neighbor_of_an_edge_is_a_fault(self):
         # The horizon passes half a pixel from row 240's centers: far more than rounding.
         faults, text = compare(with_pixel(10, 240, (0, 0, 0)))
         self.assertEqual(faults, 1)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Builds the program again by another compiler and without optimization, and checks that every build gives the same answers
-to questions.txt with every instruction set and any number of threads.
+"""Builds the program with another compiler and without optimization, and checks that every build gives the same outputs for
+questions.txt with every instruction set and any number of threads.
 
 usage: same_bits.py PROGRAM SOURCE_FOLDER BUILD_FOLDER [--long]
 

@@ -3,7 +3,7 @@
 
     textures_reference.py ASSET PPM
 
-Its rectangles stand before an orthographic camera, so that texture coordinates and footprints are linear in the pixel. It
+Its rectangles face an orthographic camera, so that texture coordinates and footprints are linear in the pixel. It
 follows docs/gltf.md ("How textures are filtered"): bilinear filters in linear light, mip maps as area means, of which two
 are blended linearly in the width of the footprint, and places along its longer side. It shares no code with the renderer
 and rounds nothing but the last number. A pixel may differ by 1 of 255; where the mask's alpha is within 1e-4 of its cutoff
@@ -92,7 +92,7 @@ class Texture:
         return mix(row(j), row(j + 1), y - j)
 
     def one(self, u, v, width):
-        """At a footprint of so many texels on both sides."""
+        """The lookup for a footprint of this many texels in both directions."""
         if width <= 1:
             return self.bilinear(0, u, v)
         level = int(math.log2(width))
@@ -100,7 +100,7 @@ class Texture:
         return mix(self.bilinear(level, u, v), self.bilinear(level + 1, u, v), blend)
 
     def look_up(self, u, v, du, dv):
-        """For steps du to the next pixel in a row and dv to the next row."""
+        """The lookup for steps du to the next pixel in a row and dv to the next row."""
         across, down = abs(du) * len(self.levels[0]), abs(dv) * len(self.levels[0])
         longer, shorter = max(across, down), max(min(across, down), 1)
         if longer <= 1:

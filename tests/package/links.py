@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Relative links in Markdown files lead to files, and their fragments to headings.
 
-usage: links.py FOLDER    every Markdown file in it, at any depth, but in what is built
+usage: links.py FOLDER    every Markdown file in it, at any depth, except in build folders
 """
 
 import re
@@ -13,7 +13,7 @@ LINK = re.compile(r"!?\[[^\]]*\]\(\s*<?([^()\s>]*(?:\([^()\s]*\)[^()\s>]*)*)>?(?
 
 
 def prose(text):
-    """The text without code, where brackets mean other things."""
+    """The text without code, in which brackets have another meaning."""
     text = re.sub(r"^(```|~~~).*?^\1", "", text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"(`+).*?\1", "", text, flags=re.DOTALL)
 

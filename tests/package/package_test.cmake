@@ -1,4 +1,4 @@
-# A script: what a user of the installed package does, of the static and of the shared library. Fails by FATAL_ERROR.
+# A script: uses the installed package as a user would, with the static and the shared library. Fails by FATAL_ERROR.
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -9,8 +9,8 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# run_alone(MODULE... -- COMMAND...): of the object files that it loads, the dynamic linker says, none lies in the build folder,
-# and the modules are the installed ones.
+# run_alone(MODULE... -- COMMAND...): according to the dynamic linker, the command loads no object files from the build folder,
+# and it loads the installed modules.
 function(run_alone)
   list(FIND ARGN -- middle)
   list(SUBLIST ARGN 0 ${middle} modules)
@@ -32,12 +32,12 @@ function(check_pictures)
   foreach(picture ${ARGN})
     file(SIZE ${picture} size)
     if(size LESS 100)
-      message(FATAL_ERROR "${picture} is no picture")
+      message(FATAL_ERROR "${picture} is not a picture")
     endif()
   endforeach()
 endfunction()
 
-# install_to(FOLDER COMPONENT...): moved after it is installed, for nothing in it may depend on where it was meant to lie.
+# install_to(FOLDER COMPONENT...): moves the folder after the installation, because its contents must not depend on the path.
 function(install_to folder)
   foreach(component ${ARGN})
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component ${component})
@@ -55,7 +55,7 @@ function(install_to folder)
   endforeach()
 endfunction()
 
-# A program elsewhere, linked with the library in ${prefix}.
+# A program in another folder, linked with the library in ${prefix}.
 function(check_library)
   set(consumer ${prefix}-consumer)
   run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${consumer} -G ${GENERATOR}
@@ -80,7 +80,7 @@ endfunction()
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 
-# What `cmake --install` installs of a build with the static library.
+# The files that `cmake --install` installs from a build with the static library.
 set(prefix ${WORK}/static)
 install_to(${prefix} Unspecified static)
 check_library()
@@ -111,7 +111,7 @@ foreach(module ${MODULES})
   run_alone(${module} -- ${program} ${SOURCE}/scenes/${scene} --size 64x48 --samples 1 --strict -q -o ${picture})
   check_pictures(${picture})
 endforeach()
-# Through a link the program is where it points to.
+# If the program is started through a link, the link's target counts.
 file(CREATE_LINK ${program} ${WORK}/link SYMBOLIC)
 if("codecs" IN_LIST MODULES)
   run_alone(codecs -- ${WORK}/link ${SOURCE}/scenes/perspective1.json --size 64x48 -q -o ${WORK}/link.png)

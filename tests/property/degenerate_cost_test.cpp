@@ -104,7 +104,7 @@ Mesh copies_of(const Mesh& once, int count) {
   return copies;
 }
 
-TEST_P(DegenerateCost, OfDuplicatesIsThatOfOne) {
+TEST_P(DegenerateCost, DuplicatesCostNothing) {
   const Mesh once = generated::displaced_sphere(5001);
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Asked alone = ask(scene_of(once), rays);
@@ -118,7 +118,7 @@ TEST_P(DegenerateCost, OfDuplicatesIsThatOfOne) {
 }
 
 // Too few triangles for a tree, then enough.
-TEST_P(DegenerateCost, OfDuplicatesOfAFewTrianglesIsThatOfOne) {
+TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   Mesh once;
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
   add_triangle(once, {-1, -0.8F, -0.1F}, {1, -1, 0.5F}, {-0.4F, 1, 0.7F});
@@ -134,7 +134,7 @@ TEST_P(DegenerateCost, OfDuplicatesOfAFewTrianglesIsThatOfOne) {
 
 // The next hit is that of the copy, at the same t; rays that leave the copy have the origins of
 // rays that leave the first.
-TEST_P(DegenerateCost, OfHitsOfADuplicateIsThatOfTheFirst) {
+TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
   for (PrimitiveId i = 0; i < count; ++i) {
@@ -174,7 +174,7 @@ TEST_P(DegenerateCost, OfHitsOfADuplicateIsThatOfTheFirst) {
 
 // Single points, fewer and more than a tree needs, among other triangles, on their vertices and
 // beside them.
-TEST_P(DegenerateCost, OfPointsIsNone) {
+TEST_P(DegenerateCost, PointsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
   const Asked without = ask(scene_of(sphere), rays);
@@ -197,7 +197,7 @@ TEST_P(DegenerateCost, OfPointsIsNone) {
 }
 
 // Short and long segments, with two vertices at one end or one in the interior.
-TEST_P(DegenerateCost, OfSegmentsIsNone) {
+TEST_P(DegenerateCost, SegmentsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
   const Asked without = ask(scene_of(sphere), rays);
@@ -224,7 +224,7 @@ TEST_P(DegenerateCost, OfSegmentsIsNone) {
 
 // Rays in the plane of segments and triangles, and origins on a segment's line: the filters must be
 // certain that these miss.
-TEST_P(DegenerateCost, OfRaysInThePlaneIsSmall) {
+TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
   Random random(34);
   for (const std::size_t count : {4U, 40U}) {
     Mesh mesh;

@@ -201,7 +201,7 @@ TEST_P(HostRules, ChangeNoStep) {
 }
 
 // The C library's strtod uses the x87 rounding mode.
-TEST_P(HostRules, ChangeNoNumberOfAssets) {
+TEST_P(HostRules, ChangeNoParsedNumber) {
   const auto camera = [] {
     const Scene scene =
         parse_scene(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
@@ -222,7 +222,7 @@ TEST_P(HostRules, ChangeNoNumberOfAssets) {
 }
 
 // A host that traps its own divisions by zero must not be stopped by the library's.
-TEST_P(HostRules, TrapsOfTheHostAreItsOwn) {
+TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   const std::string expected = lit_json_ppm();
   set();
 #if defined(__x86_64__)

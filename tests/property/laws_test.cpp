@@ -1,5 +1,6 @@
-// What must not change an answer: the order of a triangle's corners and of primitives, mirrored or
-// exchanged axes, powers of two in size or place, how and by how many threads the tree is built.
+// Changes that must not affect an answer: the order of a triangle's vertices and of primitives,
+// mirrored or permuted axes, powers of two in size or position, the build method and its number of
+// threads.
 
 #include "exact/intersect.hpp"
 #include "support/adversarial_scenes.hpp"
@@ -195,7 +196,7 @@ TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
         });
     if (!exact) return;  // the second mesh may have any size
     const float size = random.power_of_two(-40, 40);
-    // Half of the time t scales with the scene, half of the time the directions do.
+    // Scales t with the scene in half of the cases, and the directions in the other half.
     const bool scales_t = random.one_in(2);
     const float t_scale = scales_t ? size : 1, d_scale = scales_t ? 1 : size;
     std::vector<Ray> rays;

@@ -110,7 +110,7 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       if (side * there < 0) d = -d;
       if (d == Vec3(0)) break;
       const auto q = bvh.spawn_origin(ray, *hit, d);
-      // A batch is computed by other means, with the same origins.
+      // Batches are computed by another algorithm, which must find the same origins.
       const std::array<Bvh::Spawn, 3> spawns{{{.ray = &ray, .hit = *hit, .direction = d},
                                               {.ray = &ray, .hit = *hit, .direction = -d},
                                               {.ray = &ray, .hit = *hit, .direction = ray.d}}};

@@ -41,7 +41,7 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
-/// The kernel's answer: the point if it is certain.
+/// The kernel's result: the point if it is certain.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
   HitPointLanes lanes{};
   for (std::size_t i = 0; i < kSpawnLanes; ++i) {

@@ -24,7 +24,7 @@ namespace {
 
 using namespace adversarial;
 
-// Fewer under sanitizers.
+// Fewer cases under sanitizers.
 const int kCasesPerKind = static_cast<int>(traversal::kUsualRays / 50);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -164,8 +164,8 @@ TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   }
 }
 
-// Flat surfaces always, unless the hit point exceeds the largest float32; curved ones unless they
-// are about as small as the spacing of float32 numbers.
+// Expects an origin for every flat surface, unless the hit point exceeds the largest float32, and
+// for curved ones unless they are about as small as the spacing of float32 numbers.
 template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : shape_kinds) {
@@ -230,8 +230,8 @@ TEST(Spawn, RaysLeaveConvexBodies) {
   EXPECT_GT(leaves, kCasesPerKind / 2);
 }
 
-// A batch is computed by other means, with the same origins: among shapes of all kinds, also
-// touching ones, with a tree and without.
+// Batches are computed by another algorithm, which must find the same origins: among shapes of all
+// kinds, even touching ones, with and without a tree.
 TEST(Spawn, BatchesEqualSingleOrigins) {
   Random random = traversal::announced_random(77);
   std::size_t answers = 0;

@@ -1,8 +1,8 @@
-# A script: builds targets by a preset with sanitizers, in a folder of its own.
+# A script: builds targets with a sanitizer preset in a separate folder.
 #   SOURCE   the project
 #   BUILD    the folder
 #   PRESET   fuzz or tsan
-#   TARGETS  what to build
+#   TARGETS  the targets
 cmake_minimum_required(VERSION 3.25)
 
 function(run)

@@ -86,8 +86,8 @@ std::array<std::pair<std::string, Model>, 8> lit_models() {
   return models;
 }
 
-// Light passes where the camera looks through: shadow rays and paths, combined by multiple
-// importance sampling.
+// Light passes through surfaces that are invisible to the camera: shadow rays and paths, combined
+// by multiple importance sampling.
 TEST(Backfaces, HullsDoNotBlockLight) {
   for (auto& [name, model] : lit_models()) {
     const Estimate bare = model.seen(Backfaces::pass);

@@ -32,7 +32,7 @@ std::shared_ptr<const RadianceMap> sky() {
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// The map as defined in its header.
+/// The map's radiance by the definition in environment.hpp.
 DVec3 lookup(const RadianceMap& map, const DVec3& d) {
   const double u = std::atan2(d.z, d.x) / (2 * kPi) + 0.5, v = std::acos(d.y) / kPi;
   const double x = u * map.width - 0.5, y = v * map.height - 0.5;

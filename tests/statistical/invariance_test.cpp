@@ -143,7 +143,7 @@ TEST(Invariance, FarFromTheOriginExactQuantitiesAreUnchanged) {
 }
 
 // An integrator that has rendered lights renders a scene without lights correctly.
-TEST(Invariance, LightOfAnotherSceneIsForgotten) {
+TEST(Invariance, ScenesWithoutLightsAreBlackAfterOthers) {
   Scene lit = blocks(Vec3(0)), unlit = lit;
   lit.lights.push_back(
       {.name = "lamp", .light = PointLight{.position = {0, 15, 9}, .intensity = 500}});

@@ -121,7 +121,7 @@ TEST_P(Lamps, SamplesHaveTheirPdf) {
 INSTANTIATE_TEST_SUITE_P(Environment, Lamps, testing::Bool());
 
 // Samples of a light are uniform over its triangles.
-TEST(Lighting, PointsOfALampAreSpreadEvenly) {
+TEST(Lighting, PointsOnAnEmitterAreUniform) {
   Scene scene;
   scene.materials = {{.emissive = Vec3(1)}};
   scene.objects.push_back(

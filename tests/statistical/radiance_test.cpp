@@ -168,8 +168,8 @@ TEST(Radiance, RoomOfEmissiveWhiteWalls) {
   }
 }
 
-// A ball as a quadric, which only paths can find, and as sampled shapes: multiple importance
-// sampling compared with BSDF sampling alone.
+// An emissive ball as a quadric, which is found only by BSDF sampling, and as shapes with light
+// sampling: both estimators must agree.
 TEST(Radiance, SampledAndUnsampledEmittersAgree) {
   const Shot shot{.size = kSize, .samples = 64};
   for (const Material& material : {kMatt, kShiny}) {
@@ -250,7 +250,7 @@ TEST(Radiance, SingleTriangle) {
   EXPECT_NEAR(means[0], means[1], 1e-4 * means[1]);
 }
 
-// A light with half opacity emits half as much, however it is found.
+// A half-opaque emitter emits half as much, by light sampling and by BSDF sampling.
 TEST(Radiance, EmitterWithHalfOpacity) {
   const auto lit = [](float alpha, const Shape& shape) {
     Floor floor(kShiny);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that no function of the kernels for AVX2 and AVX-512 stands in another translation unit too.
+"""Checks that no function of the AVX2 and AVX-512 kernels is also defined in another translation unit.
 
 The linker keeps one copy of a function that several translation units define (a weak symbol). Were one of them compiled for
 AVX-512 and kept, the program would end with an illegal instruction on older processors.

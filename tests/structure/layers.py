@@ -10,8 +10,7 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1])
 
-# part -> parts of src/ that it may include, beside itself. Public headers belong to no part; which of them a part may name
-# is PUBLIC below.
+# part -> parts of src/ that it may include besides itself. Public headers belong to no part; HIDDEN below restricts them.
 MAY_INCLUDE = {
     "base": set(),
     "simd": {"base"},
@@ -27,7 +26,7 @@ MAY_INCLUDE = {
 # The folders of src/io/gltf; each may include itself and those before it.
 GLTF_FOLDERS = ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"]
 MOST_FILES = 20  # in a folder of src/io/gltf
-# Public headers that a part must not see.
+# Public headers that a part must not include.
 HIDDEN = {
     "base": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
     "exact": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},

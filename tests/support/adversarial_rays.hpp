@@ -18,19 +18,19 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
 
   std::uint32_t bits();
-  /// An integer of [lo, hi].
+  /// An integer in [lo, hi].
   int between(int lo, int hi);
   bool one_in(int n) { return between(1, n) == 1; }
-  /// A number of [0, 1).
+  /// A number in [0, 1).
   double unit();
-  /// A number of [-1, 1].
+  /// A number in [-1, 1].
   float symmetric() { return static_cast<float>(2 * unit() - 1); }
   /// 2^k with k in [lo, hi].
   float power_of_two(int lo, int hi);
   /// A number with random sign, exponent in [lo, hi] and random mantissa, sometimes with few bits.
   float any_float(int lo, int hi);
   Vec3 any_vector(int lo, int hi);
-  /// A point of the cube [-half_width, half_width]^3.
+  /// A point in the cube [-half_width, half_width]^3.
   Vec3 in_cube(float half_width);
   /// A point with coordinates -n to n times spacing.
   Vec3 on_grid(int n, float spacing = 1);

@@ -14,7 +14,7 @@ struct ClosedMesh {
   const char* name;
   Mesh mesh;
   Vec3 center;    ///< inside
-  float radius;   ///< of a ball inside around it
+  float radius;   ///< of a ball around `center` that is inside the mesh
   float spacing;  ///< of the grid of all vertices
 };
 

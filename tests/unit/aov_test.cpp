@@ -212,7 +212,7 @@ TEST(Aov, MaskedAndCulledSurfacesAreTransparent) {
   EXPECT_EQ(ids(film, "instance")[100], 1U);
 }
 
-TEST(Aov, NeitherSamplesNorThreadsNorCropChangeThem) {
+TEST(Aov, SamplesThreadsAndCropHaveNoEffect) {
   const Scene scene = patchwork();
   const Film one = drawn(scene, PerspectiveCamera{}, {.threads = 1});
   const Film many = drawn(scene, PerspectiveCamera{}, {.threads = 3, .samples = 7});

@@ -54,7 +54,7 @@ Vec2 sobol(std::uint32_t i) {
   return sampling::Sobol(7, i).pair(0);
 }
 
-TEST(EnvironmentLight, AUniformOneIsTheSameFromEverywhere) {
+TEST(EnvironmentLight, UniformLightIsEqualInAllDirections) {
   const EnvironmentLight light({.content = Vec3(1, 2, 3), .rotation = 1, .intensity = 0.5F});
   EXPECT_TRUE(light.is_uniform());
   DVec3 sum(0);
@@ -70,7 +70,7 @@ TEST(EnvironmentLight, AUniformOneIsTheSameFromEverywhere) {
 }
 
 // The mapping documented in the header, for directions through the centers of pixels.
-TEST(EnvironmentLight, LooksUpByTheStatedMapping) {
+TEST(EnvironmentLight, UsesTheDocumentedMapping) {
   const std::uint32_t width = 64, height = 32;
   const auto map = map_of(width, height, [](std::uint32_t x, std::uint32_t y) {
     return Vec3(static_cast<float>(x), static_cast<float>(y), 1);
@@ -100,7 +100,7 @@ TEST(EnvironmentLight, IsBilinearAcrossTheSeam) {
   EXPECT_NEAR(light.radiance({-1, 0, -1}).x, 1, 1e-5);
 }
 
-TEST(EnvironmentLight, TurnsAnticlockwiseAsSeenFromAbove) {
+TEST(EnvironmentLight, RotatesCounterclockwiseSeenFromAbove) {
   const auto map = sunny_map(32, 16);
   const double angle = 1.25;
   const EnvironmentLight still({.content = map}), turned({.content = map, .rotation = angle});
@@ -115,7 +115,7 @@ TEST(EnvironmentLight, TurnsAnticlockwiseAsSeenFromAbove) {
   });
 }
 
-TEST(EnvironmentLight, SurvivesDirectionsThatAreNone) {
+TEST(EnvironmentLight, ToleratesInvalidDirections) {
   const EnvironmentLight light({.content = sunny_map(16, 8)});
   for (const float x : {0.0F, NAN, HUGE_VALF, -HUGE_VALF, 1e-45F, 3e38F}) {
     for (const float y : {0.0F, NAN, HUGE_VALF, 1e-45F}) {
@@ -175,7 +175,7 @@ TEST_P(Maps, PdfIntegratesToOne) {
 }
 
 // Except for the rounding of the direction, where the map is steep.
-TEST_P(Maps, SamplesSayWhatTheirDirectionSays) {
+TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   constexpr std::uint32_t kSamples = 20000;
   float brightest = 0;
   for (const Vec3& pixel : map->pixels) brightest = std::max(brightest, 1.5F * pixel.x);
@@ -193,7 +193,7 @@ TEST_P(Maps, SamplesSayWhatTheirDirectionSays) {
 
 // Radiance / pdf changes little within a sun and around it, so no direction has much more weight
 // than others: compares the minimum and the maximum of samples in the sun.
-TEST(EnvironmentLight, SamplesOfASunBringAllTheSame) {
+TEST(EnvironmentLight, SamplesOfASunHaveEqualWeights) {
   const EnvironmentLight light({.content = sunny_map(64, 32)});
   float least = HUGE_VALF, most = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
@@ -268,7 +268,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
 INSTANTIATE_TEST_SUITE_P(All, Maps, testing::Range(0, 6));
 
 // If one pixel has nearly all light, one number in 2^24 must not lose the light of the others.
-TEST(EnvironmentLight, KeepsDimLightBesideASun) {
+TEST(EnvironmentLight, SamplesDimLightBesideASun) {
   const std::uint32_t width = 512, height = 256;
   const auto map = map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
     return Vec3(x == 100 && y == 60 ? 1e9F : 0.01F);
@@ -284,7 +284,7 @@ TEST(EnvironmentLight, KeepsDimLightBesideASun) {
   EXPECT_NEAR(dim, 0.01 * 4 * kPi, 0.001 * 4 * kPi * 0.3);
 }
 
-TEST(SharedTables, MakeThoseOfAMapOnce) {
+TEST(SharedTables, MakeTheTablesOfAMapOnce) {
   SharedTables tables;
   const Environment studio{.content = Studio{}};
   const auto map = sunny_map(32, 16), other = sunny_map(32, 16);
@@ -297,7 +297,7 @@ TEST(SharedTables, MakeThoseOfAMapOnce) {
   EXPECT_EQ(tables.of({.content = Vec3(1)}), nullptr);
 }
 
-TEST(Studio, IsGreyAndTheSameOnBothSides) {
+TEST(Studio, IsGrayAndSymmetric) {
   const EnvironmentLight light({.content = Studio{}});
   for_sphere(64, [&](const Vec3& d, double) {
     const Vec3 here = light.radiance(d), there = light.radiance({-d.x, d.y, d.z});

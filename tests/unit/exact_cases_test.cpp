@@ -28,7 +28,7 @@ class Hash {
   std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
-TEST(AdversarialRays, TrianglesAreTheSameWhateverTheCompiler) {
+TEST(AdversarialRays, TrianglesDoNotDependOnTheCompiler) {
   Random random(1);
   Hash hash;
   for (const TriangleKind kind : triangle_kinds) {
@@ -43,7 +43,7 @@ TEST(AdversarialRays, TrianglesAreTheSameWhateverTheCompiler) {
   EXPECT_EQ(hash.value(), 16659916225288092172u);
 }
 
-TEST(AdversarialRays, OtherShapesAreTheSameWhateverTheCompiler) {
+TEST(AdversarialRays, OtherShapesDoNotDependOnTheCompiler) {
   Random random(1);
   Hash hash;
   for (const ShapeKind kind : shape_kinds) {

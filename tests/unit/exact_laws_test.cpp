@@ -47,7 +47,7 @@ TEST(ExactLaws, TriangleDoesNotDependOnTheOrderOfVertices) {
   }
 }
 
-TEST(ExactLaws, MirroringAndTurningAxesChangesNothing) {
+TEST(ExactLaws, MirroredAndPermutedAxesHaveNoEffect) {
   Random random(4);
   const auto mirrored = [](const Vec3& v) { return Vec3(-v.y, v.z, v.x); };
   for (const TriangleKind kind : adversarial::triangle_kinds) {
@@ -63,7 +63,7 @@ TEST(ExactLaws, MirroringAndTurningAxesChangesNothing) {
   }
 }
 
-TEST(ExactLaws, ScalingEverythingByAPowerOfTwoChangesNothing) {
+TEST(ExactLaws, ScalingByPowersOfTwoHasNoEffect) {
   Random random(5);
   for (const TriangleKind kind : kinds_within_2_to_60) {
     for (int i = 0; i < 2000; ++i) {
@@ -78,7 +78,7 @@ TEST(ExactLaws, ScalingEverythingByAPowerOfTwoChangesNothing) {
   }
 }
 
-TEST(ExactLaws, ALongerDirectionDividesT) {
+TEST(ExactLaws, LongerDirectionDividesT) {
   Random random(6);
   for (const TriangleKind kind : kinds_within_2_to_60) {
     for (int i = 0; i < 2000; ++i) {

@@ -112,7 +112,7 @@ TEST(Framing, AnyAngleIsFilled) {
   }
 }
 
-TEST(Framing, StandsAroundATarget) {
+TEST(Framing, OrbitsATarget) {
   Framing framing({.azimuth = 90, .elevation = 0}, {640, 480});
   EXPECT_EQ(framing.center(), DVec3(0));
   framing.add(cloud({{1, 2, 3}, {3, 8, -1}}));
@@ -174,7 +174,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   expect_tight(seen(rim, frame(scene_of({disc}), View{}, size), size), 1e-5);
 }
 
-TEST(Framing, ViewsLookFromTheirSides) {
+TEST(Framing, NamedViewsLookFromTheirSides) {
   const Scene scene = cloud({{-1, -1, -1}, {1, 1, 1}, {-1, 1, -1}});
   struct Case {
     View view;
@@ -191,13 +191,13 @@ TEST(Framing, ViewsLookFromTheirSides) {
   }
 }
 
-TEST(Framing, ANeedleAlongTheViewKeepsItsDistance) {
+TEST(Framing, NeedleAlongTheViewKeepsItsDistance) {
   const std::vector<Vec3> needle = {{0, 0, 9}, {0, 0, 0}, {0, 0, -9}};
   const PerspectiveCamera camera = frame(cloud(needle), {.azimuth = 0, .elevation = 0}, {640, 480});
   EXPECT_NEAR(seen(widened(needle), camera, {640, 480}).nearest, 18.0 / 64, 1e-12);
 }
 
-TEST(Framing, ASinglePointAndNothingAreSeenFromDistanceOne) {
+TEST(Framing, PointsAndEmptyScenesAreSeenFromDistanceOne) {
   const PerspectiveCamera point = frame(cloud({Vec3(5), Vec3(5)}), View{}, {640, 480});
   EXPECT_NEAR(glm::distance(point.pose.position, DVec3(5)), 1, 1e-12);
   const PerspectiveCamera nothing = frame(Scene{}, View{}, {640, 480});
@@ -221,7 +221,7 @@ TEST(Framing, UnboundedAndNonFiniteShapesAreIgnored) {
   EXPECT_EQ(frame(scene, View{}, size).pose.position, expected);
 }
 
-TEST(Framing, ScenesAddUp) {
+TEST(Framing, CombinesScenes) {
   const std::vector<Vec3> a = {{0, 0, 0}, {1, 2, 3}}, b = {{5, -6, 7}, {0, 9, 0}};
   const ImageSize size{300, 200};
   Framing framing(View{}, size);

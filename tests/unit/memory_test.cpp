@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(MemoryBudget, CountsBeforeItIsTooMuch) {
+TEST(MemoryBudget, RefusesBeforeExceedingTheLimit) {
   MemoryBudget budget(1000);
   budget.take(600, "a");
   budget.give_back(500);
@@ -37,7 +37,7 @@ TEST(MemoryBudget, CountsBeforeItIsTooMuch) {
   EXPECT_NO_THROW(budget.take(1000, "d")) << "what was refused is not counted";
 }
 
-TEST(MemoryAccount, GivesBackWhatItTook) {
+TEST(MemoryAccount, ReleasesItsMemory) {
   MemoryBudget budget(100);
   {
     MemoryAccount account(&budget);
@@ -84,14 +84,14 @@ class FreeMemory : public ::testing::Test {
   std::filesystem::path root_;
 };
 
-TEST_F(FreeMemory, IsWhatTheSystemSays) {
+TEST_F(FreeMemory, EqualsTheAvailableMemoryOfTheSystem) {
   EXPECT_EQ(free_memory(root_), 5000U * 1024);
   write("proc/self/cgroup", "0::/\n");
   write("sys/fs/cgroup/memory.max", "max\n");
   EXPECT_EQ(free_memory(root_), 5000U * 1024);
 }
 
-TEST_F(FreeMemory, IsWhatEveryGroupAroundHasLeft) {
+TEST_F(FreeMemory, RespectsAllEnclosingGroups) {
   write("proc/self/cgroup", "0::/outer/inner\n");
   write("sys/fs/cgroup/outer/memory.max", "3000000\n");
   write("sys/fs/cgroup/outer/memory.current", "1000000\n");
@@ -104,7 +104,7 @@ TEST_F(FreeMemory, IsWhatEveryGroupAroundHasLeft) {
   EXPECT_EQ(free_memory(root_), 0U);
 }
 
-TEST_F(FreeMemory, IsWhatGroupsOfVersion1HaveLeft) {
+TEST_F(FreeMemory, RespectsGroupsOfVersion1) {
   write("proc/self/cgroup", "5:cpu,memory:/job\n1:cpuset:/\n");
   write("sys/fs/cgroup/memory/job/memory.limit_in_bytes", "800\n");
   write("sys/fs/cgroup/memory/job/memory.usage_in_bytes", "300\n");

@@ -61,7 +61,7 @@ TEST(Passes, GiveTheSameBitsAsOnePass) {
   }
 }
 
-TEST(Passes, SeedGivesOtherNoise) {
+TEST(Passes, SeedChangesTheNoise) {
   const Film one = drawn({.samples = 4, .seed = 1}), other = drawn({.samples = 4, .seed = 2});
   EXPECT_NE(one.row(0)[0], other.row(0)[0]);
 }
@@ -85,7 +85,7 @@ TEST(Passes, PartsAddUpToTheWhole) {
   expect_equal(whole, develop(parts[0], Film::Alpha::premultiplied));
 }
 
-TEST(Passes, GoOnFromWhatIsThere) {
+TEST(Passes, ContinueFromExistingSamples) {
   SampleSums sums;
   std::vector<std::uint32_t> seen;
   const auto note = [&](const SampleSums& so_far) { seen.push_back(so_far.count()); };
@@ -100,7 +100,7 @@ TEST(Passes, GoOnFromWhatIsThere) {
   EXPECT_EQ(counts.invalid_samples, 0U);
 }
 
-TEST(Passes, StopWhenTimeIsUpAfterTheFirst) {
+TEST(Passes, StopAtTheTimeLimitAfterTheFirst) {
   SampleSums sums;
   double progress = 0;
   const Film film = drawn({.progress =
@@ -115,7 +115,7 @@ TEST(Passes, StopWhenTimeIsUpAfterTheFirst) {
   expect_equal(film, drawn({.samples = 1}));
 }
 
-TEST(Passes, CropHoldsThePixelsOfTheWhole) {
+TEST(Passes, CropEqualsThatPartOfTheWhole) {
   const Film whole = drawn({.samples = 9});
   SampleSums sums;
   const Film part =
@@ -126,7 +126,7 @@ TEST(Passes, CropHoldsThePixelsOfTheWhole) {
   }
 }
 
-TEST(Passes, RefuseWhatMakesNoSense) {
+TEST(Passes, RefuseInvalidOptions) {
   SampleSums other;
   (void)drawn({.samples = 2, .passes = Passes{.sums = &other}, .crop = PixelRect{0, 0, 4, 4}});
   const std::vector<RenderOptions> bad = {

@@ -55,7 +55,7 @@ TEST(PixelFilter, EqualIntervalsHaveEqualWeight) {
 
 // The second moment of the window in closed form: 1/12 + (-a1 + a2/4 - a3/9) / (2 pi^2 a0) times
 // its width squared.
-TEST(PixelFilter, VarianceIsThatOfTheWindow) {
+TEST(PixelFilter, VarianceEqualsTheWindows) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 100000;
   double sum = 0;

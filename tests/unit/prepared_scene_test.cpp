@@ -1,4 +1,4 @@
-// Pictures and answers of a prepared scene are those of the scene, however it is used.
+// A prepared scene gives the same pictures and answers as the scene.
 
 #include "render/prepared/content.hpp"
 #include "support/generated_meshes.hpp"
@@ -81,9 +81,10 @@ RenderOptions lit(const PathIntegrator& path) {
   return options;
 }
 
-TEST(PreparedScene, DrawsWhatTheSceneDraws) {
+TEST(PreparedScene, DrawsTheSamePictures) {
   const PathIntegrator path({.max_depth = 4});
-  // The last two are moved next to the origin for paths: by the same way from all cameras or not.
+  // The last two cameras see the scene near the origin, for path tracing, by the same or by
+  // different translations.
   for (const Vec3& shift : {Vec3(0), Vec3(4096, 0, -8192), Vec3(1e6F, 0, 0)}) {
     const Scene scene = furnished(shift);
     const PreparedScene prepared(scene);
@@ -152,7 +153,7 @@ TEST(PreparedScene, TakesAnotherEnvironment) {
   }
 }
 
-TEST(PreparedScene, AnswersManyThreadsAtATime) {
+TEST(PreparedScene, MayBeSharedByThreads) {
   const Scene scene = furnished({4096, 0, 0});
   const PathIntegrator path({.max_depth = 3});
   const std::vector<Camera> views = views_of(scene);
@@ -173,7 +174,7 @@ TEST(PreparedScene, AnswersManyThreadsAtATime) {
   }
 }
 
-TEST(PreparedScene, AnswersInWorldSpace) {
+TEST(PreparedScene, QueriesAreInWorldSpace) {
   const DVec3 origin(1e7, -3e6, 0.5);
   Scene scene = furnished();
   scene.origin = origin;
@@ -215,13 +216,13 @@ TEST(PreparedScene, OwnsItsScene) {
     return PreparedScene(first);
   }();
   expect_same(render(copy, camera, kSize), expected);
-  // What only borrows a scene takes none that is about to end.
+  // Types that borrow a scene don't accept temporaries.
   static_assert(!std::is_constructible_v<Bvh, Scene>);
   static_assert(!std::is_constructible_v<Primitives, Scene>);
   static_assert(std::is_constructible_v<Bvh, const Scene&>);
 }
 
-/// Refused by both, with that pointer.
+/// Both must refuse the scene, with this pointer.
 void expect_refused(const Scene& scene, const char* pointer) {
   const auto expect = [&](const auto& f) {
     try {
@@ -279,7 +280,7 @@ TEST(Validate, RefusesNumbersThatAreNotFinite) {
   Scene scene = furnished();
   std::get<Mesh>(scene.objects[0].shape).positions.edit()[3].y = std::nanf("");
   EXPECT_THROW(validate(scene), Error);
-  // Not dangerous: the triangles there are empty.
+  // Harmless: those triangles are empty.
   EXPECT_NO_THROW((void)render(scene, views_of(scene)[0], kSize));
   scene = furnished();
   scene.cameras.push_back({.name = "", .camera = PerspectiveCamera{.vertical_fov = 4}});

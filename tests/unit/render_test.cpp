@@ -36,7 +36,7 @@ TEST(Render, HitsLieInTheOpenIntervalFromEpsilon) {
   EXPECT_EQ(pixel(6), kBackground);
 }
 
-TEST(Render, CameraSeesBetweenItsDepths) {
+TEST(Render, CameraSeesItsDepthRange) {
   EXPECT_EQ(pixel(0, {.depth = {.near = 4, .far = 10}}), kNear);
   EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 10}}), kFar);
   EXPECT_EQ(pixel(0, {.depth = {.near = 4.5, .far = 5.5}}), kBackground);
@@ -59,14 +59,14 @@ TEST(Render, ProgressEndsAtOne) {
   EXPECT_GT(calls, 10);
 }
 
-TEST(Render, ExceptionsOfThreadsArrive) {
+TEST(Render, ExceptionsOfThreadsReachTheCaller) {
   const auto progress = [](double) -> bool { throw std::runtime_error("stop"); };
   EXPECT_THROW((void)render(Scene{}, PerspectiveCamera{}, {.width = 200, .height = 100},
                             {.threads = 2, .progress = progress}),
                std::runtime_error);
 }
 
-TEST(Render, EndsWhereProgressSaysSo) {
+TEST(Render, StopsIfProgressReturnsFalse) {
   for (const unsigned threads : {1U, 3U}) {
     int calls = 0;
     const auto progress = [&](double) { return ++calls < 3; };

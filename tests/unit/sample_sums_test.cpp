@@ -28,7 +28,7 @@ TEST(PixelSum, NoSamplesAreBlackAndTransparent) {
 }
 
 // The mean of n values that are 0 or v has the estimated variance v^2 p (1 - p) / (n - 1).
-TEST(PixelSum, VarianceIsThatOfTheMean) {
+TEST(PixelSum, VarianceIsTheVarianceOfTheMean) {
   for (const float v : {1e-6F, 1.0F, 1e9F}) {
     PixelSum sum;
     for (int i = 0; i < 100; ++i) (void)sum.add(Vec3(i % 4 == 0 ? v : 0), 1, kBlack);
@@ -37,7 +37,7 @@ TEST(PixelSum, VarianceIsThatOfTheMean) {
   }
 }
 
-TEST(PixelSum, LuminanceIsThatOverTheBackground) {
+TEST(PixelSum, LuminanceIncludesTheBackground) {
   const Vec3 background(2, 4, 8);
   PixelSum sum;
   (void)sum.add(Vec3(1), 1, background);

@@ -77,7 +77,7 @@ TEST(Antialiasing, EdgesHaveFractionalCoverage) {
 
 // The filter's weight left of an edge, for an edge in the middle of a pixel and half a pixel beside
 // it.
-TEST(Antialiasing, FilterSoftensAnEdgeByItsWeight) {
+TEST(Antialiasing, FilterBlursAnEdgeByItsWeight) {
   Film film = drawn(half_plane(0.35F), {.samples = 256, .filter = PixelFilter::blackman_harris});
   EXPECT_NEAR(film.at(13, 5).x, 0.5, 0.01);
   // At one pixel: 1/2 + t + (a1 sin(2 pi t) + a2/2 sin(4 pi t) + a3/3 sin(6 pi t)) / (2 pi a0),
@@ -109,7 +109,7 @@ TEST(Antialiasing, TransparentPicturesCompositeToOpaqueOnes) {
   }
 }
 
-TEST(Crop, HoldsTheSamePixelsAsTheWhole) {
+TEST(Crop, EqualsThatPartOfTheWhole) {
   const ImageSize size{.width = 67, .height = 41};
   for (const std::uint32_t n : {1U, 3U, 16U, 70U}) {
     Film whole = drawn(half_plane(0.1F), {.threads = 1, .samples = n}, size);

@@ -161,7 +161,7 @@ TEST(Segments, EnvironmentCamerasSeeAllDirections) {
   EXPECT_NEAR(static_cast<double>(quarter.size()), 16, 2);
 }
 
-TEST(Segments, HideAndAreHidden) {
+TEST(Segments, OccludeAndAreOccluded) {
   Scene scene = scene_of({Vec3(5, 20.4F, 0), Vec3(55, 20.4F, 0)}, {{0, 1}});
   scene.objects.push_back({.name = "wall", .shape = Triangle{{20, 0, 1}, {40, 0, 1}, {30, 90, 1}}});
   scene.materials.push_back({.base_color = Vec4(1, 0, 0, 1)});

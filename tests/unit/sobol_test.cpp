@@ -68,7 +68,7 @@ TEST(Sobol, DependsOnSeedPixelAndPair) {
   EXPECT_NE(base, Sobol(pixel_key(0, 1, 2), 3).pair(1));
 }
 
-TEST(Sobol, OneIsTheFirstOfThePair) {
+TEST(Sobol, SingleNumberIsTheFirstOfThePair) {
   for (std::uint32_t k = 0; k < 100; ++k) {
     const Sobol sobol(pixel_key(9, 5, 5), k);
     EXPECT_EQ(sobol.one(4), sobol.pair(4).x);

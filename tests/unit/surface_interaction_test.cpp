@@ -80,7 +80,7 @@ TEST(SurfaceInteraction, MissingAttributesHaveDefaults) {
   EXPECT_FALSE(met.uv(0));
 }
 
-TEST(SurfaceInteraction, NormalsThatCancelFallBackToTheFlatOne) {
+TEST(SurfaceInteraction, NormalsThatCancelFallBackToTheGeometricNormal) {
   Mesh mesh = corner();
   mesh.normals = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 0}};
   expect_near(meet(mesh, kDown).ns, {0, 0, 1});

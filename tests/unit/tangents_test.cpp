@@ -97,7 +97,7 @@ TEST(Tangents, ShearedCoordinatesGiveTheDerivativeByU) {
   }
 }
 
-TEST(Tangents, OfASpherePointEast) {
+TEST(Tangents, PointEastOnASphere) {
   const auto on_sphere = [](double x, double y) {
     const double longitude = 2 * kPi * x, latitude = kPi * (0.8 * y - 0.4);
     return Vec3(std::cos(longitude) * std::cos(latitude), std::sin(latitude),
@@ -309,7 +309,7 @@ TEST(Tangents, IndexingHasNoEffect) {
   }
 }
 
-TEST(Tangents, AFanOfManyTrianglesTakesLinearTime) {
+TEST(Tangents, FanOfManyTrianglesTakesLinearTime) {
   Mesh mesh;
   constexpr std::uint32_t count = 200'000;
   mesh.positions.push_back({0, 0, 1});

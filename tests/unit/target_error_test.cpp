@@ -60,7 +60,7 @@ TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   }
 }
 
-TEST(TileErrors, ABlackPictureHasNone) {
+TEST(TileErrors, BlackPicturesHaveNone) {
   const SampleSums sums({.width = 9, .height = 3}, {0, 0, 9, 3}, Vec3(0));
   EXPECT_EQ(tile_errors(sums), (std::vector<double>{0, 0}));
 }

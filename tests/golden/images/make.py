@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the images of the folders beside it, which together reach the vector code of the decoders: every subsampling, sizes that are no
+"""Writes the images of the folders beside it, which together reach the vector code of the decoders: every subsampling, sizes that are not
 multiples of a block, progressive and restarted scans, loop filters, alpha. Needs libjpeg-turbo-progs and webp.
 """
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Halves the error bounds of mutations.txt one by one in a copy of the source, builds the tests with each and runs them:
-one has to fail. Where the text says that a proof stands beside the bound it is only looked up.
+one must fail. For bounds whose entry cites a proof beside the bound, only the presence of the text is checked.
 
 usage: mutations.py BUILD FOLDER [NAME...]
 
