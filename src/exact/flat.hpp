@@ -137,7 +137,7 @@ template <class Number>
 
 /// True if a triangle with an area has a point on the segment from the origin to o + t d, given
 /// that the segment's ends are not both strictly on one side of its plane. Decided by the sides on
-/// which the segment's line clears_box the edges.
+/// which the segment's line passes the edges.
 template <class Number>
 [[nodiscard]] bool meets_segment_to(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
                                     const VectorOf<Number>& d, const auto& side_at) {

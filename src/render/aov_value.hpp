@@ -1,5 +1,5 @@
 #pragma once
-/// The numbers of exact outputs.
+/// Values of exact quantities (AOVs).
 
 #include <microtrace/aov.hpp>
 #include <microtrace/hit.hpp>
@@ -14,13 +14,13 @@
 
 namespace microtrace {
 
-/// The names of an output's numbers, at most three.
+/// The channel names of a quantity, at most three.
 [[nodiscard]] std::span<const std::string_view> channels_of(Aov aov);
 
-/// Turns the first hits of rays into those of surfaces that are there, as Aov says.
+/// Finds the first visible surface of each ray, as defined by Aov.
 void find_seen(const World& world, std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
 
-/// What a ray sees.
+/// A visible surface and the ray that hits it.
 struct Sight {
   const World& world;
   const Ray& ray;
@@ -28,11 +28,11 @@ struct Sight {
   SurfaceInteraction at;
 };
 
-/// Each but id.
+/// All quantities but id.
 [[nodiscard]] std::array<float, 3> value_of(Aov aov, const Sight& sight);
 [[nodiscard]] std::array<float, 3> value_of_nothing(Aov aov);
 
-/// Instance, primitive and material.
+/// The ids of instance, primitive and material.
 [[nodiscard]] std::array<std::uint32_t, 3> ids_of(const World& world,
                                                   const std::optional<Hit>& hit);
 

@@ -26,15 +26,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Where samples are random their number is open: textures are filtered for the part of a pixel
-/// that one of so many stands for.
+/// Texture filters of Monte Carlo integrators assume this many samples per pixel, because the
+/// actual number is not known in advance.
 constexpr std::uint32_t kSamplesOfRandomTextures = 16;
 
 double seconds(Clock::time_point from, Clock::time_point to) {
   return std::chrono::duration<double>(to - from).count();
 }
 
-/// Numbers of 32 bits that a film has for each pixel, with the channels beside its colours.
+/// 32-bit numbers per pixel of a film, including its channels.
 std::uint64_t numbers_of_pixel(const RenderOptions& options) {
   constexpr std::uint64_t kMostOfAov = 4;
   return 4 + kMostOfAov * (options.aovs.size() + options.sampled_aovs.size());
@@ -100,8 +100,8 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
                   std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
 }
 
-/// What a picture is drawn of: the scene, or the same with points and lines widened, or moved next
-/// to the origin.
+/// The rendered scene: the prepared one, or a variant with widened points and lines or a translated
+/// origin.
 struct View {
   std::shared_ptr<const PreparedScene::Content> content;
   RayGenerator camera;
@@ -130,7 +130,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
 
   const auto shown = has_segments(content->scene()) ? content->widened(camera, size) : content;
-  // Exact outputs are those of the scene as it stands.
+  // Exact quantities refer to the untranslated scene.
   const View exact(shown, camera, size);
   std::optional<View> near;
   if (integrator.is_random()) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The base colors of a scene's surfaces and how much of them is there, before any light.
+/// Base colors and coverage of a scene's surfaces, without lighting.
 
 #include "render/texture_map.hpp"
 
@@ -24,14 +24,14 @@ struct World;
 /// Immutable; any number of threads may use it.
 class Surfaces {
  public:
-  /// All must outlive this.
+  /// The arguments must outlive this object.
   Surfaces(const Scene& scene, const Primitives& primitives, SharedTables& tables);
 
   /// See World::base_color.
   [[nodiscard]] Vec4 look(const World& world, const Ray& ray, const Hit& hit) const;
 
-  /// The same for surfaces without textures and vertex colors where the ray ends, the most common
-  /// case, and faster. Null for others.
+  /// The same for surfaces without textures and vertex colors, the most common case, and faster.
+  /// Null for others.
   [[nodiscard]] const Vec3* plain_look(const Ray& ray, const Hit& hit) const {
     const Entry& entry = entries_[primitives_.object_index(hit.id)];
     if (entry.kind == Kind::various) return nullptr;
@@ -39,8 +39,8 @@ class Surfaces {
     return &entry.color;
   }
 
-  /// Whether two hits of a ray are the same point of one surface: on an edge or vertex shared by
-  /// two triangles of a mesh that face the ray with the same side.
+  /// True if two hits of a ray are the same point of one surface, on an edge or vertex shared by
+  /// two triangles of a mesh that show the ray the same side.
   [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;
 
   /// See World::first_visible.

@@ -26,7 +26,7 @@ class TextureMap {
   /// Makes the pyramid compute its mip maps if the sampler uses them.
   TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler);
 
-  /// With its own pyramid. The image must outlive this object.
+  /// The map gets its own pyramid. The image must outlive this object.
   TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding);
 
   /// The color at uv, where (0, 0) is the upper left corner of the image and (1, 1) the lower right
@@ -56,7 +56,7 @@ class TextureMap {
   /// Prefetches the texels at this address.
   void fetch(const Place& place) const;
 
-  /// Whether both have the same texel addresses.
+  /// True if both have the same texel addresses.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;
 
   static constexpr int kMaxProbes = 8;
@@ -65,7 +65,7 @@ class TextureMap {
   [[nodiscard]] std::size_t level_count() const { return levels_.size() + 1; }
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
-  /// For a footprint of this many texels, above 1.
+  /// For footprints of more than one texel.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
 
   std::shared_ptr<const TexturePyramid> pyramid_;

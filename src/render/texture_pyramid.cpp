@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// The linear light of all numbers of so many bits.
+/// The linear light of all sample values with this number of bits.
 template <std::size_t Count>
 std::array<float, Count> make_table(ColorEncoding encoding) {
   std::array<float, Count> table;
@@ -31,13 +31,13 @@ std::span<const float> table(bool is_wide, ColorEncoding encoding) {
   return encoding == ColorEncoding::srgb ? srgb16 : linear16;
 }
 
-/// What one pixel of a mip map covers along one axis of the finer image: up to three of its pixels.
+/// The pixels of the finer level that a pixel of a mip map covers along one axis, at most three.
 struct Cover {
   std::uint32_t first = 0, count = 0;
   std::array<double, 3> weights{};
 };
 
-/// Pixel i of n / 2 covers [i n / m, (i + 1) n / m) of n.
+/// Pixel i of the m = n / 2 pixels covers [i n / m, (i + 1) n / m) of the n finer ones.
 Cover cover(std::uint32_t i, std::uint32_t n) {
   const std::uint32_t m = std::max(n / 2, 1U);
   const double begin = double{1} * i * n / m, end = double{1} * (i + 1) * n / m;
@@ -108,11 +108,11 @@ void TexturePyramid::make_levels() {
 
 namespace {
 
-/// Four numbers in registers: GLM's are computed one by one.
+/// Four numbers in SIMD registers; GLM would compute them one by one.
 typedef double FourDoubles __attribute__((vector_size(32)));
 
-/// What make_levels does where each pixel covers four. add(x, y, sum) adds to the sum a pixel of
-/// the finer level times kPart.
+/// A level of exactly half the size. add(x, y, sum) adds a pixel of the finer level, times kPart,
+/// to the sum.
 constexpr double kPart = 0.25 * 65535.0;
 template <class Add>
 void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,

@@ -26,7 +26,7 @@ class TexturePyramid {
   };
 
   [[nodiscard]] const Image& image() const { return *image_; }
-  /// The table from the image's numbers to linear light.
+  /// The table from sample values to linear light.
   [[nodiscard]] std::span<const float> color_table() const { return color_table_; }
   [[nodiscard]] std::span<const float> alpha_table() const { return alpha_table_; }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Noise of the parts of a picture.
+/// Estimated noise of tiles.
 
 #include <microtrace/sample_sums.hpp>
 
@@ -12,8 +12,9 @@ namespace microtrace {
 /// window. 0 if all pixels are black. Summed in a fixed order.
 [[nodiscard]] std::vector<double> tile_errors(const SampleSums& sums);
 
-/// Whether each tile has converged: its error and those of its eight neighbors are at most
-/// `target`. The condition on neighbors continues tiles that have not sampled a bright spot yet.
+/// For each tile: true if it has converged, because its error and those of its eight neighbors are
+/// at most `target`. The condition on neighbors continues tiles that have not sampled a bright spot
+/// yet.
 [[nodiscard]] std::vector<bool> good_tiles(const std::vector<double>& errors,
                                            const PixelRect& window, double target);
 

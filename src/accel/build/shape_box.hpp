@@ -13,7 +13,7 @@ namespace microtrace::build {
 [[nodiscard]] bool is_empty(const Quadric& quadric);
 
 /// A box that contains every point of a nonempty shape: exact for a triangle, rounded outwards by
-/// at most two units in the last slot for a sphere or a disc. Infinite if it exceeds the range of
+/// at most two units in the last place for a sphere or a disc. Infinite if it exceeds the range of
 /// float32.
 [[nodiscard]] Box box_of(const Triangle& triangle);
 [[nodiscard]] Box box_of(const Sphere& sphere);

@@ -55,7 +55,7 @@ class TrianglePlaneFilter {
 };
 
 /// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of w_a = d.(B x C), w_b =
-/// d.(C x A), w_c = d.(A x B) tell the side on which the ray clears_box each edge. Two strictly
+/// d.(C x A), w_c = d.(A x B) tell the side on which the ray passes each edge. Two strictly
 /// opposite signs are a miss; three equal signs are an intersection of the triangle's plane inside
 /// the triangle.
 class TriangleFilter {

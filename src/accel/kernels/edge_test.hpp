@@ -60,7 +60,7 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
                   : size < -size_bound && height > height_bound;
 }
 
-/// Whether the line of a ray clears_box through triangle k of a block, including its edges.
+/// Whether the line of a ray passes through triangle k of a block, including its edges.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;
   const auto [a, e1, e2] = NearTriangle(block, k, o);

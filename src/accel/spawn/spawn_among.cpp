@@ -47,7 +47,7 @@ class Neighbors {
   }
 
   /// Whether the segment from the hit to q meets none of the surfaces: q is strictly on the
-  /// required side, or the segment clears_box beside the surface. A surface that contains the ray
+  /// required side, or the segment passes beside the surface. A surface that contains the ray
   /// has no required side.
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {

@@ -24,7 +24,7 @@ class Dyadic {
  public:
   static constexpr int kCapacity = 112;  ///< limbs
 
-  Dyadic() {}            // NOLINT: not "= default": the limbs stay uninitialised even in Dyadic{}
+  Dyadic() {}            // NOLINT: not "= default": the limbs stay uninitialized even in Dyadic{}
   Dyadic(float value);   ///< exact; value is finite
   Dyadic(double value);  ///< exact; value is finite
   Dyadic(const Dyadic& other) { copy(other); }

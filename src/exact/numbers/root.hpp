@@ -33,7 +33,7 @@ struct Root {
 /// A double close to x: see middle().
 [[nodiscard]] double to_double(const Dyadic& x);
 
-/// Doubles below and above t, a few units in the last slot apart. If |t| is about 2^1000 or more,
+/// Doubles below and above t, a few units in the last place apart. If |t| is about 2^1000 or more,
 /// or 2^-1000 or less, the upper bound may be infinity or the lower bound 0.
 [[nodiscard]] Enclosure enclose(const Root& t);
 

@@ -13,7 +13,7 @@ inline constexpr std::uint32_t kDirectionPair = 0;    ///< outgoing direction
 inline constexpr std::uint32_t kLobePair = 1;         ///< lobe, and Russian roulette
 inline constexpr std::uint32_t kLightPair = 2;        ///< position on a light
 inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the light
-/// Whether alpha lets the path through. Each further layer uses a pair kLayerPairs later.
+/// Decides if alpha lets the path pass. Each further layer uses a pair kLayerPairs later.
 inline constexpr std::uint32_t kCoveragePair = 4;
 inline constexpr std::uint32_t kLayerPairs = 1U << 16U;
 
