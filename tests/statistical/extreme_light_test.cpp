@@ -1,6 +1,7 @@
 /// Lights with extreme float32 parameters: minimum and maximum sizes, intensities and distances.
 #include "render/lights/light_tree.hpp"
 #include "render/prepared/content.hpp"
+#include "support/light_samples.hpp"
 #include "support/pictures.hpp"
 
 #include <microtrace/path.hpp>
@@ -105,7 +106,7 @@ TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
     const LightTree tree(all);
     for (int i = 0; i < 4; ++i) {
       const Vec3 p = i == 0 ? all[random.below(count)].low : random.place(), n = random.direction();
-      const double importance = tree.importance(p, n);
+      const double importance = LightNodes<1>(*tree.nodes()).importance(DVec3(p), n);
       ASSERT_TRUE(std::isfinite(importance) && importance >= 0) << seed;
       double sum = 0;
       for (std::size_t light = 0; light < count; ++light) {
@@ -119,7 +120,7 @@ TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
       EXPECT_LE(sum, 1 + 1e-5) << seed;
       double chosen = 0;
       for (int k = 0; k < 100; ++k) {
-        const auto choice = tree.choose(p, n, (static_cast<float>(k) + 0.5F) / 100);
+        const auto choice = chosen_light(tree, p, n, (static_cast<float>(k) + 0.5F) / 100);
         if (!choice) continue;
         ASSERT_LT(choice->light, count);
         ASSERT_EQ(choice->probability, tree.probability(choice->light, p, n)) << seed;
@@ -202,7 +203,8 @@ TEST(ExtremeLights, SamplesAreFinite) {
     const Lighting lighting = prepared.content().lighting({});
     for (int i = 0; i < 30; ++i) {
       const LightSampleContext context{.p = random.place(), .n = random.direction()};
-      const auto light = lighting.sample(context, {random.unit(), random.unit()}, random.unit());
+      const auto light =
+          light_sample(lighting, context, {random.unit(), random.unit()}, random.unit());
       if (!light) continue;
       ASSERT_TRUE(is_light(light->light)) << seed;
       ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-4) << seed;

@@ -1,5 +1,7 @@
 #include "render/lights/light_tree.hpp"
 
+#include "support/light_samples.hpp"
+
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 
@@ -51,7 +53,7 @@ TEST(LightTree, ProbabilitiesAddUpToOne) {
       double sum = 0, chosen = 0;
       for (int light = 0; light < count; ++light) sum += tree.probability(std::size_t(light), p, n);
       for (int k = 0; k < 1000; ++k)
-        chosen += tree.choose(p, n, (float(k) + 0.5F) / 1000) ? 1e-3 : 0;
+        chosen += chosen_light(tree, p, n, (float(k) + 0.5F) / 1000) ? 1e-3 : 0;
       EXPECT_LE(sum, 1 + 1e-4) << count;
       EXPECT_NEAR(sum, chosen, 0.01) << count;
     }
@@ -66,7 +68,7 @@ TEST(LightTree, ChoosesEachByItsProbability) {
     const Vec3 p = random.in_cube(5), n = random.direction();
     std::vector<int> chosen(count);
     for (int k = 0; k < samples; ++k) {
-      const auto choice = tree.choose(p, n, (float(k) + 0.5F) / samples);
+      const auto choice = chosen_light(tree, p, n, (float(k) + 0.5F) / samples);
       ASSERT_TRUE(choice);
       EXPECT_EQ(choice->probability, tree.probability(choice->light, p, n));
       ++chosen[choice->light];

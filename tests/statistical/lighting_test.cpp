@@ -1,6 +1,7 @@
 /// Compares directions from light sampling with their pdf.
 #include "render/prepared/content.hpp"
 #include "support/chi_square.hpp"
+#include "support/light_samples.hpp"
 #include "support/pictures.hpp"
 
 #include <microtrace/prepared_scene.hpp>
@@ -90,7 +91,7 @@ TEST_P(Lamps, SamplesHaveTheirPdf) {
     int differ = 0;
     for (int i = 0; i < samples; ++i) {
       const Vec2 place(u(random), u(random));
-      const auto light = lighting.sample(context, place, u(random));
+      const auto light = light_sample(lighting, context, place, u(random));
       ++counts[light ? cell_of(light->wi) : counts.size() - 1];
       if (!light || i >= 2000) continue;
       // The sample's own values, without other lights in the same direction.
@@ -140,7 +141,7 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
   std::array<double, 2> all{};
   for (int i = 0; i < samples; ++i) {
     const Vec2 place(u(random), u(random));
-    const auto light = lighting.sample(context, place, u(random));
+    const auto light = light_sample(lighting, context, place, u(random));
     ASSERT_TRUE(light && light->target);
     const DVec3 p = DVec3(context.p) + DVec3(light->to_light);
     const double b = p.z / 3, a = (p.x - b) / 2;  // along, up

@@ -7,54 +7,20 @@
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/lane_access.hpp"
 #include "render/kernels/scatter.hpp"
+#include "support/lane_tests.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <random>
 
 #include <gtest/gtest.h>
 
 namespace microtrace {
 namespace {
 
-constexpr int kRounds = 500;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  float number() { return static_cast<float>(engine_() >> 8U) * 0x1p-24F; }
-  float signed_unit() { return 2 * number() - 1; }
-  std::uint32_t bits() { return static_cast<std::uint32_t>(engine_()); }
-  Vec3 vector() { return {signed_unit(), signed_unit(), signed_unit()}; }
-  Vec3 color() { return {number(), number(), number()}; }
-  Vec3 direction() { return unit<1>(vector() + Vec3(0, 0, 1e-3F)); }
-  /// A direction above the plane with this normal.
-  Vec3 above(const Vec3& n) {
-    const Vec3 w = direction();
-    return glm::dot(w, n) < 0 ? -w : w;
-  }
-
- private:
-  std::mt19937 engine_;
-};
-
-/// Equal bits; NaN equals NaN.
-void expect_bits(float a, float b, const char* what) {
-  if (std::isnan(a) && std::isnan(b)) return;
-  ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b))
-      << what << ": " << a << " instead of " << b;
-}
-template <std::size_t count>
-void expect_bits(const LaneFloats (&a)[count], const LaneFloats (&b)[count], int lane,
-                 const char* what) {
-  for (std::size_t k = 0; k < count; ++k) expect_bits(a[k][lane], b[k][lane], what);
-}
-
 class ShadingKernelsTest : public testing::TestWithParam<const ShadingKernels*> {};
 
 TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
-  Random random(1);
+  LaneRandom random(1);
   int asked = 0;
   for (int round = 0; round < kRounds; ++round) {
     HitLanes lanes{};
@@ -107,7 +73,7 @@ TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
 }
 
 TEST_P(ShadingKernelsTest, NormalsHaveTheBitsOfOneLane) {
-  Random random(2);
+  LaneRandom random(2);
   int turned = 0;
   for (int round = 0; round < kRounds; ++round) {
     NormalLanes points{};
@@ -136,7 +102,7 @@ TEST_P(ShadingKernelsTest, NormalsHaveTheBitsOfOneLane) {
   EXPECT_GT(turned, kRounds * kShadingLanes / 2);
 }
 
-void put_any_surface(SurfaceLanes& lanes, int i, Random& random) {
+void put_any_surface(SurfaceLanes& lanes, int i, LaneRandom& random) {
   const auto factor = [&] { return std::clamp(1.5F * random.number() - 0.25F, 0.0F, 1.0F); };
   put(lanes.base_color, i, random.number() < 0.2F ? Vec3(0) : random.color());
   lanes.metallic[i] = factor();
@@ -159,7 +125,7 @@ void put_any_surface(SurfaceLanes& lanes, int i, Random& random) {
   lanes.coat_roughness[i] = random.number();
 }
 
-bsdf::Features any_features(Random& random) {
+bsdf::Features any_features(LaneRandom& random) {
   const auto chance = [&] { return random.number() < 0.3F; };
   bsdf::Features result{.is_anisotropic = chance(), .has_film = chance(), .transmits = chance()};
   result.refracts = result.transmits && random.number() < 0.5F;
@@ -168,7 +134,7 @@ bsdf::Features any_features(Random& random) {
 }
 
 TEST_P(ShadingKernelsTest, ScatteringHasTheBitsOfOneLane) {
-  Random random(3);
+  LaneRandom random(3);
   int lit = 0, alive = 0, below = 0;
   for (int round = 0; round < 4 * kRounds; ++round) {
     ScatterLanes lanes{};

@@ -64,10 +64,10 @@ void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
   waiting_[static_cast<std::size_t>(lane)] = {.ray = &vertex.ray,
                                               .hit = vertex.hit,
                                               .path = &path,
-                                              .p = point.at.p,
                                               .width = point.width,
                                               .channel = vertex.channel,
                                               .absorption = vertex.absorption};
+  put(light_choices_.p, lane, point.at.p);
   put_point(points_, lane, vertex.ray, point.at);
   add_normal_maps(lane, point);
   put(scatter_.d, lane, vertex.ray.d);
@@ -101,18 +101,18 @@ void VertexQueue::find_frames() {
 }
 
 void VertexQueue::ask_lights(const WaveStep& step, const Lighting& lighting) {
-  alignas(64) LaneFloats u, v, choice, unused;
-  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair), u, v);
-  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair), choice,
-                        unused);
+  alignas(64) LaneFloats unused;
+  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair),
+                        triangle_lights_.u[0], triangle_lights_.u[1]);
+  kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightChoicePair),
+                        light_choices_.choice, unused);
+  std::memcpy(light_choices_.n, scatter_.frame_n, sizeof light_choices_.n);
+  lighting.sample(kernels_, count_, light_choices_, triangle_lights_, lights_);
   for (int lane = 0; lane < count_; ++lane) {
-    const auto i = static_cast<std::size_t>(lane);
-    const std::optional<LightSample> light = lighting.sample(
-        {.p = waiting_[i].p, .n = got(scatter_.frame_n, lane)}, {u[lane], v[lane]}, choice[lane]);
-    lights_[i] = light.value_or(LightSample{});
-    put(scatter_.light_wi, lane, lights_[i].wi);
-    put(scatter_.light, lane, lights_[i].light);
-    scatter_.light_pdf[lane] = lights_[i].pdf;
+    const LightSample& light = lights_[static_cast<std::size_t>(lane)];
+    put(scatter_.light_wi, lane, light.wi);
+    put(scatter_.light, lane, light.light);
+    scatter_.light_pdf[lane] = light.pdf;
   }
 }
 
@@ -139,7 +139,7 @@ void VertexQueue::go_on(int lane, const WaveStep& step, Departures& departures) 
   next = *vertex.path;
   next.throughput = got(scatter_.next_throughput, lane);
   next.pdf = pdf;
-  next.from = {.p = vertex.p, .n = got(scatter_.frame_n, lane)};
+  next.from = {.p = got(light_choices_.p, lane), .n = got(scatter_.frame_n, lane)};
   next.begin = vertex.width;
   next.spread += step.spread(pdf);
   if (!features_.transmits || scatter_.is_below[lane] == 0) return;

@@ -52,7 +52,6 @@ class VertexQueue {
     const Ray* ray;
     Hit hit;
     const PathState* path;
-    Vec3 p;
     float width;
     int channel;
     Vec3 absorption;  ///< below the surface
@@ -67,6 +66,8 @@ class VertexQueue {
   const ShadingKernels& kernels_;
   int count_ = 0;
   std::array<Waiting, kShadingLanes> waiting_{};
+  LightChoices<kShadingLanes> light_choices_{};
+  TriangleLights<kShadingLanes> triangle_lights_{};
   std::array<LightSample, kShadingLanes> lights_{};
   NormalLanes points_{};
   NormalMapLanes normals_{}, coat_normals_{};

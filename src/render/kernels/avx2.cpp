@@ -1,9 +1,16 @@
+#include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 
 namespace microtrace {
-const ShadingKernels kAvx2Shading{"avx2", random_pairs<8>, find_points<8, kShadingLanes>,
-                                  find_normals<8>, scatter<8>};
+const ShadingKernels kAvx2Shading{"avx2",
+                                  random_pairs<8>,
+                                  find_points<8, kShadingLanes>,
+                                  find_normals<8>,
+                                  choose_lights<8, kShadingLanes>,
+                                  sample_triangles<8, kShadingLanes>,
+                                  scatter<8>};
 }

@@ -1,9 +1,16 @@
+#include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 
 namespace microtrace {
-const ShadingKernels kAvx512Shading{"avx512", random_pairs<16>, find_points<16, kShadingLanes>,
-                                    find_normals<16>, scatter<16>};
+const ShadingKernels kAvx512Shading{"avx512",
+                                    random_pairs<16>,
+                                    find_points<16, kShadingLanes>,
+                                    find_normals<16>,
+                                    choose_lights<16, kShadingLanes>,
+                                    sample_triangles<16, kShadingLanes>,
+                                    scatter<16>};
 }

@@ -6,6 +6,7 @@
 /// A kernel performs the same computation for up to kShadingLanes paths.
 
 #include "render/bsdf/features.hpp"
+#include "render/kernels/light_lanes.hpp"
 #include "render/kernels/surface_lanes.hpp"
 
 #include <cstdint>
@@ -78,6 +79,8 @@ struct ShadingKernels {
                        std::uint32_t number, float* x, float* y);
   void (*find_points)(HitLanes& lanes);
   void (*find_normals)(const NormalLanes& points, NormalMapLanes& map);
+  void (*choose_lights)(const LightChoiceSetup& setup, LightChoices<kShadingLanes>& lanes);
+  void (*sample_triangles)(TriangleLights<kShadingLanes>& lanes);
   void (*scatter)(const ScatterSetup& setup, ScatterLanes& lanes);
 };
 

@@ -1,9 +1,16 @@
+#include "render/kernels/choose_lights.hpp"
 #include "render/kernels/find_normals.hpp"
 #include "render/kernels/find_points.hpp"
 #include "render/kernels/random_pairs.hpp"
+#include "render/kernels/sample_triangles.hpp"
 #include "render/kernels/scatter.hpp"
 
 namespace microtrace {
-const ShadingKernels kPortableShading{"portable", random_pairs<4>, find_points<4, kShadingLanes>,
-                                      find_normals<4>, scatter<4>};
+const ShadingKernels kPortableShading{"portable",
+                                      random_pairs<4>,
+                                      find_points<4, kShadingLanes>,
+                                      find_normals<4>,
+                                      choose_lights<4, kShadingLanes>,
+                                      sample_triangles<4, kShadingLanes>,
+                                      scatter<4>};
 }

@@ -1,6 +1,7 @@
 #include "render/lights/emitters.hpp"
 
 #include "base/memory_account.hpp"
+#include "render/kernels/lane_access.hpp"
 #include "render/lights/area_light.hpp"
 #include "render/lights/punctual.hpp"
 #include "render/luminance.hpp"
@@ -15,18 +16,13 @@
 namespace microtrace {
 namespace {
 
-Vec3 corner_weights(const Vec2& u) {
-  const Vec2 w = sampling::triangle_weights(u);
-  return {w.x, w.y, std::max(1 - w.x - w.y, 0.0F)};
-}
-
 double area_of(const Triangle& t) {
   const DVec3 n = glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
 /// For each emitter: its entry, its bounds and its tree nodes, including unused capacity.
-constexpr std::uint64_t kBytesOfEmitter = 260;
+constexpr std::uint64_t kBytesOfEmitter = 276;
 
 void take_memory_for_emitters(std::uint64_t count) {
   take_memory(count * kBytesOfEmitter, "the lights of the scene");
@@ -102,19 +98,24 @@ void Emitters::add_lights(std::vector<LightBounds>& bounds) {
   }
 }
 
-std::optional<FoundLight> Emitters::of_triangle(const Emitter& emitter, const Vec3& p,
-                                                const Vec2& u) const {
-  const Vec3 weights = corner_weights(u);
-  ShadingPoint point = shading_.point_on(emitter.id, weights, true, 0);
-  const DVec3 to_light = DVec3(point.at.p) - DVec3(p);
-  const double square = glm::dot(to_light, to_light);
-  if (!(square > 0) || !std::isfinite(square)) return std::nullopt;
-  const Vec3 wi(to_light / std::sqrt(square));
-  const float cosine = -glm::dot(wi, point.at.n);
-  point.at.front = cosine > 0;
-  if (cosine == 0) return std::nullopt;
-  return of_point(point, emitter.id, to_light, wi,
-                  square / (emitter.area * double{std::abs(cosine)}));
+void Emitters::put_triangle(std::uint32_t light, int lane,
+                            TriangleLights<kShadingLanes>& lanes) const {
+  const PrimitiveId id = emitters_[light].id;
+  const auto& [corners, look] = shading_.triangle(id);
+  put(lanes.corners[0], lane, corners.a);
+  put(lanes.corners[1], lane, corners.b);
+  put(lanes.corners[2], lane, corners.c);
+  lanes.has_back[lane] = has_back(*look.material) ? 1.0F : 0.0F;
+  if (look.has_constant_emission) {
+    put(lanes.emission, lane, glm::min(look.material->emissive, Vec3(kBrightest)));
+    lanes.coverage[lane] = 1;
+    return;
+  }
+  const Vec2 w = sampling::triangle_weights({lanes.u[0][lane], lanes.u[1][lane]});
+  const ShadingPoint point =
+      shading_.point_on(id, {w.x, w.y, std::max(1 - w.x - w.y, 0.0F)}, true, 0);
+  put(lanes.emission, lane, shading_.emission(point));
+  lanes.coverage[lane] = shading_.coverage(point, false);
 }
 
 std::optional<FoundLight> Emitters::of_shape(const Emitter& emitter, const Vec3& p,
@@ -122,42 +123,33 @@ std::optional<FoundLight> Emitters::of_shape(const Emitter& emitter, const Vec3&
   const std::optional<ShapeSample> sample = sample_shape(*emitter.shape, p, u);
   if (!sample) return std::nullopt;
   const ShadingPoint point = shading_.point_on(emitter.id, Vec3(0), sample->front, 0);
-  return of_point(point, emitter.id, sample->to_light, sample->wi, sample->pdf);
-}
-
-std::optional<FoundLight> Emitters::of_point(const ShadingPoint& point, PrimitiveId id,
-                                             const DVec3& to_light, const Vec3& wi,
-                                             double pdf) const {
   const float coverage = shading_.coverage(point, false);
   const Vec3 emission = shading_.emission(point);
   if (coverage == 0 || emission == Vec3(0)) return std::nullopt;
-  return FoundLight{.to_light = to_light,
-                    .wi = wi,
-                    .light = DVec3(emission) * (double{coverage} / pdf),
-                    .pdf = pdf,
-                    .target = id};
+  return FoundLight{.to_light = sample->to_light,
+                    .wi = sample->wi,
+                    .light = DVec3(emission) * (double{coverage} / sample->pdf),
+                    .pdf = sample->pdf,
+                    .target = emitter.id};
 }
 
-std::optional<LightSample> Emitters::sample_far(const LightSampleContext& context, float choice,
+std::optional<LightSample> Emitters::sample_far(const Vec3& p, float choice,
                                                 double probability) const {
   const auto count = static_cast<float>(far_lights_.size());
   const auto i = static_cast<std::size_t>(std::min(choice * count, count - 1));
-  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, context.p);
+  const auto found = of_punctual(scene_.lights[far_lights_[i]].light, p);
   if (!found) return std::nullopt;
   return found->with_probability(probability / double{count});
 }
 
-std::optional<LightSample> Emitters::sample_near(const LightSampleContext& context, const Vec2& u,
-                                                 float choice, double probability) const {
-  const std::optional<LightTree::Choice> chosen = tree_->choose(context.p, context.n, choice);
-  if (!chosen) return std::nullopt;
-  const Emitter& emitter = emitters_[chosen->light];
-  const std::optional<FoundLight> found =
-      emitter.light != kNone     ? of_punctual(scene_.lights[emitter.light].light, context.p)
-      : emitter.shape != nullptr ? of_shape(emitter, context.p, u)
-                                 : of_triangle(emitter, context.p, u);
+std::optional<LightSample> Emitters::sample_near(std::uint32_t light, const Vec3& p, const Vec2& u,
+                                                 double probability) const {
+  const Emitter& emitter = emitters_[light];
+  const std::optional<FoundLight> found = emitter.light != kNone
+                                              ? of_punctual(scene_.lights[emitter.light].light, p)
+                                              : of_shape(emitter, p, u);
   if (!found) return std::nullopt;
-  return found->with_probability(probability * chosen->probability);
+  return found->with_probability(probability);
 }
 
 std::optional<std::size_t> Emitters::find(PrimitiveId id) const {
@@ -175,7 +167,7 @@ float Emitters::pdf(std::size_t light, const LightSampleContext& context, float 
                          ? shape_pdf(*emitter.shape, context.p, distance, cosine)
                          : length * length / (emitter.area * double{cosine});
   probability *= tree_->probability(light, context.p, context.n);
-  return probability > 0 ? limited_pdf(pdf * probability) : 0;
+  return probability > 0 ? static_cast<float>(limited_pdf<1>(pdf * probability)) : 0;
 }
 
 }  // namespace microtrace

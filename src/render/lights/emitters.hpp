@@ -1,6 +1,7 @@
 #pragma once
 /// The light sources of a scene other than its environment: emissive surfaces, punctual lights.
 
+#include "render/kernels/light_lanes.hpp"
 #include "render/lights/light_sample.hpp"
 #include "render/lights/light_tree.hpp"
 #include "render/shading/shading.hpp"
@@ -34,19 +35,27 @@ class Emitters {
   /// Directional lights.
   [[nodiscard]] bool has_far() const { return !far_lights_.empty(); }
 
-  /// Upper estimates of the irradiance at a point, for choosing among kinds of lights.
-  [[nodiscard]] double near_light(const LightSampleContext& context) const {
-    return tree_ ? tree_->importance(context.p, context.n) : 0;
+  /// For the selection of lights, without an environment.
+  [[nodiscard]] LightChoiceSetup choice_setup() const {
+    return {
+        .nodes = tree_ ? tree_->nodes() : nullptr, .has_far = has_far(), .far_light = far_light_};
   }
-  [[nodiscard]] double far_light() const { return far_light_; }
 
   /// A sample of the far lights; `choice` in [0, 1), `probability` that of sampling them at all.
-  [[nodiscard]] std::optional<LightSample> sample_far(const LightSampleContext& context,
-                                                      float choice, double probability) const;
-  /// The same of the near lights: `choice` selects one of them, u a point on it.
-  [[nodiscard]] std::optional<LightSample> sample_near(const LightSampleContext& context,
-                                                       const Vec2& u, float choice,
-                                                       double probability) const;
+  [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
+                                                      double probability) const;
+
+  /// Whether a near light is a triangle of a mesh.
+  [[nodiscard]] bool is_triangle(std::uint32_t light) const {
+    return emitters_[light].light == kNone && emitters_[light].shape == nullptr;
+  }
+  /// Sets a triangle's values for the kernel, for a sample with lanes.u.
+  void put_triangle(std::uint32_t light, int lane, TriangleLights<kShadingLanes>& lanes) const;
+  [[nodiscard]] PrimitiveId primitive(std::uint32_t light) const { return emitters_[light].id; }
+  /// A sample of another near light; u selects a point on it.
+  [[nodiscard]] std::optional<LightSample> sample_near(std::uint32_t light, const Vec3& p,
+                                                       const Vec2& u, double probability) const;
+
   /// The place of an emissive surface among the lights; nothing for other primitives.
   [[nodiscard]] std::optional<std::size_t> find(PrimitiveId id) const;
   /// The pdf by solid angle with which sample_near() yields a point of that surface, at that
@@ -69,14 +78,8 @@ class Emitters {
   void add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds);
   void add_shape(PrimitiveId id, const Shape& shape, std::vector<LightBounds>& bounds);
   void add_lights(std::vector<LightBounds>& bounds);
-  [[nodiscard]] std::optional<FoundLight> of_triangle(const Emitter& emitter, const Vec3& p,
-                                                      const Vec2& u) const;
   [[nodiscard]] std::optional<FoundLight> of_shape(const Emitter& emitter, const Vec3& p,
                                                    const Vec2& u) const;
-  /// The light of a surface point, as a sample of that pdf.
-  [[nodiscard]] std::optional<FoundLight> of_point(const ShadingPoint& point, PrimitiveId id,
-                                                   const DVec3& to_light, const Vec3& wi,
-                                                   double pdf) const;
 
   const Scene& scene_;
   const Shading& shading_;

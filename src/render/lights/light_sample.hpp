@@ -1,23 +1,17 @@
 #pragma once
+#include "render/lights/light_limits.hpp"
 #include "render/luminance.hpp"
 
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace {
-
-/// The pdf clamped to numbers whose square is representable in float32.
-[[nodiscard]] inline float limited_pdf(double pdf) {
-  constexpr double most = 0x1p60;
-  return static_cast<float>(pdf < most ? glm::max(pdf, 1 / most) : most);
-}
 
 /// A light sample: light that reaches a point from one direction if it is not occluded.
 struct LightSample {
@@ -44,14 +38,13 @@ struct FoundLight {
   /// Applies the probability of selecting this light among several.
   [[nodiscard]] LightSample with_probability(double probability) const {
     // Shadow rays need a direction that is representable in float32.
-    using Limits = std::numeric_limits<float>;
     const double reach = std::sqrt(glm::dot(to_light, to_light));
-    const bool has_direction = reach >= double{Limits::min()} && reach <= double{Limits::max()};
+    const bool has_direction = reach >= kLeastReach && reach <= kGreatestReach;
     return {.to_light = has_direction ? Vec3(to_light) : wi,
             .is_far = is_far || !has_direction,
             .wi = wi,
             .light = Vec3(glm::min(light / probability, DVec3(kBrightest))),
-            .pdf = pdf > 0 ? limited_pdf(pdf * probability) : 0,
+            .pdf = pdf > 0 ? static_cast<float>(limited_pdf<1>(pdf * probability)) : 0,
             .target = target};
   }
 };

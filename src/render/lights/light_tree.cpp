@@ -1,7 +1,5 @@
 #include "render/lights/light_tree.hpp"
 
-#include "render/sampling/warps.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,26 +16,7 @@ namespace {
 constexpr unsigned kDeepest = 24;
 constexpr int kBuckets = 12;
 
-/// The minimum probability of a child from which light can come, because the seemingly brighter
-/// child may be occluded.
-constexpr float kLeastProbability = 0x1p-12F;
-
-/// Below the square of every nonzero distance between float32 points.
-constexpr double kLeastSquare = 0x1p-300;
-
-/// An angle in [0, pi].
-struct Angle {
-  float cosine, sine;
-
-  explicit Angle(float c) : cosine(c), sine(std::sqrt(std::max(1 - c * c, 0.0F))) {}
-  Angle(float c, float s) : cosine(c), sine(s) {}
-};
-
-/// a - b, at least 0.
-Angle less(const Angle& a, const Angle& b) {
-  if (a.cosine >= b.cosine) return {1, 0};
-  return {a.cosine * b.cosine + a.sine * b.sine, a.sine * b.cosine - a.cosine * b.sine};
-}
+using Angle = LightAngle<1>;
 
 /// a + b, at most pi.
 Angle sum(const Angle& a, const Angle& b) {
@@ -52,8 +31,10 @@ LightCone united(const LightCone& a, const LightCone& b) {
   const float square = glm::dot(middle, middle);
   if (a.cos_o == -1 || b.cos_o == -1 || !(square > 1e-6F)) return cone;
   cone.axis = middle / std::sqrt(square);
-  const Angle to_a = sum(Angle(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle(a.cos_o));
-  const Angle to_b = sum(Angle(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle(b.cos_o));
+  const Angle to_a =
+      sum(Angle::of(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle::of(a.cos_o));
+  const Angle to_b =
+      sum(Angle::of(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle::of(b.cos_o));
   // Slightly wider, to compensate rounding.
   cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
   return cone;
@@ -62,6 +43,20 @@ LightCone united(const LightCone& a, const LightCone& b) {
 double half_area(const Vec3& low, const Vec3& high) {
   const DVec3 d = DVec3(high) - DVec3(low);
   return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+LightNode node_of(const LightBounds& bounds) {
+  const DVec3 from(bounds.low), to(bounds.high);
+  const DVec3 center = (from + to) * 0.5, diagonal = to - from;
+  const LightCone& cone = bounds.cone;
+  return {.center = {center.x, center.y, center.z},
+          .radius_square = glm::dot(diagonal, diagonal) * 0.25,
+          .power = bounds.power,
+          .axis = {cone.axis.x, cone.axis.y, cone.axis.z},
+          .cos_o = cone.cos_o,
+          .sin_o = Angle::of(cone.cos_o).sine,
+          .cos_e = cone.cos_e,
+          .is_two_sided = bounds.two_sided ? 1U : 0U};
 }
 
 struct Bucket {
@@ -94,25 +89,7 @@ LightBounds united(const LightBounds& a, const LightBounds& b) {
 }
 
 double LightBounds::importance(const Vec3& p, const Vec3& n) const {
-  const DVec3 from(low), to(high), to_light = DVec3(p) - (from + to) * 0.5, diagonal = to - from;
-  const double radius_square = glm::dot(diagonal, diagonal) * 0.25;
-  const double square = glm::dot(to_light, to_light);
-  if (!(square > 0)) return power / std::max(radius_square, kLeastSquare);
-  const Vec3 direction(to_light / std::sqrt(square));
-  const float along = glm::dot(cone.axis, direction);
-  const Angle to_point(std::min(two_sided ? std::abs(along) : along, 1.0F));
-  // The angle subtended by the box's bounding sphere.
-  const auto sine_square = static_cast<float>(std::min(radius_square / square, 1.0));
-  const Angle box = square <= radius_square
-                        ? Angle(-1, 0)
-                        : Angle(std::sqrt(1 - sine_square), std::sqrt(sine_square));
-  const Angle off_cone = less(to_point, Angle(cone.cos_o));
-  const Angle least = box.cosine == -1 ? Angle(1, 0) : less(off_cone, box);
-  if (least.cosine < cone.cos_e) return 0;
-  const Angle arriving(std::min(std::abs(glm::dot(direction, n)), 1.0F));
-  const Angle least_arriving = box.cosine == -1 ? Angle(1, 0) : less(arriving, box);
-  const float cosines = std::max(least.cosine, 0.0F) * std::max(least_arriving.cosine, 0.0F);
-  return power * double{cosines} / std::max(square, radius_square);
+  return LightNodes<1>(node_of(*this)).importance(DVec3(p), n);
 }
 
 LightTree::LightTree(const std::vector<LightBounds>& lights) : trails_(lights.size()) {
@@ -125,8 +102,9 @@ LightTree::LightTree(const std::vector<LightBounds>& lights) : trails_(lights.si
 void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
                       std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth) {
   const std::size_t place = nodes_.size();
-  nodes_.push_back({.bounds = lights[order[begin]]});
+  LightBounds bounds = lights[order[begin]];
   if (end - begin == 1) {
+    nodes_.push_back(node_of(bounds));
     nodes_[place].light = order[begin];
     trails_[order[begin]] = trail;
     return;
@@ -136,10 +114,11 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   };
   DVec3 low = center(order[begin]), high = low;
   for (std::size_t i = begin + 1; i < end; ++i) {
-    nodes_[place].bounds = united(nodes_[place].bounds, lights[order[i]]);
+    bounds = united(bounds, lights[order[i]]);
     low = glm::min(low, center(order[i]));
     high = glm::max(high, center(order[i]));
   }
+  nodes_.push_back(node_of(bounds));
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
@@ -172,49 +151,21 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
       middle = static_cast<std::size_t>(border - order.begin());
     }
   }
-  nodes_[place].is_leaf = false;
+  nodes_[place].is_leaf = 0;
   build(lights, order, begin, middle, trail, depth + 1);
   nodes_[place].second = static_cast<std::uint32_t>(nodes_.size());
   build(lights, order, middle, end, trail | std::uint64_t{1} << depth, depth + 1);
 }
 
-float LightTree::first_probability(const Node& node, const Vec3& p, const Vec3& n) const {
-  const double first = (&node + 1)->bounds.importance(p, n);
-  const double second = nodes_[node.second].bounds.importance(p, n);
-  if (first > 0 && second > 0)
-    return std::clamp(static_cast<float>(first / (first + second)), kLeastProbability,
-                      1 - kLeastProbability);
-  return first > 0 ? 1.0F : second > 0 ? 0.0F : -1.0F;
-}
-
-std::optional<LightTree::Choice> LightTree::choose(const Vec3& p, const Vec3& n, float u) const {
-  double probability = 1;
-  const Node* node = nodes_.data();
-  while (!node->is_leaf) {
-    const float first = first_probability(*node, p, n);
-    if (first < 0) return std::nullopt;
-    if (u < first) {
-      u = sampling::reused(u, 0, first);
-      probability *= double{first};
-      node = node + 1;
-    } else {
-      u = sampling::reused(u, first, 1 - first);
-      probability *= double{1 - first};
-      node = &nodes_[node->second];
-    }
-  }
-  return Choice{.light = node->light, .probability = probability};
-}
-
 double LightTree::probability(std::size_t light, const Vec3& p, const Vec3& n) const {
   double probability = 1;
-  const Node* node = nodes_.data();
-  for (std::uint64_t trail = trails_[light]; !node->is_leaf; trail >>= 1U) {
-    const float first = first_probability(*node, p, n);
+  std::uint32_t node = 0;
+  for (std::uint64_t trail = trails_[light]; nodes_[node].is_leaf == 0; trail >>= 1U) {
+    const float first = first_probability<1>(nodes_.data(), {node}, DVec3(p), n);
     if (first < 0) return 0;
     const bool is_second = (trail & 1U) != 0;
     probability *= double{is_second ? 1 - first : first};
-    node = is_second ? &nodes_[node->second] : node + 1;
+    node = is_second ? nodes_[node].second : node + 1;
   }
   return probability;
 }

@@ -3,12 +3,13 @@
 /// with adaptive tree splitting, 2018): a tree of boxes and cones, traversed from the root to one
 /// light with probabilities in proportion to upper bounds of each child's contribution.
 
+#include "render/lights/light_node.hpp"
+
 #include <microtrace/math.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -23,16 +24,14 @@ struct LightCone {
   float cos_e = 0;
 };
 
-/// Bounds of the position, direction and power of lights. Derived values are float64, because
-/// float32 can't represent squares and products of many float32 numbers.
+/// Bounds of the position, direction and power of lights.
 struct LightBounds {
   Vec3 low{0}, high{0};  ///< world space
   double power = 0;
   LightCone cone{};
   bool two_sided = false;  ///< emits around -axis too
 
-  /// An upper bound of the light at p, without the BSDF and a constant factor; `n` is the unit
-  /// normal at p, on either side.
+  /// See LightNodes::importance().
   [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const;
 };
 
@@ -51,35 +50,17 @@ class LightTree {
   /// The bounds of each light, at least one, in their order; each power is above 0.
   explicit LightTree(const std::vector<LightBounds>& lights);
 
-  /// The importance of all lights together.
-  [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const {
-    return nodes_.front().bounds.importance(p, n);
-  }
+  /// The nodes; the first is the root.
+  [[nodiscard]] const LightNode* nodes() const { return nodes_.data(); }
 
-  struct Choice {
-    std::size_t light;
-    double probability;  ///< selection probability at this point, above 0
-  };
-  /// Selects a light; u in [0, 1). Nothing if no light reaches the point.
-  [[nodiscard]] std::optional<Choice> choose(const Vec3& p, const Vec3& n, float u) const;
-
-  /// The probability with which choose() selects this light.
+  /// The probability with which choose_light() selects this light.
   [[nodiscard]] double probability(std::size_t light, const Vec3& p, const Vec3& n) const;
 
  private:
-  struct Node {
-    LightBounds bounds;
-    std::uint32_t second = 0;  ///< index of the second child; the first follows its parent
-    std::uint32_t light = 0;   ///< for leaves
-    bool is_leaf = true;
-  };
-
   void build(const std::vector<LightBounds>& lights, std::vector<std::uint32_t>& order,
              std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth);
-  /// The probability of the first child of an inner node; negative if neither child contributes.
-  [[nodiscard]] float first_probability(const Node& node, const Vec3& p, const Vec3& n) const;
 
-  std::vector<Node> nodes_;
+  std::vector<LightNode> nodes_;
   /// For each light, one bit per step down from the root, lowest bit first; 1 is the second child.
   std::vector<std::uint64_t> trails_;
 };

@@ -1,56 +1,76 @@
 #include "render/lights/lighting.hpp"
 
 #include "render/bsdf/ggx.hpp"
-#include "render/sampling/warps.hpp"
+#include "render/kernels/lane_access.hpp"
 
-#include <algorithm>
 #include <utility>
 
 namespace microtrace {
 
 Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment,
                    bool is_seen)
-    : emitters_(emitters), environment_(std::move(environment)), is_seen_(is_seen) {
-  if (environment_)
-    environment_light_ = double{environment_->sampled_luminance() / bsdf::kInversePi};
+    : emitters_(emitters),
+      environment_(std::move(environment)),
+      is_seen_(is_seen),
+      setup_(emitters.choice_setup()) {
+  if (environment_)  // approximate irradiance of a surface
+    setup_.environment_light = double{environment_->sampled_luminance() / bsdf::kInversePi};
 }
 
-// In proportion to the estimated contributions, with a minimum probability. A uniform environment
-// also has a probability, although it isn't sampled, so that fewer samples are spent where other
-// lights contribute little. Its estimate is reduced, because indoors little of it may arrive.
-Lighting::Probabilities Lighting::probabilities(const LightSampleContext& context) const {
-  constexpr float least = 0.1F;
-  const double near = emitters_.near_light(context);
-  const double sum = environment_light_ + emitters_.far_light() + near;
-  const auto part = [&](bool is_there, double light) {
-    return is_there ? std::max(sum > 0 ? static_cast<float>(light / sum) : 0, least) : 0;
-  };
-  const Probabilities raw{.environment = part(environment_light_ > 0, environment_light_),
-                          .far = part(emitters_.has_far(), emitters_.far_light()),
-                          .near = part(emitters_.has_near(), near)};
-  const float all = raw.environment + raw.far + raw.near;
-  if (all == 0) return {};
-  return {.environment = raw.environment / all, .far = raw.far / all, .near = raw.near / all};
+LightSample Lighting::sample_environment(const Vec2& u, float probability) const {
+  if (!samples_environment()) return {};
+  const EnvironmentLight::Sample s = environment_->sample(u);
+  const float pdf = s.pdf * probability;
+  return {.to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
 }
 
-std::optional<LightSample> Lighting::sample(const LightSampleContext& context, const Vec2& u,
-                                            float choice) const {
-  const Probabilities probability = probabilities(context);
-  if (choice < probability.environment) {
-    if (!samples_environment()) return std::nullopt;
-    const EnvironmentLight::Sample s = environment_->sample(u);
-    const float pdf = s.pdf * probability.environment;
-    return LightSample{
-        .to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
+void Lighting::sample(const ShadingKernels& kernels, int count,
+                      LightChoices<kShadingLanes>& choices,
+                      TriangleLights<kShadingLanes>& triangles,
+                      std::span<LightSample, kShadingLanes> samples) const {
+  kernels.choose_lights(setup_, choices);
+  bool has_triangles = false;
+  for (int lane = 0; lane < count; ++lane) {
+    LightSample& sample = samples[static_cast<std::size_t>(lane)];
+    const Vec2 u(triangles.u[0][lane], triangles.u[1][lane]);
+    const std::uint32_t light = choices.light[lane];
+    const double probability = choices.probability[lane];
+    triangles.coverage[lane] = 0;
+    sample = {};
+    switch (choices.kind[lane]) {
+      case LightKind::none:
+        break;
+      case LightKind::environment:
+        sample = sample_environment(u, static_cast<float>(probability));
+        break;
+      case LightKind::far:
+        sample = emitters_.sample_far(got(choices.p, lane), choices.choice[lane], probability)
+                     .value_or(LightSample{});
+        break;
+      case LightKind::near:
+        if (emitters_.is_triangle(light)) {
+          put(triangles.p, lane, got(choices.p, lane));
+          triangles.probability[lane] = probability;
+          emitters_.put_triangle(light, lane, triangles);
+          has_triangles = true;
+        } else {
+          sample = emitters_.sample_near(light, got(choices.p, lane), u, probability)
+                       .value_or(LightSample{});
+        }
+        break;
+    }
   }
-  choice -= probability.environment;
-  if (probability.near == 0 || choice < probability.far) {
-    if (probability.far == 0) return std::nullopt;
-    return emitters_.sample_far(context, choice / probability.far, double{probability.far});
+  if (!has_triangles) return;
+  kernels.sample_triangles(triangles);
+  for (int lane = 0; lane < count; ++lane) {
+    if (triangles.coverage[lane] == 0 || triangles.pdf[lane] == 0) continue;
+    samples[static_cast<std::size_t>(lane)] = {.to_light = got(triangles.to_light, lane),
+                                               .is_far = triangles.is_far[lane] != 0,
+                                               .wi = got(triangles.wi, lane),
+                                               .light = got(triangles.light, lane),
+                                               .pdf = triangles.pdf[lane],
+                                               .target = emitters_.primitive(choices.light[lane])};
   }
-  return emitters_.sample_near(context, u,
-                               sampling::reused(choice, probability.far, probability.near),
-                               double{probability.near});
 }
 
 EnvironmentLight::Lookup Lighting::environment(const LightSampleContext& context,

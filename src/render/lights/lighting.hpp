@@ -1,6 +1,8 @@
 #pragma once
 /// The light of a picture: emitters and environment, and which of them a point should sample.
 
+#include "render/kernels/choose_lights.hpp"
+#include "render/kernels/kernel.hpp"
 #include "render/lights/emitters.hpp"
 #include "render/lights/environment_light.hpp"
 #include "render/lights/light_sample.hpp"
@@ -9,6 +11,7 @@
 #include <microtrace/math.hpp>
 
 #include <optional>
+#include <span>
 
 namespace microtrace {
 
@@ -18,10 +21,13 @@ class Lighting {
   /// The emitters must outlive this. `is_seen`: whether the environment is visible to camera rays.
   Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen);
 
-  /// Samples a light for a point: `choice` selects the light, u the position on it. Nothing if the
-  /// selected light is not sampled: a uniform environment is left to BSDF sampling.
-  [[nodiscard]] std::optional<LightSample> sample(const LightSampleContext& context, const Vec2& u,
-                                                  float choice) const;
+  /// Samples a light for each of `count` points: `choices.choice` selects the light, `u` the
+  /// position on it. A sample without light means that the selected light is not sampled: a uniform
+  /// environment is left to BSDF sampling. The other members of `choices` and `triangles` are
+  /// working memory of the kernels.
+  void sample(const ShadingKernels& kernels, int count, LightChoices<kShadingLanes>& choices,
+              TriangleLights<kShadingLanes>& triangles,
+              std::span<LightSample, kShadingLanes> samples) const;
 
   /// Whether sample() can return light.
   [[nodiscard]] bool can_sample() const {
@@ -49,11 +55,10 @@ class Lighting {
                                   float cosine) const;
 
  private:
-  /// Selection probabilities at a point: of the environment, far lights, near lights.
-  struct Probabilities {
-    float environment = 0, far = 0, near = 0;
-  };
-  [[nodiscard]] Probabilities probabilities(const LightSampleContext& context) const;
+  [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context) const {
+    return kind_probabilities<1>(setup_, DVec3(context.p), context.n);
+  }
+  [[nodiscard]] LightSample sample_environment(const Vec2& u, float probability) const;
   [[nodiscard]] bool samples_environment() const {
     return environment_ && !environment_->is_uniform();
   }
@@ -61,7 +66,7 @@ class Lighting {
   const Emitters& emitters_;
   std::optional<EnvironmentLight> environment_;
   bool is_seen_;
-  double environment_light_ = 0;  // approximate irradiance of a surface
+  LightChoiceSetup setup_;
 };
 
 }  // namespace microtrace

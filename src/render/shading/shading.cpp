@@ -44,6 +44,8 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
     : primitives_(primitives), maps_(std::make_unique<TextureMaps>(scene, tables)) {
   const auto add = [&](const Material& material) {
     TexturedMaterial& look = looks_.emplace_back(maps_->slots(material));
+    look.has_constant_emission = look[MaterialTexture::emissive].map == nullptr &&
+                                 material.alpha_mode == AlphaMode::opaque && !material.unlit;
     look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&
                          !material.diffuse_transmission;
   };

@@ -49,7 +49,9 @@ struct TexturedMaterial {
   std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};
   /// The slot whose texel address is reused by every slot with shares_place; often by all.
   TextureSlot layout{};
-  Vec3 absorption{0};          ///< of the enclosed medium, in powers of two per length
+  Vec3 absorption{0};  ///< of the enclosed medium, in powers of two per length
+  /// Whether the emitted radiance is the same everywhere on the front, without transparency.
+  bool has_constant_emission = false;
   bool has_open_back = false;  ///< whether Backfaces::pass lets light through the back
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
@@ -103,6 +105,16 @@ class Shading {
   /// so their points have only a side.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
+
+  /// A triangle of a mesh, and its material.
+  struct MeshTriangle {
+    Triangle corners;
+    const TexturedMaterial& look;
+  };
+  [[nodiscard]] MeshTriangle triangle(PrimitiveId id) const {
+    const Entry& entry = entries_[primitives_.object_index(id)];
+    return {triangle_of(*entry.mesh, id - entry.first_id), looks_[entry.look]};
+  }
 
   [[nodiscard]] const Material& material(PrimitiveId id) const {
     return *looks_[entries_[primitives_.object_index(id)].look].material;

@@ -1,0 +1,80 @@
+#pragma once
+/// Selection of lights.
+
+#include "render/kernels/light_lanes.hpp"
+#include "render/lights/light_node.hpp"
+#include "render/sampling/warps.hpp"
+
+namespace microtrace {
+
+/// Selection probabilities at N points: of the environment, far lights, near lights.
+template <int N>
+struct KindProbabilities {
+  Float<N> environment, far, near;
+};
+
+/// In proportion to the estimated contributions, with a minimum probability. A uniform environment
+/// also has a probability, although it isn't sampled, so that fewer samples are spent where other
+/// lights contribute little. Its estimate is reduced, because indoors little of it may arrive.
+template <int N>
+KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Doubles3<N>& p,
+                                        const Floats3<N>& n) {
+  using F = Float<N>;
+  using D = Double<N>;
+  constexpr float least = 0.1F;
+  D near{};
+  if (setup.nodes != nullptr) near = LightNodes<N>(*setup.nodes).importance(p, n);
+  const D sum = setup.environment_light + setup.far_light + near;
+  const auto part = [&](bool is_there, const D& light) {
+    if (!is_there) return F{};
+    return larger_of(to_single<N>(sum > 0 ? light / sum : D{}), all<N>(least));
+  };
+  const F environment = part(setup.environment_light > 0, D{} + setup.environment_light);
+  const F far = part(setup.has_far, D{} + setup.far_light);
+  const F of_near = part(setup.nodes != nullptr, near);
+  const F all_kinds = environment + far + of_near;
+  const auto is_lit = all_kinds != 0;
+  return {is_lit ? environment / all_kinds : F{}, is_lit ? far / all_kinds : F{},
+          is_lit ? of_near / all_kinds : F{}};
+}
+
+template <int N, int width>
+void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lanes, int i) {
+  using F = Float<N>;
+  const Doubles3<N> p{widened<N>(lanes.p[0] + i), widened<N>(lanes.p[1] + i),
+                      widened<N>(lanes.p[2] + i)};
+  const Floats3<N> n = load3<N>(lanes.n, i);
+  const KindProbabilities<N> kinds = kind_probabilities<N>(setup, p, n);
+  const F choice = load<N>(lanes.choice + i), beyond = choice - kinds.environment;
+  const F of_near = sampling::reused<N>(beyond, kinds.far, kinds.near);
+  const auto is_environment = choice < kinds.environment;
+  const auto is_far = (kinds.near == 0) | (beyond < kinds.far);
+  const auto is_near = negated(is_environment) & negated(is_far);
+  LightChoice<N> chosen{};
+  if (setup.nodes != nullptr && any(is_near))
+    chosen = choose_light<N>(setup.nodes, p, n, is_near ? of_near : F{});
+  const F reused = is_environment ? choice : is_far ? beyond / kinds.far : of_near;
+  store<N>(lanes.choice + i, reused);
+  for (int k = 0; k < N; ++k) {
+    double probability = lane(kinds.environment, k);
+    LightKind kind = LightKind::environment;
+    if (lane(is_environment, k) == 0) {
+      const bool takes_near = lane(is_near, k) != 0;
+      kind = takes_near ? LightKind::near : LightKind::far;
+      probability = lane(takes_near ? kinds.near : kinds.far, k);
+      if (takes_near) probability *= lane(chosen.probability, k);
+    }
+    lanes.kind[i + k] = probability > 0 ? kind : LightKind::none;
+    lanes.probability[i + k] = probability;
+    lanes.light[i + k] = chosen.light[k];
+  }
+}
+
+/// Processes as many points at a time as there are lanes of float64.
+template <int N, int width>
+void choose_lights(const LightChoiceSetup& setup, LightChoices<width>& lanes) {
+  for (int i = 0; i < width; i += kDoubleLanes<N>)
+    choose_lights_from<kDoubleLanes<N>>(setup, lanes, i);
+}
+
+}  // namespace microtrace

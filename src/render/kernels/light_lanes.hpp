@@ -1,0 +1,47 @@
+#pragma once
+/// Input and output of the kernels that sample lights. Plain data only; see kernel.hpp.
+
+#include "render/kernels/surface_lanes.hpp"
+#include "render/lights/light_node.hpp"
+
+#include <cstdint>
+
+namespace microtrace {
+
+/// The lights that are selected by their importance at a point.
+struct LightChoiceSetup {
+  const LightNode* nodes = nullptr;  ///< of the near lights' tree; null: there are none
+  bool has_far = false;
+  double environment_light = 0, far_light = 0;  ///< upper estimates of the irradiance
+};
+
+enum class LightKind : std::uint8_t { none, environment, far, near };
+
+/// Points for which lights are selected.
+template <int width>
+struct alignas(width * sizeof(float)) LightChoices {
+  float p[3][width], n[3][width];  ///< the point and its unit normal, on either side
+  float choice[width];             ///< in [0, 1); afterwards in [0, 1) too, unless the kind is none
+  // ---- set by the kernel:
+  LightKind kind[width];
+  double probability[width];   ///< with which the environment, the far lights or the near light are
+                               ///< selected
+  std::uint32_t light[width];  ///< of the near lights
+};
+
+/// Samples of emissive triangles: LightSample.
+template <int width>
+struct alignas(width * sizeof(float)) TriangleLights {
+  float p[3][width];           ///< the lit point
+  float corners[3][3][width];  ///< [corner][axis]
+  float u[2][width];
+  float emission[3][width], coverage[width];  ///< at the sample, as seen from the front
+  float has_back[width];                      ///< 1 if the back emits too, else 0
+  double probability[width];                  ///< selection probability of the triangle
+  // ---- set by the kernel:
+  float is_far[width];  ///< 1 if to_light is only a direction, else 0
+  float to_light[3][width], wi[3][width], light[3][width];
+  float pdf[width];  ///< 0: no light
+};
+
+}  // namespace microtrace

@@ -1,0 +1,20 @@
+#pragma once
+/// Limits that keep products of lights representable in float32, for N lanes.
+
+#include "render/luminance.hpp"
+#include "simd/vector3.hpp"
+
+namespace microtrace {
+
+/// The distances from a light whose vector is representable in float32, with all its digits.
+inline constexpr double kLeastReach = 0x1p-126, kGreatestReach = 0x1.fffffep127;
+
+/// The pdf clamped to numbers whose square is representable in float32.
+template <int N>
+Double<N> limited_pdf(const Double<N>& pdf) {
+  constexpr double most = 0x1p60;
+  const Double<N> zero{};
+  return pdf < most ? larger_of(pdf, zero + 1 / most) : zero + most;
+}
+
+}  // namespace microtrace

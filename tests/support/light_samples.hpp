@@ -1,0 +1,42 @@
+#pragma once
+/// Samples of lights for single points.
+
+#include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/lights/lighting.hpp"
+
+#include <array>
+#include <optional>
+
+namespace microtrace {
+
+/// Nothing if the sample has no light.
+inline std::optional<LightSample> light_sample(const Lighting& lighting,
+                                               const LightSampleContext& context, const Vec2& u,
+                                               float choice) {
+  LightChoices<kShadingLanes> choices{};
+  TriangleLights<kShadingLanes> triangles{};
+  std::array<LightSample, kShadingLanes> samples;
+  put(choices.p, 0, context.p);
+  put(choices.n, 0, context.n);
+  choices.choice[0] = choice;
+  triangles.u[0][0] = u.x;
+  triangles.u[1][0] = u.y;
+  lighting.sample(best_shading_kernels(), 1, choices, triangles, samples);
+  if (samples[0].light == Vec3(0)) return std::nullopt;
+  return samples[0];
+}
+
+/// A light of the tree; nothing if no light reaches the point.
+struct ChosenLight {
+  std::size_t light;
+  double probability;
+};
+inline std::optional<ChosenLight> chosen_light(const LightTree& tree, const Vec3& p, const Vec3& n,
+                                               float u) {
+  const LightChoice<1> choice = choose_light<1>(tree.nodes(), DVec3(p), n, u);
+  if (!(choice.probability > 0)) return std::nullopt;
+  return ChosenLight{.light = choice.light[0], .probability = choice.probability};
+}
+
+}  // namespace microtrace

@@ -1,0 +1,107 @@
+// Compares the kernels that sample lights for every instruction set of this machine, bit by bit,
+// with the instance of one lane.
+#include "render/kernels/choose_lights.hpp"
+#include "render/kernels/dispatch.hpp"
+#include "render/kernels/lane_access.hpp"
+#include "render/kernels/sample_triangles.hpp"
+#include "render/lights/light_tree.hpp"
+#include "support/lane_tests.hpp"
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace microtrace {
+namespace {
+
+class LightKernelsTest : public testing::TestWithParam<const ShadingKernels*> {};
+
+std::vector<LightBounds> any_lights(LaneRandom& random, int count) {
+  std::vector<LightBounds> result;
+  for (int i = 0; i < count; ++i) {
+    const Vec3 p = 10.0F * random.vector(), size = random.color();
+    result.push_back(
+        {.low = p,
+         .high = random.number() < 0.2F ? p : p + size,
+         .power = random.number() * std::exp2(40 * double{random.signed_unit()}) + 1e-30,
+         .cone = {.axis = random.direction(),
+                  .cos_o = random.number() < 0.3F ? -1 : random.number()},
+         .two_sided = random.number() < 0.3F});
+  }
+  return result;
+}
+
+TEST_P(LightKernelsTest, LightsAreChosenWithTheBitsOfOneLane) {
+  LaneRandom random(4);
+  std::array<int, 4> kinds{};
+  for (int round = 0; round < kRounds; ++round) {
+    const LightTree tree(any_lights(random, 1 + static_cast<int>(random.bits() % 50)));
+    const LightChoiceSetup setup{
+        .nodes = random.number() < 0.2F ? nullptr : tree.nodes(),
+        .has_far = random.number() < 0.5F,
+        .environment_light =
+            random.number() < 0.5F ? 0 : std::exp2(20 * double{random.signed_unit()}),
+        .far_light = random.number()};
+    LightChoices<kShadingLanes> lanes{};
+    for (int i = 0; i < kShadingLanes; ++i) {
+      put(lanes.p, i, 12.0F * random.vector());
+      put(lanes.n, i, random.direction());
+      lanes.choice[i] = random.number();
+    }
+    LightChoices<kShadingLanes> expected = lanes;
+    GetParam()->choose_lights(setup, lanes);
+    choose_lights<1>(setup, expected);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      ++kinds[static_cast<std::size_t>(lanes.kind[i])];
+      ASSERT_EQ(lanes.kind[i], expected.kind[i]);
+      if (lanes.kind[i] == LightKind::none) continue;
+      ASSERT_EQ(lanes.probability[i], expected.probability[i]);
+      expect_bits(lanes.choice[i], expected.choice[i], "choice");
+      if (lanes.kind[i] == LightKind::near) {
+        ASSERT_EQ(lanes.light[i], expected.light[i]);
+      }
+    }
+  }
+  for (const int count : kinds) EXPECT_GT(count, kRounds / 10);
+}
+
+TEST_P(LightKernelsTest, TrianglesAreSampledWithTheBitsOfOneLane) {
+  LaneRandom random(5);
+  int lit = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    TriangleLights<kShadingLanes> lanes{};
+    for (int i = 0; i < kShadingLanes; ++i) {
+      const float size = std::exp2(60 * random.signed_unit());
+      put(lanes.p, i, size * random.vector());
+      for (auto& corner : lanes.corners) put(corner, i, size * random.vector());
+      for (auto& u : lanes.u) u[i] = random.number();
+      put(lanes.emission, i, random.number() < 0.1F ? Vec3(0) : random.color());
+      lanes.coverage[i] = random.number() < 0.1F ? 0 : random.number();
+      lanes.has_back[i] = random.number() < 0.5F ? 0.0F : 1.0F;
+      lanes.probability[i] = random.number() + 1e-6;
+    }
+    TriangleLights<kShadingLanes> expected = lanes;
+    GetParam()->sample_triangles(lanes);
+    sample_triangles<1>(expected);
+    for (int i = 0; i < kShadingLanes; ++i) {
+      expect_bits(lanes.pdf[i], expected.pdf[i], "pdf");
+      ASSERT_TRUE(lanes.pdf[i] >= 0);
+      if (lanes.pdf[i] == 0) continue;
+      ++lit;
+      expect_bits(lanes.is_far[i], expected.is_far[i], "is_far");
+      expect_bits(lanes.to_light, expected.to_light, i, "to_light");
+      expect_bits(lanes.wi, expected.wi, i, "wi");
+      expect_bits(lanes.light, expected.light, i, "light");
+    }
+  }
+  EXPECT_GT(lit, kRounds * kShadingLanes / 4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Isa, LightKernelsTest, testing::ValuesIn(available_shading_kernels()),
+                         [](const auto& set) { return std::string(set.param->name); });
+
+}  // namespace
+}  // namespace microtrace
