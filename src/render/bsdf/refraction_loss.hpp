@@ -53,7 +53,7 @@ constexpr HatWeights<n> hat_weights() {
 
 /// The energy deficit of single scattering at a rough refracting boundary, on both sides, and the
 /// division of its multiple scattering between the sides (C. Kulla and A. Conty, Revisiting
-/// physically based shading at Imageworks, 2017). Never more than the actual loss.
+/// physically based shading at Imageworks, 2017). Rarely more than the actual loss.
 template <int N>
 class RefractionLoss {
  public:

@@ -1,0 +1,49 @@
+#pragma once
+/// The integrals that the tables of src/render/bsdf approximate, in float64.
+
+#include "tables/facets.hpp"
+#include "tables/quadrature.hpp"
+
+namespace microtrace::tables {
+
+/// As bsdf::Ggx.
+[[nodiscard]] double alpha_of(double roughness);
+
+[[nodiscard]] double fifth_power(double x);
+
+/// For F = 1 and F = (1 - cos)^5.
+struct Albedo {
+  double f1 = 0, schlick = 0;
+};
+
+/// The directional albedo of single scattering for light to or from wo.
+[[nodiscard]] Albedo ggx_albedo(const Alphas& alphas, const Direction& wo,
+                                const Quadrature& points);
+
+/// The fraction of light from z = cos(theta) that single scattering at a rough boundary neither
+/// reflects nor refracts. eta: the index of refraction behind the boundary divided by that of the
+/// light's side. The Fresnel term is Schlick's for the cosine in the thinner medium; of the two
+/// masking terms of refraction, the smaller one counts.
+[[nodiscard]] double refraction_loss(double alpha, double z, double eta, const Quadrature& points);
+
+/// Sheen as published (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen BRDF,
+/// 2017).
+class Sheen {
+ public:
+  explicit Sheen(double roughness) : alpha_(roughness * roughness) {}
+
+  [[nodiscard]] double lambda(double z) const;
+
+  /// The integral of D V for the cosines z of wo and z_in of wi over the azimuth between them;
+  /// `points` must be graded. masking: 1 + lambda(z) + lambda(z_in).
+  [[nodiscard]] double around(double z, double z_in, double masking,
+                              const Quadrature& points) const;
+
+  /// The directional albedo.
+  [[nodiscard]] double albedo(double z, const Quadrature& points) const;
+
+ private:
+  double alpha_;
+};
+
+}  // namespace microtrace::tables

@@ -1,0 +1,303 @@
+#include "tables/albedos.hpp"
+#include "tables/fit.hpp"
+#include "tables/header_text.hpp"
+#include "tables/stated_errors.hpp"
+#include "tables/tables.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace microtrace::tables {
+namespace {
+
+/// Coefficients of powers of four variables, or of two.
+constexpr std::size_t kAlphaPowers = 5, kAzimuthPowers = 5, kCosinePowers = 8;
+constexpr std::size_t kEdgeAlphaPowers = 3, kEdgeAzimuthPowers = 3, kEdgeCosinePowers = 4;
+constexpr std::size_t kMeanPowers = 7;
+constexpr double kLossPenalty = 5, kEdgePenalty = 10;
+
+using Points = std::vector<double>;
+
+/// n points in [0, 1], close to each other at the ends.
+Points chebyshev(std::size_t n) {
+  Points result;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double turn = std::numbers::pi * static_cast<double>(i) / static_cast<double>(n - 1);
+    result.push_back(0.5 - 0.5 * cos_radians(turn));
+  }
+  return result;
+}
+
+/// The middles of n equal parts of [0, 1].
+Points middles(std::size_t n) {
+  Points result;
+  for (std::size_t i = 0; i < n; ++i)
+    result.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(n));
+  return result;
+}
+
+/// Square roots of alphas: the smaller, and the greater.
+struct Pair {
+  double smaller, greater;
+
+  [[nodiscard]] double alpha_x() const { return greater * greater; }
+  [[nodiscard]] double alpha_y() const { return smaller * smaller; }
+};
+
+/// As KHR_materials_anisotropy makes them.
+std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
+  constexpr double least = 0.0316227766016837933;  // of the least alpha
+  std::vector<Pair> result;
+  for (const double roughness : roughnesses) {
+    const double smaller = std::max(roughness, least), alpha = smaller * smaller;
+    for (const double strength : strengths)
+      result.push_back(
+          {.smaller = smaller, .greater = std::sqrt(alpha + (1 - alpha) * strength * strength)});
+  }
+  return result;
+}
+
+/// Powers of 2 x - 1.
+void append_powers(Points& row, double x, std::size_t count) {
+  double power = 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    row.push_back(power);
+    power *= 2 * x - 1;
+  }
+}
+
+Points powers_of(double x, std::size_t count) {
+  Points row;
+  append_powers(row, x, count);
+  return row;
+}
+
+/// The matrix of the polynomials at these places, each row times a weight.
+Factors polynomials(const Points& at, std::size_t count, const Points& weights) {
+  Points matrix;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (const double power : powers_of(at[i], count)) matrix.push_back(weights[i] * power);
+  return {matrix, count};
+}
+
+Points pair_powers(const Pair& pair, std::size_t count) {
+  Points result;
+  for (const double x : powers_of(pair.smaller, count))
+    for (const double y : powers_of(pair.greater, count)) result.push_back(x * y);
+  return result;
+}
+
+Factors pair_polynomials(const std::vector<Pair>& at, std::size_t count, const Points& weights) {
+  Points matrix;
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (const double power : pair_powers(at[i], count)) matrix.push_back(weights[i] * power);
+  return {matrix, count * count};
+}
+
+/// The direction of cosine z at whose azimuth the alpha is c, and c by its place between the
+/// square roots.
+struct Azimuth {
+  double alpha, cosine, sine;
+
+  Azimuth(const Pair& pair, double place)
+      : alpha(pair.smaller + place * (pair.greater - pair.smaller)) {
+    alpha *= alpha;
+    const double a = pair.alpha_y() * pair.alpha_y(), b = pair.alpha_x() * pair.alpha_x();
+    const double square = b > a ? std::clamp((alpha * alpha - a) / (b - a), 0.0, 1.0) : place;
+    cosine = std::sqrt(square);
+    sine = std::sqrt(1 - square);
+  }
+
+  [[nodiscard]] Direction direction(double z) const {
+    const double across = std::sqrt(1 - z * z);
+    return {.x = across * cosine, .y = across * sine, .z = z};
+  }
+};
+
+double bent_cosine(double s, double alpha) {
+  return std::min(alpha * s / (1 + alpha - s), 1.0);
+}
+
+/// The polynomial's coefficients and its value.
+struct Polynomial4 {
+  Points coefficients;
+  std::size_t alphas, azimuths, cosines;
+
+  [[nodiscard]] double value(const Pair& pair, double azimuth, double cosine) const {
+    const Points u = pair_powers(pair, alphas), v = powers_of(azimuth, azimuths),
+                 w = powers_of(cosine, cosines);
+    double sum = 0;
+    std::size_t at = 0;
+    for (const double x : u)
+      for (const double y : v)
+        for (const double z : w) sum += x * y * z * coefficients[at++];
+    return sum;
+  }
+};
+
+void round_to(Points& values, int decimals) {
+  for (double& value : values) value = rounded(value, decimals);
+}
+
+const Quadrature& points() {
+  static const Quadrature result = graded(28);
+  return result;
+}
+
+constexpr std::size_t kRoughnesses = 12, kStrengths = 10;
+
+Polynomial4 loss_fit() {
+  const std::vector<Pair> at = pairs(chebyshev(kRoughnesses), chebyshev(kStrengths));
+  const Points azimuths = chebyshev(9), cosines = chebyshev(14);
+  Points losses;
+  for (const Pair& pair : at) {
+    for (const double place : azimuths) {
+      const Azimuth azimuth(pair, place);
+      for (const double s : cosines) {
+        const Direction wo = azimuth.direction(bent_cosine(s, azimuth.alpha));
+        losses.push_back(1 -
+                         ggx_albedo({.x = pair.alpha_x(), .y = pair.alpha_y()}, wo, points()).f1);
+      }
+    }
+  }
+  Polynomial4 result{
+      .coefficients = low_fit({pair_polynomials(at, kAlphaPowers, Points(at.size(), 1)),
+                               polynomials(azimuths, kAzimuthPowers, Points(azimuths.size(), 1)),
+                               polynomials(cosines, kCosinePowers, Points(cosines.size(), 1))},
+                              losses, kLossPenalty),
+      .alphas = kAlphaPowers,
+      .azimuths = kAzimuthPowers,
+      .cosines = kCosinePowers};
+  round_to(result.coefficients, 5);
+  return result;
+}
+
+Polynomial4 edge_fit() {
+  const std::vector<Pair> at = pairs(middles(kRoughnesses), middles(kStrengths));
+  Points azimuths = middles(16);  // equidistant angles where one alpha is much greater
+  for (double& place : azimuths) place = cos_radians(place * std::numbers::pi / 2);
+  const Points cosines = middles(12);
+  // The rougher facets are, the more their errors count: a polynomial can't follow the sharpest
+  // ones, and would be worse everywhere.
+  Points differences, pair_weights, cosine_weights;
+  for (const Pair& pair : at) pair_weights.push_back(pair.smaller * (pair.greater - pair.smaller));
+  for (const double root : cosines) cosine_weights.push_back(1 - root);
+  for (const Pair& pair : at) {
+    const Alphas alphas{.x = pair.alpha_x(), .y = pair.alpha_y()};
+    for (const double place : azimuths) {
+      const Azimuth azimuth(pair, place);
+      const Alphas alike{.x = azimuth.alpha, .y = azimuth.alpha};
+      for (const double root : cosines) {
+        const double z = root * root;
+        const double difference = ggx_albedo(alphas, azimuth.direction(z), points()).schlick -
+                                  ggx_albedo(alike, tilted(z), points()).schlick;
+        differences.push_back(-pair.smaller * difference);
+      }
+    }
+  }
+  // Of the negative term, because the term should rarely be too small.
+  Polynomial4 result{.coefficients = low_fit(
+                         {pair_polynomials(at, kEdgeAlphaPowers, pair_weights),
+                          polynomials(azimuths, kEdgeAzimuthPowers, Points(azimuths.size(), 1)),
+                          polynomials(cosines, kEdgeCosinePowers, cosine_weights)},
+                         differences, kEdgePenalty),
+                     .alphas = kEdgeAlphaPowers,
+                     .azimuths = kEdgeAzimuthPowers,
+                     .cosines = kEdgeCosinePowers};
+  for (double& c : result.coefficients) c = -c;
+  round_to(result.coefficients, 4);
+  return result;
+}
+
+/// Polynomials in the square roots of both alphas.
+struct Means {
+  Points loss, edge;
+};
+
+Means mean_fit(const Polynomial4& loss, const Polynomial4& edge) {
+  const std::vector<Pair> at = pairs(chebyshev(14), chebyshev(10));
+  const Quadrature cosines = graded(14), turns = gauss_legendre(10);
+  Points losses, edges;
+  for (const Pair& pair : at) {
+    double mean_loss = 0, mean_edge = 0;
+    for (std::size_t j = 0; j < turns.at.size(); ++j) {
+      const double turn = turns.at[j] * std::numbers::pi / 2;
+      const double x = pair.alpha_x() * cos_radians(turn), y = pair.alpha_y() * sin_radians(turn);
+      const double alpha = std::sqrt(x * x + y * y), range = pair.greater - pair.smaller;
+      const double place =
+          range > 0 ? std::clamp((std::sqrt(alpha) - pair.smaller) / range, 0.0, 1.0) : 0;
+      for (std::size_t k = 0; k < cosines.at.size(); ++k) {
+        const double z = cosines.at[k], root = std::sqrt(z);
+        const double weight = 2 * z * cosines.weights[k] * turns.weights[j];
+        const double lost =
+            std::clamp(loss.value(pair, place, z * (1 + alpha) / (z + alpha)), 0.0, 1.0);
+        const double alike = ggx_albedo({.x = alpha, .y = alpha}, tilted(z), points()).schlick;
+        const double more = range * (1 - root) * edge.value(pair, place, root);
+        mean_loss += weight * lost;
+        mean_edge += weight * std::clamp(alike + more, 0.0, 1 - lost);
+      }
+    }
+    losses.push_back(mean_loss);
+    edges.push_back(mean_edge);
+  }
+  const std::vector<Factors> axes{pair_polynomials(at, kMeanPowers, Points(at.size(), 1))};
+  return {.loss = fit(axes, losses), .edge = fit(axes, edges)};
+}
+
+}  // namespace
+
+std::string anisotropic_loss_table() {
+  const Polynomial4 loss = loss_fit(), edge = edge_fit();
+  const Means means = mean_fit(loss, edge);
+  const auto sizes = [](const Polynomial4& p) {
+    return std::vector{p.alphas, p.alphas, p.azimuths, p.cosines};
+  };
+  return header_text(
+      "Albedos of an anisotropic GGX reflector: polynomials fitted to the integrals of "
+      "ggx_albedo_table.hpp. The fit of the loss is rarely above, the fit of the Schlick term "
+      "rarely "
+      "below.\n"
+      "\n"
+      "As AnisotropicGgxAlbedo evaluates them, albedos for F = 1 are " +
+          error_text(kAnisotropicF1Error) + "; for Schlick's term " +
+          error_text(kAnisotropicSchlickError) + "; means of these are for F = 1 " +
+          error_text(kAnisotropicMeanF1Error) + "; for Schlick's term " +
+          error_text(kAnisotropicMeanSchlickError) + ".\n",
+      {"render/bsdf/polynomial.hpp", "array"},
+      "// clang-format off\n"
+      "\n"
+      "/// The energy deficit of single scattering for F = 1, by powers of 2 x - 1 in [-1, 1], "
+      "where "
+      "the\n"
+      "/// four x are sqrt(a), a the smaller alpha; sqrt(b), b the greater alpha; (sqrt(c) - "
+      "sqrt(a)) "
+      "/\n"
+      "/// (sqrt(b) - sqrt(a)), c the alpha along the direction; z (1 + c) / (z + c), z = "
+      "cos(theta).\n"
+      "using AnisotropicLossPlane = Polynomial2<5, 8>;\n" +
+          table_text("std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropicLoss",
+                     loss.coefficients, sizes(loss), 5) +
+          "\n"
+          "/// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic "
+          "reflector of\n"
+          "/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). Same variables, but the last "
+          "x "
+          "is\n"
+          "/// sqrt(z).\n"
+          "using AnisotropicSchlickPlane = Polynomial2<3, 4>;\n" +
+          table_text("std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick",
+                     edge.coefficients, sizes(edge), 4) +
+          "\n/// The cosine-weighted means of these, by powers of the first two variables.\n" +
+          table_text("Polynomial2<7, 7> kMeanAnisotropicLoss", means.loss,
+                     {kMeanPowers, kMeanPowers}, 6) +
+          table_text("Polynomial2<7, 7> kMeanAnisotropicSchlick", means.edge,
+                     {kMeanPowers, kMeanPowers}, 6) +
+          "\n// clang-format on\n");
+}
+
+}  // namespace microtrace::tables

@@ -1,0 +1,40 @@
+#pragma once
+/// The text of a header with tables.
+
+#include "tables/stated_errors.hpp"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace microtrace::tables {
+
+/// The value with so many decimals and the suffix F, or an integer if there are none.
+[[nodiscard]] std::string number_text(double value, int decimals);
+
+/// The value that number_text() writes.
+[[nodiscard]] double rounded(double value, int decimals);
+
+/// Braces of nested std::array with these sizes, innermost last, and the values in between.
+[[nodiscard]] std::string nested_text(std::span<const double> values,
+                                      std::span<const std::size_t> sizes, int decimals);
+
+/// "inline constexpr TYPE NAME = ...;"
+[[nodiscard]] std::string table_text(const std::string& type_and_name,
+                                     std::span<const double> values,
+                                     const std::vector<std::size_t>& sizes, int decimals);
+
+/// "/// TEXT" in lines of at most 100 columns. Blank lines stay, and so do lines that start with
+/// two spaces.
+[[nodiscard]] std::string comment_text(const std::string& text);
+
+/// "at most 0.006 above and 0.0006 below the integral, rms 0.0004"
+[[nodiscard]] std::string error_text(const StatedError& error);
+
+/// The whole header from its comment, includes and content; adds the origin to the comment.
+[[nodiscard]] std::string header_text(const std::string& comment,
+                                      const std::vector<std::string>& includes,
+                                      const std::string& content);
+
+}  // namespace microtrace::tables

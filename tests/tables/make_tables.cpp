@@ -1,0 +1,53 @@
+// Computes the tables of src/render/bsdf.
+//
+//   make_tables FOLDER           writes all headers
+//   make_tables FOLDER HEADER    computes one and fails unless it is in the folder
+
+#include "tables/tables.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+namespace {
+
+using microtrace::tables::Header;
+using microtrace::tables::kHeaders;
+
+std::string file_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool is_same(const Header& header, const std::filesystem::path& path) {
+  const std::string wanted = header.text(), text = file_text(path);
+  if (text == wanted) return true;
+  std::size_t line = 1, i = 0;
+  for (; i < text.size() && i < wanted.size() && text[i] == wanted[i]; ++i) line += text[i] == '\n';
+  std::fprintf(stderr, "%s:%zu: is not what make_tables writes\n", path.c_str(), line);
+  return false;
+}
+
+int run(const std::filesystem::path& folder, const std::string& name) {
+  for (const Header& header : kHeaders) {
+    if (name.empty()) {
+      std::ofstream(folder / header.name, std::ios::binary) << header.text();
+    } else if (name == header.name) {
+      return is_same(header, folder / header.name) ? 0 : 1;
+    }
+  }
+  return name.empty() ? 0 : 2;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  if (count < 2 || count > 3) return 2;
+  return run(arguments[1], count == 3 ? arguments[2] : "");
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

@@ -1,0 +1,142 @@
+#include "tables/albedos.hpp"
+#include "tables/fit.hpp"
+#include "tables/header_text.hpp"
+#include "tables/stated_errors.hpp"
+#include "tables/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace microtrace::tables {
+namespace {
+
+constexpr std::size_t kIndices = 8, kRows = 12, kColumns = 17;
+constexpr double kGreatestCritical = 0.96, kUnit = 1e-4;
+constexpr double kPenalty = 33;
+
+/// Positions from `from` to nodes - 1, `per_node` to each node.
+std::vector<double> positions(double from, std::size_t nodes, std::size_t per_node) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i <= (nodes - 1) * per_node; ++i) {
+    const double at = static_cast<double>(i) / static_cast<double>(per_node);
+    if (at > from) result.push_back(at);
+  }
+  result.insert(result.begin(), from);
+  return result;
+}
+
+/// Interpolation by the parabola through the three nearest nodes, a row for each position.
+Factors parabolas(const std::vector<double>& at, std::size_t nodes) {
+  std::vector<double> matrix(at.size() * nodes);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const auto nearest = static_cast<std::size_t>(at[i] + 0.5);
+    const std::size_t first = std::min(std::max(nearest, std::size_t{1}) - 1, nodes - 3);
+    const double p = at[i] - static_cast<double>(first);
+    double* row = &matrix[i * nodes + first];
+    row[0] = (p - 1) * (p - 2) / 2;
+    row[1] = p * (2 - p);
+    row[2] = p * (p - 1) / 2;
+  }
+  return {matrix, nodes};
+}
+
+/// Linear interpolation.
+Factors lines(const std::vector<double>& at, std::size_t nodes) {
+  std::vector<double> matrix(at.size() * nodes);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::size_t first = std::min(static_cast<std::size_t>(at[i]), nodes - 2);
+    const double p = at[i] - static_cast<double>(first);
+    matrix[i * nodes + first] = 1 - p;
+    matrix[i * nodes + first + 1] = p;
+  }
+  return {matrix, nodes};
+}
+
+double square(double x) {
+  return x * x;
+}
+
+double cosine_outside(double column) {
+  return square(column / (kColumns - 1));
+}
+
+double cosine_within(double column, double critical) {
+  constexpr double half = (kColumns - 1) / 2.0;
+  if (column < half) return critical * square(column / half);
+  return critical + (1 - critical) * square((column - half) / half);
+}
+
+/// The entries for light from the thinner or the denser side.
+std::vector<double> entries(bool within) {
+  const Quadrature points = graded(24);
+  // The least index that is refracted is 1.003.
+  const std::vector<double> indices = positions(0.56, kIndices, 3), rows = positions(0, kRows, 3),
+                            columns = positions(0, kColumns, 3);
+  std::vector<double> losses;
+  for (const double index : indices) {
+    const double critical = kGreatestCritical * index / (kIndices - 1);
+    const double inverse = std::sqrt(1 - critical * critical);
+    for (const double row : rows) {
+      const double alpha = alpha_of(row / (kRows - 1));
+      for (const double column : columns) {
+        const double z = within ? cosine_within(column, critical) : cosine_outside(column);
+        losses.push_back(refraction_loss(alpha, z, within ? inverse : 1 / inverse, points));
+      }
+    }
+  }
+  std::vector<double> result =
+      low_fit({parabolas(indices, kIndices), parabolas(rows, kRows), lines(columns, kColumns)},
+              losses, kPenalty);
+  for (double& entry : result) entry /= kUnit;
+  return result;
+}
+
+std::string loss_text(const std::string& name, bool within) {
+  return table_text("RefractionLossTable " + name, entries(within), {kIndices, kRows, kColumns}, 0);
+}
+
+}  // namespace
+
+std::string refraction_loss_table() {
+  return header_text(
+      "Energy deficit of single scattering at a rough refracting boundary, 1 minus the integral "
+      "over h of\n"
+      "\n"
+      "  D(h) (wo . h) / wo.z (F G2(wo, reflected) + (1 - F) min(G1(wo), G1(refracted))).\n"
+      "\n"
+      "F is Schlick's Fresnel term of the index for the cosine in the thinner medium. Entries are "
+      "fitted so that the interpolation of RefractionLoss is rarely above the integral: from the "
+      "thinner side, losses are " +
+          error_text(kLossOutsideError) + "; from the denser side " + error_text(kLossWithinError) +
+          ". The greatest errors are at cos(theta) < 0.03.\n",
+      {"array", "cstddef", "cstdint"},
+      "inline constexpr std::size_t kLossIndices = 8, kLossRows = 12, kLossColumns = 17;\n"
+      "inline constexpr float kGreatestCritical = 0.96F;  ///< cosine\n"
+      "inline constexpr float kRefractionUnit = 1 / 10000.0F;\n"
+      "\n"
+      "/// [cos(critical angle) = 0.96 k / 7][roughness j / 11][angle], in this unit.\n"
+      "using RefractionLossTable =\n"
+      "    std::array<std::array<std::array<std::int16_t, kLossColumns>, kLossRows>, "
+      "kLossIndices>;\n"
+      "\n"
+      "// clang-format off\n"
+      "\n"
+      "/// From the thinner side: column i is for cos(theta) = (i / 16)^2.\n" +
+          loss_text("kLossFromOutside", false) + "\n// clang-format on\n");
+}
+
+std::string refraction_loss_within_table() {
+  return header_text(
+      "The table of refraction_loss_table.hpp for light from the denser side.\n",
+      {"render/bsdf/refraction_loss_table.hpp"},
+      "// clang-format off\n"
+      "\n"
+      "/// Columns 0 to 8 are for cos(theta) = c (i / 8)^2, where c is the cosine of the critical "
+      "angle,\n/// columns 8 to 16 for c + (1 - c) ((i - 8) / 8)^2.\n" +
+          loss_text("kLossFromWithin", true) + "\n// clang-format on\n");
+}
+
+}  // namespace microtrace::tables
