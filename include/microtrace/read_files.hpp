@@ -20,7 +20,7 @@ using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
 [[nodiscard]] MICROTRACE_EXPORT std::optional<FileIdentity> identity_of(
     const std::filesystem::path& path);
 
-/// Whether writing to both names would write to the same file, whether or not it exists.
+/// True if both names lead to the same file, even one that does not exist yet.
 [[nodiscard]] MICROTRACE_EXPORT bool are_same_target(const std::filesystem::path& a,
                                                      const std::filesystem::path& b);
 

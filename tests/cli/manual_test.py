@@ -79,6 +79,20 @@ class Manual(ProgramTest):
         self.assertEqual(PARTS.fullmatch(MANUAL.read_text())[2], written_options(),
                          "run tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update")
 
+    def test_every_named_value_is_described(self):
+        page = (DOCS / "outputs.md").read_text()
+        texts = {option.name: option.text for options in groups().values() for option in options}
+        for option, tables in (("--integrator", 2), ("--aov", 1), ("--tonemap", 1)):
+            message = self.run_program("scene.json", option, "nonsense").stderr.decode()
+            names = re.split(", | or ", re.search("expects (?:.* list of )?(.*), not nonsense", message)[1])
+            self.assertGreater(len(names), 3)
+            for name in names:
+                if name in ("flat", "path"):
+                    continue
+                self.assertTrue(option == "--integrator" or re.search(rf"\b{name}\b", texts[option]), f"missing in the help of {option}: {name}")
+                rows = re.findall(rf"(?m)^\|[^|]*`{name}`[^|]*\|", page)
+                self.assertGreaterEqual(len(rows), tables, f"missing in a table of docs/outputs.md: {name}")
+
     def test_exit_codes_are_those_of_help(self):
         text = help_text()
         footer = text[text.index("Exit codes:"):text.index("Examples:")]

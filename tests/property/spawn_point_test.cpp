@@ -96,7 +96,7 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   count.sure_in_lanes += q ? 1 : 0;
 }
 
-// If the other coordinates are known exactly, the whole bound is for its own roundings.
+// If the other coordinates are known exactly, only the roundings of this one need the bound.
 TEST(SpawnPoint, BoundsOfACoordinateInAPlaneHold) {
   Random random = traversal::announced_random(97);
   std::size_t bounded = 0;
