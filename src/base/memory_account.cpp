@@ -29,9 +29,10 @@ void MemoryBudget::take(std::uint64_t bytes, std::string_view what) {
   const std::scoped_lock lock(mutex_);
   if (bytes > limit_ - used_) {
     std::string message(what);
-    message += ": " + readable(bytes) + " are needed beside the " + readable(used_) +
-               " in use, more than the memory limit of " + readable(limit_) +
-               "; raise it (--memory-limit) if the machine has the memory, or ask for less";
+    message += ": " + readable(bytes) + " are needed in addition to the " + readable(used_) +
+               " in use, but the memory limit is " + readable(limit_) +
+               "; raise it (--memory-limit) if the machine has enough memory, or reduce the "
+               "picture or scene";
     throw Error(ErrorKind::limit, "", message);
   }
   used_ += bytes;

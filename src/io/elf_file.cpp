@@ -28,7 +28,7 @@ class File {
     if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
       complaint_ = std::generic_category().message(errno);
     } else if (!S_ISREG(status.st_mode)) {
-      complaint_ = "it is no regular file";
+      complaint_ = "it is not a regular file";
     } else {
       size_ = static_cast<std::uint64_t>(status.st_size);
     }
@@ -77,7 +77,7 @@ std::string damage_of_elf_file(const std::filesystem::path& path) {
   std::vector<Header> header(1);
   file.read(0, header);
   if (header.empty() || !is_of_this_machine(header[0])) {
-    return "it is no shared library of this machine";
+    return "it is not a shared library for this machine";
   }
   // The section table is at the end of the file: if it is complete, nothing was cut off.
   std::vector<Segment> segments(header[0].e_phnum);

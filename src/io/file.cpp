@@ -36,7 +36,7 @@ constexpr std::size_t kChunk = std::size_t{64} * 1024;
 
 [[noreturn]] void fail_too_large(const std::string& name, std::size_t limit) {
   std::string message = "is larger than ";
-  message.append(std::to_string(limit)).append(" bytes, the most that is read; split it");
+  message.append(std::to_string(limit)).append(" bytes, the limit; split it");
   throw Error(ErrorKind::limit, name, message);
 }
 

@@ -43,7 +43,7 @@ ModuleFunction find_module_function(const char* file, const char* function) {
   if (module.handle != nullptr) {
     void* address = ::dlsym(module.handle, function);
     if (address != nullptr) return {.address = address};
-    module.complaint = last_complaint("it is of another version");
+    module.complaint = last_complaint("it belongs to another version");
   }
   return {.complaint =
               "the module " + module.path.string() + " can't be used: " + module.complaint};

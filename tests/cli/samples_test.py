@@ -114,7 +114,7 @@ class Samples(ProgramTest):
         self.assertEqual(self.bytes_of("filled.ppm"), whole)
         twice = self.run_program("merge", "part1", "part2", "part1", "-o", "merged.ppm")
         self.assertEqual(twice.returncode, 2)
-        self.assertIn(b"part1: holds samples 0 to 15, of which some are there already", twice.stderr)
+        self.assertIn(b"part1: holds samples 0 to 15, some of which are already present", twice.stderr)
 
     def test_samples_of_other_pictures_are_refused(self):
         scene = self.folder / "scene.json"
@@ -161,8 +161,8 @@ class Samples(ProgramTest):
         flipped = bytearray(good)
         flipped[len(good) // 2] ^= 4
         for name, content, reason in (("cut", good[:-9], "damaged"), ("flip", bytes(flipped), "damaged"),
-                                      ("head", good[:30], "damaged"), ("none", b"", "no samples"),
-                                      ("other", b"P6\n", "no samples"), ("long", good + b"x", "damaged"),
+                                      ("head", good[:30], "damaged"), ("none", b"", "not a checkpoint"),
+                                      ("other", b"P6\n", "not a checkpoint"), ("long", good + b"x", "damaged"),
                                       ("new", good[:19] + b"\x09" + good[20:], "version 9")):
             (self.folder / name).write_bytes(content)
             message = self.render("-o", "b.ppm", "--spp", "3", "--resume", name, code=5)

@@ -60,7 +60,7 @@ TEST(AtomicFile, FailuresNameTheFileTheReasonAndTheRemedy) {
   fs::create_directory(folder / "d.ppm");
   EXPECT_THAT(failure(folder / "missing/a.ppm"),
               HasSubstr("a.ppm: can't be written: No such file"));
-  EXPECT_THAT(failure(folder / "missing/a.ppm"), HasSubstr("make its folder first"));
+  EXPECT_THAT(failure(folder / "missing/a.ppm"), HasSubstr("create its folder first"));
   EXPECT_THAT(failure(folder / "file/a.ppm"), HasSubstr("Not a directory"));
   EXPECT_THAT(failure(folder / "d.ppm"), HasSubstr("Is a directory"));
   EXPECT_THAT(failure("/dev/full"), HasSubstr("No space left on device"));

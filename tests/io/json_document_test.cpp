@@ -99,8 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"\xEF\xBB\xBF\n", 0, 0, "is empty"},
         BadText{"{", 1, 2, "expected a key in double quotes or '}', found the end of the text"},
         BadText{"{\"a\":[1,2", 1, 10, "expected ',' or ']', found the end of the text"},
-        BadText{"{\"a\":1,\n  }", 1, 7, "a comma must not stand before '}'; remove it"},
-        BadText{"[1, ]", 1, 3, "a comma must not stand before ']'; remove it"},
+        BadText{"{\"a\":1,\n  }", 1, 7, "a comma is not allowed before '}'; remove it"},
+        BadText{"[1, ]", 1, 3, "a comma is not allowed before ']'; remove it"},
         BadText{"[,1]", 1, 2, "expected a value or ']', found ','"},
         BadText{"[1,,2]", 1, 4, "expected a value, found ','"},
         BadText{"[1 2]", 1, 4, "expected ',' or ']', found \"2\""},
@@ -114,17 +114,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"{1:2}", 1, 2, "expected a key in double quotes or '}', found \"1\""},
         BadText{"[1}", 1, 3, "expected ',' or ']', found '}'"},
         BadText{"[] []", 1, 4, "expected nothing more after the end of the JSON value, found '['"},
-        BadText{"{}\n\0x"sv, 2, 1, "a zero byte stands outside strings; this is not a JSON text"},
-        BadText{"\0\0\0"sv, 1, 1, "a zero byte stands outside strings; this is not a JSON text"},
-        BadText{"[1,\0 2]"sv, 1, 4, "a zero byte stands outside strings; this is not a JSON text"},
+        BadText{"{}\n\0x"sv, 2, 1, "a zero byte is outside of strings; this is not a JSON text"},
+        BadText{"\0\0\0"sv, 1, 1, "a zero byte is outside of strings; this is not a JSON text"},
+        BadText{"[1,\0 2]"sv, 1, 4, "a zero byte is outside of strings; this is not a JSON text"},
         BadText{"[1 // one\n]", 1, 4, "comments are not JSON; remove it"},
         BadText{"/* */ []", 1, 1, "comments are not JSON; remove it"},
-        BadText{"['a']", 1, 2, "strings take double quotes in JSON"},
+        BadText{"['a']", 1, 2, "JSON strings need double quotes"},
         BadText{"[NaN]", 1, 2, "\"NaN\" is not JSON; write a finite number"},
         BadText{"[-Infinity]", 1, 2, "\"-Infinity\" is not JSON; write a finite number"},
-        BadText{"[+1]", 1, 2, "expected a value or ']', found \"+1\"; a number takes no plus sign"},
+        BadText{"[+1]", 1, 2,
+                "expected a value or ']', found \"+1\"; JSON numbers have no plus sign"},
         BadText{"[.5]", 1, 2,
-                "expected a value or ']', found \".5\"; a number starts with a digit"},
+                "expected a value or ']', found \".5\"; JSON numbers start with a digit"},
         BadText{"[1.]", 1, 2, "\"1.\" is not a JSON number: expected digit after '.'"},
         BadText{"[True]", 1, 2, "expected a value or ']', found \"True\""},
         BadText{"[nul]", 1, 2, "expected a value or ']', found \"nul\""},
@@ -138,15 +139,16 @@ INSTANTIATE_TEST_SUITE_P(
                 "a control character within a string must be escaped, as in \\t or \\u0009"},
         BadText{"[\"a\0b\"]"sv, 1, 4,
                 "a control character within a string must be escaped, as in \\t or \\u0009"},
-        BadText{"[\"a\\x\"]", 1, 5,
-                "unknown escape; after a backslash may stand \" \\ / b f n r t or u and four hex "
-                "digits"},
+        BadText{
+            "[\"a\\x\"]", 1, 5,
+            "unknown escape; a backslash must be followed by \" \\ / b f n r t or u and four hex "
+            "digits"},
         BadText{"[\"\\u12\"]", 1, 7, "\\u must be followed by four hex digits"},
-        BadText{"[\"\\ud800 \"]", 1, 9, "a \\u surrogate must stand in a pair, high then low"},
+        BadText{"[\"\\ud800 \"]", 1, 9, "a \\u surrogate must be part of a pair, high then low"},
         BadText{"[\"\xC3(\"]", 1, 4, "is not UTF-8 here; save the file as UTF-8"},
         BadText{"[\"\xED\xA0\x80\"]", 1, 4, "is not UTF-8 here; save the file as UTF-8"},
         BadText{"\xFF\xFE{\0"sv, 1, 1, "is not UTF-8 here; save the file as UTF-8"},
-        BadText{"{\"a\":1, \"b\":2,\n \"a\":3}", 2, 2, "the key \"a\" stands twice in this object"},
+        BadText{"{\"a\":1, \"b\":2,\n \"a\":3}", 2, 2, "the key \"a\" occurs twice in this object"},
         BadText{"\xEF\xBB\xBF[1 2]", 1, 4, "expected ',' or ']', found \"2\""}));
 
 TEST(JsonDocument, NamesThePointerOfABadValue) {
@@ -184,7 +186,7 @@ TEST(JsonDocument, ManyKeysTakeLinearTime) {
   for (int i = 0; i < 200'000; ++i) {
     text.append("\"k").append(std::to_string(i)).append("\":0,");
   }
-  EXPECT_THAT(error_of(text + "\"k7\":1}").what(), HasSubstr("\"k7\" stands twice"));
+  EXPECT_THAT(error_of(text + "\"k7\":1}").what(), HasSubstr("\"k7\" occurs twice"));
 }
 
 TEST(JsonDocument, FindsKeysAmongMany) {

@@ -66,7 +66,7 @@ TEST_F(LoadScene, AcceptsUpperCaseExtensions) {
   std::filesystem::copy_file(scenes / "gltf/cube.glb", folder_ / "B.GLB");
   EXPECT_FALSE(load_scene(folder_ / "B.GLB").scene.objects.empty());
   EXPECT_THAT(error_of(write("C.JSON", R"({"asset": {"version": "2.0"}})")).what(),
-              HasSubstr("needs the member \"version\""));
+              HasSubstr("lacks the required member \"version\""));
 }
 
 TEST_F(LoadScene, RefusesGarbageFromItsFirstBytes) {

@@ -58,7 +58,7 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
   for (const SampleRange& range : theirs.ranges()) {
     if (ours.overlaps(range)) {
       refuse("holds samples " + std::to_string(range.first) + " to " +
-             std::to_string(range.last - 1) + ", of which some are there already");
+             std::to_string(range.last - 1) + ", some of which are already present");
     }
   }
   checkpoint.sums += theirs;

@@ -139,7 +139,7 @@ void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& 
 
 Checkpoint load_checkpoint(const std::filesystem::path& path) {
   const std::string bytes = io::read_file(path, kMaxFileSize, [&](std::string_view first) {
-    if (!first.starts_with(kMagic)) fail(path, "holds no samples that microtrace wrote");
+    if (!first.starts_with(kMagic)) fail(path, "is not a checkpoint of microtrace");
   });
   io::ByteReader reader(std::string_view(bytes).substr(kMagic.size()));
   const auto version = reader.number<std::uint32_t>();
@@ -172,7 +172,7 @@ Film picture_of(const Checkpoint& checkpoint) {
 
 void check_checkpoint_path(const std::filesystem::path& path) {
   if (path == "-" || io::is_stream(path))
-    throw Error(ErrorKind::usage, path.string(), "can't hold samples to go on from; name a file");
+    throw Error(ErrorKind::usage, path.string(), "can't be a checkpoint; name a file");
   io::check_target(path);
 }
 

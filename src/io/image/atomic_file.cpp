@@ -87,7 +87,7 @@ std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& targ
   }
   if (::faccessat(AT_FDCWD, folder_of(target).c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
     fail_to_write(named, errno,
-                  errno == ENOENT ? "make its folder first"
+                  errno == ENOENT ? "create its folder first"
                                   : "name a file in a folder that may be written to");
   }
   return mode;
@@ -148,7 +148,7 @@ void AtomicFile::write(std::string_view bytes) {
     if (written > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(written));
     } else if (written == 0 || errno != EINTR) {
-      fail(written == 0 ? EIO : errno, "make room, or name another file");
+      fail(written == 0 ? EIO : errno, "free some space, or name another file");
     }
   }
 }
@@ -158,7 +158,7 @@ void AtomicFile::close() {
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   // After EINTR Linux has closed the descriptor, and the kernel has the data.
-  if (closed != 0 && errno != EINTR) fail(errno, "make room, or name another file");
+  if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
 }
 
 void AtomicFile::commit() {

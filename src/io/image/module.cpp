@@ -22,7 +22,7 @@ void* load_module(const FormatModule& format_module, const std::string& file) {
   if (module.handle != nullptr) return module.handle;
   std::string message = "can't be written without the module ";
   message.append(format_module.file);
-  message += module.path.empty() ? ", sought in " + module.sought : ": " + module.complaint;
+  message += module.path.empty() ? ", searched in " + module.sought : ": " + module.complaint;
   message.append("; install ").append(format_module.package);
   message.append(" and build the target ").append(format_module.target);
   throw Error(
@@ -33,8 +33,9 @@ void* load_module(const FormatModule& format_module, const std::string& file) {
 template <typename Function>
 Function find_function(void* module, const char* name, const std::string& file) {
   if (void* address = ::dlsym(module, name)) return reinterpret_cast<Function>(address);
-  throw Error(ErrorKind::unsupported, file,
-              "its module belongs to another version of microtrace; install both from one build");
+  throw Error(
+      ErrorKind::unsupported, file,
+      "its module belongs to another version of microtrace; install both from the same build");
 }
 
 /// The targets of sinks. Exceptions must not propagate through the module's frames, so they are
@@ -95,9 +96,9 @@ ImageModule::ImageModule(std::string file, std::string_view ending) : file_(std:
 MicrotraceFormat ImageModule::find_format(const std::string& ending) const {
   MicrotraceFormat format{};
   if (find_format_(ending.c_str(), &format) != 0) return format;
-  std::string message = "no picture can be written with the ending .";
+  std::string message = "no picture can be written with the extension .";
   message += ending;
-  message += "; use .ppm, .png or .exr, or another that OpenImageIO can write";
+  message += "; use .ppm, .png or .exr, or another format of OpenImageIO";
   throw Error(ErrorKind::usage, file_, message);
 }
 

@@ -109,7 +109,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   if (!is_decoded) {
     throw Error(ErrorKind::io, path.string(),
                 "can't be decoded: " + decoded.complaint +
-                    "; an environment is a latitude-longitude picture, as .hdr or .exr");
+                    "; an environment must be a latitude-longitude map such as .hdr or .exr");
   }
   return decoded;
 }
@@ -165,7 +165,7 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
   try {
     map.pixels.resize(std::size_t{colors.width} * colors.height);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::limit, path.string(), "is too large for the memory there is");
+    throw Error(ErrorKind::limit, path.string(), "is too large for the available memory");
   }
   if (const auto* floats = std::get_if<std::vector<float>>(&decoded.samples)) {
     fill(
@@ -194,7 +194,7 @@ LoadedRadianceMap load_radiance_map(const std::filesystem::path& path, MemoryBud
   if (colors.width != 2 * colors.height) {
     warn("an environment is a latitude-longitude map, twice as wide as high; this one of " +
          std::to_string(colors.width) + " x " + std::to_string(colors.height) +
-         " pixels is stretched to that");
+         " pixels is stretched");
   }
   const auto counted =
       std::make_shared<CountedMap>(CountedMap{std::move(map), std::move(memory_of_map)});

@@ -25,7 +25,7 @@ std::string format_ending(const std::filesystem::path& path) {
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (ending.size() < 2) {
     throw Error(ErrorKind::usage, path.string(),
-                "has no ending that names a picture format; use .ppm, .png or .exr");
+                "has no extension that selects a picture format; use .ppm, .png or .exr");
   }
   return ending.substr(1);
 }
@@ -98,7 +98,7 @@ void check_sidecar_path(const std::filesystem::path& path, const std::filesystem
   std::error_code ignored;
   if (path == picture || std::filesystem::equivalent(path, picture, ignored)) {
     throw Error(ErrorKind::usage, path.string(),
-                "is the picture's file too; name another for the sidecar");
+                "is also the picture's file; name another file for the sidecar");
   }
   io::check_target(path);
 }

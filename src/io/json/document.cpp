@@ -151,7 +151,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
       fail(ErrorKind::limit, offset,
            std::string("the text has more values than ")
                .append(std::to_string(max_values_))
-               .append(", the most that is read"));
+               .append(", the limit"));
     }
     if (count_ % kBlock == 1) take_memory(kBlock * kBytesOfValue, "the values of JSON");
     value.offset = offset;
@@ -208,7 +208,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     const std::vector<std::size_t>& outdone = repeated.outdone;
     if (outdone.empty()) return;
     if (policy_ == RepeatedKeys::are_refused) {
-      fail({repeated.first, "the key " + in_quotes(repeated.key) + " stands twice in this object"});
+      fail({repeated.first, "the key " + in_quotes(repeated.key) + " occurs twice in this object"});
     }
     note_outdone(object, outdone);
     std::erase_if(object.members, [&](const JsonMember& member) {

@@ -90,7 +90,7 @@ std::optional<JsonReader> JsonReader::find(std::string_view key) const {
 JsonReader JsonReader::member(std::string_view key) const {
   require_object();
   if (auto found = find(key)) return *std::move(found);
-  fail(std::string("needs the member ").append(in_quotes(key)));
+  fail(std::string("lacks the required member ").append(in_quotes(key)));
 }
 
 std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {

@@ -67,11 +67,11 @@ SyntaxError explain_string(const SyntaxContext& context, std::string_view text,
   }
   if (says("backslash")) {
     return {last,
-            "unknown escape; after a backslash may stand \" \\ / b f n r t or u and four hex "
+            "unknown escape; a backslash must be followed by \" \\ / b f n r t or u and four hex "
             "digits"};
   }
   if (says("4 hex digits")) return {last, "\\u must be followed by four hex digits"};
-  return {last, "a \\u surrogate must stand in a pair, high then low"};
+  return {last, "a \\u surrogate must be part of a pair, high then low"};
 }
 
 SyntaxError explain_literal(std::string_view text, const SyntaxContext& context) {
@@ -80,7 +80,7 @@ SyntaxError explain_literal(std::string_view text, const SyntaxContext& context)
     return {context.token, "is not UTF-8 here; save the file as UTF-8"};
   }
   if (rest[0] == '/' || rest[0] == '#') return {context.token, "comments are not JSON; remove it"};
-  if (rest[0] == '\'') return {context.token, "strings take double quotes in JSON"};
+  if (rest[0] == '\'') return {context.token, "JSON strings need double quotes"};
   const std::string_view word = word_at(text, context.token);
   const std::string_view bare = word.substr(word[0] == '-' || word[0] == '+' ? 1 : 0);
   if (bare == "NaN" || bare == "nan" || bare == "Infinity" || bare == "inf") {
@@ -91,8 +91,8 @@ SyntaxError explain_literal(std::string_view text, const SyntaxContext& context)
   }
   std::string message = "expected ";
   message.append(expected(context)).append(", found ").append(in_quotes(word));
-  if (word[0] == '+') message += "; a number takes no plus sign";
-  if (word[0] == '.') message += "; a number starts with a digit";
+  if (word[0] == '+') message += "; JSON numbers have no plus sign";
+  if (word[0] == '.') message += "; JSON numbers start with a digit";
   return {context.token, message};
 }
 
@@ -103,12 +103,12 @@ SyntaxError explain_misplaced(std::string_view text, const SyntaxContext& contex
   const bool after_comma =
       context.expects == Expects::key || (context.expects == Expects::value && context.comma != 0);
   if (after_comma && (c == '}' || c == ']')) {
-    std::string message = "a comma must not stand before '";
+    std::string message = "a comma is not allowed before '";
     message += c;
     return {context.comma, message.append("'; remove it")};
   }
   if (context.token < text.size() && c == '\0') {
-    return {context.token, "a zero byte stands outside strings; this is not a JSON text"};
+    return {context.token, "a zero byte is outside of strings; this is not a JSON text"};
   }
   std::string message = "expected ";
   message.append(expected(context)).append(", found ").append(found(text, context.token));

@@ -76,7 +76,7 @@ DMat4 read_transform(const JsonReader& json) {
   json.require_object({"translation", "rotation", "scale", "matrix"});
   if (const auto matrix = json.find("matrix")) {
     if (json.value().members.size() == 1) return read_matrix(*matrix);
-    matrix->fail("must not stand beside translation, rotation or scale");
+    matrix->fail("must not be combined with translation, rotation or scale");
   }
   DMat4 out(1);
   if (const auto turn = json.find("rotation")) out = read_rotation(*turn);

@@ -10,7 +10,7 @@ std::string Names::read(const JsonReader& json) {
   const auto [earlier, is_new] = pointers_.emplace(name, json.pointer());
   if (!is_new) {
     std::string message = "the name ";
-    message.append(in_quotes(name)).append(" is taken by ").append(earlier->second);
+    message.append(in_quotes(name)).append(" is already used by ").append(earlier->second);
     (given ? *given : json).fail(message.append("; names must differ"));
   }
   return name;

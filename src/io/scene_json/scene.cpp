@@ -90,7 +90,7 @@ class Palette {
   std::optional<std::uint32_t> read(const JsonReader& object) {
     const auto color = object.find("color");
     if (const auto name = object.find("material")) {
-      if (color) name->fail("must not stand beside color");
+      if (color) name->fail("must not be combined with color");
       return find(*name);
     }
     if (!color) return std::nullopt;

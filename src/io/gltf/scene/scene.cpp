@@ -48,7 +48,7 @@ auto guarded(const std::string& name, Part&& part) {
     if (!error.diagnostic().file.empty()) throw;
     throw Error(error.kind(), name, error.diagnostic().message);
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorKind::limit, name, "the asset needs more memory than there is");
+    throw Error(ErrorKind::limit, name, "the asset needs more memory than is available");
   } catch (const std::exception& error) {
     throw Error(ErrorKind::internal, name, std::string("reading glTF failed: ") + error.what());
   }
