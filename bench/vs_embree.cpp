@@ -84,8 +84,9 @@ void run(const Arguments& arguments) {
   std::printf(
       "microtrace with %s kernels, Embree %s, threads: %u, runs: %u,\n"
       "%s seconds, denormal numbers kept (no flush to zero) for both\n\n%s",
-      best_kernels().name, RTC_VERSION_STRING, arguments.options.threads, arguments.options.runs,
-      arguments.options.threads == 1 ? "processor" : "wall-clock", table_head().c_str());
+      kRayKernels.best().name, RTC_VERSION_STRING, arguments.options.threads,
+      arguments.options.runs, arguments.options.threads == 1 ? "processor" : "wall-clock",
+      table_head().c_str());
   std::vector<SceneRows> all;
   for (const auto& make : scenes) {
     all.push_back(compare(make(), arguments.options));

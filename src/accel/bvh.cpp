@@ -51,8 +51,8 @@ struct Bvh::Impl {
   std::vector<PrimitiveId> outside;  // not in the tree; tested one by one
   Tree tree;
   bool has_tree = false;
-  const Kernels* kernels = &best_kernels();
-  const SpawnKernels* spawn_kernels = &best_spawn_kernels();
+  const Kernels* kernels = &kRayKernels.best();
+  const SpawnKernels* spawn_kernels = &kSpawnKernels.best();
 };
 
 Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scene) {

@@ -7,7 +7,7 @@ namespace microtrace {
 
 StageCounts stage_counts() {
   StageCounts counts = fallback_stages;
-  counts.edges = best_kernels().edge_tests();
+  counts.edges = kRayKernels.best().edge_tests();
   counts.grid = exact::queries.grid;
   counts.dyadic = exact::queries.dyadic;
   return counts;

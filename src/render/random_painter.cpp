@@ -18,7 +18,7 @@ RandomPainter::RandomPainter(const World& world, const Integrator& integrator,
       ray_(world.camera, world.scene),
       filter_(options.filter),
       background_(background),
-      kernels_(best_shading_kernels()) {}
+      kernels_(kShadingKernels.best()) {}
 
 void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
                         std::span<PixelSum> sums) const {

@@ -29,7 +29,7 @@ class DegenerateCost : public testing::TestWithParam<const Kernels*> {
   void TearDown() override { unsetenv("MICROTRACE_ISA"); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Isa, DegenerateCost, testing::ValuesIn(available_kernels()),
+INSTANTIATE_TEST_SUITE_P(Isa, DegenerateCost, testing::ValuesIn(kRayKernels.available()),
                          [](const auto& isa) { return std::string(isa.param->name); });
 
 Scene scene_of(Mesh mesh) {

@@ -75,7 +75,7 @@ class World {
       scene_.objects.push_back(
           {.name = "", .shape = closed_body(random, BodyKind::prism, away, size_)});
     }
-    const auto kernels = available_kernels();
+    const auto kernels = kRayKernels.available();
     setenv("MICROTRACE_ISA", kernels[random.bits() % kernels.size()]->name, 1);
     bvh_ = std::make_unique<Bvh>(scene_, BvhOptions{.fast_build = random.one_in(2)});
     unsetenv("MICROTRACE_ISA");

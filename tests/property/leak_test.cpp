@@ -35,7 +35,7 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   Scene scene;
   scene.objects.push_back({.name = "", .shape = closed.mesh});
   std::vector<Bvh> trees;
-  for (const Kernels* kernels : available_kernels()) {
+  for (const Kernels* kernels : kRayKernels.available()) {
     setenv("MICROTRACE_ISA", kernels->name, 1);
     trees.emplace_back(scene);
   }

@@ -60,12 +60,12 @@ class Next : public testing::TestWithParam<const Kernels*> {
  protected:
   void SetUp() override {
     setenv("MICROTRACE_ISA", GetParam()->name, 1);
-    ASSERT_EQ(&best_kernels(), GetParam());
+    ASSERT_EQ(&kRayKernels.best(), GetParam());
   }
   void TearDown() override { unsetenv("MICROTRACE_ISA"); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Isa, Next, testing::ValuesIn(available_kernels()),
+INSTANTIATE_TEST_SUITE_P(Isa, Next, testing::ValuesIn(kRayKernels.available()),
                          [](const auto& isa) { return std::string(isa.param->name); });
 
 TEST_P(Next, EnumeratesAllHitsInExactOrder) {

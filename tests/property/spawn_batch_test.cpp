@@ -101,7 +101,7 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
                         .hit = {.id = known.id, .t = 0},
                         .direction = direction(random, known.ray)});
   }
-  const auto kernels = available_kernels();
+  const auto kernels = kRayKernels.available();
   setenv("MICROTRACE_ISA", kernels[random.bits() % kernels.size()]->name, 1);
   const Bvh bvh(scene), other(scene, {.fast_build = true});
   unsetenv("MICROTRACE_ISA");

@@ -86,7 +86,7 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
     ASSERT_TRUE(holds(in_plane.value, in_plane.error)) << reproduction(ray, t);
   }
   const Vec3 expected = unsigned_zeros(exact::round_point(ray, *exact_t));
-  const auto p = rounded_point(point, t.a, normal), q = of_lanes(best_spawn_kernels(), ray, t);
+  const auto p = rounded_point(point, t.a, normal), q = of_lanes(kSpawnKernels.best(), ray, t);
   for (int k = 0; k < 3; ++k) {
     const auto bits = [&](const Vec3& v) { return std::bit_cast<std::uint32_t>(v[k]); };
     ASSERT_TRUE(!p || bits(*p) == bits(expected)) << reproduction(ray, t);

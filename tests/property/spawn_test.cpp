@@ -267,7 +267,7 @@ TEST(Spawn, BatchesEqualSingleOrigins) {
       expected.push_back(bvh.spawn_origin(*spawn.ray, spawn.hit, spawn.direction));
       answers += expected.back() ? 1 : 0;
     }
-    for (const Kernels* kernels : available_kernels()) {
+    for (const Kernels* kernels : kRayKernels.available()) {
       setenv("MICROTRACE_ISA", kernels->name, 1);
       std::vector<std::optional<Vec3>> origins(spawns.size());
       Bvh(scene).spawn_origins(spawns, origins);

@@ -20,7 +20,7 @@ using adversarial::Random;
 // The instruction set is the parameter.
 class Touching : public testing::TestWithParam<const Kernels*> {};
 
-INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(available_kernels()),
+INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(kRayKernels.available()),
                          [](const auto& isa) { return std::string(isa.param->name); });
 
 void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {

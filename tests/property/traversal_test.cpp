@@ -112,10 +112,10 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
 /// Calls f with each of the machine's kernels, which trees built meanwhile use.
 template <class F>
 void with_each_kernel(const F& f) {
-  for (const Kernels* kernels : available_kernels()) {
+  for (const Kernels* kernels : kRayKernels.available()) {
     SCOPED_TRACE(kernels->name);
     setenv("MICROTRACE_ISA", kernels->name, 1);
-    EXPECT_EQ(&best_kernels(), kernels);
+    EXPECT_EQ(&kRayKernels.best(), kernels);
     f();
     unsetenv("MICROTRACE_ISA");
     if (testing::Test::HasFatalFailure()) return;

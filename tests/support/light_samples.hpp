@@ -22,7 +22,7 @@ inline std::optional<LightSample> light_sample(const Lighting& lighting,
   choices.choice[0] = choice;
   triangles.u[0][0] = u.x;
   triangles.u[1][0] = u.y;
-  lighting.sample(best_shading_kernels(), 1, choices, triangles, samples);
+  lighting.sample(kShadingKernels.best(), 1, choices, triangles, samples);
   if (samples[0].light == Vec3(0)) return std::nullopt;
   return samples[0];
 }

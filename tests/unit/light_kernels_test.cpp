@@ -100,7 +100,7 @@ TEST_P(LightKernelsTest, TrianglesAreSampledWithTheBitsOfOneLane) {
   EXPECT_GT(lit, kRounds * kShadingLanes / 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, LightKernelsTest, testing::ValuesIn(available_shading_kernels()),
+INSTANTIATE_TEST_SUITE_P(Isa, LightKernelsTest, testing::ValuesIn(kShadingKernels.available()),
                          [](const auto& set) { return std::string(set.param->name); });
 
 }  // namespace

@@ -178,7 +178,7 @@ TEST_P(ShadingKernelsTest, ScatteringHasTheBitsOfOneLane) {
   EXPECT_GT(below, kRounds * kShadingLanes / 20);
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, ShadingKernelsTest, testing::ValuesIn(available_shading_kernels()),
+INSTANTIATE_TEST_SUITE_P(Isa, ShadingKernelsTest, testing::ValuesIn(kShadingKernels.available()),
                          [](const auto& set) { return std::string(set.param->name); });
 
 }  // namespace

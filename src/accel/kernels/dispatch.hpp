@@ -1,21 +1,17 @@
 #pragma once
-/// Selects the kernels to run. Not to be included by the kernels' own translation units.
+/// The kernels of all instruction sets. Not to be included by the kernels' own translation units.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
-
-#include <vector>
+#include "simd/kernel_tables.hpp"
 
 namespace microtrace {
 
-/// Kernels for the instruction sets that this processor supports, fastest first.
-[[nodiscard]] std::vector<const Kernels*> available_kernels();
+inline constexpr KernelTables<Kernels> kRayKernels =
+    MICROTRACE_KERNEL_TABLES(kPortableKernels, kAvx2Kernels, kAvx512Kernels);
 
-/// The first of them, or the ones that the environment variable MICROTRACE_ISA names (portable,
-/// avx2, avx512); portable if these are not available.
-[[nodiscard]] const Kernels& best_kernels();
-
-/// The kernels for rays that leave surfaces, selected the same way.
-[[nodiscard]] const SpawnKernels& best_spawn_kernels();
+/// For rays that leave surfaces.
+inline constexpr KernelTables<SpawnKernels> kSpawnKernels =
+    MICROTRACE_KERNEL_TABLES(kPortableSpawn, kAvx2Spawn, kAvx512Spawn);
 
 }  // namespace microtrace

@@ -147,7 +147,7 @@ void VertexQueue::go_on(int lane, const WaveStep& step, Departures& departures) 
   next.absorption = vertex.absorption;
 }
 
-VertexQueues::VertexQueues() : kernels_(best_shading_kernels()) {}
+VertexQueues::VertexQueues() : kernels_(kShadingKernels.best()) {}
 
 void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
   shading_ = &shading;

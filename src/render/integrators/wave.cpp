@@ -39,7 +39,7 @@ class RayTimer {
 
 }  // namespace
 
-Wave::Wave() : kernels_(&best_shading_kernels()) {}
+Wave::Wave() : kernels_(&kShadingKernels.best()) {}
 
 void Wave::begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids) {
   world_ = &world;

@@ -1,16 +1,13 @@
 #pragma once
-/// Selects the shading kernels. Not to be included by the kernels' own translation units.
+/// The shading kernels of all instruction sets. Not to be included by the kernels' own translation
+/// units.
 
 #include "render/kernels/kernel.hpp"
-
-#include <vector>
+#include "simd/kernel_tables.hpp"
 
 namespace microtrace {
 
-/// Kernels for the instruction sets that this processor supports, fastest first.
-[[nodiscard]] std::vector<const ShadingKernels*> available_shading_kernels();
-
-/// The kernels of best_instruction_set().
-[[nodiscard]] const ShadingKernels& best_shading_kernels();
+inline constexpr KernelTables<ShadingKernels> kShadingKernels =
+    MICROTRACE_KERNEL_TABLES(kPortableShading, kAvx2Shading, kAvx512Shading);
 
 }  // namespace microtrace

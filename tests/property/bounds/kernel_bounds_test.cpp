@@ -174,7 +174,7 @@ class OneTriangle {
 template <std::size_t N>
 void check(const std::array<Numbers, N>& cases) {
   for (const Numbers& numbers : cases) {
-    for (const Kernels* kernels : available_kernels()) OneTriangle(numbers).check(*kernels);
+    for (const Kernels* kernels : kRayKernels.available()) OneTriangle(numbers).check(*kernels);
   }
 }
 
@@ -256,7 +256,7 @@ TEST(KernelBounds, RoundedParameter) {
        -0x1.598e1p-2F, 0x1.000002p-1F, 0x1.c1125cp-50F, 0x1.fffffp-2F},
   }};
   for (const Numbers& numbers : cases) {
-    for (const Kernels* kernels : available_kernels())
+    for (const Kernels* kernels : kRayKernels.available())
       OneTriangle(numbers).check_rounding(*kernels);
   }
 }
@@ -273,7 +273,7 @@ TEST(KernelBounds, Slabs) {
                                             {0x1.d550b2p+1F, -0x1.c6ff8p-2F, 0x1.057014p+0F},
                                             {0x1.696edcp+2F, -0x1.d187dep-3F, 0x1.fa2f64p+0F}}};
   const auto stream = std::make_unique<KernelStream>();
-  for (const Kernels* kernels : available_kernels()) {
+  for (const Kernels* kernels : kRayKernels.available()) {
     SCOPED_TRACE(kernels->name);
     const auto ask = [&](const Slab& slab) {
       stream->count = kPacketRays;
