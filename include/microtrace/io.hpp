@@ -29,8 +29,10 @@ struct LoadedScene {
 enum class SurfaceDetail {
   shape,  ///< normals, texture coordinates, and images whose alpha affects visibility: for depth,
           ///< ids and other quantities without color
-  color,  ///< the same with base colors and their images: for flat pictures
-  all,    ///< everything, including tangents and all images
+  color,  ///< base colors with their images and texture coordinates: for flat pictures
+  shape_and_color,  ///< both: for albedo, and for flat pictures with AOVs
+  all,    ///< what path tracing reads: also tangents, and images of all textures but occlusion and
+          ///< thickness
   usual,  ///< color for JSON scenes, all for glTF assets: the needs of the default integrators
 };
 

@@ -54,13 +54,13 @@ void apply_defaults(Arguments& a, SceneFormat format) {
 }
 
 SurfaceDetail surface_detail(const Arguments& a) {
+  if (!a.integrator) return a.aovs.empty() ? SurfaceDetail::usual : SurfaceDetail::all;
+  if (a.is_path_traced()) return SurfaceDetail::all;
   const bool shows_albedo = std::ranges::find(a.aovs.exact, Aov::albedo) != a.aovs.exact.end();
-  const Aov* quantity = a.integrator ? std::get_if<Aov>(&*a.integrator) : nullptr;
+  const Aov* quantity = std::get_if<Aov>(&*a.integrator);
   if (quantity != nullptr && *quantity != Aov::albedo && !shows_albedo) return SurfaceDetail::shape;
-  if (!a.aovs.empty()) return SurfaceDetail::all;
-  if (!a.integrator) return SurfaceDetail::usual;
-  const bool is_flat = std::holds_alternative<FlatOptions>(*a.integrator);
-  return is_flat ? SurfaceDetail::color : SurfaceDetail::all;
+  const bool is_flat = quantity == nullptr;
+  return is_flat && a.aovs.empty() ? SurfaceDetail::color : SurfaceDetail::shape_and_color;
 }
 
 }  // namespace microtrace::cli

@@ -38,9 +38,7 @@ class TextureMap {
   /// The same in float32 with one bilinear lookup in the mip level whose texels are just smaller
   /// than `width`, a fraction of the image's width and height: for Monte Carlo samples, whose mean
   /// is the filter.
-  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const {
-    return sample(texel_address(uv, width));
-  }
+  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const { return sample(place(uv, width)); }
 
   /// Two neighboring texels of a row or a column, and the interpolation weight of the second.
   struct Between {
@@ -48,15 +46,15 @@ class TextureMap {
     float share;
   };
   /// The texel address of a sample() call.
-  struct TexelAddress {
+  struct Place {
     std::size_t level;
     std::uint32_t columns;  ///< of the level
     Between x, y;
   };
-  [[nodiscard]] TexelAddress texel_address(const Vec2& uv, float width) const;
-  [[nodiscard]] Vec4 sample(const TexelAddress& address) const;
+  [[nodiscard]] Place place(const Vec2& uv, float width) const;
+  [[nodiscard]] Vec4 sample(const Place& place) const;
   /// Prefetches the texels at this address.
-  void fetch(const TexelAddress& address) const;
+  void fetch(const Place& place) const;
 
   /// True if both have the same texel addresses.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;

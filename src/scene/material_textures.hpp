@@ -33,6 +33,14 @@ enum class MaterialTexture {
   count,  ///< of them
 };
 
+/// Whether path tracing reads the texture. It finds occlusion by itself, of a thickness only
+/// whether there is any matters, and unlit surfaces have no other color than their own.
+[[nodiscard]] inline bool affects_light(const Material& material, MaterialTexture texture) {
+  using enum MaterialTexture;
+  if (material.unlit) return texture == base_color || texture == emissive;
+  return texture != occlusion && texture != thickness;
+}
+
 /// Calls visit(MaterialTexture, TextureUse&, ColorEncoding) for each texture that the material has.
 /// The reference is const if the material is.
 template <typename AnyMaterial, typename Visit>

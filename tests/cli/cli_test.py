@@ -315,7 +315,7 @@ class CommandLine(ProgramTest):
             self.assertTrue(any(line.startswith("info: ") and text in line for line in lines), (text, lines))
         self.assertEqual(self.run_program(SCENE, "-v", "-q").returncode, 2)
 
-    def test_quantities_decode_only_images_whose_alpha_they_need(self):
+    def test_only_images_that_the_picture_needs_are_decoded(self):
         def decoded(*options):
             result = self.run_program(SOURCE / "scenes/gltf/textured.glb", "-o", "a.exr", "-v", "--size", "16x12", *options)
             self.assertEqual(result.returncode, 0, result.stderr)
@@ -324,6 +324,8 @@ class CommandLine(ProgramTest):
         self.assertGreater(decoded("--spp", "1"), 3)
         self.assertLess(decoded("--integrator", "depth"), decoded("--integrator", "albedo"))
         self.assertEqual(decoded("--integrator", "albedo"), decoded("--integrator", "depth", "--aov", "albedo"))
+        self.assertLess(decoded("--integrator", "albedo"), decoded("--spp", "1"))
+        self.assertEqual(decoded("--integrator", "flat", "--aov", "normal"), decoded("--integrator", "flat"))
         # The quantities are the same, decoded or not.
         for quantity in ("depth", "normal", "uv", "id"):
             pictures = []

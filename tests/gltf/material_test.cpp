@@ -11,6 +11,7 @@ namespace microtrace::tests {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 
 /// The cube with a material of this JSON, whose extensions are all declared, and 24 textures with
 /// different images.
@@ -227,13 +228,51 @@ TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
   EXPECT_THAT(encodings, ElementsAre(1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1));
 }
 
-TEST(GltfMaterial, FlatPicturesDecodeOnlyColorImages) {
-  const AssetBuilder asset = with_material(kEverything);
-  const Scene flat = load(asset, {.detail = SurfaceDetail::color}).scene;
-  const Scene all = load(asset).scene;
-  for (std::size_t i = 0; i < 24; ++i) {
-    EXPECT_EQ(flat.images.at(i) != nullptr, i == 0) << i;
-    EXPECT_EQ(all.images.at(i) != nullptr, i < 19) << i;
+// The images that a picture with this detail decodes, by index.
+std::vector<std::size_t> decoded(const AssetBuilder& asset, SurfaceDetail detail) {
+  const Scene scene = load(asset, {.detail = detail}).scene;
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < scene.images.size(); ++i)
+    if (scene.images[i] != nullptr) result.push_back(i);
+  return result;
+}
+
+TEST(GltfMaterial, OnlyImagesThatThePictureReadsAreDecoded) {
+  AssetBuilder asset = with_material(kEverything);
+  EXPECT_THAT(decoded(asset, SurfaceDetail::shape), IsEmpty());
+  EXPECT_THAT(decoded(asset, SurfaceDetail::color), ElementsAre(0));
+  EXPECT_THAT(decoded(asset, SurfaceDetail::shape_and_color), ElementsAre(0));
+  // All but occlusion, 3, and thickness, 8.
+  EXPECT_THAT(decoded(asset, SurfaceDetail::all),
+              ElementsAre(0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18));
+  asset.json["materials"][0]["alphaMode"] = "MASK";
+  EXPECT_THAT(decoded(asset, SurfaceDetail::shape), ElementsAre(0));
+  asset.json["materials"][0]["extensions"]["KHR_materials_unlit"] = Json::object();
+  asset.json["extensionsUsed"].push_back("KHR_materials_unlit");
+  EXPECT_THAT(decoded(asset, SurfaceDetail::all), ElementsAre(0));
+}
+
+TEST(GltfMaterial, AnImageWithSeveralUsesIsDecodedIfOneIsRead) {
+  AssetBuilder asset = with_material(kEverything);
+  asset.json["materials"][0]["occlusionTexture"]["index"] = 1;  // metallic-roughness
+  EXPECT_THAT(decoded(asset, SurfaceDetail::all), testing::Contains(1));
+}
+
+// Only the header of an image that nothing reads is examined.
+TEST(GltfMaterial, DamagedPixelsThatNothingReadsAreNoError) {
+  AssetBuilder asset = with_material(kEverything);
+  std::string png = png_of(1, 1, {9, 8, 7, 6});
+  png.resize(png.size() - 20);  // in the pixels
+  png += std::string(20, '\xFF');
+  const Json damaged = {{"mimeType", "image/png"}, {"bufferView", asset.add_view(png)}};
+  for (const std::size_t texture : {3U, 8U, 1U}) {
+    AssetBuilder broken = asset;
+    broken.json["images"][texture] = damaged;
+    if (texture == 1) {
+      EXPECT_THROW((void)load(broken), Error);
+    } else {
+      EXPECT_THAT(texts(load(broken).warnings), IsEmpty()) << texture;
+    }
   }
 }
 

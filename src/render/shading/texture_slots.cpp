@@ -7,17 +7,15 @@
 
 namespace microtrace {
 
-TextureMap::TexelAddress TextureSlot::texel_address(const ShadingPoint& point) const {
+TextureMap::Place TextureSlot::place(const ShadingPoint& point) const {
   const Vec2 uv = point.at.uv(use->uv_set);
   const auto& m = use->texture_from_uv;
   const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
-  return map->texel_address(m[0] * uv.x + m[1] * uv.y + m[2],
-                            point.width * point.at.uv_scale * scale);
+  return map->place(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
 }
 
 Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
-  return map->sample(shares_address && point.texel_address ? *point.texel_address
-                                                           : texel_address(point));
+  return map->sample(shares_place && point.place ? *point.place : place(point));
 }
 
 TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
@@ -44,28 +42,22 @@ Vec3 absorption_of(const Volume& volume) {
   return result;
 }
 
-/// Whether it has an effect on light: paths find occlusion by themselves, and of thickness only
-/// whether there is any matters.
-bool is_shaded(MaterialTexture texture) {
-  return texture != MaterialTexture::occlusion && texture != MaterialTexture::thickness;
-}
-
 }  // namespace
 
 TexturedMaterial TextureMaps::slots(const Material& m) {
   TexturedMaterial look{.material = &m};
   for_each_named_texture(
       m, [&](MaterialTexture texture, const TextureUse& use, ColorEncoding encoding) {
-        if (is_shaded(texture)) look[texture] = slot(use, encoding);
+        if (affects_light(m, texture)) look[texture] = slot(use, encoding);
       });
   if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
   for (const MaterialTexture texture : TexturedMaterial::frequent) {
     TextureSlot& slot = look[texture];
     if (slot.map == nullptr) continue;
     if (look.layout.map == nullptr) look.layout = slot;
-    slot.shares_address = slot.map->is_laid_out_as(*look.layout.map) &&
-                          slot.use->uv_set == look.layout.use->uv_set &&
-                          slot.use->texture_from_uv == look.layout.use->texture_from_uv;
+    slot.shares_place = slot.map->is_laid_out_as(*look.layout.map) &&
+                        slot.use->uv_set == look.layout.use->uv_set &&
+                        slot.use->texture_from_uv == look.layout.use->texture_from_uv;
   }
   return look;
 }

@@ -187,20 +187,19 @@ std::vector<ImageUse> image_uses(std::span<const Material> materials,
                                  const std::vector<bool>& drawn, std::span<const Texture> textures,
                                  std::size_t images, SurfaceDetail detail) {
   std::vector<ImageUse> uses(images);
-  const auto note = [&](const TextureUse& use, ColorEncoding encoding) {
-    const auto& image = textures[use.texture].image;
-    if (!image) return;
-    (encoding == ColorEncoding::srgb ? uses[*image].srgb : uses[*image].linear) = true;
+  const auto reads = [detail](const Material& material, MaterialTexture texture) {
+    if (detail == SurfaceDetail::all) return affects_light(material, texture);
+    if (texture != MaterialTexture::base_color) return false;
+    return detail != SurfaceDetail::shape || material.alpha_mode != AlphaMode::opaque;
   };
   for (std::size_t i = 0; i < materials.size(); ++i) {
     if (!drawn[i]) continue;
-    if (detail == SurfaceDetail::all) {
-      for_each_texture(materials[i], note);
-    } else if (const auto& use = materials[i].base_color_texture;
-               use &&
-               (detail == SurfaceDetail::color || materials[i].alpha_mode != AlphaMode::opaque)) {
-      note(*use, ColorEncoding::srgb);
-    }
+    for_each_named_texture(
+        materials[i], [&](MaterialTexture texture, const TextureUse& use, ColorEncoding encoding) {
+          const auto& image = textures[use.texture].image;
+          if (!image || !reads(materials[i], texture)) return;
+          (encoding == ColorEncoding::srgb ? uses[*image].srgb : uses[*image].linear) = true;
+        });
   }
   return uses;
 }

@@ -16,14 +16,14 @@
 
 namespace microtrace::io::gltf {
 
-/// The encodings that drawn materials expect of an image; none if it is unused.
+/// The encodings in which drawn materials are read from an image; none if nothing reads it.
 struct ImageUse {
   bool srgb = false, linear = false;
 
   [[nodiscard]] bool is_wanted() const { return srgb || linear; }
 };
 
-/// The uses of each image by the drawn materials.
+/// The uses of each image by the drawn materials, with this detail.
 [[nodiscard]] std::vector<ImageUse> image_uses(std::span<const Material> materials,
                                                const std::vector<bool>& drawn,
                                                std::span<const Texture> textures,
