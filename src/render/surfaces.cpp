@@ -74,7 +74,7 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
                       {.dx = uv_step(step.o_dx, step.d_dx), .dy = uv_step(step.o_dy, step.d_dy)});
 }
 
-Vec4 Surfaces::look(const World& world, const Ray& ray, const Hit& hit) const {
+Vec4 Surfaces::base_color(const World& world, const Ray& ray, const Hit& hit) const {
   const Material& material = material_of(scene_, primitives_.object(hit.id));
   const SurfaceInteraction at = interact(primitives_, ray, hit);
   if (!at.front && !material.double_sided) return Vec4(0);
@@ -112,13 +112,13 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
 
 std::optional<Hit> Surfaces::first_visible(const World& world, const Ray& ray,
                                            std::optional<Hit> hit) const {
-  while (hit && !plain_look(ray, *hit) && look(world, ray, *hit).w <= 0)
+  while (hit && !plain_color(ray, *hit) && base_color(world, ray, *hit).w <= 0)
     hit = world.bvh.next(ray, *hit);
   return hit;
 }
 
 Vec4 World::base_color(const Ray& ray, const Hit& hit) const {
-  return surfaces.look(*this, ray, hit);
+  return surfaces.base_color(*this, ray, hit);
 }
 
 std::optional<Hit> World::first_visible(const Ray& ray, std::optional<Hit> hit) const {

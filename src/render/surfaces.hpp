@@ -28,11 +28,11 @@ class Surfaces {
   Surfaces(const Scene& scene, const Primitives& primitives, SharedTables& tables);
 
   /// See World::base_color.
-  [[nodiscard]] Vec4 look(const World& world, const Ray& ray, const Hit& hit) const;
+  [[nodiscard]] Vec4 base_color(const World& world, const Ray& ray, const Hit& hit) const;
 
   /// The same for surfaces without textures and vertex colors, the most common case, and faster.
   /// Null for others.
-  [[nodiscard]] const Vec3* plain_look(const Ray& ray, const Hit& hit) const {
+  [[nodiscard]] const Vec3* plain_color(const Ray& ray, const Hit& hit) const {
     const Entry& entry = entries_[primitives_.object_index(hit.id)];
     if (entry.kind == Kind::various) return nullptr;
     if (entry.kind == Kind::one_sided && !is_front(ray, hit)) return nullptr;

@@ -38,7 +38,9 @@ class TextureMap {
   /// The same in float32 with one bilinear lookup in the mip level whose texels are just smaller
   /// than `width`, a fraction of the image's width and height: for Monte Carlo samples, whose mean
   /// is the filter.
-  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const { return sample(place(uv, width)); }
+  [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const {
+    return sample(texel_address(uv, width));
+  }
 
   /// Two neighboring texels of a row or a column, and the interpolation weight of the second.
   struct Between {
@@ -46,15 +48,15 @@ class TextureMap {
     float share;
   };
   /// The texel address of a sample() call.
-  struct Place {
+  struct TexelAddress {
     std::size_t level;
     std::uint32_t columns;  ///< of the level
     Between x, y;
   };
-  [[nodiscard]] Place place(const Vec2& uv, float width) const;
-  [[nodiscard]] Vec4 sample(const Place& place) const;
+  [[nodiscard]] TexelAddress texel_address(const Vec2& uv, float width) const;
+  [[nodiscard]] Vec4 sample(const TexelAddress& address) const;
   /// Prefetches the texels at this address.
-  void fetch(const Place& place) const;
+  void fetch(const TexelAddress& address) const;
 
   /// True if both have the same texel addresses.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;

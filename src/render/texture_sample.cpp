@@ -90,7 +90,7 @@ Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color,
 
 }  // namespace
 
-TextureMap::Place TextureMap::place(const Vec2& uv, float width) const {
+TextureMap::TexelAddress TextureMap::texel_address(const Vec2& uv, float width) const {
   std::size_t level = 0;
   const float pixels = width * static_cast<float>(std::max(image_.width, image_.height));
   if (pixels >= 2 && sampler_.mip != MipFilter::none) {
@@ -114,19 +114,19 @@ bool TextureMap::is_laid_out_as(const TextureMap& other) const {
          a.minification == b.minification && a.mip == b.mip;
 }
 
-void TextureMap::fetch(const Place& place) const {
-  const bool is_image = place.level == 0;
-  const void* samples = is_image ? image_samples_ : levels_[place.level - 1].samples.data();
+void TextureMap::fetch(const TexelAddress& address) const {
+  const bool is_image = address.level == 0;
+  const void* samples = is_image ? image_samples_ : levels_[address.level - 1].samples.data();
   const std::size_t size = is_image ? image_.channels * (is_wide_ ? 2U : 1U) : 8;
-  for (const std::int32_t row : {place.y.first, place.y.second}) {
+  for (const std::int32_t row : {address.y.first, address.y.second}) {
     const std::size_t pixel =
-        static_cast<std::size_t>(row) * place.columns + static_cast<std::size_t>(place.x.first);
+        static_cast<std::size_t>(row) * address.columns + static_cast<std::size_t>(address.x.first);
     __builtin_prefetch(static_cast<const char*>(samples) + pixel * size);
   }
 }
 
-Vec4 TextureMap::sample(const Place& place) const {
-  const auto& [level, columns, x, y] = place;
+Vec4 TextureMap::sample(const TexelAddress& address) const {
+  const auto& [level, columns, x, y] = address;
   if (level > 0) {
     const std::uint16_t* samples = levels_[level - 1].samples.data();
     return bilinear(x, y, columns,

@@ -27,9 +27,9 @@ constexpr double kIntegerBits = 0x1.8p52;
 /// 2^x for x in [-1000, 1000].
 template <int N>
 inline Double<N> power_of_two(const Double<N>& x) {
-  constexpr double ln2 = 0x1.62e42fefa39efp-1;
+  constexpr double kLn2 = 0x1.62e42fefa39efp-1;
   const Double<N> whole = floor_of<N>(x + 0.5);
-  const Double<N> y = (x - whole) * ln2;  // in [-0.347, 0.347]
+  const Double<N> y = (x - whole) * kLn2;  // in [-0.347, 0.347]
   // Taylor polynomial of e^y: the first omitted term is below 2^-57.
   Double<N> sum = Double<N>{} + 1;
   for (int k = 13; k > 0; --k) sum = 1 + y * sum / k;
@@ -40,28 +40,28 @@ inline Double<N> power_of_two(const Double<N>& x) {
 /// x must be a finite normal number above 0.
 template <int N>
 inline Double<N> binary_logarithm(const Double<N>& x) {
-  constexpr double sqrt2 = 0x1.6a09e667f3bcdp+0, ln2 = 0x1.62e42fefa39efp-1;
-  constexpr std::int64_t fraction = (std::int64_t{1} << 52) - 1;
+  constexpr double kSqrt2 = 0x1.6a09e667f3bcdp+0, kLn2 = 0x1.62e42fefa39efp-1;
+  constexpr std::int64_t kFraction = (std::int64_t{1} << 52) - 1;
   const Long<N> bits = reinterpreted<Long<N>>(x);
-  Double<N> m = reinterpreted<Double<N>>(Long<N>((bits & fraction) | std::int64_t{1023} << 52));
+  Double<N> m = reinterpreted<Double<N>>(Long<N>((bits & kFraction) | std::int64_t{1023} << 52));
   Double<N> exponent =
       reinterpreted<Double<N>>(Long<N>((bits >> 52) | std::int64_t{0x433} << 52)) - (0x1p52 + 1023);
-  const auto is_high = m > sqrt2;
+  const auto is_high = m > kSqrt2;
   m = is_high ? m / 2 : m;
   exponent = is_high ? exponent + 1 : exponent;
   // ln m = 2 artanh s with |s| <= 0.1716; the first omitted term is below 2^-60.
   const Double<N> s = (m - 1) / (m + 1), z = s * s;
   Double<N> sum{};
   for (int k = 21; k > 0; k -= 2) sum = 1.0 / k + z * sum;
-  return exponent + 2 / ln2 * (s * sum);
+  return exponent + 2 / kLn2 * (s * sum);
 }
 
 /// e^x for x <= 690, with a relative error of 2^-50 per unit of |x|; 0 below -690.
 template <int N>
 inline Double<N> exponential(const Double<N>& x) {
-  constexpr double log2e = 0x1.71547652b82fep+0;
+  constexpr double kLog2e = 0x1.71547652b82fep+0;
   const auto is_zero = x < -690;
-  return is_zero ? Double<N>{} : power_of_two<N>(is_zero ? Double<N>{} : x * log2e);
+  return is_zero ? Double<N>{} : power_of_two<N>(is_zero ? Double<N>{} : x * kLog2e);
 }
 
 /// x^y for x in [0, 1] and y > 0, with the same relative error in terms of the exponent; 0 below

@@ -54,10 +54,11 @@ struct ReducedAngle {
 /// first two products with n are exact.
 template <int N>
 inline ReducedAngle<N> reduced_radians(const Double<N>& x) {
-  constexpr double two_by_pi = 0x1.45f306dc9c883p-1;
-  constexpr double part1 = 0x1.921fb544p+0, part2 = 0x1.0b4611a6p-34, part3 = 0x1.3198a2e037073p-69;
-  const Double<N> n = floor_of<N>(x * two_by_pi + 0.5);
-  return {((x - n * part1) - n * part2) - n * part3,
+  constexpr double kTwoByPi = 0x1.45f306dc9c883p-1;
+  constexpr double kPart1 = 0x1.921fb544p+0, kPart2 = 0x1.0b4611a6p-34,
+                   kPart3 = 0x1.3198a2e037073p-69;
+  const Double<N> n = floor_of<N>(x * kTwoByPi + 0.5);
+  return {((x - n * kPart1) - n * kPart2) - n * kPart3,
           reinterpreted<Long<N>>(Double<N>(n + kIntegerBits))};
 }
 
@@ -70,16 +71,16 @@ inline Double<N> cos_radians(const Double<N>& x) {
 template <int N>
 inline Double<N> within_revolution(const Double<N>& x) {
   // Each difference is exact while n has at most 20 bits: `high` has 33 bits, `low` 20.
-  constexpr double whole = 0x1.921fb54442d18p+2, high = 0x1.921fb544p+2, low = whole - high;
-  const Double<N> n = floor_of<N>(x * (1 / whole));
+  constexpr double kWhole = 0x1.921fb54442d18p+2, kHigh = 0x1.921fb544p+2, kLow = kWhole - kHigh;
+  const Double<N> n = floor_of<N>(x * (1 / kWhole));
   if (any(n > 0x1p20)) {
     Double<N> result{};
-    for (int i = 0; i < N; ++i) set_lane(result, i, __builtin_fmod(lane(x, i), whole));
+    for (int i = 0; i < N; ++i) set_lane(result, i, __builtin_fmod(lane(x, i), kWhole));
     return result;
   }
-  Double<N> rest = (x - n * high) - n * low;
-  rest = rest < 0 ? rest + whole : rest;
-  return rest >= whole ? rest - whole : rest;
+  Double<N> rest = (x - n * kHigh) - n * kLow;
+  rest = rest < 0 ? rest + kWhole : rest;
+  return rest >= kWhole ? rest - kWhole : rest;
 }
 
 }  // namespace MICROTRACE_KERNELS

@@ -220,9 +220,9 @@ inline bool any(const Mask& mask) {
   if constexpr (sizeof mask <= sizeof(int)) {
     return mask != 0;
   } else {
-    constexpr int size = sizeof(mask) / sizeof(mask[0]);
+    constexpr int kSize = sizeof(mask) / sizeof(mask[0]);
     auto lanes = mask[0];
-    for (int i = 1; i < size; ++i) lanes |= mask[i];
+    for (int i = 1; i < kSize; ++i) lanes |= mask[i];
     return lanes != 0;
   }
 }

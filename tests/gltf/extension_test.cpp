@@ -191,11 +191,30 @@ TEST(GltfExtensions, OfMaterialsAreDrawn) {
   }
 }
 
+std::string text_of(const char* path) {
+  std::ifstream file(source_folder() / path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(GltfExtensions, EachPropertyThatIsReadHasARule) {
+  std::set<std::string, std::less<>> keys = {"scale"};  // of a texture info
+  for (const Extension* extension : extensions_of_materials()) {
+    for (const Rule& rule : rules_of(*extension)) keys.emplace(rule.key);
+  }
+  const std::string text = text_of("src/io/gltf/extensions/material_extensions.cpp");
+  const std::regex read("(?:number|vector|texture_use|find)\\((?:\\*?\\w+, )?\"(\\w+)\"");
+  std::size_t count = 0;
+  for (std::sregex_iterator at(text.begin(), text.end(), read); at != std::sregex_iterator();
+       ++at, ++count) {
+    EXPECT_TRUE(keys.contains((*at)[1].str())) << (*at)[1] << " has no rule";
+  }
+  EXPECT_GT(count, keys.size());
+}
+
 /// The names of extensions between two headings of docs/gltf.md. A row may name several by their
 /// endings: `KHR_materials_ior`, `_specular`.
 std::set<std::string> documented(const std::string& heading, const std::string& next) {
-  std::ifstream file(source_folder() / "docs/gltf.md");
-  std::string text(std::istreambuf_iterator<char>(file), {});
+  std::string text = text_of("docs/gltf.md");
   text = text.substr(text.find(heading));
   text.resize(text.find(next));
   const std::regex name("`((KHR_materials|KHR|EXT|MSFT)?_[a-z]\\w*)`");

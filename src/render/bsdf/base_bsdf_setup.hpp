@@ -88,9 +88,9 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
     return;
   }
   // Indices closer to 1 than this are not refracted.
-  constexpr float least = 0.003F;
-  const auto is_usable = magnitude(F(p.eta - 1)) >= least;
-  eta_ = is_usable ? p.eta : p.eta < 1 ? all<N>(1 - least) : all<N>(1 + least);
+  constexpr float kLeast = 0.003F;
+  const auto is_usable = magnitude(F(p.eta - 1)) >= kLeast;
+  eta_ = is_usable ? p.eta : p.eta < 1 ? all<N>(1 - kLeast) : all<N>(1 + kLeast);
   // The base color of a volume counts once for entering and leaving together, as in renderers
   // without walls.
   const V root{square_root<N>(p.base_color.x), square_root<N>(p.base_color.y),
@@ -120,19 +120,19 @@ template <int N, class Parts>
 auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
   // The film's reflectance oscillates with the angle. The base gets the energy left at the
   // brightest of these angles, with a margin for the angles between.
-  constexpr float cosines[] = {1.0F, 0.8F, 0.6F, 0.42F, 0.28F, 0.17F, 0.09F, 0.03F};
-  constexpr int of_mean = 4;
-  constexpr float margin = 0.05F;
+  constexpr float kCosines[] = {1.0F, 0.8F, 0.6F, 0.42F, 0.28F, 0.17F, 0.09F, 0.03F};
+  constexpr int kOfMean = 4;
+  constexpr float kMargin = 0.05F;
   const auto is_mixed = metallic_ < 1;
   V mean = all3<N>(0);
   F bound = greatest_.f0;
-  for (int k = 0; k < (any(is_mixed) ? 8 : of_mean); ++k) {
-    const F cosine = all<N>(cosines[k]), edge = all<N>(0) + Schlick<N>::edge(cosine);
+  for (int k = 0; k < (any(is_mixed) ? 8 : kOfMean); ++k) {
+    const F cosine = all<N>(kCosines[k]), edge = all<N>(0) + Schlick<N>::edge(cosine);
     const V f = thin_film_reflectance<N>(cosine, film_, schlick.f0);
     const V head_on = greatest_components(V((f - edge) / (1 - edge)), all3<N>(0));
-    if (k < of_mean) mean += head_on * all<N>(1.0F / of_mean);
-    const F greatest = greatest_component(head_on) + margin;
-    bound = (k < of_mean) | is_mixed ? larger_of(bound, greatest) : bound;
+    if (k < kOfMean) mean += head_on * all<N>(1.0F / kOfMean);
+    const F greatest = greatest_component(head_on) + kMargin;
+    bound = (k < kOfMean) | is_mixed ? larger_of(bound, greatest) : bound;
   }
   greatest_.f0 += film_.share * (smaller_of(bound, all<N>(1)) - greatest_.f0);
   greatest_.f90 += film_.share * (1 - greatest_.f90);

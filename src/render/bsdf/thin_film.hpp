@@ -40,17 +40,17 @@ struct FilmTerms {
     struct Gaussian {
       double value, position, variance, width;  // width: sqrt(2 pi variance)
     };
-    constexpr Gaussian x{5.4856e-13, 1.6810e+06, 4.3278e+09, 0x1.42128b7a1d185p+17};
-    constexpr Gaussian y{4.4201e-13, 1.7953e+06, 9.3046e+09, 0x1.d83f2044b7d1cp+17};
-    constexpr Gaussian z{5.2481e-13, 2.2084e+06, 6.6121e+09, 0x1.8e19038bce35ap+17};
-    constexpr Gaussian second{9.7470e-14, 2.2399e+06, 4.5282e+09, 0x1.4971e4334125fp+17};
+    constexpr Gaussian kX{5.4856e-13, 1.6810e+06, 4.3278e+09, 0x1.42128b7a1d185p+17};
+    constexpr Gaussian kY{4.4201e-13, 1.7953e+06, 9.3046e+09, 0x1.d83f2044b7d1cp+17};
+    constexpr Gaussian kZ{5.2481e-13, 2.2084e+06, 6.6121e+09, 0x1.8e19038bce35ap+17};
+    constexpr Gaussian kSecond{9.7470e-14, 2.2399e+06, 4.5282e+09, 0x1.4971e4334125fp+17};
     const D phase = 2 * kPi * path * 1e-9;
     const auto at = [&](const Gaussian& g, const D& shifted) {
       const D angle = within_revolution<N>(g.position * phase + shifted);
       return g.value * g.width * cos_radians<N>(angle) *
              exponential<N>(-square(phase) * g.variance);
     };
-    return V{at(x, shift.x) + at(second, shift.x), at(y, shift.y), at(z, shift.z)} /
+    return V{at(kX, shift.x) + at(kSecond, shift.x), at(kY, shift.y), at(kZ, shift.z)} /
            (D{} + 1.0685e-7);
   }
 

@@ -65,7 +65,7 @@ void FlatIntegrator::trace(const World& world, std::span<const Ray> rays,
   for (std::size_t i = 0; i < rays.size(); ++i) {
     samples[i] = Sample{};
     if (!hits[i]) continue;
-    if (const Vec3* color = world.surfaces.plain_look(rays[i], *hits[i])) {
+    if (const Vec3* color = world.surfaces.plain_color(rays[i], *hits[i])) {
       samples[i] = {.color = *color, .alpha = 1};
     } else {
       samples[i] = composite(world, rays[i], *hits[i]);

@@ -6,9 +6,9 @@ namespace microtrace {
 
 void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& color,
                      std::size_t slot) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   // A punctual light is at t = 1; an emissive triangle is hit approximately there.
-  const float t_max = light.is_far || light.target ? infinity : 1;
+  const float t_max = light.is_far || light.target ? kInfinity : 1;
   Group& group = light.target ? aimed_ : free_;
   group.add({.o = origin, .t_min = 0, .d = light.to_light, .t_max = t_max}, color, slot,
             light.target);
@@ -58,8 +58,8 @@ std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bo
   return beyond;
 }
 
-std::uint64_t ShadowRays::arrive(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
-                                 std::span<Vec3> colors) {
+std::uint64_t ShadowRays::trace(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
+                                std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::array<bool, kRandomBatch> occluded;
   bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count));

@@ -27,8 +27,8 @@ class ShadowRays {
 
   /// Adds the light that arrives to the colors and clears the rays. Returns the number of calls of
   /// Bvh::next.
-  std::uint64_t arrive(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
-                       std::span<Vec3> colors);
+  std::uint64_t trace(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
+                      std::span<Vec3> colors);
 
  private:
   /// Rays that end at an emissive triangle, or rays without such an end.

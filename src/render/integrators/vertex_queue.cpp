@@ -61,7 +61,7 @@ void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
   const int lane = count_++;
   const ShadingPoint& point = vertex.point;
   const PathState& path = vertex.path;
-  waiting_[static_cast<std::size_t>(lane)] = {.ray = &vertex.ray,
+  pending_[static_cast<std::size_t>(lane)] = {.ray = &vertex.ray,
                                               .hit = vertex.hit,
                                               .path = &path,
                                               .width = point.width,
@@ -100,7 +100,7 @@ void VertexQueue::find_frames() {
               sizeof scatter_.surface.coat_normal);
 }
 
-void VertexQueue::ask_lights(const WaveStep& step, const Lighting& lighting) {
+void VertexQueue::sample_lights(const WaveStep& step, const Lighting& lighting) {
   alignas(64) LaneFloats unused;
   kernels_.random_pairs(scatter_.key, scatter_.index, step.pair(sampling::kLightPair),
                         triangle_lights_.u[0], triangle_lights_.u[1]);
@@ -116,26 +116,26 @@ void VertexQueue::ask_lights(const WaveStep& step, const Lighting& lighting) {
   }
 }
 
-void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, Departures& departures) {
+void VertexQueue::finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing) {
   if (count_ == 0) return;
   find_frames();
-  if (lighting.can_sample()) ask_lights(step, lighting);
+  if (lighting.can_sample()) sample_lights(step, lighting);
   kernels_.scatter(scatter_setup(step, features_), scatter_);
   for (int lane = 0; lane < count_; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
     if (const Vec3 color = got(scatter_.shadow, lane); color != Vec3(0)) {
-      departures.add_shadow(*waiting_[i].ray, waiting_[i].hit, lights_[i], color,
-                            waiting_[i].path->slot);
+      outgoing.add_shadow(*pending_[i].ray, pending_[i].hit, lights_[i], color,
+                          pending_[i].path->slot);
     }
-    if (scatter_.pdf[lane] > 0) go_on(lane, step, departures);
+    if (scatter_.pdf[lane] > 0) continue_path(lane, step, outgoing);
   }
   count_ = 0;
 }
 
-void VertexQueue::go_on(int lane, const WaveStep& step, Departures& departures) const {
-  const Waiting& vertex = waiting_[static_cast<std::size_t>(lane)];
+void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const {
+  const PendingVertex& vertex = pending_[static_cast<std::size_t>(lane)];
   const float pdf = scatter_.pdf[lane];
-  PathState& next = departures.add_path(*vertex.ray, vertex.hit, got(scatter_.wi, lane));
+  PathState& next = outgoing.add_path(*vertex.ray, vertex.hit, got(scatter_.wi, lane));
   next = *vertex.path;
   next.throughput = got(scatter_.next_throughput, lane);
   next.pdf = pdf;
@@ -157,7 +157,7 @@ void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
   }
 }
 
-void VertexQueues::add(const WaveStep& step, const Vertex& vertex, Departures& departures) {
+void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
   const bsdf::Parameters parameters = shading_->parameters(vertex.point, vertex.channel);
   const bsdf::Layers layers = shading_->layers(vertex.point);
   const bsdf::Features features = features_of(parameters, layers);
@@ -167,12 +167,12 @@ void VertexQueues::add(const WaveStep& step, const Vertex& vertex, Departures& d
     queue->begin(*lighting_);
   }
   queue->add(vertex, parameters, layers);
-  if (queue->is_full()) queue->finish(step, *lighting_, departures);
+  if (queue->is_full()) queue->finish(step, *lighting_, outgoing);
 }
 
-void VertexQueues::finish(const WaveStep& step, Departures& departures) {
+void VertexQueues::finish(const WaveStep& step, OutgoingRays& outgoing) {
   for (const auto& queue : queues_) {
-    if (queue) queue->finish(step, *lighting_, departures);
+    if (queue) queue->finish(step, *lighting_, outgoing);
   }
 }
 

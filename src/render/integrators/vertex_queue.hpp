@@ -2,7 +2,7 @@
 /// Path vertices wait here until there are sixteen of the same kind for the shading kernels.
 
 #include "render/bsdf/parameters.hpp"
-#include "render/integrators/departures.hpp"
+#include "render/integrators/outgoing_rays.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/lights/lighting.hpp"
@@ -44,11 +44,11 @@ class VertexQueue {
   [[nodiscard]] bool is_full() const { return count_ == kShadingLanes; }
 
   /// Samples all vertices in the queue, and empties it.
-  void finish(const WaveStep& step, const Lighting& lighting, Departures& departures);
+  void finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing);
 
  private:
   /// What the next vertex of a path needs.
-  struct Waiting {
+  struct PendingVertex {
     const Ray* ray;
     Hit hit;
     const PathState* path;
@@ -59,13 +59,13 @@ class VertexQueue {
 
   void add_normal_maps(int lane, const ShadingPoint& point);
   void find_frames();
-  void ask_lights(const WaveStep& step, const Lighting& lighting);
-  void go_on(int lane, const WaveStep& step, Departures& departures) const;
+  void sample_lights(const WaveStep& step, const Lighting& lighting);
+  void continue_path(int lane, const WaveStep& step, OutgoingRays& outgoing) const;
 
   bsdf::Features features_;
   const ShadingKernels& kernels_;
   int count_ = 0;
-  std::array<Waiting, kShadingLanes> waiting_{};
+  std::array<PendingVertex, kShadingLanes> pending_{};
   LightChoices<kShadingLanes> light_choices_{};
   TriangleLights<kShadingLanes> triangle_lights_{};
   std::array<LightSample, kShadingLanes> lights_{};
@@ -80,9 +80,9 @@ class VertexQueues {
   VertexQueues();
 
   void begin(const Shading& shading, const Lighting& lighting);
-  void add(const WaveStep& step, const Vertex& vertex, Departures& departures);
+  void add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing);
   /// Finishes the bounce.
-  void finish(const WaveStep& step, Departures& departures);
+  void finish(const WaveStep& step, OutgoingRays& outgoing);
 
  private:
   const ShadingKernels& kernels_;

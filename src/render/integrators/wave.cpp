@@ -66,9 +66,9 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
       world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
     }
     step();
-    count_ = departures_.set_off(world_->bvh, shadow_rays_, rays_, paths_);
+    count_ = outgoing_.spawn_origins(world_->bvh, shadow_rays_, rays_, paths_);
     const RayTimer timer(counts_.shadow, shadow_rays_.count());
-    counts_.beyond += shadow_rays_.arrive(world_->bvh, *shading_, options_.backfaces, colors_);
+    counts_.beyond += shadow_rays_.trace(world_->bvh, *shading_, options_.backfaces, colors_);
   }
   for (std::size_t i = 0; i < samples.size(); ++i)
     samples[i] = {.color = colors_[i], .alpha = alphas_[i]};
@@ -85,7 +85,7 @@ void Wave::step() {
     }
     for (std::size_t i = 0; i < size; ++i) step(first + i, points[i]);
   }
-  vertices_.finish(step_, departures_);
+  vertices_.finish(step_, outgoing_);
 }
 
 void Wave::escape(const Ray& ray, const PathState& path) {
@@ -112,7 +112,7 @@ void Wave::prepare(std::size_t i, ShadingPoint& point) {
   PathState& path = paths_[i];
   if (step_.depth == 1) widen(rays_[i], path);
   point.width = path.begin + path.spread * point.at.distance;
-  Shading::find_place(point);
+  Shading::find_texel_address(point);
 }
 
 bool Wave::stops(const PathState& path, const ShadingPoint& point, std::uint32_t layer) const {
@@ -178,7 +178,7 @@ void Wave::step(std::size_t i, ShadingPoint& point) {
       .path = path,
       .channel = channel_of(material, path),
       .absorption = encloses_medium(material) ? shading_->absorption(point) : path.absorption};
-  vertices_.add(step_, vertex, departures_);
+  vertices_.add(step_, vertex, outgoing_);
 }
 
 int Wave::channel_of(const Material& material, const PathState& path) const {

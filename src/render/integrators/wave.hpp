@@ -1,7 +1,7 @@
 #pragma once
 /// A wavefront of paths that advance one bounce at a time, so that rays are traced in batches.
 
-#include "render/integrators/departures.hpp"
+#include "render/integrators/outgoing_rays.hpp"
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
 #include "render/integrators/vertex_queue.hpp"
@@ -71,7 +71,7 @@ class Wave {
   WaveStep step_;
   PathOptions options_;
   VertexQueues vertices_;
-  Departures departures_;
+  OutgoingRays outgoing_;
   ShadowRays shadow_rays_;
   const ShadingKernels* kernels_;
   HitLanes hit_lanes_{};

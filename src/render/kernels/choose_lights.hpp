@@ -21,13 +21,13 @@ KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Dou
                                         const Floats3<N>& n) {
   using F = Float<N>;
   using D = Double<N>;
-  constexpr float least = 0.1F;
+  constexpr float kLeast = 0.1F;
   D near{};
   if (setup.nodes != nullptr) near = LightNodes<N>(*setup.nodes).importance(p, n);
   const D sum = setup.environment_light + setup.far_light + near;
   const auto part = [&](bool is_there, const D& light) {
     if (!is_there) return F{};
-    return larger_of(to_single<N>(sum > 0 ? light / sum : D{}), all<N>(least));
+    return larger_of(to_single<N>(sum > 0 ? light / sum : D{}), all<N>(kLeast));
   };
   const F environment = part(setup.environment_light > 0, D{} + setup.environment_light);
   const F far = part(setup.has_far, D{} + setup.far_light);

@@ -21,7 +21,7 @@ void narrowed3(const Doubles3<N>& v, float (&to)[3][width], int i) {
 /// The points of N paths starting at i: the intersections with the planes of the triangles in
 /// float64, because Hit::t is rounded to float32.
 template <int N, int width>
-void find_place(HitArrays<width>& hits, int i) {
+void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
   using V = Doubles3<N>;
   const D zero{}, one = zero + 1;
@@ -75,7 +75,7 @@ void interpolate(HitArrays<width>& hits, int i) {
 /// Processes N floats at a time.
 template <int N, int width>
 void find_points(HitArrays<width>& hits) {
-  for (int i = 0; i < width; i += kDoubleLanes<N>) find_place<kDoubleLanes<N>>(hits, i);
+  for (int i = 0; i < width; i += kDoubleLanes<N>) intersect_planes<kDoubleLanes<N>>(hits, i);
   for (int i = 0; i < width; i += N) interpolate<N>(hits, i);
 }
 

@@ -49,8 +49,8 @@ class Vertices {
     V wo = frame_.to_local(-unit<N>(load3<N>(lanes_.d, i_)));
     wo.z = larger_of(wo.z, all<N>(1e-5F));  // above the surface, despite rounding
     const Bsdf bsdf(features_, surface, coating, wo);
-    light(bsdf);
-    go_on(setup, bsdf);
+    evaluate_light(bsdf);
+    sample_direction(setup, bsdf);
   }
 
   /// The lanes in which a direction is on the same side by the geometric and the shading normal.
@@ -61,7 +61,7 @@ class Vertices {
   }
 
   /// The contribution of the light sample.
-  void light(const Bsdf& bsdf) {
+  void evaluate_light(const Bsdf& bsdf) {
     const V wi_world = load3<N>(lanes_.light_wi, i_), wi = frame_.to_local(wi_world);
     const F pdf = load<N>(lanes_.light_pdf + i_);
     const bsdf::Evaluation<N> f = bsdf.evaluate(wi);
@@ -75,7 +75,7 @@ class Vertices {
     store3<N>(lanes_.shadow, i_, select3(is_consistent(wi_world, wi.z), color, all3<N>(0)));
   }
 
-  void go_on(const ScatterSetup& setup, const Bsdf& bsdf) {
+  void sample_direction(const ScatterSetup& setup, const Bsdf& bsdf) {
     const auto sobol = load_sobol<N>(lanes_.key + i_, lanes_.index + i_);
     const auto chances = sobol.pair(setup.lobe_pair);
     const auto [local, e] = bsdf.sample(sobol.pair(setup.direction_pair), chances.x);

@@ -51,9 +51,9 @@ std::shared_ptr<const MapTables> tables_of(const Environment& environment) {
   if (std::holds_alternative<Vec3>(environment.content)) return nullptr;
   const auto* map = std::get_if<std::shared_ptr<const RadianceMap>>(&environment.content);
   if (map == nullptr) return studio_tables();
-  constexpr std::uint64_t bytes_of_pixel = 16;
+  constexpr std::uint64_t kBytesOfPixel = 16;
   return std::make_shared<const MapTables>(
-      *map, temporary_memory((*map)->pixels.size() * bytes_of_pixel,
+      *map, temporary_memory((*map)->pixels.size() * kBytesOfPixel,
                              "the sampling tables of the environment"));
 }
 

@@ -12,9 +12,9 @@ inline constexpr double kLeastReach = 0x1p-126, kGreatestReach = 0x1.fffffep127;
 /// The pdf clamped to numbers whose square is representable in float32.
 template <int N>
 Double<N> limited_pdf(const Double<N>& pdf) {
-  constexpr double most = 0x1p60;
+  constexpr double kMost = 0x1p60;
   const Double<N> zero{};
-  return pdf < most ? larger_of(pdf, zero + 1 / most) : zero + most;
+  return pdf < kMost ? larger_of(pdf, zero + 1 / kMost) : zero + kMost;
 }
 
 }  // namespace microtrace

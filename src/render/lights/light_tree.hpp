@@ -37,8 +37,8 @@ struct LightBounds {
 
 /// The nearest finite float32 point.
 [[nodiscard]] inline Vec3 finite_point(const DVec3& p) {
-  constexpr double most = std::numeric_limits<float>::max();
-  return Vec3(glm::clamp(p, DVec3(-most), DVec3(most)));
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return Vec3(glm::clamp(p, DVec3(-kMost), DVec3(kMost)));
 }
 
 /// The union of both bounds.

@@ -33,8 +33,8 @@ constexpr std::array<Lamp, 4> kLamps = {{{Wall::top, 0, 0.25, 0.5, 0.4, 3.2},
 
 /// 1 inside the rectangle at a distance from the edge above the softness, 0 outside.
 double inside(double distance, double half) {
-  constexpr double softness = 0.2;
-  const double t = std::clamp((half - std::abs(distance)) / softness, 0.0, 1.0);
+  constexpr double kSoftness = 0.2;
+  const double t = std::clamp((half - std::abs(distance)) / kSoftness, 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 

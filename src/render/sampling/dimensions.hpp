@@ -1,5 +1,6 @@
 #pragma once
-/// The dimensions of a sample's random numbers, in pairs.
+/// The dimensions of a sample's random numbers, in pairs. Changing the number of a pair changes
+/// every path-traced picture; pairs from 2^31 on are unused, for example for a position on a lens.
 
 #include <cstdint>
 

@@ -12,7 +12,7 @@ void Shading::points(const ShadingKernels& kernels, std::span<const Ray> rays,
     const Entry& entry = entries_[primitives_.object_index(hits[i]->id)];
     ShadingPoint& point = points[i];
     point.look = &looks_[entry.look];
-    point.place.reset();
+    point.texel_address.reset();
     const std::size_t triangle = hits[i]->id - entry.first_id;
     if (entry.mesh == nullptr) {
       point.at = surface_point(primitives_, rays[i], *hits[i], nullptr, triangle);

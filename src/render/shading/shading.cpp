@@ -82,13 +82,13 @@ ShadingPoint Shading::point_on(PrimitiveId id, const Vec3& barycentrics, bool fr
           .width = width};
 }
 
-void Shading::find_place(ShadingPoint& point) {
+void Shading::find_texel_address(ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   if (look.layout.map == nullptr) return;
-  point.place = look.layout.place(point);
+  point.texel_address = look.layout.texel_address(point);
   for (const MaterialTexture texture : TexturedMaterial::frequent) {
     const TextureSlot& slot = look[texture];
-    if (slot.shares_place) slot.map->fetch(*point.place);
+    if (slot.shares_address) slot.map->fetch(*point.texel_address);
   }
 }
 

@@ -26,13 +26,13 @@ struct ShadingPoint;
 struct TextureSlot {
   const TextureMap* map = nullptr;  ///< null: white
   const TextureUse* use = nullptr;
-  bool shares_place = false;  ///< whether its texel address is that of TexturedMaterial::layout
+  bool shares_address = false;  ///< whether its texel address is that of TexturedMaterial::layout
 
   /// The linear texel value; white without a texture.
   [[nodiscard]] Vec4 at(const ShadingPoint& point) const {
     return map == nullptr ? Vec4(1) : look_up(point);
   }
-  [[nodiscard]] TextureMap::Place place(const ShadingPoint& point) const;
+  [[nodiscard]] TextureMap::TexelAddress texel_address(const ShadingPoint& point) const;
 
  private:
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
@@ -47,7 +47,7 @@ struct TexturedMaterial {
 
   const Material* material = nullptr;
   std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};
-  /// The slot whose texel address is reused by every slot with shares_place; often by all.
+  /// The slot whose texel address is reused by every slot with shares_address; often by all.
   TextureSlot layout{};
   Vec3 absorption{0};  ///< of the enclosed medium, in powers of two per length
   /// Whether the emitted radiance is the same everywhere on the front, without transparency.
@@ -70,7 +70,7 @@ struct ShadingPoint {
   const TexturedMaterial* look = nullptr;
   float width = 0;  ///< in world space
   /// The texel address of the slots that share it, if computed.
-  std::optional<TextureMap::Place> place{};
+  std::optional<TextureMap::TexelAddress> texel_address{};
 };
 
 /// Whether light is refracted at the surface (KHR_materials_volume).
@@ -121,7 +121,7 @@ class Shading {
   }
 
   /// Computes the texel address that the point's textures share, and prefetches the texels.
-  static void find_place(ShadingPoint& point);
+  static void find_texel_address(ShadingPoint& point);
 
   /// The opacity at the point: from the base color's alpha if the material uses it. For camera
   /// rays, one-sided surfaces are transparent from behind.

@@ -7,15 +7,17 @@
 
 namespace microtrace {
 
-TextureMap::Place TextureSlot::place(const ShadingPoint& point) const {
+TextureMap::TexelAddress TextureSlot::texel_address(const ShadingPoint& point) const {
   const Vec2 uv = point.at.uv(use->uv_set);
   const auto& m = use->texture_from_uv;
   const float scale = std::sqrt(std::abs(m[0].x * m[1].y - m[0].y * m[1].x));
-  return map->place(m[0] * uv.x + m[1] * uv.y + m[2], point.width * point.at.uv_scale * scale);
+  return map->texel_address(m[0] * uv.x + m[1] * uv.y + m[2],
+                            point.width * point.at.uv_scale * scale);
 }
 
 Vec4 TextureSlot::look_up(const ShadingPoint& point) const {
-  return map->sample(shares_place && point.place ? *point.place : place(point));
+  return map->sample(shares_address && point.texel_address ? *point.texel_address
+                                                           : texel_address(point));
 }
 
 TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
@@ -55,9 +57,9 @@ TexturedMaterial TextureMaps::slots(const Material& m) {
     TextureSlot& slot = look[texture];
     if (slot.map == nullptr) continue;
     if (look.layout.map == nullptr) look.layout = slot;
-    slot.shares_place = slot.map->is_laid_out_as(*look.layout.map) &&
-                        slot.use->uv_set == look.layout.use->uv_set &&
-                        slot.use->texture_from_uv == look.layout.use->texture_from_uv;
+    slot.shares_address = slot.map->is_laid_out_as(*look.layout.map) &&
+                          slot.use->uv_set == look.layout.use->uv_set &&
+                          slot.use->texture_from_uv == look.layout.use->texture_from_uv;
   }
   return look;
 }

@@ -1,9 +1,9 @@
-#include "render/integrators/departures.hpp"
+#include "render/integrators/outgoing_rays.hpp"
 
 namespace microtrace {
 
-std::size_t Departures::set_off(const Bvh& bvh, ShadowRays& shadow_rays, std::span<Ray> rays,
-                                std::span<PathState> paths) {
+std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
+                                        std::span<Ray> rays, std::span<PathState> paths) {
   bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
                     std::span(origins_).first(spawn_count_));
   // Without an origin the ray is dropped: there is no float32 point between two walls.

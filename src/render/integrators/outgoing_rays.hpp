@@ -16,9 +16,9 @@
 namespace microtrace {
 
 /// Each path has at most one shadow ray and one next ray. A large object.
-class Departures {
+class OutgoingRays {
  public:
-  /// `ray` must remain valid until set_off(), and must have this hit.
+  /// `ray` must remain valid until spawn_origins(), and must have this hit.
   void add_shadow(const Ray& ray, const Hit& hit, const LightSample& light, const Vec3& color,
                   std::size_t slot) {
     shadows_[shadow_count_++] = {
@@ -33,8 +33,8 @@ class Departures {
 
   /// Computes the origins; rays without an origin are dropped. Returns the number of remaining path
   /// rays.
-  std::size_t set_off(const Bvh& bvh, ShadowRays& shadow_rays, std::span<Ray> rays,
-                      std::span<PathState> paths);
+  std::size_t spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays, std::span<Ray> rays,
+                            std::span<PathState> paths);
 
  private:
   struct Shadow {
