@@ -103,7 +103,7 @@ TEST_P(ShapeKinds, AgreesOnHitParameterAndOrder) {
   announce(comparison_.ray_count(), comparison_.hit_count());
 }
 
-INSTANTIATE_TEST_SUITE_P(ShapeOracle, ShapeKinds, ::testing::ValuesIn(adversarial::shape_kinds),
+INSTANTIATE_TEST_SUITE_P(ShapeOracle, ShapeKinds, ::testing::ValuesIn(adversarial::kShapeKinds),
                          [](const auto& kind) { return adversarial::name(kind.param); });
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST_P(TriangleKinds, AgreesOnHitParameterAndOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(TriangleOracle, TriangleKinds,
-                         ::testing::ValuesIn(adversarial::triangle_kinds),
+                         ::testing::ValuesIn(adversarial::kTriangleKinds),
                          [](const auto& kind) { return adversarial::name(kind.param); });
 
 TEST(TriangleOracle, AgreesOnPublishedCounterexamples) {
@@ -140,7 +140,7 @@ TEST_P(PlaneKinds, AgreesOnHit) {
   announce(ray_count, hit_count);
 }
 
-INSTANTIATE_TEST_SUITE_P(PlaneOracle, PlaneKinds, ::testing::ValuesIn(adversarial::shape_kinds),
+INSTANTIATE_TEST_SUITE_P(PlaneOracle, PlaneKinds, ::testing::ValuesIn(adversarial::kShapeKinds),
                          [](const auto& kind) { return adversarial::name(kind.param); });
 
 }  // namespace

@@ -336,11 +336,11 @@ class Escape : public testing::TestWithParam<BodyKind> {
   std::string leaks_;
 };
 
-INSTANTIATE_TEST_SUITE_P(Bodies, Escape, testing::ValuesIn(body_kinds),
+INSTANTIATE_TEST_SUITE_P(Bodies, Escape, testing::ValuesIn(kBodyKinds),
                          [](const auto& i) { return std::string(name(i.param)); });
 
 TEST_P(Escape, NoPathLeaves) {
-  const std::size_t bounces = traversal::ray_count(0.1 / body_kinds.size());
+  const std::size_t bounces = traversal::ray_count(0.1 / kBodyKinds.size());
   Count count;
   for (int world = 0; count.bounces < bounces; ++world) {
     const World body(random_, GetParam());

@@ -67,7 +67,7 @@ Count check_kind(std::uint64_t seed, MakeCase make_case) {
 }
 
 TEST(Filter, Triangle) {
-  for (const TriangleKind kind : triangle_kinds) {
+  for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(1, [&](Random& random) { return triangle_case(random, kind); });
     if (kind == TriangleKind::unit) {
@@ -94,7 +94,7 @@ TEST(Filter, TriangleWithoutAreaWithRoundedOffset) {
 
 template <class MakeCase>
 void check_all_kinds(MakeCase make_case) {
-  for (const ShapeKind kind : shape_kinds) {
+  for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(2, [&](Random& random) { return make_case(random, kind); });
     if (kind == ShapeKind::random) {

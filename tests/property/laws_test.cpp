@@ -90,7 +90,7 @@ std::string kind_name(const testing::TestParamInfo<SceneKind>& kind) {
   return name(kind.param);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Laws, testing::ValuesIn(scene_kinds), kind_name);
+INSTANTIATE_TEST_SUITE_P(Scenes, Laws, testing::ValuesIn(kSceneKinds), kind_name);
 
 // Kinds that leave room at the ends of the float32 range.
 using LawsOfSize = Laws;

@@ -164,7 +164,7 @@ double check_cases(std::uint64_t seed, const Effort& effort, MakeCase make_case)
 }
 
 TEST(SpawnBatch, Triangles) {
-  for (const TriangleKind kind : triangle_kinds) {
+  for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
     const double answered = check_cases(80, {.share = 0.002, .most = 40}, [&](Random& random) {
       return triangle_case(random, kind);
@@ -175,7 +175,7 @@ TEST(SpawnBatch, Triangles) {
 
 template <class MakeCase>
 void check_all_kinds(std::uint64_t seed, const Effort& effort, MakeCase make_case) {
-  for (const ShapeKind kind : shape_kinds) {
+  for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
     const auto make = [&](Random& random) { return make_case(random, kind); };
     EXPECT_GT(check_cases(seed, effort, make), 0.25);

@@ -143,7 +143,7 @@ TEST(SpawnPoint, BoundsHoldOnWalls) {
 TEST(SpawnPoint, BoundsHoldOnAnyTriangle) {
   Random random = traversal::announced_random(96);
   Count count;
-  for (const TriangleKind kind : triangle_kinds) {
+  for (const TriangleKind kind : kTriangleKinds) {
     for (std::size_t i = 0; i < traversal::ray_count(0.01) && !HasFatalFailure(); ++i) {
       const auto [ray, triangle] = triangle_case(random, kind);
       check(ray, triangle, count);

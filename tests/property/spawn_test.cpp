@@ -144,7 +144,7 @@ bool has_area(const Triangle& t) {
 }
 
 TEST(Spawn, Triangle) {
-  for (const TriangleKind kind : triangle_kinds) {
+  for (const TriangleKind kind : kTriangleKinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(31, [&](Random& random) { return triangle_case(random, kind); });
     EXPECT_GT(count.hits, kCasesPerKind / 200);
@@ -157,7 +157,7 @@ TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   Random random(32);
   for (int i = 0; i < 5 * kCasesPerKind; ++i) {
     const auto [ray, triangle] =
-        triangle_case(random, triangle_kinds[static_cast<std::size_t>(i) % triangle_kinds.size()]);
+        triangle_case(random, kTriangleKinds[static_cast<std::size_t>(i) % kTriangleKinds.size()]);
     if (!exact::first_hit(triangle, ray) || !has_area(triangle)) continue;
     const auto q = spawn_origin(triangle, ray, random.in_cube(1));
     ASSERT_TRUE(q.has_value()) << reproduction(ray, triangle);
@@ -168,7 +168,7 @@ TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
 // for curved ones unless they are about as small as the spacing of float32 numbers.
 template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
-  for (const ShapeKind kind : shape_kinds) {
+  for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));

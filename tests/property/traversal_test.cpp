@@ -124,12 +124,12 @@ void with_each_kernel(const F& f) {
 
 class Traversal : public testing::TestWithParam<SceneKind> {};
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Traversal, testing::ValuesIn(scene_kinds),
+INSTANTIATE_TEST_SUITE_P(Scenes, Traversal, testing::ValuesIn(kSceneKinds),
                          [](const auto& kind) { return std::string(name(kind.param)); });
 
 TEST_P(Traversal, EveryKernelAndFunctionEqualsTestingEveryPrimitive) {
   Random random = traversal::announced_random(11 + static_cast<std::uint64_t>(GetParam()));
-  const std::size_t count = traversal::ray_count(double{1} / scene_kinds.size()) + 1;
+  const std::size_t count = traversal::ray_count(double{1} / kSceneKinds.size()) + 1;
   std::size_t cast = 0, hits = 0, hits_without_area = 0;
   for (int round = 0; cast < count; ++round) {
     SCOPED_TRACE(round);

@@ -8,7 +8,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Barycentric coordinates of b and c.
 struct Barycentric {
@@ -220,7 +220,7 @@ Case<Triangle> triangle_case(Random& random, TriangleKind kind) {
 }
 
 Ray with_range_near(Random& random, Ray ray, float t) {
-  const auto beside = [&] { return std::clamp(moved(t, random.between(-1, 1)), 0.0f, infinity); };
+  const auto beside = [&] { return std::clamp(moved(t, random.between(-1, 1)), 0.0f, kInfinity); };
   if (!random.one_in(3)) ray.t_min = beside();
   if (!std::isfinite(ray.t_min)) ray.t_min = std::numeric_limits<float>::max();
   if (!random.one_in(3)) ray.t_max = std::max(beside(), ray.t_min);

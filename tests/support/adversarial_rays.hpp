@@ -75,7 +75,7 @@ enum class TriangleKind {
   axis_aligned,  ///< integer coordinates, d along an axis
 };
 
-inline constexpr std::array triangle_kinds = {TriangleKind::unit,
+inline constexpr std::array kTriangleKinds = {TriangleKind::unit,
                                               TriangleKind::grid,
                                               TriangleKind::vertex,
                                               TriangleKind::edge,
@@ -104,7 +104,7 @@ enum class ShapeKind {
             ///< coefficient vanishes
 };
 
-inline constexpr std::array shape_kinds = {
+inline constexpr std::array kShapeKinds = {
     ShapeKind::random,       ShapeKind::grid,       ShapeKind::tangent,   ShapeKind::on_surface,
     ShapeKind::axis_aligned, ShapeKind::full_range, ShapeKind::subnormal, ShapeKind::special};
 

@@ -87,8 +87,8 @@ Mesh random_mesh(Random& random, SceneKind kind) {
 }
 
 SceneKind any_kind(Random& random) {
-  return scene_kinds[static_cast<std::size_t>(
-      random.between(0, static_cast<int>(scene_kinds.size()) - 1))];
+  return kSceneKinds[static_cast<std::size_t>(
+      random.between(0, static_cast<int>(kSceneKinds.size()) - 1))];
 }
 
 // A vertex, or a point of an edge or of the interior, of some triangle.

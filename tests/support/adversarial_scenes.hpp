@@ -36,7 +36,7 @@ enum class SceneKind {
   any_size,       ///< 2^-140 to 2^60, beyond the kernels' limits; some not finite
 };
 
-inline constexpr std::array scene_kinds = {
+inline constexpr std::array kSceneKinds = {
     SceneKind::soup,    SceneKind::lattice, SceneKind::huge_and_tiny, SceneKind::far_from_zero,
     SceneKind::slivers, SceneKind::walls,   SceneKind::degenerate,    SceneKind::any_size};
 

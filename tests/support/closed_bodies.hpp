@@ -20,7 +20,7 @@ enum class BodyKind {
   shell,        ///< the space between a body and a copy of it, one to four ulps away
 };
 
-inline constexpr std::array body_kinds = {
+inline constexpr std::array kBodyKinds = {
     BodyKind::hull, BodyKind::prism, BodyKind::icosahedron, BodyKind::double_cone,
     BodyKind::star, BodyKind::box,   BodyKind::plate,       BodyKind::shell};
 

@@ -267,7 +267,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
 
 INSTANTIATE_TEST_SUITE_P(All, Maps, testing::Range(0, 6));
 
-// If one pixel has nearly all light, one number in 2^24 must not lose the light of the others.
+// Even if one pixel has nearly all light, the others must keep a probability above 0.
 TEST(EnvironmentLight, SamplesDimLightBesideASun) {
   const std::uint32_t width = 512, height = 256;
   const auto map = map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {

@@ -31,7 +31,7 @@ class Hash {
 TEST(AdversarialRays, TrianglesDoNotDependOnTheCompiler) {
   Random random(1);
   Hash hash;
-  for (const TriangleKind kind : triangle_kinds) {
+  for (const TriangleKind kind : kTriangleKinds) {
     for (int i = 0; i < 1000; ++i) {
       const auto [ray, t] = triangle_case(random, kind);
       hash.add(with_range_near(random, ray, 1.5f));
@@ -46,7 +46,7 @@ TEST(AdversarialRays, TrianglesDoNotDependOnTheCompiler) {
 TEST(AdversarialRays, OtherShapesDoNotDependOnTheCompiler) {
   Random random(1);
   Hash hash;
-  for (const ShapeKind kind : shape_kinds) {
+  for (const ShapeKind kind : kShapeKinds) {
     for (int i = 0; i < 1000; ++i) {
       const auto plane = plane_case(random, kind);
       hash.add(plane.ray);

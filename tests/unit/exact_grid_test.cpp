@@ -144,7 +144,7 @@ TEST_P(GridKinds, HitsCombineAllStages) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Grid, GridKinds, ::testing::ValuesIn(triangle_kinds),
+INSTANTIATE_TEST_SUITE_P(Grid, GridKinds, ::testing::ValuesIn(kTriangleKinds),
                          [](const auto& kind) { return name(kind.param); });
 
 TEST(Grid, RefusesUnrepresentableCoordinates) {

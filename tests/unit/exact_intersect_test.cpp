@@ -10,10 +10,10 @@
 namespace microtrace::exact {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-Ray ray(const Vec3& o, const Vec3& d, float t_min = 0, float t_max = infinity) {
+Ray ray(const Vec3& o, const Vec3& d, float t_min = 0, float t_max = kInfinity) {
   return {.o = o, .t_min = t_min, .d = d, .t_max = t_max};
 }
 
@@ -154,7 +154,7 @@ TEST(Exact, ParametersBeyondFloatRoundToInfinity) {
   const Plane plane{{0, 0, -1e38f}, {0, 0, 1}};
   const auto hit = first_hit(plane, ray({0, 0, 1e38f}, {0, 0, -1e-38f}));
   ASSERT_TRUE(hit);
-  EXPECT_EQ(round_to_float(*hit), infinity);
+  EXPECT_EQ(round_to_float(*hit), kInfinity);
   EXPECT_TRUE(misses(plane, ray({0, 0, 1e38f}, {0, 0, -1e-38f}, 0, 3e38f)));
 }
 
@@ -163,9 +163,9 @@ TEST(Exact, InvalidRaysHitNothing) {
   const Vec3 o{0, 0, 5};
   EXPECT_FALSE(misses(sphere, ray(o, down)));
   for (const Ray& invalid :
-       {ray(o, {0, -0.0f, 0}), ray({0, nan, 5}, down), ray({0, infinity, 5}, down),
-        ray(o, {0, nan, -1}), ray(o, {0, 0, -infinity}), ray(o, down, -1), ray(o, down, nan),
-        ray(o, down, 0, nan), ray(o, down, 5, 4), ray(o, down, infinity, infinity)}) {
+       {ray(o, {0, -0.0f, 0}), ray({0, kNan, 5}, down), ray({0, kInfinity, 5}, down),
+        ray(o, {0, kNan, -1}), ray(o, {0, 0, -kInfinity}), ray(o, down, -1), ray(o, down, kNan),
+        ray(o, down, 0, kNan), ray(o, down, 5, 4), ray(o, down, kInfinity, kInfinity)}) {
     EXPECT_FALSE(is_valid(invalid));
     EXPECT_TRUE(misses(sphere, invalid));
     EXPECT_TRUE(misses(triangle, invalid));
@@ -177,7 +177,7 @@ TEST(Exact, InvalidRaysHitNothing) {
 
 TEST(Exact, ShapesThatAreNotFiniteAreEmpty) {
   const Ray r = ray({0.25f, 0.25f, 5}, down);
-  for (const float x : {nan, infinity, -infinity}) {
+  for (const float x : {kNan, kInfinity, -kInfinity}) {
     EXPECT_TRUE(misses(Triangle{{x, 0, 0}, {1, 0, 0}, {0, 1, 0}}, r));
     EXPECT_TRUE(misses(Triangle{{0, 0, 0}, {1, x, 0}, {0, 1, 0}}, r));
     EXPECT_TRUE(misses(Triangle{{0, 0, 0}, {1, 0, 0}, {0, 1, x}}, r));

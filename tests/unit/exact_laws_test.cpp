@@ -18,10 +18,10 @@ using adversarial::Random;
 using adversarial::ShapeKind;
 using adversarial::TriangleKind;
 
-constexpr std::array kinds_within_2_to_60 = {TriangleKind::unit,     TriangleKind::grid,
-                                             TriangleKind::vertex,   TriangleKind::edge,
-                                             TriangleKind::sliver,   TriangleKind::far_from_zero,
-                                             TriangleKind::coplanar, TriangleKind::degenerate};
+constexpr std::array kKindsWithin2To60 = {TriangleKind::unit,     TriangleKind::grid,
+                                          TriangleKind::vertex,   TriangleKind::edge,
+                                          TriangleKind::sliver,   TriangleKind::far_from_zero,
+                                          TriangleKind::coplanar, TriangleKind::degenerate};
 
 /// Both miss, or both hit at the same t.
 ::testing::AssertionResult same(const std::optional<Root>& x, const std::optional<Root>& y) {
@@ -34,7 +34,7 @@ constexpr std::array kinds_within_2_to_60 = {TriangleKind::unit,     TriangleKin
 
 TEST(ExactLaws, TriangleDoesNotDependOnTheOrderOfVertices) {
   Random random(3);
-  for (const TriangleKind kind : adversarial::triangle_kinds) {
+  for (const TriangleKind kind : adversarial::kTriangleKinds) {
     for (int i = 0; i < 2000; ++i) {
       const auto [ray, t] = adversarial::triangle_case(random, kind);
       const auto hit = first_hit(t, ray);
@@ -50,7 +50,7 @@ TEST(ExactLaws, TriangleDoesNotDependOnTheOrderOfVertices) {
 TEST(ExactLaws, MirroredAndPermutedAxesHaveNoEffect) {
   Random random(4);
   const auto mirrored = [](const Vec3& v) { return Vec3(-v.y, v.z, v.x); };
-  for (const TriangleKind kind : adversarial::triangle_kinds) {
+  for (const TriangleKind kind : adversarial::kTriangleKinds) {
     for (int i = 0; i < 2000; ++i) {
       const auto [ray, t] = adversarial::triangle_case(random, kind);
       Ray image = ray;
@@ -65,7 +65,7 @@ TEST(ExactLaws, MirroredAndPermutedAxesHaveNoEffect) {
 
 TEST(ExactLaws, ScalingByPowersOfTwoHasNoEffect) {
   Random random(5);
-  for (const TriangleKind kind : kinds_within_2_to_60) {
+  for (const TriangleKind kind : kKindsWithin2To60) {
     for (int i = 0; i < 2000; ++i) {
       const auto [ray, t] = adversarial::triangle_case(random, kind);
       const float s = random.power_of_two(-40, 60);
@@ -80,7 +80,7 @@ TEST(ExactLaws, ScalingByPowersOfTwoHasNoEffect) {
 
 TEST(ExactLaws, LongerDirectionDividesT) {
   Random random(6);
-  for (const TriangleKind kind : kinds_within_2_to_60) {
+  for (const TriangleKind kind : kKindsWithin2To60) {
     for (int i = 0; i < 2000; ++i) {
       const auto [ray, t] = adversarial::triangle_case(random, kind);
       const float s = random.power_of_two(0, 40);
@@ -170,7 +170,7 @@ TEST(ExactLaws, TransversalHitsOfADiscAreThoseOfItsPlane) {
 
 TEST(ExactLaws, NarrowingTheIntervalAroundTheHitKeepsIt) {
   Random random(11);
-  for (const ShapeKind kind : adversarial::shape_kinds) {
+  for (const ShapeKind kind : adversarial::kShapeKinds) {
     for (int i = 0; i < 2000; ++i) {
       const auto [ray, sphere] = adversarial::sphere_case(random, kind);
       const auto hit = first_hit(sphere, ray);

@@ -10,7 +10,7 @@
 namespace microtrace::exact {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Root number(double x) {
   return rational(Dyadic(x), Dyadic(1.0f));
@@ -71,7 +71,7 @@ TEST(Root, EnclosuresAreClampedToTheRangeOfDouble) {
   const Dyadic large = square(square(Dyadic(0x1p800)));
   const Enclosure above = enclose(rational(large, 1.0f));
   EXPECT_GT(above.lo, 1e290);
-  EXPECT_EQ(above.hi, infinity);
+  EXPECT_EQ(above.hi, kInfinity);
   const Enclosure below = enclose(rational(Dyadic(-1.0f), large));
   EXPECT_LT(below.lo, 0);
   EXPECT_GT(below.lo, -1e-290);
@@ -85,8 +85,8 @@ TEST(Root, RoundsAsConversionFromDoubleDoes) {
   for (int i = 0; i < 100000; ++i) {
     const float f = random.any_float(-149, 127);
     const double between = (double{f} + double{adversarial::moved(f, 1)}) / 2;
-    for (const double x : {between, std::nextafter(between, infinity), double{f},
-                           std::nextafter(between, -infinity), between * random.unit()}) {
+    for (const double x : {between, std::nextafter(between, kInfinity), double{f},
+                           std::nextafter(between, -kInfinity), between * random.unit()}) {
       const float expected = x == 0 ? 0.0f : static_cast<float>(x);
       ASSERT_EQ(std::bit_cast<std::uint32_t>(round_to_float(number(x))),
                 std::bit_cast<std::uint32_t>(expected))
