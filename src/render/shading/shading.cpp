@@ -86,7 +86,7 @@ void Shading::find_texel_address(ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   if (look.layout.map == nullptr) return;
   point.texel_address = look.layout.texel_address(point);
-  for (const MaterialTexture texture : TexturedMaterial::frequent) {
+  for (const MaterialTexture texture : TexturedMaterial::kFrequent) {
     const TextureSlot& slot = look[texture];
     if (slot.shares_address) slot.map->fetch(*point.texel_address);
   }

@@ -41,9 +41,9 @@ struct TextureSlot {
 /// A material with its textures.
 struct TexturedMaterial {
   /// Those that most materials have.
-  static constexpr std::array frequent = {MaterialTexture::base_color,
-                                          MaterialTexture::metallic_roughness,
-                                          MaterialTexture::normal, MaterialTexture::emissive};
+  static constexpr std::array kFrequent = {MaterialTexture::base_color,
+                                           MaterialTexture::metallic_roughness,
+                                           MaterialTexture::normal, MaterialTexture::emissive};
 
   const Material* material = nullptr;
   std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};

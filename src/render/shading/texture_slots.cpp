@@ -53,7 +53,7 @@ TexturedMaterial TextureMaps::slots(const Material& m) {
         if (affects_light(m, texture)) look[texture] = slot(use, encoding);
       });
   if (encloses_medium(m)) look.absorption = absorption_of(*m.volume);
-  for (const MaterialTexture texture : TexturedMaterial::frequent) {
+  for (const MaterialTexture texture : TexturedMaterial::kFrequent) {
     TextureSlot& slot = look[texture];
     if (slot.map == nullptr) continue;
     if (look.layout.map == nullptr) look.layout = slot;
