@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 /// device has no end. Throws Error: io also for other kinds of files.
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path, std::size_t limit);
 
-/// As read_file for the rest of an open descriptor; `name` is used in messages.
+/// Like read_file, for the rest of an open descriptor; error messages use `name`.
 [[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,
                                           std::size_t limit,
                                           const std::function<void(std::string_view)>& inspect);

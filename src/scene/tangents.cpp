@@ -80,7 +80,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   return origin;
 }
 
-/// As if each triangle had its own vertices with its geometric normal.
+/// Treats each triangle as if it had its own vertices with its geometric normal.
 std::vector<Vec4> flat_tangents(const Mesh& mesh, std::size_t uv_set) {
   std::vector<Vec3> positions, normals;
   std::vector<Vec2> uv;

@@ -253,7 +253,7 @@ TEST(JsonDocument, ResolvesPointers) {
   }
 }
 
-/// What the JSON of a text is written as again.
+/// The JSON text after parsing and writing.
 std::string rewritten(std::string_view text, std::span<const std::string_view> left_out = {}) {
   const JsonDocument document(text, "s.json");
   std::string result;

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a ray that leaves a surface begins, in a scene.
+/// The origin of a ray that leaves a surface, with the other surfaces of a scene.
 
 #include "accel/build/tree.hpp"
 

@@ -33,7 +33,7 @@ struct OrbitView {
 [[nodiscard]] OrbitView parse_view(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> view_names();
 
-/// What is visible behind all objects.
+/// The background behind all objects.
 struct Background {
   enum class Kind { color, transparent, environment } kind = Kind::color;
   Vec3 color{0};  ///< linear Rec. 709; black for the other kinds

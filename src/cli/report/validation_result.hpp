@@ -8,11 +8,12 @@
 
 namespace microtrace::cli {
 
-/// Of a scene that can be rendered: `scene: valid`, `scene: valid, 2 warnings` or `scene: invalid,
-/// but drawable: 1 error, 2 warnings`. Throws Error (io) if standard output can't be written.
+/// Prints the result for a scene that can be rendered: `scene: valid`, `scene: valid, 2 warnings`
+/// or `scene: invalid, but drawable: 1 error, 2 warnings`. Throws Error (io) if standard output
+/// can't be written.
 void print_validation_result(const std::string& scene, std::size_t errors, std::size_t warnings);
 
-/// Of a scene that was refused by an error of this kind: `scene: invalid` and the like.
+/// Prints the result for a scene that was refused: `scene: invalid` and the like.
 void print_refusal(const std::string& scene, ErrorKind kind);
 
 }  // namespace microtrace::cli
