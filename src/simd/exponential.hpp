@@ -33,7 +33,7 @@ inline Double<N> power_of_two(const Double<N>& x) {
   // Taylor polynomial of e^y: the first omitted term is below 2^-57.
   Double<N> sum = Double<N>{} + 1;
   for (int k = 13; k > 0; --k) sum = 1 + y * sum / k;
-  const Long<N> exponent = reinterpreted<Long<N>>(Double<N>(whole + (kIntegerBits + 1023)));
+  const auto exponent = reinterpreted<Long<N>>(Double<N>(whole + (kIntegerBits + 1023)));
   return sum * reinterpreted<Double<N>>(Long<N>(exponent << 52));
 }
 
@@ -42,8 +42,8 @@ template <int N>
 inline Double<N> binary_logarithm(const Double<N>& x) {
   constexpr double kSqrt2 = 0x1.6a09e667f3bcdp+0, kLn2 = 0x1.62e42fefa39efp-1;
   constexpr std::int64_t kFraction = (std::int64_t{1} << 52) - 1;
-  const Long<N> bits = reinterpreted<Long<N>>(x);
-  Double<N> m = reinterpreted<Double<N>>(Long<N>((bits & kFraction) | std::int64_t{1023} << 52));
+  const auto bits = reinterpreted<Long<N>>(x);
+  auto m = reinterpreted<Double<N>>(Long<N>((bits & kFraction) | std::int64_t{1023} << 52));
   Double<N> exponent =
       reinterpreted<Double<N>>(Long<N>((bits >> 52) | std::int64_t{0x433} << 52)) - (0x1p52 + 1023);
   const auto is_high = m > kSqrt2;

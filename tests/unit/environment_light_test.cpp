@@ -4,11 +4,13 @@
 #include "render/prepared/shared_tables.hpp"
 #include "render/sampling/sobol.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -16,6 +18,12 @@
 
 namespace microtrace {
 namespace {
+
+EnvironmentLight::Sample sample_of(const EnvironmentLight& light, const Vec2& u) {
+  EnvironmentLight::Sample sample;
+  light.sample({&u, 1}, {&sample, 1});
+  return sample;
+}
 
 constexpr double kPi = std::numbers::pi;
 
@@ -59,7 +67,7 @@ TEST(EnvironmentLight, UniformLightIsEqualInAllDirections) {
   EXPECT_TRUE(light.is_uniform());
   DVec3 sum(0);
   for (std::uint32_t i = 0; i < 4096; ++i) {
-    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
     EXPECT_EQ(sample.radiance, Vec3(0.5F, 1, 1.5F));
     EXPECT_EQ(light.radiance(sample.wi), sample.radiance);
     EXPECT_NEAR(sample.pdf, 1 / (4 * kPi), 1e-8);
@@ -181,7 +189,7 @@ TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   for (const Vec3& pixel : map->pixels) brightest = std::max(brightest, 1.5F * pixel.x);
   std::uint32_t moved = 0;
   for (std::uint32_t i = 0; i < kSamples; ++i) {
-    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
     ASSERT_NEAR(glm::length(sample.wi), 1, 2e-6);
     ASSERT_GT(sample.pdf, 0);
     const EnvironmentLight::Lookup look = light.lookup(sample.wi);
@@ -197,7 +205,7 @@ TEST(EnvironmentLight, SamplesOfASunHaveEqualWeights) {
   const EnvironmentLight light({.content = sunny_map(64, 32)});
   float least = HUGE_VALF, most = 0;
   for (std::uint32_t i = 0; i < 20000; ++i) {
-    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
     if (sample.radiance.y < 1000) continue;
     least = std::min(least, sample.radiance.y / sample.pdf);
     most = std::max(most, sample.radiance.y / sample.pdf);
@@ -224,7 +232,7 @@ TEST_P(Maps, SamplesFollowThePdf) {
   std::uniform_int_distribution<std::uint32_t> number(0, (1U << 24U) - 1);
   for (std::uint32_t i = 0; i < kSamples; ++i) {
     const auto a = static_cast<float>(number(random)), b = static_cast<float>(number(random));
-    seen[cell(light.sample({a * 0x1p-24F, b * 0x1p-24F}).wi)] += 1;
+    seen[cell(sample_of(light, {a * 0x1p-24F, b * 0x1p-24F}).wi)] += 1;
   }
   double chi2 = 0;
   std::size_t cells = 0;
@@ -249,7 +257,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
   std::uniform_real_distribution<float> number(0, 0x0.ffffffp0F);
   for (std::uint32_t i = 0; i < kSamples; ++i) {
     const float a = number(random), b = number(random);
-    const EnvironmentLight::Sample sample = light.sample({a, b});
+    const EnvironmentLight::Sample sample = sample_of(light, {a, b});
     const DVec3 value = DVec3(sample.radiance) / double{sample.pdf};
     sum += value;
     squares += value * value;
@@ -277,7 +285,7 @@ TEST(EnvironmentLight, SamplesDimLightBesideASun) {
   double dim = 0;
   constexpr std::uint32_t kSamples = 1U << 20U;
   for (std::uint32_t i = 0; i < kSamples; ++i) {
-    const EnvironmentLight::Sample sample = light.sample(sobol(i));
+    const EnvironmentLight::Sample sample = sample_of(light, sobol(i));
     ASSERT_GT(sample.pdf, 0);
     if (sample.radiance.x < 0.02F) dim += double{sample.radiance.x} / double{sample.pdf} / kSamples;
   }
@@ -324,6 +332,23 @@ TEST(Studio, ExposesWhite) {
   EXPECT_NEAR(shown({0, 0, -1}), 0.4, 0.05);
   EXPECT_NEAR(shown({0, -1, 0}), 0.25, 0.05);
   EXPECT_NEAR(light.mean_luminance(), 0.66, 0.01);
+}
+
+TEST(EnvironmentLight, SeveralSamplesEqualSingleOnes) {
+  const EnvironmentLight studio(Environment{.content = Studio{}});
+  std::array<Vec2, MapDistribution::kMostSamples> u;
+  std::array<EnvironmentLight::Sample, MapDistribution::kMostSamples> samples;
+  for (std::uint32_t round = 0; round < 200; ++round) {
+    for (std::uint32_t i = 0; i < u.size(); ++i) u[i] = sampling::Sobol(5, 16 * round + i).pair(0);
+    const std::size_t count = 1 + round % u.size();
+    studio.sample(std::span(u).first(count), samples);
+    for (std::size_t i = 0; i < count; ++i) {
+      const EnvironmentLight::Sample one = sample_of(studio, u[i]);
+      ASSERT_EQ(samples[i].wi, one.wi);
+      ASSERT_EQ(samples[i].radiance, one.radiance);
+      ASSERT_EQ(samples[i].pdf, one.pdf);
+    }
+  }
 }
 
 }  // namespace

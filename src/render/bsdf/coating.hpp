@@ -93,10 +93,10 @@ class Coating {
   [[nodiscard]] F mixed(const std::int16_t* table, const Cell<N>& row, int column) const {
     F upper{}, lower{};
     for (int k = 0; k < kNodes; ++k) {
-      const std::int16_t* entries = table + column * kNodes + k;
+      const std::int16_t* entries = &table[column * kNodes + k];
       const Int<N> index = row.first * (kNodes * kColumns);
       upper += node_transmittance_[k] * gathered<N>(entries, index);
-      lower += node_transmittance_[k] * gathered<N>(entries + kNodes * kColumns, index);
+      lower += node_transmittance_[k] * gathered<N>(&entries[kNodes * kColumns], index);
     }
     return larger_of(row.mixed(upper, lower) * kDeficitUnit, F{});
   }

@@ -31,7 +31,7 @@ void insert(const float* planes, const Float<N>& x, const Float<N>& y, Float<N> 
   for (int row = 0; row < n; ++row) {
     Float<N> power = row_power;
     for (int column = 0; column < n; ++column) {
-      const float* plane = planes + (row * n + column) * size;
+      const float* plane = &planes[(row * n + column) * size];
       for (int i = 0; i < size; ++i) sum[i] += power * plane[i];
       power *= y;
     }

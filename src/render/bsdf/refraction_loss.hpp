@@ -144,7 +144,7 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
 
 template <int N>
 auto RefractionLoss<N>::at(const F& z, const F& is_outside) const -> F {
-  constexpr auto half = static_cast<float>((kColumns - 1) / 2);
+  constexpr auto half = static_cast<float>(kHalf - 1);
   const auto is_totally_reflected = z < critical_;
   const F part = is_totally_reflected ? z / critical_ : (z - critical_) / (1 - critical_);
   const F within = half * square_root<N>(part);

@@ -5,6 +5,7 @@
 #include "scene/revolutions.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -105,15 +106,25 @@ Vec3 EnvironmentLight::radiance(const Vec3& direction) const {
   return intensity_ * bilinear(corners_of(*tables_->map, place), place.x, place.y);
 }
 
-EnvironmentLight::Sample EnvironmentLight::sample(const Vec2& u) const {
+void EnvironmentLight::sample(std::span<const Vec2> u, std::span<Sample> samples) const {
   if (!tables_) {
-    const float h = u.y, r = 2 * std::sqrt(h * (1 - h));
-    const SineCosine angle = sin_cos_revolutions(u.x);
-    return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
-            .radiance = uniform_,
-            .pdf = kUniformPdf};
+    for (std::size_t i = 0; i < u.size(); ++i) samples[i] = uniform_sample(u[i]);
+    return;
   }
-  const MapDistribution::Point point = tables_->distribution.sample(u);
+  std::array<MapDistribution::Point, MapDistribution::kMostSamples> points;
+  tables_->distribution.sample(u, points);
+  for (std::size_t i = 0; i < u.size(); ++i) samples[i] = sample_at(points[i]);
+}
+
+EnvironmentLight::Sample EnvironmentLight::uniform_sample(const Vec2& u) const {
+  const float h = u.y, r = 2 * std::sqrt(h * (1 - h));
+  const SineCosine angle = sin_cos_revolutions(u.x);
+  return {.wi = {r * angle.cosine, 1 - 2 * h, r * angle.sine},
+          .radiance = uniform_,
+          .pdf = kUniformPdf};
+}
+
+EnvironmentLight::Sample EnvironmentLight::sample_at(const MapDistribution::Point& point) const {
   const MapPlace& place = point.place;
   const float column = static_cast<float>(place.column) + (place.x - 0.5F);
   float turns = column / width_ + back_turn_;  // in [-1/2, 2]

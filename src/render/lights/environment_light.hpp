@@ -8,6 +8,7 @@
 #include <microtrace/math.hpp>
 
 #include <memory>
+#include <span>
 #include <utility>
 
 namespace microtrace {
@@ -45,8 +46,9 @@ class EnvironmentLight {
     Vec3 radiance;  ///< radiance(wi), except for rounding
     float pdf;      ///< pdf of wi, above 0, except for rounding of wi
   };
-  /// Samples a direction in proportion to its radiance, approximately; u in [0, 1)^2.
-  [[nodiscard]] Sample sample(const Vec2& u) const;
+  /// Samples directions in proportion to their radiance, approximately; each of u in [0, 1)^2. At
+  /// most MapDistribution::kMostSamples, faster than one by one.
+  void sample(std::span<const Vec2> u, std::span<Sample> samples) const;
 
   struct Lookup {
     Vec3 radiance;
@@ -61,6 +63,8 @@ class EnvironmentLight {
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
+  [[nodiscard]] Sample uniform_sample(const Vec2& u) const;
+  [[nodiscard]] Sample sample_at(const MapDistribution::Point& point) const;
   [[nodiscard]] MapPlace place_of(const Vec3& direction, float axis_range) const;
 
   Vec3 uniform_{0};

@@ -3,6 +3,7 @@
 #include "render/bsdf/ggx.hpp"
 #include "render/kernels/lane_access.hpp"
 
+#include <array>
 #include <utility>
 
 namespace microtrace {
@@ -17,11 +18,25 @@ Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> env
     setup_.environment_light = double{environment_->sampled_luminance() / bsdf::kInversePi};
 }
 
-LightSample Lighting::sample_environment(const Vec2& u, float probability) const {
-  if (!samples_environment()) return {};
-  const EnvironmentLight::Sample s = environment_->sample(u);
-  const float pdf = s.pdf * probability;
-  return {.to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
+void Lighting::sample_environment(int count, const LightChoices<kShadingLanes>& choices,
+                                  const TriangleLights<kShadingLanes>& triangles,
+                                  std::span<LightSample, kShadingLanes> samples) const {
+  std::array<Vec2, kShadingLanes> u;
+  std::array<int, kShadingLanes> lanes;
+  std::size_t selected = 0;
+  for (int lane = 0; lane < count; ++lane) {
+    if (choices.kind[lane] != LightKind::environment) continue;
+    u[selected] = {triangles.u[0][lane], triangles.u[1][lane]};
+    lanes[selected++] = lane;
+  }
+  std::array<EnvironmentLight::Sample, kShadingLanes> found;
+  environment_->sample(std::span(u).first(selected), found);
+  for (std::size_t i = 0; i < selected; ++i) {
+    const EnvironmentLight::Sample& s = found[i];
+    const float pdf = s.pdf * static_cast<float>(choices.probability[lanes[i]]);
+    samples[static_cast<std::size_t>(lanes[i])] = {
+        .to_light = s.wi, .is_far = true, .wi = s.wi, .light = s.radiance / pdf, .pdf = pdf};
+  }
 }
 
 void Lighting::sample(const ShadingKernels& kernels, int count,
@@ -39,9 +54,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count,
     sample = {};
     switch (choices.kind[lane]) {
       case LightKind::none:
-        break;
       case LightKind::environment:
-        sample = sample_environment(u, static_cast<float>(probability));
         break;
       case LightKind::far:
         sample = emitters_.sample_far(got(choices.p, lane), choices.choice[lane], probability)
@@ -60,6 +73,7 @@ void Lighting::sample(const ShadingKernels& kernels, int count,
         break;
     }
   }
+  if (samples_environment()) sample_environment(count, choices, triangles, samples);
   if (!has_triangles) return;
   kernels.sample_triangles(triangles);
   for (int lane = 0; lane < count; ++lane) {

@@ -58,7 +58,10 @@ class Lighting {
   [[nodiscard]] KindProbabilities<1> probabilities(const LightSampleContext& context) const {
     return kind_probabilities<1>(setup_, DVec3(context.p), context.n);
   }
-  [[nodiscard]] LightSample sample_environment(const Vec2& u, float probability) const;
+  /// Sets the samples of the lanes for which the environment is selected.
+  void sample_environment(int count, const LightChoices<kShadingLanes>& choices,
+                          const TriangleLights<kShadingLanes>& triangles,
+                          std::span<LightSample, kShadingLanes> samples) const;
   [[nodiscard]] bool samples_environment() const {
     return environment_ && !environment_->is_uniform();
   }

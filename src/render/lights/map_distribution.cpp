@@ -42,23 +42,14 @@ void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
   }
 }
 
-struct Found {
-  std::uint32_t index;
-  std::uint32_t count;  // of numbers in the cell
-  float place;          // position in the cell, in (0, 1)
-};
+/// The number of 24 bits that u selects.
+std::uint32_t number_of(float u) {
+  return std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
+}
 
-template <class Index>
-Found find(const std::uint32_t* bounds, const Index* guide, std::uint32_t cells, float u) {
-  const auto number = std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
-  std::uint32_t i = guide[std::uint64_t{number} * cells >> 24U];
-  // Mostly at most two steps: taken without branches, which would be unpredictable.
-  i += std::uint32_t{bounds[i + 1] <= number};
-  i += std::uint32_t{bounds[i + 1] <= number};
-  while (bounds[i + 1] <= number) ++i;
-  const std::uint32_t count = bounds[i + 1] - bounds[i];
-  const float offset = static_cast<float>(number - bounds[i]) + 0.5F;
-  return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
+/// The entry of a guide of `count` entries for a number.
+std::size_t entry_of(std::uint32_t number, std::uint32_t count) {
+  return std::uint64_t{number} * count >> 24U;
 }
 
 /// Inverts the cumulative distribution of a pdf that is linear from a to b; u > 0.
@@ -171,10 +162,44 @@ float MapDistribution::pdf(const Row& row, std::uint32_t count, const MapPlace& 
   return cell * bilinear(w, place.x, place.y) / (is_polar(place.line) ? mean : mean * axis_range);
 }
 
-MapDistribution::Point MapDistribution::sample(const Vec2& u) const {
-  const Found line = find(row_bounds_.data(), row_guide_.data(), height_ + 1, u.y);
-  const Found column = find(&columns_[std::size_t{line.index} * (width_ + 1)],
-                            &column_guide_[std::size_t{line.index} * width_], width_, u.x);
+template <class Index>
+MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index start,
+                                             std::uint32_t number) {
+  std::uint32_t i = start;
+  // Mostly at most two steps: taken without branches, which would be unpredictable.
+  i += std::uint32_t{bounds[i + 1] <= number};
+  i += std::uint32_t{bounds[i + 1] <= number};
+  while (bounds[i + 1] <= number) ++i;
+  const std::uint32_t count = bounds[i + 1] - bounds[i];
+  const float offset = static_cast<float>(number - bounds[i]) + 0.5F;
+  return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
+}
+
+// In steps that each prefetch what the next one reads: the tables and the map are larger than the
+// first caches.
+void MapDistribution::sample(std::span<const Vec2> u, std::span<Point> points) const {
+  std::array<Found, kMostSamples> lines, columns;
+  std::array<const std::uint16_t*, kMostSamples> guides;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const std::uint32_t number = number_of(u[i].y);
+    lines[i] = find(row_bounds_.data(), row_guide_[entry_of(number, height_ + 1)], number);
+    guides[i] =
+        &column_guide_[std::size_t{lines[i].index} * width_ + entry_of(number_of(u[i].x), width_)];
+    __builtin_prefetch(guides[i]);
+  }
+  const auto bounds = [&](std::size_t i) {
+    return &columns_[std::size_t{lines[i].index} * (width_ + 1)];
+  };
+  for (std::size_t i = 0; i < u.size(); ++i) __builtin_prefetch(bounds(i) + *guides[i]);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    columns[i] = find(bounds(i), *guides[i], number_of(u[i].x));
+    for (const Vec3* row : rows_of(map_, lines[i].index))
+      __builtin_prefetch(row + columns[i].index);
+  }
+  for (std::size_t i = 0; i < u.size(); ++i) points[i] = point_in(lines[i], columns[i]);
+}
+
+MapDistribution::Point MapDistribution::point_in(const Found& line, const Found& column) const {
   const Row& row = rows_[line.index];
   Point point{.place = {.column = column.index, .line = line.index}};
   const auto w = weights(row, corners_of(map_, point.place));

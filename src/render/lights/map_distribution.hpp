@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace microtrace {
@@ -22,12 +23,17 @@ struct MapPlace {
   float x = 0, y = 0;                  ///< in the cell, in [0, 1]; to the right and down
 };
 
+/// The first pixels of the rows above and below the middle of a cell.
+[[nodiscard]] inline std::array<const Vec3*, 2> rows_of(const RadianceMap& map,
+                                                        std::uint32_t line) {
+  const std::uint32_t above = line > 0 ? line - 1 : 0, below = std::min(line, map.height - 1);
+  return {&map.pixels[std::size_t{above} * map.width], &map.pixels[std::size_t{below} * map.width]};
+}
+
 /// The pixels at a cell's corners: upper left and right, lower left and right.
 [[nodiscard]] inline std::array<Vec3, 4> corners_of(const RadianceMap& map, const MapPlace& place) {
   const std::uint32_t left = place.column > 0 ? place.column - 1 : map.width - 1;
-  const std::uint32_t above = place.line > 0 ? place.line - 1 : 0;
-  const Vec3* upper = &map.pixels[std::size_t{above} * map.width];
-  const Vec3* lower = &map.pixels[std::size_t{std::min(place.line, map.height - 1)} * map.width];
+  const auto [upper, lower] = rows_of(map, place.line);
   return {upper[left], upper[place.column], lower[left], lower[place.column]};
 }
 
@@ -62,8 +68,10 @@ class MapDistribution {
     float axis_range = 0;  ///< distance of the direction from the y axis
     float pdf = 0;         ///< per steradian
   };
-  /// u in [0, 1)^2.
-  [[nodiscard]] Point sample(const Vec2& u) const;
+  /// Each of u in [0, 1)^2; at most kMostSamples. Faster for several: while one waits for memory,
+  /// the others go on.
+  static constexpr std::size_t kMostSamples = 16;
+  void sample(std::span<const Vec2> u, std::span<Point> points) const;
 
   /// The pdf of a direction, per steradian; the corners are those of the place's cell.
   [[nodiscard]] float pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
@@ -97,6 +105,15 @@ class MapDistribution {
   }
   [[nodiscard]] float pdf(const Row& row, std::uint32_t count, const MapPlace& place,
                           const std::array<float, 4>& weights, float axis_range) const;
+  /// A selected row or column.
+  struct Found {
+    std::uint32_t index;
+    std::uint32_t count;  ///< of numbers in the cell
+    float place;          ///< position in the cell, in (0, 1)
+  };
+  template <class Index>
+  static Found find(const std::uint32_t* bounds, Index start, std::uint32_t number);
+  [[nodiscard]] Point point_in(const Found& line, const Found& column) const;
   void find_mean();
   /// The mean weights of the rows' cells, without minima.
   std::vector<double> make_columns();
