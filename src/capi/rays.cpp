@@ -1,3 +1,4 @@
+#include "base/shared_range.hpp"
 #include "base/start_threads.hpp"
 #include "capi/handles.hpp"
 #include "float_environment.hpp"
@@ -6,11 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <exception>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <thread>
@@ -36,28 +34,19 @@ mt_hit hit_of(const std::optional<Hit>& hit) {
 /// f(first, last) for blocks that cover [0, count), on several threads.
 template <class F>
 void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
-  std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr failure;
+  SharedRange blocks(count, kBlock);
   const auto work = [&] {
     const FloatEnvironment environment;
-    try {
-      for (std::size_t first; (first = next.fetch_add(kBlock)) < count;)
-        f(first, std::min(first + kBlock, count));
-    } catch (...) {
-      next = count;
-      const std::scoped_lock lock(mutex);
-      failure = std::current_exception();
-    }
+    blocks.take(f);
   };
   {
-    const std::size_t blocks = (count + kBlock - 1) / kBlock;
+    const std::size_t most = (count + kBlock - 1) / kBlock;
     const std::size_t wanted =
-        std::min<std::size_t>(threads != 0 ? threads : default_threads(), blocks);
+        std::min<std::size_t>(threads != 0 ? threads : default_threads(), most);
     const auto started = start_threads(wanted > 1 ? static_cast<unsigned>(wanted - 1) : 0, work);
     work();
   }
-  if (failure) std::rethrow_exception(failure);
+  blocks.rethrow();
 }
 
 /// Checks the arguments of a function on rays, then calls f(scene, first, last) for blocks of them.

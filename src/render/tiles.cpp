@@ -1,5 +1,6 @@
 #include "render/tiles.hpp"
 
+#include "base/shared_range.hpp"
 #include "base/start_threads.hpp"
 #include "float_environment.hpp"
 
@@ -8,7 +9,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
-#include <exception>
 #include <mutex>
 #include <vector>
 
@@ -47,37 +47,27 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   // few enough to balance the load.
   const std::uint64_t run =
       std::clamp<std::uint64_t>(count / (std::uint64_t{threads.wanted} * 32), 1, 64);
-  std::atomic<std::uint64_t> next{0}, done{0};
-  std::atomic<bool> ended = false;  // stopped early
+  SharedRange tiles(count, run);
+  std::atomic<std::uint64_t> done{0};
   std::mutex report;
-  std::exception_ptr failure;
 
   const auto tell = [&] {
     if (!progress) return;
     const std::scoped_lock lock(report);
-    if (ended) return;
-    ended = !progress(static_cast<double>(done) / static_cast<double>(count));
-    if (ended) throw Error(ErrorKind::canceled, "", "the rendering was canceled");
+    if (tiles.is_ended()) return;
+    if (progress(static_cast<double>(done) / static_cast<double>(count))) return;
+    tiles.end();
+    throw Error(ErrorKind::canceled, "", "the rendering was canceled");
   };
-  const auto draw_some = [&] {
-    try {
-      for (std::uint64_t first; !ended && (first = next.fetch_add(run)) < count;) {
-        const std::uint64_t last = std::min(first + run, count);
-        for (std::uint64_t index = first; index < last && !ended; ++index)
-          draw(tile_at(index, window));
-        done += last - first;
-        tell();
-      }
-    } catch (...) {
-      ended = true;
-      const std::scoped_lock lock(report);
-      if (!failure) failure = std::current_exception();
-    }
+  const auto draw_run = [&](std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t index = first; index < last && !tiles.is_ended(); ++index)
+      draw(tile_at(index, window));
+    done += last - first;
+    tell();
   };
-
   const auto work = [&] {
     const StageCounts before = stage_counts();
-    draw_some();
+    tiles.take(draw_run);
     const std::scoped_lock lock(report);
     threads.stages += stage_counts() - before;
   };
@@ -93,7 +83,7 @@ void for_each_tile(const PixelRect& window, Threads& threads,
     threads.missing = std::max(threads.missing, wanted - 1 - static_cast<unsigned>(started.size()));
     work();
   }
-  if (failure) std::rethrow_exception(failure);
+  tiles.rethrow();
 }
 
 }  // namespace microtrace

@@ -120,12 +120,17 @@ Rule check_indices(const char* field, const Array<Primitive>& primitives, std::s
   return {};
 }
 
+Rule check_primitives(const Mesh& mesh) {
+  if (Rule rule = check_indices("triangles", mesh.triangles, mesh.positions.size())) return rule;
+  return check_indices("segments", mesh.segments, mesh.positions.size());
+}
+
 Rule check(const Mesh& mesh) {
   if (Rule rule = check_attributes(mesh)) return rule;
   for (const Vec3& position : mesh.positions) {
     if (Rule rule = finite("positions", position)) return rule;
   }
-  return broken_index(mesh);
+  return check_primitives(mesh);
 }
 
 Rule check(const Pose& pose) {
@@ -183,8 +188,7 @@ Rule check_side(const char* field, std::uint32_t side) {
 
 std::optional<BrokenRule> broken_index(const Mesh& mesh) {
   if (Rule rule = check_attributes(mesh)) return rule;
-  if (Rule rule = check_indices("triangles", mesh.triangles, mesh.positions.size())) return rule;
-  return check_indices("segments", mesh.segments, mesh.positions.size());
+  return check_primitives(mesh);
 }
 
 std::optional<BrokenRule> validate(const Shape& shape) {

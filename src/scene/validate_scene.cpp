@@ -58,16 +58,11 @@ void check_environment(const Environment& environment) {
                                        std::to_string(kMaxImageSide)});
 }
 
-}  // namespace
-
-void check_indices(const Scene& scene) {
+/// Indices and sizes outside of meshes.
+void check_references(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    const Object& object = scene.objects[i];
-    if (object.material)
-      check_index("objects", i, "material", *object.material, scene.materials.size());
-    const auto* mesh = std::get_if<Mesh>(&object.shape);
-    if (mesh == nullptr) continue;
-    if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
+    if (const auto& material = scene.objects[i].material)
+      check_index("objects", i, "material", *material, scene.materials.size());
   }
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     for_each_texture(scene.materials[i], [&](const TextureUse& use, ColorEncoding) {
@@ -84,12 +79,23 @@ void check_indices(const Scene& scene) {
   if (scene.environment) check_environment(*scene.environment);
 }
 
+}  // namespace
+
+void check_indices(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    const auto* mesh = std::get_if<Mesh>(&scene.objects[i].shape);
+    if (mesh == nullptr) continue;
+    if (const auto broken = broken_index(*mesh)) refuse(item("objects", i) + "/shape", *broken);
+  }
+  check_references(scene);
+}
+
 void validate(const Scene& scene) {
-  check_indices(scene);
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (const auto broken = validate(scene.objects[i].shape))
       refuse(item("objects", i) + "/shape", *broken);
   }
+  check_references(scene);
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     if (const auto broken = validate(scene.cameras[i].camera))
       refuse(item("cameras", i) + "/camera", *broken);
