@@ -84,7 +84,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
 }
 
 /// Drops a reference to a camera whose type is unknown to check_schema.
-void check_camera(Asset& asset, const Element& at) {
+void drop_unknown_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;
   const JsonValue& camera = asset.array("cameras")[static_cast<std::size_t>(index->number)];
@@ -109,7 +109,7 @@ void check_nodes(Asset& asset, const NodeForest& forest) {
     if (at.value->find("matrix") != nullptr) check_matrix(asset, at);
     if (at.value->find("rotation") != nullptr) check_rotation(asset, at.member("rotation"));
     check_mesh(asset, at, meshes);
-    check_camera(asset, at);
+    drop_unknown_camera(asset, at);
   }
   for (std::size_t i = 0; i < asset.array("scenes").size(); ++i) {
     const Element nodes = asset.element("scenes", i).member("nodes");
