@@ -11,6 +11,13 @@ namespace {
 constexpr std::size_t kColumns = 100;
 constexpr std::size_t kEnd = 13;  // characters after the last number of five nested arrays
 
+std::string shortest(double value) {
+  std::array<char, 64> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
+  return {text.data(), end.ptr};
+}
+
 }  // namespace
 
 std::string number_text(double value, int decimals) {
@@ -86,13 +93,11 @@ std::string comment_text(const std::string& text) {
   return result;
 }
 
+std::string cells_text(const StatedError& error) {
+  return shortest(error.above) + " | " + shortest(-error.below) + " | " + shortest(error.rms);
+}
+
 std::string error_text(const StatedError& error) {
-  const auto shortest = [](double value) {
-    std::array<char, 64> text{};
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-    return std::string(text.data(), end.ptr);
-  };
   return "at most " + shortest(error.above) + " above and " + shortest(error.below) +
          " below the integral, rms " + shortest(error.rms);
 }

@@ -29,6 +29,9 @@ namespace microtrace::tables {
 /// two spaces.
 [[nodiscard]] std::string comment_text(const std::string& text);
 
+/// "0.006 | -0.0006 | 0.0004", cells of the table in docs/derivations.md.
+[[nodiscard]] std::string cells_text(const StatedError& error);
+
 /// "at most 0.006 above and 0.0006 below the integral, rms 0.0004"
 [[nodiscard]] std::string error_text(const StatedError& error);
 

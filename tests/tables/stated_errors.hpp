@@ -17,6 +17,9 @@ inline constexpr StatedError kGgxMeanF1Error{.above = 0.00012, .below = 0.00015,
 inline constexpr StatedError kGgxMeanSchlickError{
     .above = 0.000001, .below = 0.000001, .rms = 0.000001};
 
+/// Albedos of white metal with multiple scattering, for cos(theta) > 0.02.
+inline constexpr double kLeastWhiteMetal = 0.9945, kMostWhiteMetal = 1.0007;
+
 /// By equal steps of row and column, from cos(theta) = 0.0001.
 inline constexpr StatedError kSheenError{.above = 0.07, .below = 0.03, .rms = 0.006};
 inline constexpr double kMostSheen = 1.01;  ///< albedo of the divided model

@@ -6,20 +6,26 @@
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
 #include "support/scattering.hpp"
+#include "support/source_folder.hpp"
 #include "tables/albedos.hpp"
+#include "tables/header_text.hpp"
 #include "tables/stated_errors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
+#include <iterator>
 #include <numbers>
+#include <string>
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 namespace microtrace::bsdf {
 namespace {
 
 using tables::Quadrature;
+using testing::HasSubstr;
 
 class Errors {
  public:
@@ -133,6 +139,33 @@ TEST(TableErrors, GgxMeans) {
   }
   f1.expect(tables::kGgxMeanF1Error, "F = 1");
   schlick.expect(tables::kGgxMeanSchlickError, "Schlick");
+}
+
+// What single scattering loses, by the tables, is returned by a lobe whose albedo is the loss
+// divided by its tabulated mean.
+TEST(TableErrors, WhiteMetalConservesEnergy) {
+  const Quadrature points = tables::graded(32), cosines = tables::graded(64);
+  double least = 1, most = 1;
+  for (int i = 1; i <= 300; ++i) {
+    const double roughness = i / 300.0, alpha = tables::alpha_of(roughness);
+    const GgxAlbedo<1> albedo(Ggx<1>(static_cast<float>(roughness)));
+    double lost = 0;
+    for (std::size_t k = 0; k < cosines.at.size(); ++k) {
+      const double z = cosines.at[k];
+      lost += 2 * z * cosines.weights[k] * (1 - albedo.at(static_cast<float>(z)).f1);
+    }
+    const double returned = lost / (1 - albedo.mean().f1);
+    for (int k = 6; k <= 40; ++k) {
+      const double z = k * k / 1600.0;
+      const double once = ggx_albedo({.x = alpha, .y = alpha}, tables::tilted(z), points).f1;
+      const double all = once + (1 - albedo.at(static_cast<float>(z)).f1) * returned;
+      least = std::min(least, all);
+      most = std::max(most, all);
+    }
+  }
+  EXPECT_GT(least, tables::kLeastWhiteMetal);
+  EXPECT_LT(most, tables::kMostWhiteMetal);
+  EXPECT_LT(least, tables::kLeastWhiteMetal + 0.001) << "state a smaller loss";
 }
 
 TEST(TableErrors, Sheen) {
@@ -262,6 +295,27 @@ TEST(TableErrors, AnisotropicMeans) {
   }
   f1.expect(tables::kAnisotropicMeanF1Error, "F = 1");
   schlick.expect(tables::kAnisotropicMeanSchlickError, "Schlick");
+}
+
+TEST(TableErrors, AreDocumented) {
+  std::ifstream file(tests::source_folder() / "docs/derivations.md");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  const auto row = [&](const std::string& name, const tables::StatedError& error) {
+    EXPECT_THAT(text, HasSubstr("| " + name + " | " + cells_text(error) + " |"));
+  };
+  row("GGX, F = 1", tables::kGgxF1Error);
+  row("GGX, F = (1 - cos)^5", tables::kGgxSchlickError);
+  row("mean of these, F = 1", tables::kGgxMeanF1Error);
+  row("mean of these, F = (1 - cos)^5", tables::kGgxMeanSchlickError);
+  row("sheen", tables::kSheenError);
+  row("deficit under a clear coat, F = 1", tables::kDeficitF1Error);
+  row("deficit under a clear coat, F = (1 - cos)^5", tables::kDeficitSchlickError);
+  row("loss of refraction, from the thinner side", tables::kLossOutsideError);
+  row("loss of refraction, from the denser side", tables::kLossWithinError);
+  row("anisotropic GGX, F = 1", tables::kAnisotropicF1Error);
+  row("anisotropic GGX, F = (1 - cos)^5", tables::kAnisotropicSchlickError);
+  row("mean of these, F = 1", tables::kAnisotropicMeanF1Error);
+  row("mean of these, F = (1 - cos)^5", tables::kAnisotropicMeanSchlickError);
 }
 
 }  // namespace
