@@ -162,7 +162,8 @@ std::string coating_table() {
 
 std::string coating_schlick_table() {
   return header_text(
-      "The table of coating_table.hpp for F = (1 - cos)^5.\n", {"render/bsdf/coating_table.hpp"},
+      "The table of coating_table.hpp for F = (1 - cos)^5.\n",
+      {"render/bsdf/tables/coating_table.hpp"},
       "// clang-format off\n\n" + deficit_text("kDeficitSchlick", true) + "\n// clang-format on\n");
 }
 

@@ -131,7 +131,7 @@ std::string refraction_loss_table() {
 std::string refraction_loss_within_table() {
   return header_text(
       "The table of refraction_loss_table.hpp for light from the denser side.\n",
-      {"render/bsdf/refraction_loss_table.hpp"},
+      {"render/bsdf/tables/refraction_loss_table.hpp"},
       "// clang-format off\n"
       "\n"
       "/// Columns 0 to 8 are for cos(theta) = c (i / 8)^2, where c is the cosine of the critical "

@@ -2,7 +2,7 @@
 #include "render/bsdf/anisotropic_ggx.hpp"
 #include "render/bsdf/ggx_albedo.hpp"
 #include "render/bsdf/polynomial.hpp"
-#include "render/bsdf/tables.hpp"
+#include "render/bsdf/tables/tables.hpp"
 
 namespace microtrace::bsdf {
 

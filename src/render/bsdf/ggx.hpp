@@ -3,7 +3,7 @@
 /// with the masking of E. Heitz (Understanding the masking-shadowing function, 2014), for N lanes.
 /// Local coordinates: z is the normal; directions are unit vectors above the surface.
 
-#include "render/bsdf/tables.hpp"
+#include "render/bsdf/tables/tables.hpp"
 #include "render/sampling/warps.hpp"
 #include "simd/vector3.hpp"
 

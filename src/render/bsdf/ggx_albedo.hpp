@@ -2,7 +2,7 @@
 /// Directional albedos of facets, for N lanes.
 
 #include "render/bsdf/ggx.hpp"
-#include "render/bsdf/tables.hpp"
+#include "render/bsdf/tables/tables.hpp"
 #include "simd/gather.hpp"
 
 namespace microtrace::bsdf {

@@ -1,6 +1,6 @@
 #pragma once
 #include "render/bsdf/ggx_albedo.hpp"
-#include "render/bsdf/tables.hpp"
+#include "render/bsdf/tables/tables.hpp"
 
 namespace microtrace::bsdf {
 

@@ -3,7 +3,7 @@
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
-#include "render/bsdf/refraction_loss_table.hpp"
+#include "render/bsdf/tables/refraction_loss_table.hpp"
 
 namespace microtrace::bsdf {
 

@@ -2,11 +2,11 @@
 /// The tables of albedos as plain pointers, because kernels must not instantiate templates of the
 /// standard library (simd/vectors.hpp).
 
-#include "render/bsdf/anisotropic_loss_table.hpp"
-#include "render/bsdf/coating_table.hpp"
-#include "render/bsdf/ggx_albedo_table.hpp"
-#include "render/bsdf/refraction_loss_table.hpp"
-#include "render/bsdf/sheen_table.hpp"
+#include "render/bsdf/tables/anisotropic_loss_table.hpp"
+#include "render/bsdf/tables/coating_table.hpp"
+#include "render/bsdf/tables/ggx_albedo_table.hpp"
+#include "render/bsdf/tables/refraction_loss_table.hpp"
+#include "render/bsdf/tables/sheen_table.hpp"
 
 #include <cstdint>
 

@@ -1,7 +1,7 @@
-#include "render/bsdf/tables.hpp"
+#include "render/bsdf/tables/tables.hpp"
 
-#include "render/bsdf/coating_schlick_table.hpp"
-#include "render/bsdf/refraction_loss_within_table.hpp"
+#include "render/bsdf/tables/coating_schlick_table.hpp"
+#include "render/bsdf/tables/refraction_loss_within_table.hpp"
 
 namespace microtrace::bsdf {
 

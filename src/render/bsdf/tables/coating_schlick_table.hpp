@@ -3,7 +3,7 @@
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
-#include "render/bsdf/coating_table.hpp"
+#include "render/bsdf/tables/coating_table.hpp"
 
 namespace microtrace::bsdf {
 
