@@ -20,16 +20,16 @@ namespace {
 
 constexpr std::string_view kGlbMagic = "glTF";
 
-std::string lower_case_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   });
-  return ending;
+  return extension;
 }
 
 /// Extensions of other common scene formats.
-constexpr std::array<std::string_view, 17> kForeignEndings{
+constexpr std::array<std::string_view, 17> kForeignExtensions{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
@@ -39,15 +39,15 @@ std::string_view behind_space(std::string_view text) {
 }
 
 /// Throws if the extension is that of another format and the bytes are neither JSON nor GLB.
-void refuse_foreign_format(const std::string& ending, std::string_view first,
+void refuse_foreign_format(const std::string& extension, std::string_view first,
                            const std::string& name) {
-  if (std::ranges::find(kForeignEndings, ending) == kForeignEndings.end()) return;
+  if (std::ranges::find(kForeignExtensions, extension) == kForeignExtensions.end()) return;
   if (first.starts_with(kGlbMagic) || behind_space(first).starts_with('{')) return;
   throw Error(ErrorKind::unsupported, name,
-              "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + ending +
+              "microtrace reads JSON scenes and glTF (.gltf, .glb), not " + extension +
                   "; convert the file, for example with Blender (File > Export > glTF 2.0) or with "
                   "assimp (assimp export in" +
-                  ending + " out.glb)");
+                  extension + " out.glb)");
 }
 
 /// Throws if no JSON text can start like this, so that garbage is not read to its end.
@@ -62,18 +62,18 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 
 using Reader = std::variant<io::JsonDocument, io::GltfFile>;
 
-/// `ending` is the file's extension in lower case; for other extensions the content selects the
+/// `extension` is the file's extension in lower case; for other extensions the content selects the
 /// format.
-Reader open(std::string_view bytes, const std::string& ending, const std::string& name,
+Reader open(std::string_view bytes, const std::string& extension, const std::string& name,
             const std::filesystem::path& folder, const LoadOptions& options) {
-  if (ending == ".gltf" || ending == ".glb" || bytes.starts_with(kGlbMagic)) {
+  if (extension == ".gltf" || extension == ".glb" || bytes.starts_with(kGlbMagic)) {
     return io::GltfFile(bytes, name, folder, options);
   }
   io::LoadClock clock(options.times);
   io::JsonDocument document(bytes, name);
   clock.lap(&LoadTimes::validate);
   // Every glTF asset has the member "asset", and no scene of our format has.
-  if (ending != ".json" && document.root().find("asset") != nullptr) {
+  if (extension != ".json" && document.root().find("asset") != nullptr) {
     return io::GltfFile(bytes, name, folder, options);
   }
   return document;
@@ -111,11 +111,11 @@ struct SceneFile::Content {
 SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
   const FloatEnvironment environment;
   const bool standard_input = path == "-";
-  const std::string ending = lower_case_ending(path);
+  const std::string extension = lower_case_extension(path);
   const std::string name = standard_input ? "(standard input)" : path.string();
   const auto inspect = [&](std::string_view first) {
-    refuse_foreign_format(ending, first, name);
-    if (ending != ".glb" && !first.starts_with(kGlbMagic)) require_start_of_json(first, name);
+    refuse_foreign_format(extension, first, name);
+    if (extension != ".glb" && !first.starts_with(kGlbMagic)) require_start_of_json(first, name);
   };
   content_ = std::make_unique<Content>(path, std::move(options));
   Content& content = *content_;
@@ -125,7 +125,7 @@ SceneFile::SceneFile(const std::filesystem::path& path, LoadOptions options) {
                       ? io::read_descriptor(STDIN_FILENO, name, io::kMaxFileSize, inspect)
                       : io::read_file(path, io::kMaxFileSize, inspect);
   clock.lap(&LoadTimes::read);
-  content.reader.emplace(open(content.bytes, ending, name, content.folder, content.options));
+  content.reader.emplace(open(content.bytes, extension, name, content.folder, content.options));
 }
 SceneFile::~SceneFile() = default;
 SceneFile::SceneFile(SceneFile&& other) noexcept = default;

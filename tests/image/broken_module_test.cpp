@@ -57,17 +57,17 @@ TEST_F(BrokenModule, ZerosAtTheEndAreAnError) {
 }
 
 TEST_F(BrokenModule, OtherElfClassIsAnError) {
-  EXPECT_THAT(complaint("not a library"), HasSubstr("no shared library of this machine"));
+  EXPECT_THAT(complaint("not a library"), HasSubstr("not a shared library for this machine"));
   std::string bytes = whole_;
   bytes[4] = 1;  // ELFCLASS32
-  EXPECT_THAT(complaint(bytes), HasSubstr("no shared library of this machine"));
+  EXPECT_THAT(complaint(bytes), HasSubstr("not a shared library for this machine"));
   std::filesystem::remove(folder_ / io::kCodecModuleFileName);
   std::filesystem::create_directory(folder_ / io::kCodecModuleFileName);
   try {
     save_image(Film({2, 2}), folder_ / "a.png");
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("no regular file"));
+    EXPECT_THAT(error.what(), HasSubstr("not a regular file"));
   }
 }
 

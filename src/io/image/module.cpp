@@ -77,36 +77,36 @@ void require_threads(const FormatModule& module, const std::string& file) {
   static_cast<void>(is_granted);
 }
 
-const FormatModule& module_for(std::string_view ending) {
+const FormatModule& module_for(std::string_view extension) {
   static constexpr FormatModule kOpenexr{
       .file = "microtrace_openexr.so", .package = "libopenexr-dev", .target = "microtrace_openexr"};
   static constexpr FormatModule kOpenimageio{.file = "microtrace_openimageio.so",
                                              .package = "libopenimageio-dev",
                                              .target = "microtrace_openimageio",
                                              .starts_threads = true};
-  return ending == "exr" ? kOpenexr : kOpenimageio;
+  return extension == "exr" ? kOpenexr : kOpenimageio;
 }
 
-ImageModule::ImageModule(std::string file, std::string_view ending) : file_(std::move(file)) {
-  void* module = load_module(module_for(ending), file_);
+ImageModule::ImageModule(std::string file, std::string_view extension) : file_(std::move(file)) {
+  void* module = load_module(module_for(extension), file_);
   find_format_ = find_function<MicrotraceFindFormat>(module, kFindFormatName, file_);
   encode_ = find_function<MicrotraceEncode>(module, kEncodeName, file_);
 }
 
-MicrotraceFormat ImageModule::find_format(const std::string& ending) const {
+MicrotraceFormat ImageModule::find_format(const std::string& extension) const {
   MicrotraceFormat format{};
-  if (find_format_(ending.c_str(), &format) != 0) return format;
+  if (find_format_(extension.c_str(), &format) != 0) return format;
   std::string message = "no picture can be written with the extension .";
-  message += ending;
+  message += extension;
   message += "; use .ppm, .png or .exr, or another format of OpenImageIO";
   throw Error(ErrorKind::usage, file_, message);
 }
 
-void ImageModule::encode(const Film& film, const std::string& ending,
+void ImageModule::encode(const Film& film, const std::string& extension,
                          const std::function<void(std::string_view)>& out) const {
-  const ModulePicture picture(film, find_format(ending));
+  const ModulePicture picture(film, find_format(extension));
   Sinks sinks{out, {}, {}};
-  const int failed = encode_(&picture.get(), ending.c_str(), take_bytes, take_reason, &sinks);
+  const int failed = encode_(&picture.get(), extension.c_str(), take_bytes, take_reason, &sinks);
   if (sinks.thrown) std::rethrow_exception(sinks.thrown);
   if (failed == 0) return;
   std::string message = "can't be encoded: ";

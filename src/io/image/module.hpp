@@ -23,7 +23,7 @@ struct FormatModule {
 
 /// The module that writes pictures and reads environment maps with this extension (lower case, no
 /// dot).
-[[nodiscard]] const FormatModule& module_for(std::string_view ending);
+[[nodiscard]] const FormatModule& module_for(std::string_view extension);
 
 /// Must be called before the module is loaded for `file`. Throws Error (limit) if the module starts
 /// threads that the system would refuse.
@@ -33,14 +33,14 @@ class ImageModule {
  public:
   /// Loads the module for this extension, once per process. `file` is named in messages. Throws
   /// Error(unsupported) with the searched folders.
-  ImageModule(std::string file, std::string_view ending);
+  ImageModule(std::string file, std::string_view extension);
 
   /// The pixel format of files with this extension (lower case, no dot). Throws Error(usage) if the
   /// module can't write them.
-  [[nodiscard]] MicrotraceFormat find_format(const std::string& ending) const;
+  [[nodiscard]] MicrotraceFormat find_format(const std::string& extension) const;
 
   /// Passes the bytes of the whole picture file to `out`. Throws Error(io).
-  void encode(const Film& film, const std::string& ending,
+  void encode(const Film& film, const std::string& extension,
               const std::function<void(std::string_view)>& out) const;
 
  private:

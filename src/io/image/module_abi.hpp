@@ -52,11 +52,11 @@ using MicrotraceSink = void (*)(void* context, const char* bytes, std::size_t si
 
 /// If pictures with this extension (lower case, no dot) can be written, describes them and returns
 /// 1, else returns 0.
-using MicrotraceFindFormat = int (*)(const char* ending, MicrotraceFormat* format);
+using MicrotraceFindFormat = int (*)(const char* extension, MicrotraceFormat* format);
 
 /// Passes the bytes of the picture's file to `out` and returns 0, or passes a reason to `error` and
 /// returns 1. The channels must match the format.
-using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* ending,
+using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* extension,
                                  MicrotraceSink out, MicrotraceSink error, void* context);
 
 /// The colors of a decoded picture.
@@ -77,7 +77,7 @@ struct MicrotraceColorSink {
 
 /// Decodes the first picture of a file with this extension (lower case, no dot) without its alpha.
 /// Returns 1, or complains and returns 0.
-using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* ending,
+using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* extension,
                                        const MicrotraceColorSink* sink);
 }
 

@@ -74,17 +74,17 @@ void complain(void* context, const char* text) {
   }
 }
 
-std::string ending_of(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  for (char& c : ending) {
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
-  return ending.empty() ? ending : ending.substr(1);
+  return extension.empty() ? extension : extension.substr(1);
 }
 
 Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
-  const std::string ending = ending_of(path);
-  const io::FormatModule& module = io::module_for(ending);
+  const std::string extension = extension_of(path);
+  const io::FormatModule& module = io::module_for(extension);
   io::require_threads(module, path.string());
   const io::ModuleFunction function = io::find_module_function(module.file, io::kDecodeColorsName);
   if (function.address == nullptr) {
@@ -95,7 +95,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   Decoded decoded;
   const MicrotraceColorSink sink{&decoded, begin, complain};
   const auto decode = reinterpret_cast<MicrotraceDecodeColors>(function.address);
-  const bool is_decoded = decode(bytes.data(), bytes.size(), ending.c_str(), &sink) != 0;
+  const bool is_decoded = decode(bytes.data(), bytes.size(), extension.c_str(), &sink) != 0;
   if (decoded.failure) std::rethrow_exception(decoded.failure);
   if (decoded.is_too_large) {
     std::string message = "is too large for an environment";

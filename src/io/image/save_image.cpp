@@ -17,17 +17,17 @@ namespace {
 
 /// The name's extension in lower case without the dot. Standard output and streams without an
 /// extension use PPM. Throws Error(usage) if there is none.
-std::string format_ending(const std::filesystem::path& path) {
+std::string format_extension(const std::filesystem::path& path) {
   if (path == "-") return "ppm";
-  std::string ending = path.extension().string();
-  if (ending.empty() && io::is_stream(path)) return "ppm";
-  std::transform(ending.begin(), ending.end(), ending.begin(),
+  std::string extension = path.extension().string();
+  if (extension.empty() && io::is_stream(path)) return "ppm";
+  std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  if (ending.size() < 2) {
+  if (extension.size() < 2) {
     throw Error(ErrorKind::usage, path.string(),
                 "has no extension that selects a picture format; use .ppm, .png or .exr");
   }
-  return ending.substr(1);
+  return extension.substr(1);
 }
 
 void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
@@ -44,10 +44,10 @@ void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
 
 /// Throws Error(usage) unless the format can store everything in the film.
 void require(const FilmContents& contents, const MicrotraceFormat& format,
-             const std::filesystem::path& path, const std::string& ending) {
+             const std::filesystem::path& path, const std::string& extension) {
   const auto refuse = [&](const std::string& message) {
     throw Error(ErrorKind::usage, path == "-" ? "standard output" : path.string(),
-                "." + ending + message);
+                "." + extension + message);
   };
   if (contents.channels && format.has_channels == 0)
     refuse(" stores only colors; write further channels to an .exr file");
@@ -59,14 +59,14 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
 /// library are written here, as PPM is; their capabilities are in format_.
 class Writer {
  public:
-  Writer(const std::filesystem::path& path, const std::string& ending) : ending_(ending) {
-    if (ending == "ppm") return;
-    if (ending == "png") {
+  Writer(const std::filesystem::path& path, const std::string& extension) : extension_(extension) {
+    if (extension == "ppm") return;
+    if (extension == "png") {
       png_.emplace(path.string());
       format_.has_alpha = 1;
     } else {
-      others_.emplace(path.string(), ending);
-      format_ = others_->find_format(ending);
+      others_.emplace(path.string(), extension);
+      format_ = others_->find_format(extension);
     }
   }
 
@@ -75,12 +75,12 @@ class Writer {
   void write(const Film& film, PpmEncoding ppm, io::AtomicFile& file) const {
     const auto out = [&file](std::string_view bytes) { file.write(bytes); };
     if (png_) return png_->encode(film, out);
-    if (others_) return others_->encode(film, ending_, out);
+    if (others_) return others_->encode(film, extension_, out);
     write_ppm(film, ppm, file);
   }
 
  private:
-  std::string ending_;
+  std::string extension_;
   std::optional<io::PngEncoder> png_;
   std::optional<io::ImageModule> others_;
   MicrotraceFormat format_{};  // PPM's: 8 bits, no alpha, no channels
@@ -89,8 +89,8 @@ class Writer {
 }  // namespace
 
 void check_image_path(const std::filesystem::path& path, const FilmContents& contents) {
-  const std::string ending = format_ending(path);
-  require(contents, Writer(path, ending).format(), path, ending);
+  const std::string extension = format_extension(path);
+  require(contents, Writer(path, extension).format(), path, extension);
   io::check_target(path);
 }
 
@@ -106,10 +106,10 @@ void check_sidecar_path(const std::filesystem::path& path, const std::filesystem
 void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm,
                 const Sidecar* sidecar) {
   const FloatEnvironment environment;
-  const std::string ending = format_ending(path);
+  const std::string extension = format_extension(path);
   const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
-  const Writer writer(path, ending);
-  require(contents, writer.format(), path, ending);
+  const Writer writer(path, extension);
+  require(contents, writer.format(), path, extension);
   std::optional<io::AtomicFile> beside;
   if (sidecar != nullptr) {
     beside.emplace(sidecar->path);

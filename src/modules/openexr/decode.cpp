@@ -100,7 +100,8 @@ void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink
 extern "C" {
 
 __attribute__((visibility("default"))) int microtrace_decode_colors_v1(
-    const void* bytes, std::size_t size, const char* /*ending*/, const MicrotraceColorSink* sink) {
+    const void* bytes, std::size_t size, const char* /*extension*/,
+    const MicrotraceColorSink* sink) {
   try {
     decode(static_cast<const char*>(bytes), size, *sink);
     return 1;

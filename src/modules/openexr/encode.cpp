@@ -77,15 +77,15 @@ std::string encode(const MicrotracePicture& picture) {
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* ending,
+__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* extension,
                                                                      MicrotraceFormat* format) {
-  if (std::string_view(ending) != "exr") return 0;
+  if (std::string_view(extension) != "exr") return 0;
   *format = {.is_float = 1, .has_alpha = 1, .has_channels = 1};
   return 1;
 }
 
 __attribute__((visibility("default"))) int microtrace_encode_v3(const MicrotracePicture* picture,
-                                                                const char* /*ending*/,
+                                                                const char* /*extension*/,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,
                                                                 void* context) {

@@ -48,18 +48,18 @@ TypeDesc type_of(MicrotraceNumber number) {
   return number == kMicrotraceU16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
 }
 
-void decode(const void* bytes, std::size_t size, const std::string& ending,
+void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);                                    // only the calling thread
   OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // reads only
-  const std::string name = "picture." + ending;
+  const std::string name = "picture." + extension;
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // colors as stored in the file
-  const std::unique_ptr<ImageInput> reader = ImageInput::create(ending, false, &config, &memory);
+  const std::unique_ptr<ImageInput> reader = ImageInput::create(extension, false, &config, &memory);
   if (!reader || !reader->supports("ioproxy") || std::string(reader->format_name()) == "null") {
     static_cast<void>(OIIO::geterror());
-    throw std::runtime_error("OpenImageIO reads no format of this ending");
+    throw std::runtime_error("OpenImageIO can't read files with this extension");
   }
   ImageSpec spec;
   reader->set_ioproxy(&memory);
@@ -83,9 +83,9 @@ void decode(const void* bytes, std::size_t size, const std::string& ending,
 extern "C" {
 
 __attribute__((visibility("default"))) int microtrace_decode_colors_v1(
-    const void* bytes, std::size_t size, const char* ending, const MicrotraceColorSink* sink) {
+    const void* bytes, std::size_t size, const char* extension, const MicrotraceColorSink* sink) {
   try {
-    decode(bytes, size, ending, *sink);
+    decode(bytes, size, extension, *sink);
     return 1;
   } catch (const std::exception& e) {
     sink->complain(sink->context, e.what());

@@ -24,10 +24,10 @@ using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
 /// The writer for an extension if it can write to memory, else null.
-std::unique_ptr<ImageOutput> find_writer(const std::string& ending) {
+std::unique_ptr<ImageOutput> find_writer(const std::string& extension) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);  // only the calling thread
-  std::unique_ptr<ImageOutput> writer = ImageOutput::create(ending);
+  std::unique_ptr<ImageOutput> writer = ImageOutput::create(extension);
   // A failure leaves a message, which OpenImageIO would otherwise print at exit.
   if (!writer) static_cast<void>(OIIO::geterror());
   if (writer && (!writer->supports("ioproxy") || std::string_view(writer->format_name()) == "null"))
@@ -81,15 +81,15 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
 }
 
 /// Returns the bytes of the file, or throws the reason as a std::runtime_error.
-std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& ending) {
-  const std::unique_ptr<ImageOutput> writer = find_writer(ending);
+std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& extension) {
+  const std::unique_ptr<ImageOutput> writer = find_writer(extension);
   if (!writer) throw std::runtime_error("OpenImageIO has no such writer");
   const std::span channels(picture.channels, picture.channel_count);
   const ImageSpec spec = describe(picture, channels, *writer);
   OIIO::Filesystem::IOVecOutput memory;
   writer->set_ioproxy(&memory);
   std::string name = "picture.";
-  name += ending;
+  name += extension;
   bool written = writer->open(name, spec);
   if (written) {
     // Only colors: they are stored in memory in the file's format.
@@ -103,10 +103,10 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
 
 extern "C" {
 
-__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* ending,
+__attribute__((visibility("default"))) int microtrace_find_format_v3(const char* extension,
                                                                      MicrotraceFormat* format) {
   try {
-    const std::unique_ptr<ImageOutput> writer = find_writer(ending);
+    const std::unique_ptr<ImageOutput> writer = find_writer(extension);
     if (!writer) return 0;
     const std::string_view name = writer->format_name();
     format->is_float = is_float_format(name) ? 1 : 0;
@@ -119,12 +119,12 @@ __attribute__((visibility("default"))) int microtrace_find_format_v3(const char*
 }
 
 __attribute__((visibility("default"))) int microtrace_encode_v3(const MicrotracePicture* picture,
-                                                                const char* ending,
+                                                                const char* extension,
                                                                 MicrotraceSink out,
                                                                 MicrotraceSink error,
                                                                 void* context) {
   try {
-    const std::vector<unsigned char> bytes = encode(*picture, ending);
+    const std::vector<unsigned char> bytes = encode(*picture, extension);
     out(context, reinterpret_cast<const char*>(bytes.data()), bytes.size());
     return 0;
   } catch (const std::exception& e) {

@@ -120,13 +120,15 @@ class AnimationCheck {
       return wrong(path, "is \"pointer\" without an object of KHR_animation_pointer");
     }
     if (path.value->string != "pointer") {
-      return wrong(path, "must be \"pointer\" beside an object of KHR_animation_pointer");
+      return wrong(
+          path, "must be \"pointer\", because the target has an object of KHR_animation_pointer");
     }
     const Element text = own->member("pointer");
     const std::string why = why_no_pointer(asset_, text.value->string);
     if (!why.empty()) return wrong(text, why);
     if (at.value->find("node") != nullptr) {
-      asset_.tolerate(at.member("node"), "must be absent beside a pointer; it is ignored");
+      asset_.tolerate(at.member("node"),
+                      "must be absent if the target has a pointer; it is ignored");
       asset_.drop(at, {"node"});
     }
     return true;

@@ -73,7 +73,7 @@ class ImageLoader {
     MemoryAccount file(memory_account().budget());
     const std::optional<std::string_view> bytes = bytes_of(at, storage, file);
     if (!bytes) {
-      asset_.warn(at, "lies in a buffer that has no data; its textures are white");
+      asset_.warn(at, "is in a buffer that has no data; its textures are white");
       return nullptr;
     }
     bytes_ += bytes->size();

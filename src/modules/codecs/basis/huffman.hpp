@@ -19,7 +19,7 @@ class HuffmanTable {
   /// Throws Damage.
   std::uint32_t decode(BitReader& bits) const {
     const Entry entry = entries_[bits.peek(longest_)];
-    if (entry.length == 0) throw Damage("a Huffman code stands for no symbol");
+    if (entry.length == 0) throw Damage("a Huffman code is invalid");
     bits.skip(entry.length);
     return entry.symbol;
   }
