@@ -14,9 +14,19 @@
 
 namespace microtrace {
 
+/// The tree without the scene.
+struct BvhTree;
+
 struct BvhOptions {
   bool fast_build = false;  ///< faster build and slower tracing, for previews
   unsigned threads = 0;     ///< for the build; 0: default_threads()
+  /// Bvh::tree() of a scene with the same primitives in other positions, say the last frame of an
+  /// animation. Its boxes are fitted to the new positions, which is several times faster than a
+  /// build. A new tree is built if the primitives are not the same, or if fitting would make the
+  /// expected cost of a ray grow by more than this factor since the tree was built; by the surface
+  /// area heuristic, relative to the area of the primitives' boxes.
+  std::shared_ptr<const BvhTree> previous{};
+  double max_cost_growth = 1.2;
 };
 
 /// Immutable; may be used by any number of threads.
@@ -28,8 +38,8 @@ class MICROTRACE_EXPORT Bvh {
  public:
   /// The scene must outlive this object and must not change. Throws Error (limit) if memory or
   /// primitive numbers run out.
-  explicit Bvh(const Scene& scene, const BvhOptions& options = {});
-  explicit Bvh(const Scene&& scene, const BvhOptions& options = {}) = delete;  // it would dangle
+  explicit Bvh(const Scene& scene, BvhOptions options = {});
+  explicit Bvh(const Scene&& scene, BvhOptions options = {}) = delete;  // it would dangle
   ~Bvh();
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;
@@ -89,6 +99,9 @@ class MICROTRACE_EXPORT Bvh {
 
   /// Size of the tree in bytes, without the scene.
   [[nodiscard]] std::size_t memory() const;
+
+  /// For BvhOptions::previous. It needs neither this object nor the scene.
+  [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
 
  private:
   struct MICROTRACE_HIDDEN Impl;

@@ -24,8 +24,13 @@ struct PrepareOptions {
   /// scene, and of those that share its tables.
   MemoryBudget* memory = nullptr;
   /// tables() of another scene, such as the previous frame of an animation: mip maps and
-  /// environment tables are shared if both scenes hold the same Image and RadianceMap objects.
+  /// environment tables are shared if both scenes hold the same Image and RadianceMap objects, and
+  /// the tree is fitted to the new scene as BvhOptions says. If this is the last handle, memory
+  /// that is not kept is released early.
   std::shared_ptr<const SharedTables> tables{};
+  /// BvhOptions::max_cost_growth. The more rays there will be for each primitive, the better a new
+  /// tree pays.
+  double max_cost_growth = 1.2;
 };
 
 /// Immutable and cheap to copy; copies share everything. Any number of threads may use it at the
@@ -40,9 +45,9 @@ class MICROTRACE_EXPORT PreparedScene {
   /// Throws Error: invalid_scene if an index of the scene is out of range, or if the number of a
   /// mesh's attributes differs from that of its positions; limit if memory or primitive numbers run
   /// out.
-  explicit PreparedScene(Scene scene, const PrepareOptions& options = {});
+  explicit PreparedScene(Scene scene, PrepareOptions options = {});
   /// The same for a shared scene, which must no longer change.
-  explicit PreparedScene(std::shared_ptr<const Scene> scene, const PrepareOptions& options = {});
+  explicit PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions options = {});
 
   [[nodiscard]] const Scene& scene() const;
   /// The tree, in scene coordinates.
@@ -59,7 +64,8 @@ class MICROTRACE_EXPORT PreparedScene {
   /// scene, which this object or a copy must keep alive.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const;
 
-  /// Mip maps and environment tables, for PrepareOptions::tables.
+  /// Mip maps, environment tables and the tree, for PrepareOptions::tables. They don't refer to the
+  /// scene.
   [[nodiscard]] std::shared_ptr<const SharedTables> tables() const;
 
   /// Converts a ray from world space to scene coordinates.

@@ -1,5 +1,4 @@
-#include "accel/build/reference.hpp"
-#include "accel/build/tree.hpp"
+#include "accel/bvh_tree.hpp"
 #include "accel/hit_resolver.hpp"
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
@@ -10,7 +9,6 @@
 #include "accel/spawn/fast_spawn.hpp"
 #include "accel/spawn/spawn_among.hpp"
 #include "accel/stage_counts.hpp"
-#include "base/memory_account.hpp"
 #include "exact/intersect.hpp"
 #include "float_environment.hpp"
 
@@ -18,12 +16,13 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 #include <vector>
 
 namespace microtrace {
 
 struct Bvh::Impl {
-  Impl(const Scene& scene, const BvhOptions& options);
+  Impl(const Scene& scene, BvhOptions options);
 
   [[nodiscard]] TreeView view() const {
     return {.nodes = tree.nodes.data(),
@@ -48,31 +47,16 @@ struct Bvh::Impl {
                                       std::span<std::optional<Hit>> hits) const;
 
   Primitives primitives;
-  std::vector<PrimitiveId> outside;  // not in the tree; tested one by one
-  Tree tree;
-  bool has_tree = false;
+  std::shared_ptr<const BvhTree> shared;
+  const Tree& tree = shared->tree;
+  const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
+  bool has_tree = !tree.blocks.empty() || !tree.others.empty();
   const Kernels* kernels = &kRayKernels.best();
   const SpawnKernels* spawn_kernels = &kSpawnKernels.best();
 };
 
-Bvh::Impl::Impl(const Scene& scene, const BvhOptions& options) : primitives(scene) {
-  const FloatEnvironment environment;
-  // Testing up to this many primitives directly is faster than traversing a tree.
-  constexpr PrimitiveId kFew = 16;
-  if (primitives.count() <= kFew) {
-    build::References references = build::gather(primitives);
-    tree.duplicates = Duplicates(references, primitives);
-    outside = std::move(references.unbounded);
-    for (const build::Reference& reference : references.bounded) outside.push_back(reference.id());
-    return;
-  }
-  // Upper bound during the build, including pieces of split triangles.
-  constexpr std::uint64_t kBytesOfPrimitive = 120;
-  take_memory(primitives.count() * kBytesOfPrimitive, "the tree of primitives");
-  tree = build_tree(primitives, {.fast = options.fast_build, .threads = options.threads});
-  outside = std::move(tree.unbounded);
-  has_tree = !tree.blocks.empty() || !tree.others.empty();
-}
+Bvh::Impl::Impl(const Scene& scene, BvhOptions options)
+    : primitives(scene), shared(make_bvh_tree(primitives, std::move(options))) {}
 
 namespace {
 
@@ -182,8 +166,8 @@ bool Bvh::Impl::intersect_packet(std::span<const Ray> rays,
   return true;
 }
 
-Bvh::Bvh(const Scene& scene, const BvhOptions& options)
-    : impl_(std::make_unique<const Impl>(scene, options)) {}
+Bvh::Bvh(const Scene& scene, BvhOptions options)
+    : impl_(std::make_unique<const Impl>(scene, std::move(options))) {}
 Bvh::~Bvh() = default;
 Bvh::Bvh(Bvh&&) noexcept = default;
 Bvh& Bvh::operator=(Bvh&&) noexcept = default;
@@ -193,9 +177,11 @@ const Primitives& Bvh::primitives() const {
 }
 
 std::size_t Bvh::memory() const {
-  const auto bytes = [](const auto& list) { return list.size() * sizeof list[0]; };
-  return bytes(impl_->tree.nodes) + bytes(impl_->tree.blocks) + bytes(impl_->tree.others) +
-         bytes(impl_->outside) + impl_->tree.duplicates.memory();
+  return memory_of(impl_->tree);
+}
+
+std::shared_ptr<const BvhTree> Bvh::tree() const {
+  return impl_->shared;
 }
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {

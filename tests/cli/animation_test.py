@@ -122,6 +122,20 @@ class Animation(ProgramTest):
             single = self.frames("--time", k / 4, "-o", "-").stdout
             self.assertEqual((self.folder / f"out_{k:03}.ppm").read_bytes(), single, k)
 
+    def test_frames_whose_tree_is_kept_equal_stills(self):
+        asset = json.loads((self.folder / "move.gltf").read_text())
+        places = [[0.3 * (i % 5), 0.4 * (i // 5), 0.01 * i] for i in range(20)]
+        asset["nodes"][0]["children"] = list(range(2, 22))
+        asset["nodes"] += [{"mesh": 0, "translation": place, "scale": [0.2, 0.2, 1]} for place in 2 * places]
+        asset["scenes"][0]["nodes"] += range(22, 42)
+        (self.folder / "many.gltf").write_text(json.dumps(asset))
+        for options in (["--integrator", "flat"], ["--integrator", "path", "--spp", "2"]):
+            run = lambda *more: self.run_program("many.gltf", *options, "--size", "80x60", *more).stdout
+            frames = run("--frames", "0:5", "--fps", "4", "-o", "-")
+            stills = [run("--time", k / 4, "-o", "-") for k in range(6)]
+            self.assertEqual(len(set(stills)), 6, "it moves")
+            self.assertEqual(frames, b"".join(stills), options)
+
     def test_default_frame_names(self):
         self.assertEqual(self.frames("--frames", "24:24").returncode, 0)
         self.assertEqual(sorted(os.listdir(self.folder)), ["move.gltf", "move_0024.png"])

@@ -17,6 +17,7 @@
 #include <optional>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -136,6 +137,38 @@ TEST(PreparedScene, SharesTablesWithTheNextFrame) {
   const PreparedScene second(scene, {.tables = first.tables()});
   EXPECT_EQ(second.content().tables()->of(*scene.environment), tables);
   expect_same(render(second, camera, kSize, lit(path)), render(scene, camera, kSize, lit(path)));
+}
+
+TEST(PreparedScene, DrawsPosesLikeNewScenes) {
+  Scene scene = furnished();
+  const Camera camera = views_of(scene)[1];
+  const PathIntegrator path({.max_depth = 3});
+  std::shared_ptr<const SharedTables> tables;
+  for (int pose = 0; pose < 5; ++pose) {
+    const PreparedScene prepared(
+        scene,
+        {.threads = pose % 2 == 0 ? 1U : 7U, .tables = std::move(tables), .max_cost_growth = 1e9});
+    tables = prepared.tables();
+    expect_same(render(prepared, camera, kSize), render(scene, camera, kSize));
+    expect_same(render(prepared, camera, kSize, lit(path)),
+                render(scene, camera, kSize, lit(path)));
+    for (Vec3& p : std::get<Mesh>(scene.objects[0].shape).positions.edit())
+      p.y += 0.1F * p.x + 0.05F * p.z;
+  }
+}
+
+TEST(PreparedScene, ReleasesTheLastPoseIfThereIsNoRoomForBoth) {
+  Scene scene;
+  scene.objects.push_back({.name = "", .shape = generated::terrain(5000)});
+  MemoryBudget generous(std::uint64_t{1} << 30U);
+  (void)PreparedScene(scene, {.memory = &generous});
+  MemoryBudget tight(generous.peak());
+  {
+    std::shared_ptr<const SharedTables> tables;
+    for (int pose = 0; pose < 3; ++pose)
+      tables = PreparedScene(scene, {.memory = &tight, .tables = std::move(tables)}).tables();
+  }
+  EXPECT_NO_THROW(tight.take(tight.limit(), "all")) << "trees without scenes give all back";
 }
 
 TEST(PreparedScene, TakesAnotherEnvironment) {

@@ -11,6 +11,11 @@
 
 namespace microtrace::build {
 
+/// Half the surface area of a box with these extents.
+[[nodiscard]] inline double half_area(double x, double y, double z) {
+  return x * y + (x + y) * z;
+}
+
 /// Surface areas relative to a box that contains all others. Lengths are scaled by a power of two
 /// to at most 4, so that areas neither overflow nor, for ratios of sizes below 2^60, underflow.
 class AreaMeasure {

@@ -33,6 +33,11 @@ class Duplicates {
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] std::size_t memory() const;  ///< bytes
 
+  /// Whether the same primitives represent the same others.
+  [[nodiscard]] bool operator==(const Duplicates& other) const {
+    return representatives_ == other.representatives_;
+  }
+
   /// The primitives that are not in the tree.
   [[nodiscard]] const std::vector<PrimitiveId>& ids() const { return ids_; }
 

@@ -1,5 +1,6 @@
 #include "accel/build/reference.hpp"
 
+#include "accel/build/area.hpp"
 #include "accel/build/shape_box.hpp"
 
 #include <microtrace/error.hpp>
@@ -12,11 +13,6 @@ namespace {
 // The maximum weight, in eighths of a block, that leaf references can address, including room for
 // split triangles.
 constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
-
-bool fits_blocks(const Box& b) {
-  const Float4 size = max(max(b.hi, -b.hi), max(b.lo, -b.lo));
-  return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
-}
 
 // Hash of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
 // splittable pseudorandom number generators, 2014).
@@ -42,8 +38,7 @@ class Gatherer {
   void operator()(PrimitiveId id, const Triangle& t) {
     if (is_empty(t)) return;
     const Box box = box_of(t);
-    to_.bounded.emplace_back(box, id, fits_blocks(box) ? kTriangleWeight : kOtherWeight);
-    to_.hashes.push_back(hash_of(t));
+    add(box, id, fits_blocks(box) ? kTriangleWeight : kOtherWeight, hash_of(t));
   }
   void operator()(PrimitiveId id, const Sphere& s) { add_curved(id, s); }
   void operator()(PrimitiveId id, const Disc& d) { add_curved(id, d); }
@@ -60,17 +55,28 @@ class Gatherer {
     if (is_empty(shape)) return;
     const Box box = box_of(shape);
     if (is_finite(box)) {
-      to_.bounded.emplace_back(box, id, kOtherWeight);
-      to_.hashes.push_back(id);
+      add(box, id, kOtherWeight, id);
     } else {
       to_.unbounded.push_back(id);
     }
+  }
+
+  void add(const Box& box, PrimitiveId id, std::uint32_t weight, std::uint32_t hash) {
+    to_.bounded.emplace_back(box, id, weight);
+    to_.hashes.push_back(hash);
+    to_.area += half_area(double{box.hi[0]} - box.lo[0], double{box.hi[1]} - box.lo[1],
+                          double{box.hi[2]} - box.lo[2]);
   }
 
   References& to_;
 };
 
 }  // namespace
+
+bool fits_blocks(const Box& b) {
+  const Float4 size = max(max(b.hi, -b.hi), max(b.lo, -b.lo));
+  return size[0] <= kLargestInBlocks && size[1] <= kLargestInBlocks && size[2] <= kLargestInBlocks;
+}
 
 References gather(const Primitives& primitives) {
   References references;
@@ -88,8 +94,7 @@ References gather(const Primitives& primitives) {
 
 void set_points_apart(PageVector<Reference>& references) {
   for (Reference& r : references) {
-    const Int4 differs = r.box.lo != r.box.hi;
-    if (r.weight() == kTriangleWeight && (differs[0] | differs[1] | differs[2]) == 0)
+    if (r.weight() == kTriangleWeight && is_point(r.box))
       r = Reference(r.box, r.id(), kOtherWeight);
   }
 }

@@ -35,7 +35,16 @@ struct References {
   /// A hash for each bounded reference, equal for triangles with the same vertices.
   PageVector<std::uint32_t> hashes;
   std::vector<PrimitiveId> unbounded;
+  double area = 0;  ///< half the surface area of all bounded primitives' boxes
 };
+
+/// Whether a triangle with this box may be stored in a block.
+[[nodiscard]] bool fits_blocks(const Box& box);
+
+[[nodiscard]] inline bool is_point(const Box& box) {
+  const Int4 differs = box.lo != box.hi;
+  return (differs[0] | differs[1] | differs[2]) == 0;
+}
 
 /// Sorts a scene's primitives into bounded and unbounded ones, and drops those without points.
 /// Throws Error (limit) if there are more than a tree can address.

@@ -4,7 +4,9 @@
 #include "accel/build/collapse.hpp"
 #include "accel/build/presplit.hpp"
 #include "accel/build/reference.hpp"
+#include "accel/build/refit.hpp"
 #include "accel/build/tree_writer.hpp"
+#include "accel/build/wide_tree.hpp"
 
 namespace microtrace {
 namespace {
@@ -27,15 +29,29 @@ void plan(BinaryTree& binary, WorkerPool& pool) {
 
 }  // namespace
 
-Tree build_tree(const Primitives& primitives, const BuildOptions& options) {
+Tree build_tree(const Primitives& primitives, BuildOptions options) {
   References references = gather(primitives);
-  Tree tree;
-  tree.duplicates = Duplicates(references, primitives);
+  Duplicates duplicates(references, primitives);
   references.hashes = {};
+  WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
+  Tree tree;
+  if (const Tree* const previous = options.previous.get();
+      previous != nullptr && previous->duplicates == duplicates &&
+      previous->unbounded == references.unbounded) {
+    if (std::optional<Tree> fitted =
+            refitted(*previous, references, primitives, options.max_cost_growth, pool)) {
+      fitted->duplicates = std::move(duplicates);
+      fitted->unbounded = std::move(references.unbounded);
+      return *std::move(fitted);
+    }
+  }
+  options.previous.reset();
+  tree.duplicates = std::move(duplicates);
+  tree.unbounded = std::move(references.unbounded);
+  tree.primitives = references.bounded.size();
+  tree.area = references.area;
   set_points_apart(references.bounded);
   if (!options.fast) presplit(references.bounded, primitives);
-  tree.unbounded = std::move(references.unbounded);
-  WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
   BinaryTree binary = build_binary_tree(std::move(references.bounded),
                                         options.fast ? kBinsForPreview : kMaxBins, pool);
   if (binary.ids.empty()) {
@@ -44,8 +60,7 @@ Tree build_tree(const Primitives& primitives, const BuildOptions& options) {
   }
   plan(binary, pool);
   write_tree(binary, primitives, pool, tree);
-  const Box& box = binary.root.box;
-  tree.bounds = {.lo = {box.lo[0], box.lo[1], box.lo[2]}, .hi = {box.hi[0], box.hi[1], box.hi[2]}};
+  tree.bounds = bounds_of(binary.root.box);
   return tree;
 }
 

@@ -9,19 +9,34 @@
 #include <microtrace/primitives.hpp>
 
 #include <limits>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace microtrace {
 
+struct Tree;
+
 struct BuildOptions {
   bool fast = false;     ///< a quick build for previews, with fewer candidates for splits
   unsigned threads = 0;  ///< 0: default_threads(). The tree is the same for any number.
+  /// A tree to be fitted to the primitives if it is one of the same primitives in other positions,
+  /// and its cost does not grow more than by this factor. Released before another tree is built.
+  std::shared_ptr<const Tree> previous{};
+  double max_cost_growth = 1;
 };
 
 /// World space, closed; empty if lo > hi.
 struct Bounds {
   Vec3 lo{std::numeric_limits<float>::infinity()};
   Vec3 hi{-std::numeric_limits<float>::infinity()};
+};
+
+/// The expected cost of a ray by the surface area heuristic, relative to the surface area of the
+/// tree's box and to that of its primitives' boxes. The first measures trees whose primitives
+/// become larger, the second trees of which a part moves away.
+struct RelativeCost {
+  double to_tree = 0, to_primitives = 0;
 };
 
 /// Maximum number of nodes on a path from the root.
@@ -36,10 +51,15 @@ struct Tree {
   Duplicates duplicates;  ///< primitives represented by another one with the same points
   ChildRef root = 0;      ///< a node without children if there are no leaves
   Bounds bounds;          ///< bounds of all leaves
+
+  // For refitted().
+  std::size_t primitives = 0;                ///< in leaves
+  double area = 0;                           ///< References::area
+  std::optional<RelativeCost> built_cost{};  ///< of a refitted tree: that when it was built
 };
 
 /// The scene of the primitives must outlive only this call. Throws Error (limit) if the tree would
 /// exceed its 32-bit references.
-[[nodiscard]] Tree build_tree(const Primitives& primitives, const BuildOptions& options);
+[[nodiscard]] Tree build_tree(const Primitives& primitives, BuildOptions options);
 
 }  // namespace microtrace

@@ -5,9 +5,6 @@
 
 namespace microtrace::build {
 
-/// A node without children.
-[[nodiscard]] WideNode empty_node();
-
 /// Writes the planned tree's nodes, blocks and list of other primitives; leaves `unbounded` alone.
 ///
 /// Memory order: the inner children of a node are consecutive, followed by the subtree of the

@@ -7,10 +7,11 @@
 
 namespace microtrace {
 
-PreparedScene::Content::Content(std::shared_ptr<const Scene> scene, const BvhOptions& options,
+PreparedScene::Content::Content(std::shared_ptr<const Scene> scene, BvhOptions options,
                                 std::shared_ptr<SharedTables> tables, MemoryAccount account)
     : scene_(std::move(scene)),
-      options_(options),
+      previous_(std::exchange(options.previous, nullptr)),
+      options_(std::move(options)),
       tables_(std::move(tables)),
       memory_(std::move(account)) {}
 
@@ -23,7 +24,11 @@ std::unique_ptr<T> PreparedScene::Content::make(Arguments&&... arguments) const 
 }
 
 const Bvh& PreparedScene::Content::bvh() const {
-  return bvh_.get([&] { return make<Bvh>(*scene_, options_); });
+  return bvh_.get([&] {
+    BvhOptions options = options_;
+    options.previous = std::move(previous_);
+    return make<Bvh>(*scene_, std::move(options));
+  });
 }
 
 const Surfaces& PreparedScene::Content::surfaces() const {

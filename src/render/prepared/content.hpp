@@ -25,7 +25,7 @@ namespace microtrace {
 class PreparedScene::Content {
  public:
   /// The account has the memory of the scene, if that is to be counted.
-  Content(std::shared_ptr<const Scene> scene, const BvhOptions& options,
+  Content(std::shared_ptr<const Scene> scene, BvhOptions options,
           std::shared_ptr<SharedTables> tables, MemoryAccount account);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
@@ -55,6 +55,7 @@ class PreparedScene::Content {
   [[nodiscard]] std::unique_ptr<T> make(Arguments&&... arguments) const;
 
   std::shared_ptr<const Scene> scene_;
+  mutable std::shared_ptr<const BvhTree> previous_;  // until bvh_ is made
   BvhOptions options_;
   std::shared_ptr<SharedTables> tables_;
   mutable std::mutex memory_mutex_;

@@ -20,18 +20,20 @@ std::shared_ptr<SharedTables> tables_for(const Scene& scene, const SharedTables*
 PreparedScene::PreparedScene(std::shared_ptr<const Content> content)
     : content_(std::move(content)) {}
 
-PreparedScene::PreparedScene(Scene scene, const PrepareOptions& options)
-    : PreparedScene(std::make_shared<const Scene>(std::move(scene)), options) {}
+PreparedScene::PreparedScene(Scene scene, PrepareOptions options)
+    : PreparedScene(std::make_shared<const Scene>(std::move(scene)), std::move(options)) {}
 
-PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, const PrepareOptions& options) {
+PreparedScene::PreparedScene(std::shared_ptr<const Scene> scene, PrepareOptions options) {
   check_indices(*scene);
   auto tables = tables_for(*scene, options.tables.get());
-  content_ = std::make_shared<const Content>(
-      std::move(scene),
-      BvhOptions{.fast_build = options.fast_build,
-                 .threads = options.threads != 0 ? options.threads : default_threads()},
-      std::move(tables), MemoryAccount(options.memory));
-  (void)content_->bvh();
+  BvhOptions tree{.fast_build = options.fast_build,
+                  .threads = options.threads != 0 ? options.threads : default_threads(),
+                  .previous = options.tables ? options.tables->tree() : nullptr,
+                  .max_cost_growth = options.max_cost_growth};
+  options.tables.reset();
+  content_ = std::make_shared<const Content>(std::move(scene), std::move(tree), tables,
+                                             MemoryAccount(options.memory));
+  tables->set_tree(content_->bvh().tree());
 }
 
 const Scene& PreparedScene::scene() const {

@@ -1,6 +1,7 @@
 #include "render/prepared/shared_tables.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace microtrace {
@@ -21,6 +22,16 @@ TextureMap SharedTables::texture_map(const std::shared_ptr<const Image>& image,
   std::shared_ptr<TexturePyramid>& pyramid = pyramids_[{image.get(), encoding}];
   if (!pyramid) pyramid = std::make_shared<TexturePyramid>(image, encoding);
   return {pyramid, sampler};  // makes the mip maps if the sampler needs them
+}
+
+std::shared_ptr<const BvhTree> SharedTables::tree() const {
+  const std::scoped_lock lock(mutex_);
+  return tree_;
+}
+
+void SharedTables::set_tree(std::shared_ptr<const BvhTree> tree) {
+  const std::scoped_lock lock(mutex_);
+  tree_ = std::move(tree);
 }
 
 std::shared_ptr<const MapTables> SharedTables::of(const Environment& environment) {

@@ -1,0 +1,52 @@
+#pragma once
+/// Reading and writing the parts of a Tree.
+
+#include "accel/build/float4.hpp"
+#include "accel/build/tree.hpp"
+
+#include <microtrace/hit.hpp>
+#include <microtrace/shape.hpp>
+
+#include <cstddef>
+
+namespace microtrace::build {
+
+/// A node without children.
+[[nodiscard]] WideNode empty_node();
+
+/// Whether a child exists.
+[[nodiscard]] inline bool has_child(const WideNode& node, std::size_t i) {
+  return node.lo_x[i] <= node.hi_x[i];
+}
+
+void set_box(WideNode& node, std::size_t i, const Box& box);
+[[nodiscard]] Box union_of_children(const WideNode& node);
+[[nodiscard]] Bounds bounds_of(const Box& box);
+
+/// 0 (a node), child_ref::kTriangles or child_ref::kOthers.
+[[nodiscard]] inline ChildRef kind_of(ChildRef ref) {
+  return ref & child_ref::kKind;
+}
+
+/// The entries of a leaf, in the array for its kind.
+struct LeafEntries {
+  std::size_t begin, end;
+};
+[[nodiscard]] inline LeafEntries entries_of(ChildRef leaf) {
+  const std::size_t begin = (leaf & ~child_ref::kKind) >> 3U;
+  return {.begin = begin, .end = begin + (leaf & 7U) + 1};
+}
+
+/// A block without triangles.
+[[nodiscard]] TriangleBlock empty_block();
+
+/// Stores a triangle in a slot of a block. Slots are filled in order.
+void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& triangle);
+[[nodiscard]] inline bool is_used(const TriangleBlock& block, std::size_t slot) {
+  return block.a_x[slot] == block.a_x[slot];  // else NaN
+}
+
+/// Whether two blocks have the same bits for the vertices of all triangles.
+[[nodiscard]] bool have_same_vertices(const TriangleBlock& a, const TriangleBlock& b);
+
+}  // namespace microtrace::build
