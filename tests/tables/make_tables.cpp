@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -34,12 +35,15 @@ bool is_same(const Header& header, const std::filesystem::path& path) {
 int run(const std::filesystem::path& folder, const std::string& name) {
   for (const Header& header : kHeaders) {
     if (name.empty()) {
-      std::ofstream(folder / header.name, std::ios::binary) << header.text();
+      std::ofstream file(folder / header.name, std::ios::binary);
+      if (!(file << header.text() << std::flush))
+        throw std::runtime_error((folder / header.name).string() + ": can't be written");
     } else if (name == header.name) {
       return is_same(header, folder / header.name) ? 0 : 1;
     }
   }
-  return name.empty() ? 0 : 2;
+  if (name.empty()) return 0;
+  throw std::runtime_error(name + ": there is no such header");
 }
 
 }  // namespace
