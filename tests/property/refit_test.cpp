@@ -360,6 +360,10 @@ TEST(RefitTree, IsNotMadeWhereATreeOfOtherPrimitivesWouldBe) {
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = {0, 0, 0}; }));  // a point
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = mesh(s).triangles[4]; }));
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit().back() = {0, 1, 2}; }));
+  Scene one = still, other = still;  // with as many duplicates, but not the same
+  mesh(one).triangles.edit()[3] = mesh(one).triangles[4];
+  mesh(other).triangles.edit()[5] = mesh(other).triangles[6];
+  EXPECT_FALSE(is_refitted(*tree_of(other, tree_of(one))));
   EXPECT_FALSE(refits([](Scene& s) { s.objects[5].shape = Plane{}; }));
   EXPECT_FALSE(refits([](Scene& s) { std::get<Sphere>(s.objects[5].shape).radius = -1; }));
   EXPECT_FALSE(refits([](Scene& s) { std::get<Plane>(s.objects[2].shape).normal = Vec3(0); }));
