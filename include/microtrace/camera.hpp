@@ -6,7 +6,7 @@
 /// src/io/sidecar/describe_picture.cpp, docs/scene.schema.json and docs/scene-format.md, golden
 /// rays in tests/unit/camera_test.cpp. A lens also needs random numbers: a parameter of
 /// RayGenerator, and a pair in src/render/sampling/dimensions.hpp that
-/// src/render/random_painter.cpp draws.
+/// src/render/samples/random_painter.cpp draws.
 
 #include <microtrace/export.hpp>
 #include <microtrace/math.hpp>

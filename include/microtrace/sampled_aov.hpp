@@ -11,7 +11,7 @@
 namespace microtrace {
 
 /// To add one: a value here and in kSampledAovs, its channels and its value in
-/// src/render/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
+/// src/render/aovs/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
 /// line in docs/outputs.md, a test in tests/unit/sampled_aov_test.cpp.
 enum class SampledAov {
   variance,        ///< Y: estimated variance of the mean luminance (PixelSum::variance)

@@ -1,4 +1,4 @@
-#include "scene/exponential.hpp"
+#include "scene/math/exponential.hpp"
 #include "scene/tone_map.hpp"
 
 #include <microtrace/film_view.hpp>

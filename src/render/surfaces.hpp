@@ -1,7 +1,7 @@
 #pragma once
 /// Base colors and coverage of a scene's surfaces, without lighting.
 
-#include "render/texture_map.hpp"
+#include "render/textures/texture_map.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/hit.hpp>

@@ -2,8 +2,8 @@
 /// Renders the film tile by tile with samples at fixed positions.
 
 #include "render/camera_rays.hpp"
-#include "render/pixel_filter.hpp"
-#include "render/sample_pattern.hpp"
+#include "render/samples/pixel_filter.hpp"
+#include "render/samples/sample_pattern.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/render.hpp>

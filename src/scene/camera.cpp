@@ -1,5 +1,5 @@
 #include "float_environment.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <microtrace/camera.hpp>
 

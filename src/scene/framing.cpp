@@ -1,6 +1,6 @@
 #include "float_environment.hpp"
+#include "scene/math/trigonometry.hpp"
 #include "scene/support.hpp"
-#include "scene/trigonometry.hpp"
 
 #include <microtrace/framing.hpp>
 

@@ -1,6 +1,6 @@
 #include "scene/tone_map.hpp"
 
-#include "scene/exponential.hpp"
+#include "scene/math/exponential.hpp"
 
 #include <algorithm>
 #include <array>

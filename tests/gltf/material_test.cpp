@@ -1,6 +1,6 @@
 #include "gltf/asset_builder.hpp"
 #include "scene/material_textures.hpp"
-#include "scene/merge.hpp"
+#include "scene/mesh/merge.hpp"
 #include "support/png_file.hpp"
 
 #include <limits>

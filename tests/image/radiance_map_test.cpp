@@ -1,5 +1,5 @@
 #include "folder.hpp"
-#include "scene/srgb.hpp"
+#include "scene/math/srgb.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

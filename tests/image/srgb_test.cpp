@@ -1,4 +1,4 @@
-#include "scene/srgb.hpp"
+#include "scene/math/srgb.hpp"
 
 #include <cmath>
 #include <cstddef>

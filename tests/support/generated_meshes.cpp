@@ -1,6 +1,6 @@
 #include "support/generated_meshes.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "tables/albedos.hpp"
 
-#include "scene/exponential.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/exponential.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 /// refraction, 2007; E. Heitz, Understanding the masking-shadowing function, 2014). z is the
 /// surface's normal; directions are unit vectors.
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 #include "tables/quadrature.hpp"
 
 #include <array>

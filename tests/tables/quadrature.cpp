@@ -1,6 +1,6 @@
 #include "tables/quadrature.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <cmath>
 #include <cstddef>

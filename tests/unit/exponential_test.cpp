@@ -1,4 +1,4 @@
-#include "scene/exponential.hpp"
+#include "scene/math/exponential.hpp"
 
 #include <cmath>
 #include <random>

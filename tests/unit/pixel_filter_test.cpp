@@ -1,4 +1,4 @@
-#include "render/pixel_filter.hpp"
+#include "render/samples/pixel_filter.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "scene/revolutions.hpp"
+#include "scene/math/revolutions.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <cmath>
 #include <numbers>

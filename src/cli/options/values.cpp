@@ -1,6 +1,6 @@
 #include "cli/options/values.hpp"
 
-#include "scene/srgb.hpp"
+#include "scene/math/srgb.hpp"
 #include "scene/validate.hpp"
 
 #include <microtrace/environment.hpp>

@@ -1,6 +1,6 @@
 #include "cli/pictures/camera.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 #include "scene/validate.hpp"
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "cli/pictures/environment.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <microtrace/io.hpp>
 

@@ -1,7 +1,7 @@
 #include "io/image/eight_bits.hpp"
 
-#include "scene/exponential.hpp"
-#include "scene/srgb.hpp"
+#include "scene/math/exponential.hpp"
+#include "scene/math/srgb.hpp"
 #include "scene/tone_map.hpp"
 
 #include <span>

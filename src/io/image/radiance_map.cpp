@@ -3,7 +3,7 @@
 #include "io/file.hpp"
 #include "io/image/module.hpp"
 #include "io/module_function.hpp"
-#include "scene/srgb.hpp"
+#include "scene/math/srgb.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

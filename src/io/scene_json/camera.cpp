@@ -1,6 +1,6 @@
 #include "io/scene_json/camera.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 namespace microtrace::io {
 namespace {

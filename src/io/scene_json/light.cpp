@@ -3,7 +3,7 @@
 #include "base/memory_account.hpp"
 #include "base/printable.hpp"
 #include "io/scene_json/path.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <cmath>
 #include <iterator>

@@ -5,7 +5,7 @@
 #include "io/file.hpp"
 #include "io/gltf/scene/scene.hpp"
 #include "io/scene_json/path.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <cmath>
 #include <optional>

@@ -9,7 +9,7 @@
 #include "io/scene_json/mesh.hpp"
 #include "io/scene_json/names.hpp"
 #include "io/scene_json/shape.hpp"
-#include "scene/merge.hpp"
+#include "scene/mesh/merge.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "float_environment.hpp"
-#include "render/aov_value.hpp"
+#include "render/aovs/aov_value.hpp"
 
 #include <microtrace/aov.hpp>
 

@@ -2,7 +2,7 @@
 
 #include "render/bsdf/frame.hpp"
 #include "render/kernels/dispatch.hpp"
-#include "scene/exponential.hpp"
+#include "scene/math/exponential.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 
 #include "render/lights/studio.hpp"
 #include "render/luminance.hpp"
-#include "scene/revolutions.hpp"
+#include "scene/math/revolutions.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "render/lights/map_distribution.hpp"
 
 #include "render/luminance.hpp"
-#include "scene/revolutions.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/revolutions.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>

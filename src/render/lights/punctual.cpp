@@ -1,7 +1,7 @@
 #include "render/lights/punctual.hpp"
 
 #include "render/luminance.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>

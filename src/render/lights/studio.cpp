@@ -1,6 +1,6 @@
 #include "render/lights/studio.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include "render/prepared/content.hpp"
 
 #include "float_environment.hpp"
-#include "scene/mesh_memory.hpp"
+#include "scene/mesh/mesh_memory.hpp"
 
 #include <utility>
 

@@ -3,7 +3,7 @@
 /// scene's tree, to be fitted to the next scene.
 
 #include "render/lights/environment_light.hpp"
-#include "render/texture_map.hpp"
+#include "render/textures/texture_map.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/environment.hpp>

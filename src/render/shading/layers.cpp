@@ -1,5 +1,5 @@
 #include "render/shading/shading.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>

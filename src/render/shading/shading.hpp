@@ -4,7 +4,7 @@
 #include "render/bsdf/parameters.hpp"
 #include "render/kernels/kernel.hpp"
 #include "render/shading/surface_point.hpp"
-#include "render/texture_map.hpp"
+#include "render/textures/texture_map.hpp"
 #include "scene/material_textures.hpp"
 
 #include <microtrace/material.hpp>

@@ -1,6 +1,6 @@
 #include "render/shading/texture_slots.hpp"
 
-#include "scene/exponential.hpp"
+#include "scene/math/exponential.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
-#include "render/texture_map.hpp"
+#include "render/textures/texture_map.hpp"
 
 #include <microtrace/scene.hpp>
 

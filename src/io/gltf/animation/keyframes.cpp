@@ -1,6 +1,6 @@
 #include "io/gltf/animation/keyframes.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>

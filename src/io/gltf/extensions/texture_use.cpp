@@ -2,7 +2,7 @@
 
 #include "io/gltf/document/extension.hpp"
 #include "io/gltf/document/properties.hpp"
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -4,8 +4,8 @@
 #include "io/gltf/mesh/draco.hpp"
 #include "io/gltf/mesh/topology.hpp"
 #include "io/gltf/mesh/vertex_attributes.hpp"
+#include "scene/mesh/tangents.hpp"
 #include "scene/support.hpp"
-#include "scene/tangents.hpp"
 
 #include <algorithm>
 #include <cstdint>

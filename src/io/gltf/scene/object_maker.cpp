@@ -1,7 +1,7 @@
 #include "io/gltf/scene/object_maker.hpp"
 
 #include "base/memory_account.hpp"
-#include "scene/mesh_memory.hpp"
+#include "scene/mesh/mesh_memory.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scene/edge_neighbors.hpp"
+#include "scene/mesh/edge_neighbors.hpp"
 
 #include <algorithm>
 #include <cstddef>

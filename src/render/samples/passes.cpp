@@ -1,4 +1,4 @@
-#include "render/passes.hpp"
+#include "render/samples/passes.hpp"
 
 #include "render/tile_errors.hpp"
 #include "render/tiles.hpp"

@@ -1,6 +1,6 @@
-#include "render/pixel_filter.hpp"
+#include "render/samples/pixel_filter.hpp"
 
-#include "scene/trigonometry.hpp"
+#include "scene/math/trigonometry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "render/sampled_aov_painter.hpp"
+#include "render/aovs/sampled_aov_painter.hpp"
 
-#include "render/aov_value.hpp"
+#include "render/aovs/aov_value.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"

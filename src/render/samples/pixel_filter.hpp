@@ -1,7 +1,7 @@
 #pragma once
 /// Positions of samples around a pixel's center, such that all samples have the same weight.
 
-#include "render/sample_pattern.hpp"
+#include "render/samples/sample_pattern.hpp"
 
 #include <microtrace/render.hpp>
 

@@ -1,4 +1,4 @@
-#include "scene/mesh_memory.hpp"
+#include "scene/mesh/mesh_memory.hpp"
 
 #include <variant>
 

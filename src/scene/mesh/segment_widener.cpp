@@ -1,4 +1,4 @@
-#include "scene/segment_widener.hpp"
+#include "scene/mesh/segment_widener.hpp"
 
 #include "scene/support.hpp"
 

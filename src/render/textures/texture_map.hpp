@@ -1,7 +1,7 @@
 #pragma once
 /// Texture lookups.
 
-#include "render/texture_pyramid.hpp"
+#include "render/textures/texture_pyramid.hpp"
 
 #include <microtrace/math.hpp>
 #include <microtrace/texture.hpp>

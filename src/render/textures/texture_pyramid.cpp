@@ -1,6 +1,6 @@
-#include "render/texture_pyramid.hpp"
+#include "render/textures/texture_pyramid.hpp"
 
-#include "scene/srgb.hpp"
+#include "scene/math/srgb.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "float_environment.hpp"
-#include "scene/segment_widener.hpp"
+#include "scene/mesh/segment_widener.hpp"
 
 #include <microtrace/segments.hpp>
 

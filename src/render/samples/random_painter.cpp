@@ -1,4 +1,4 @@
-#include "render/random_painter.hpp"
+#include "render/samples/random_painter.hpp"
 
 #include "render/kernels/dispatch.hpp"
 #include "render/ray_batch.hpp"

@@ -1,4 +1,4 @@
-#include "scene/weld.hpp"
+#include "scene/mesh/weld.hpp"
 
 #include <bit>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "render/aov_value.hpp"
+#include "render/aovs/aov_value.hpp"
 #include "render/surfaces.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
-#include "scene/tangents.hpp"
+#include "scene/mesh/tangents.hpp"
 
-#include "scene/tangent_groups.hpp"
+#include "scene/mesh/tangent_groups.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 /// Rendering in passes that add a few samples per pixel to the whole picture.
 
-#include "render/random_painter.hpp"
+#include "render/samples/random_painter.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/render.hpp>

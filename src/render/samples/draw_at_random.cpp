@@ -1,10 +1,10 @@
-#include "render/draw_at_random.hpp"
+#include "render/samples/draw_at_random.hpp"
 
 #include "base/memory_account.hpp"
+#include "render/aovs/sampled_aov_painter.hpp"
 #include "render/film_pixel.hpp"
-#include "render/passes.hpp"
-#include "render/random_painter.hpp"
-#include "render/sampled_aov_painter.hpp"
+#include "render/samples/passes.hpp"
+#include "render/samples/random_painter.hpp"
 #include "render/tiles.hpp"
 
 #include <microtrace/error.hpp>

@@ -1,4 +1,4 @@
-#include "scene/merge.hpp"
+#include "scene/mesh/merge.hpp"
 
 #include "scene/material_textures.hpp"
 

@@ -2,7 +2,7 @@
 /// Fills the film's channels of means over samples.
 
 #include "render/camera_rays.hpp"
-#include "render/pixel_filter.hpp"
+#include "render/samples/pixel_filter.hpp"
 
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>

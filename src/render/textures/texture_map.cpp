@@ -1,4 +1,4 @@
-#include "render/texture_map.hpp"
+#include "render/textures/texture_map.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "render/sample_pattern.hpp"
+#include "render/samples/sample_pattern.hpp"
 
 #include "render/sampling/hash.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "render/camera_rays.hpp"
 #include "render/kernels/kernel.hpp"
-#include "render/pixel_filter.hpp"
+#include "render/samples/pixel_filter.hpp"
 
 #include <microtrace/integrator.hpp>
 #include <microtrace/render.hpp>

@@ -1,6 +1,6 @@
-#include "render/aov_painter.hpp"
+#include "render/aovs/aov_painter.hpp"
 
-#include "render/aov_value.hpp"
+#include "render/aovs/aov_value.hpp"
 #include "render/tiles.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
-#include "scene/tangent_groups.hpp"
+#include "scene/mesh/tangent_groups.hpp"
 
-#include "scene/edge_neighbors.hpp"
-#include "scene/trigonometry.hpp"
-#include "scene/weld.hpp"
+#include "scene/math/trigonometry.hpp"
+#include "scene/mesh/edge_neighbors.hpp"
+#include "scene/mesh/weld.hpp"
 
 #include <algorithm>
 #include <cmath>
