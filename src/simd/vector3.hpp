@@ -181,6 +181,28 @@ inline Floats3<N> unit(const Floats3<N>& v) {
   return v / square_root<N>(dot(v, v));
 }
 
+/// Vectors of one precision in the other; rounded if narrower.
+template <int N>
+inline Doubles3<N> to_double3(const Floats3<N>& v) {
+  return {to_double<N>(v.x), to_double<N>(v.y), to_double<N>(v.z)};
+}
+template <int N>
+inline Floats3<N> to_single3(const Doubles3<N>& v) {
+  return {to_single<N>(v.x), to_single<N>(v.y), to_single<N>(v.z)};
+}
+
+/// Loads float32 as float64, and the reverse.
+template <int N, int width>
+inline Doubles3<N> widened3(const float (&v)[3][width], int i) {
+  return {widened<N>(v[0] + i), widened<N>(v[1] + i), widened<N>(v[2] + i)};
+}
+template <int N, int width>
+inline void narrowed3(const Doubles3<N>& v, float (&to)[3][width], int i) {
+  narrowed<N>(v.x, to[0] + i);
+  narrowed<N>(v.y, to[1] + i);
+  narrowed<N>(v.z, to[2] + i);
+}
+
 template <int N, int width>
 inline Floats3<N> load3(const float (&v)[3][width], int i) {
   return {load<N>(v[0] + i), load<N>(v[1] + i), load<N>(v[2] + i)};

@@ -120,6 +120,12 @@ inline Float<N> to_single(const Double<N>& a) {
     return __builtin_convertvector(a, Float<N>);
 }
 
+/// A comparison of float64, to select float32.
+template <int N, class Mask>
+inline auto single_mask(const Mask& mask) {
+  return to_single<N>(mask ? Double<N>{} + 1 : Double<N>{}) != 0;
+}
+
 /// Moves positive finite lanes by n units in the last place.
 template <int N>
 inline Float<N> moved_by_ulps(const Float<N>& a, int n) {

@@ -65,6 +65,10 @@ class BaseBsdf {
   struct Left {
     F f1, diffuse;
   };
+  /// The fraction of light that the dielectric's facets do not reflect.
+  [[nodiscard]] F unreflected(const Albedo<N>& albedo) const {
+    return 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
+  }
   [[nodiscard]] Left left(const Albedo<N>& albedo) const;
   [[nodiscard]] Left left(const Albedo<N>& albedo, const F& transmittance,
                           const Albedo<N>& deficit) const;

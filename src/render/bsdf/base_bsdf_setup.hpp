@@ -141,17 +141,15 @@ auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo) const -> Left {
-  return {1 - albedo.f1,
-          larger_of(F(1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1)), F{})};
+  return {1 - albedo.f1, larger_of(unreflected(albedo), F{})};
 }
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::left(const Albedo<N>& albedo, const F& transmittance,
                               const Albedo<N>& deficit) const -> Left {
-  const F diffuse = 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
   const F returned = greatest_.albedo(deficit) - multiply_reflected_ * deficit.f1;
   return {transmittance * (1 - albedo.f1) + deficit.f1,
-          larger_of(F(transmittance * diffuse + returned), F{})};
+          larger_of(F(transmittance * unreflected(albedo) + returned), F{})};
 }
 
 template <int N, class Parts>

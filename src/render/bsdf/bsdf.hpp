@@ -83,7 +83,8 @@ class Bsdf {
   // Not set without layers above:
   V sheen_;
   F coat_;
-  F transmittance_;                         // transmittance for wo
+  F coat_transmittance_;                    // for wo
+  F transmittance_;                         // of all layers for wo; set if they are only above
   F sheen_probability_, coat_probability_;  // sampling probabilities
 };
 
@@ -97,11 +98,12 @@ Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
   if (!has_layers_above()) return;
   sheen_ = surface.sheen;
   coat_ = surface.coat;
-  transmittance_ = coating->transmittance(wo);
+  coat_transmittance_ = coating->coat_transmittance(wo);
+  if (features_.layers == LayerSide::above) transmittance_ = coating->transmittance(wo);
   // In proportion to each layer's approximate albedo, with a minimum probability.
   const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
   const F of_sheen = larger_of(F(0.5F * greatest * coating->sheen().albedo(wo.z)), least);
-  const F of_coat = larger_of(F(0.8F * (1 - coating->coat_transmittance(wo))), least);
+  const F of_coat = larger_of(F(0.8F * (1 - coat_transmittance_)), least);
   coat_probability_ = coat_ > 0 ? of_coat : F{};
   sheen_probability_ = (greatest > 0 ? of_sheen : F{}) * (1 - coat_probability_);
 }
@@ -110,7 +112,7 @@ template <int N, class Parts>
 void Bsdf<N, Parts>::add_sheen(const V& wi, const V& h, Evaluation<N>& e) const {
   const auto has_sheen = (coating_->greatest_sheen() > 0) & (wi.z > 0);
   if (!any(has_sheen)) return;
-  const F through = smaller_of(coating_->coat_transmittance(wo_), coating_->coat_transmittance(wi));
+  const F through = smaller_of(coat_transmittance_, coating_->coat_transmittance(wi));
   const V value = sheen_ * (coating_->sheen().reflectance(wo_, wi, h) * through * wi.z);
   e.value = select3(has_sheen, V(e.value + value), e.value);
   e.pdf = has_sheen ? e.pdf + sheen_probability_ * coating_->sheen().pdf(wi.z) : e.pdf;

@@ -106,18 +106,14 @@ Floats3<N> thin_film_reflectance(const Float<N>& cosine, const ThinFilm<N>& film
   store<N>(cosines, cosine);
   store<N>(ior, film.ior);
   store<N>(thickness, film.thickness);
-  store<N>(base[0], f0.x);
-  store<N>(base[1], f0.y);
-  store<N>(base[2], f0.z);
+  store3<N>(base, 0, f0);
   for (int i = 0; i < N; i += n) {
-    const Doubles3<n> reflectance = FilmTerms<n>::reflectance(
-        widened<n>(cosines + i), widened<n>(ior + i), widened<n>(thickness + i),
-        {widened<n>(base[0] + i), widened<n>(base[1] + i), widened<n>(base[2] + i)});
-    narrowed<n>(reflectance.x, result[0] + i);
-    narrowed<n>(reflectance.y, result[1] + i);
-    narrowed<n>(reflectance.z, result[2] + i);
+    const Doubles3<n> reflectance =
+        FilmTerms<n>::reflectance(widened<n>(cosines + i), widened<n>(ior + i),
+                                  widened<n>(thickness + i), widened3<n>(base, i));
+    narrowed3<n>(reflectance, result, i);
   }
-  return {load<N>(result[0]), load<N>(result[1]), load<N>(result[2])};
+  return load3<N>(result, 0);
 }
 
 }  // namespace microtrace::bsdf

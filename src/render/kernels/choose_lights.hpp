@@ -41,8 +41,7 @@ KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Dou
 template <int N, int width>
 void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lanes, int i) {
   using F = Float<N>;
-  const Doubles3<N> p{widened<N>(lanes.p[0] + i), widened<N>(lanes.p[1] + i),
-                      widened<N>(lanes.p[2] + i)};
+  const Doubles3<N> p = widened3<N>(lanes.p, i);
   const Floats3<N> n = load3<N>(lanes.n, i);
   const KindProbabilities<N> kinds = kind_probabilities<N>(setup, p, n);
   const F choice = load<N>(lanes.choice + i), beyond = choice - kinds.environment;

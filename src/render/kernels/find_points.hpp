@@ -6,18 +6,6 @@
 
 namespace microtrace {
 
-/// Float64 vectors with N lanes.
-template <int N, int width>
-Doubles3<N> widened3(const float (&v)[3][width], int i) {
-  return {widened<N>(v[0] + i), widened<N>(v[1] + i), widened<N>(v[2] + i)};
-}
-template <int N, int width>
-void narrowed3(const Doubles3<N>& v, float (&to)[3][width], int i) {
-  narrowed<N>(v.x, to[0] + i);
-  narrowed<N>(v.y, to[1] + i);
-  narrowed<N>(v.z, to[2] + i);
-}
-
 /// The points of N paths starting at i: the intersections with the planes of the triangles in
 /// float64, because Hit::t is rounded to float32.
 template <int N, int width>

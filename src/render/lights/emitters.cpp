@@ -111,9 +111,8 @@ void Emitters::put_triangle(std::uint32_t light, int lane,
     lanes.coverage[lane] = 1;
     return;
   }
-  const Vec2 w = sampling::triangle_weights({lanes.u[0][lane], lanes.u[1][lane]});
-  const ShadingPoint point =
-      shading_.point_on(id, {w.x, w.y, std::max(1 - w.x - w.y, 0.0F)}, true, 0);
+  const ShadingPoint point = shading_.point_on(
+      id, sampling::triangle_point({lanes.u[0][lane], lanes.u[1][lane]}), true, 0);
   put(lanes.emission, lane, shading_.emission(point));
   lanes.coverage[lane] = shading_.coverage(point, false);
 }

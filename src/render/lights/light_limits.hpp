@@ -17,4 +17,31 @@ Double<N> limited_pdf(const Double<N>& pdf) {
   return pdf < kMost ? larger_of(pdf, zero + 1 / kMost) : zero + kMost;
 }
 
+/// A light that is selected with some probability, as a shadow ray needs it.
+template <int N>
+struct SelectedLight {
+  Floats3<N> to_light;
+  Float<N> is_far;  ///< 1 if to_light is only a direction, else 0
+  Floats3<N> light;
+  Float<N> pdf;
+};
+
+/// `light` and `pdf` are those before selection, `distance` the length of to_light; a pdf of 0
+/// stays 0.
+template <int N>
+SelectedLight<N> selected_light(const Doubles3<N>& to_light, const Double<N>& distance,
+                                const Floats3<N>& wi, const Doubles3<N>& light,
+                                const Double<N>& pdf, const Double<N>& probability) {
+  // Shadow rays need a direction that is representable in float32.
+  const auto has_direction =
+      single_mask<N>((distance >= kLeastReach) & (distance <= kGreatestReach));
+  const Double<N> most = Double<N>{} + double{kBrightest};
+  const Doubles3<N> limited =
+      least_components(Doubles3<N>(light / probability), Doubles3<N>{most, most, most});
+  const Double<N> selected_pdf = pdf > 0 ? limited_pdf<N>(pdf * probability) : Double<N>{};
+  return {select3(has_direction, to_single3<N>(to_light), wi),
+          has_direction ? Float<N>{} : all<N>(1), to_single3<N>(limited),
+          to_single<N>(selected_pdf)};
+}
+
 }  // namespace microtrace

@@ -1,6 +1,7 @@
 #pragma once
 /// The importance of bounded lights, for N lanes.
 
+#include "render/sampling/warps.hpp"
 #include "simd/vector3.hpp"
 #include "simd/vectors.hpp"
 
@@ -103,15 +104,13 @@ struct LightNodes {
     const D to_zero{};
     const Doubles3<N> to_light = p - center;
     const D square = dot(to_light, to_light);
-    const Doubles3<N> unit_direction = to_light / square_root<N>(square);
-    const Floats3<N> direction{to_single<N>(unit_direction.x), to_single<N>(unit_direction.y),
-                               to_single<N>(unit_direction.z)};
+    const Floats3<N> direction = to_single3<N>(to_light / square_root<N>(square));
     const F along = dot(axis, direction);
     const auto to_point =
         LightAngle<N>::of(smaller_of(is_two_sided != 0 ? magnitude(along) : along, one));
     // The angle subtended by the bounding sphere.
     const F sine_square = to_single<N>(smaller_of(D(radius_square / square), to_zero + 1));
-    const auto is_inside = to_single<N>(square <= radius_square ? to_zero + 1 : to_zero) != 0;
+    const auto is_inside = single_mask<N>(square <= radius_square);
     const LightAngle<N> box{square_root<N>(1 - sine_square), square_root<N>(sine_square)};
     const LightAngle<N> off_cone = to_point - LightAngle<N>{cos_o, sin_o};
     const F least = is_inside ? one : (off_cone - box).cosine;
@@ -141,9 +140,7 @@ Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&indices
   const Double<N> second = LightNodes<N>::of(nodes, seconds).importance(p, n);
   const Float<N> share = clamped(to_single<N>(first / (first + second)), all<N>(kLeastProbability),
                                  all<N>(1 - kLeastProbability));
-  const Double<N> one = Double<N>{} + 1;
-  const auto is_first = to_single<N>(first > 0 ? one : Double<N>{}) != 0;
-  const auto is_second = to_single<N>(second > 0 ? one : Double<N>{}) != 0;
+  const auto is_first = single_mask<N>(first > 0), is_second = single_mask<N>(second > 0);
   return is_first ? (is_second ? share : all<N>(1)) : (is_second ? Float<N>{} : all<N>(-1));
 }
 
@@ -173,7 +170,7 @@ LightChoice<N> choose_light(const LightNode* nodes, const Doubles3<N>& p, const 
     const F first = first_probability<N>(nodes, indices, p, n);
     const auto is_second = u >= first;
     const F share = is_second ? 1 - first : first;
-    const F rest = smaller_of(F((u - (is_second ? first : F{})) / share), all<N>(0x1.fffffep-1F));
+    const F rest = sampling::reused<N>(u, is_second ? first : F{}, share);
     u = is_inner ? rest : u;
     const F part = is_inner ? (first < 0 ? F{} : share) : all<N>(1);
     choice.probability *= to_double<N>(part);

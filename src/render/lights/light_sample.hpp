@@ -1,6 +1,5 @@
 #pragma once
 #include "render/lights/light_limits.hpp"
-#include "render/luminance.hpp"
 
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
@@ -8,7 +7,6 @@
 #include <cmath>
 #include <optional>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace microtrace {
@@ -37,14 +35,13 @@ struct FoundLight {
 
   /// Applies the probability of selecting this light among several.
   [[nodiscard]] LightSample with_probability(double probability) const {
-    // Shadow rays need a direction that is representable in float32.
-    const double reach = std::sqrt(glm::dot(to_light, to_light));
-    const bool has_direction = reach >= kLeastReach && reach <= kGreatestReach;
-    return {.to_light = has_direction ? Vec3(to_light) : wi,
-            .is_far = is_far || !has_direction,
+    const double distance = std::sqrt(glm::dot(to_light, to_light));
+    const auto selected = selected_light<1>(to_light, distance, wi, light, pdf, probability);
+    return {.to_light = selected.to_light,
+            .is_far = is_far || selected.is_far != 0,
             .wi = wi,
-            .light = Vec3(glm::min(light / probability, DVec3(kBrightest))),
-            .pdf = pdf > 0 ? static_cast<float>(limited_pdf<1>(pdf * probability)) : 0,
+            .light = selected.light,
+            .pdf = selected.pdf,
             .target = target};
   }
 };

@@ -52,4 +52,11 @@ Floats2<N> triangle_weights(const Floats2<N>& u) {
   return {is_upper ? u.x * 0.5F : u.x - u.y * 0.5F, is_upper ? u.y - u.x * 0.5F : u.y * 0.5F};
 }
 
+/// The barycentric coordinates of the same point.
+template <int N = 1>
+Floats3<N> triangle_point(const Floats2<N>& u) {
+  const Floats2<N> w = triangle_weights<N>(u);
+  return {w.x, w.y, larger_of(Float<N>(1 - w.x - w.y), Float<N>{})};
+}
+
 }  // namespace microtrace::sampling
