@@ -25,6 +25,7 @@
 #include <microtrace/path.hpp>
 #include <microtrace/prepared_scene.hpp>
 #include <microtrace/primitives.hpp>
+#include <microtrace/queries.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/read_files.hpp>
 #include <microtrace/render.hpp>

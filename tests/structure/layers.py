@@ -17,6 +17,7 @@ MAY_INCLUDE = {
     "exact": {"base"},
     "scene": {"base", "simd"},
     "accel": {"base", "simd", "exact", "scene"},
+    "queries": {"base", "exact", "scene", "accel"},
     "render": {"base", "simd", "scene"},
     "io": {"base", "scene"},
     "cli": {"base", "scene"},
@@ -33,6 +34,7 @@ HIDDEN = {
     "simd": {"scene", "camera", "film", "io", "render", "integrator", "aov", "sidecar", "bvh", "primitives"},
     "scene": {"film", "io", "render", "integrator", "aov", "sidecar", "bvh"},
     "accel": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
+    "queries": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
     "render": {"io", "sidecar"},
     "io": {"render", "bvh", "integrator", "aov"},
 }

@@ -1,0 +1,14 @@
+#pragma once
+#include "accel/build/duplicates.hpp"
+
+namespace microtrace {
+
+/// Calls f with a primitive of the tree and with all that it represents, in ascending order.
+template <class F>
+void for_each_duplicate(const Duplicates& duplicates, PrimitiveId id, const F& f) {
+  f(id);
+  if (duplicates.empty()) return;
+  for (auto next = duplicates.above(id, id); next; next = duplicates.above(id, *next)) f(*next);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,109 @@
+#include "queries/locator.hpp"
+
+#include "accel/filters/shape_filter.hpp"
+#include "exact/crossing.hpp"
+#include "exact/range.hpp"
+#include "queries/ray_search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace microtrace {
+namespace {
+
+/// Random bits: SplitMix64, after Steele, Lea and Flood, "Fast splittable pseudorandom number
+/// generators", OOPSLA 2014.
+std::uint64_t scrambled(std::uint64_t x) {
+  x = (x + 1) * 0x9E3779B97F4A7C15ULL;
+  x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9ULL;
+  x = (x ^ x >> 27U) * 0x94D049BB133111EBULL;
+  return x ^ x >> 31U;
+}
+
+}  // namespace
+
+/// Along the axis of the shortest way out of the tree's bounds, where there is least to cross, and
+/// slightly turned, by other random numbers in each attempt, because many meshes have edges
+/// parallel to the axes.
+Vec3 Locator::direction(const Vec3& p, std::uint64_t attempt) const {
+  int axis = 0;
+  bool is_negative = false;
+  float least = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const float below = p[k] - tree_.bounds.lo[k], above = tree_.bounds.hi[k] - p[k];
+    if (below < least) axis = k, is_negative = true, least = below;
+    if (above < least) axis = k, is_negative = false, least = above;
+  }
+  Vec3 d{0};
+  d[axis] = is_negative ? -1.0F : 1.0F;
+  const std::uint64_t bits = scrambled(attempt);
+  // Odd numbers of 24 bits, between 1/64 and 1/16.
+  const auto turn = [](std::uint64_t from) {
+    constexpr std::uint64_t kLow = (1U << 22U) - 1;
+    const std::uint64_t odd = (1U << 22U) + 3 * (from & kLow);
+    return static_cast<float>(odd | 1U) * (from >> 22U & 1U ? -0x1p-28F : 0x1p-28F);
+  };
+  d[(axis + 1) % 3] = turn(bits);
+  d[(axis + 2) % 3] = turn(bits >> 32U);
+  return d;
+}
+
+std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll& poll) {
+  crossed_.clear();
+  bool is_on_boundary = false, is_grazing = false;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const bool filterable = is_filterable(p);
+  const auto test = [&](PrimitiveId id, const Triangle& triangle) {
+    if (is_on_boundary) return;
+    if (filterable && is_filterable(triangle)) {
+      // A certain hit is in the interior of the triangle, and after the origin.
+      const FilterResult filtered =
+          TriangleFilter(triangle, p)(DVec3(d), {.t_min = 0, .t_max = kInfinity});
+      if (filtered.certainty == Certainty::miss) return;
+      if (filtered.certainty == Certainty::hit) {
+        crossed_.push_back(id);
+        return;
+      }
+    }
+    const exact::Crossing crossing = exact::crossing(triangle, p, d);
+    if (crossing == exact::Crossing::none || !selection_.least(tree_.duplicates, id)) return;
+    if (crossing == exact::Crossing::proper) crossed_.push_back(id);
+    is_on_boundary = crossing == exact::Crossing::origin;
+    is_grazing |= crossing == exact::Crossing::grazing;
+  };
+  const Ray ray{.o = p, .t_min = 0, .d = d};
+  RaySearch(tree_, ray)
+      .for_each(
+          [&](const TriangleBlock& block, unsigned lanes) {
+            poll();
+            for (; lanes != 0; lanes &= lanes - 1) {
+              const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+              test(block.id[lane], triangle_in(block, lane));
+            }
+          },
+          [&](PrimitiveId id) {
+            poll();
+            if (const auto triangle = primitives_.triangle(id)) test(id, *triangle);
+          });
+  if (is_on_boundary) return Location::boundary;
+  if (is_grazing) return std::nullopt;
+  // A triangle that was split among leaves is found several times.
+  std::ranges::sort(crossed_);
+  const auto [first, last] = std::ranges::unique(crossed_);
+  crossed_.erase(first, last);
+  std::uint64_t count = 0;
+  for (const PrimitiveId id : crossed_) count += selection_.count(tree_.duplicates, id);
+  return count % 2 == 1 ? Location::inside : Location::outside;
+}
+
+Location Locator::locate(const Vec3& p, Poll& poll) {
+  if (!exact::is_finite(p)) return Location::outside;
+  for (std::uint64_t attempt = 0;; ++attempt) {
+    if (const auto location = locate_along(p, direction(p, attempt), poll)) return *location;
+  }
+}
+
+}  // namespace microtrace

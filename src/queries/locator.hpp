@@ -1,0 +1,37 @@
+#pragma once
+/// The location of a point relative to closed surfaces, by the parity of crossings.
+
+#include "accel/bvh_tree.hpp"
+#include "queries/runs.hpp"
+#include "queries/selection.hpp"
+
+#include <microtrace/primitives.hpp>
+#include <microtrace/queries.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace microtrace {
+
+class Locator {
+ public:
+  /// All must outlive this object.
+  Locator(const Primitives& primitives, const Tree& tree, Selection selection)
+      : primitives_(primitives), tree_(tree), selection_(selection) {}
+
+  /// p is in scene coordinates.
+  [[nodiscard]] Location locate(const Vec3& p, Poll& poll);
+
+ private:
+  /// Nothing if a ray in this direction can't decide.
+  [[nodiscard]] std::optional<Location> locate_along(const Vec3& p, const Vec3& d, Poll& poll);
+  [[nodiscard]] Vec3 direction(const Vec3& p, std::uint64_t attempt) const;
+
+  const Primitives& primitives_;
+  const Tree& tree_;
+  Selection selection_;
+  std::vector<PrimitiveId> crossed_;  // triangles of the tree
+};
+
+}  // namespace microtrace

@@ -1,0 +1,48 @@
+#pragma once
+/// The nearest triangle to a point, by branch and bound over the tree.
+
+#include "accel/build/tree.hpp"
+#include "exact/nearest.hpp"
+#include "queries/runs.hpp"
+#include "queries/selection.hpp"
+#include "queries/triangle_distance.hpp"
+
+#include <microtrace/primitives.hpp>
+#include <microtrace/queries.hpp>
+
+#include <limits>
+#include <optional>
+
+namespace microtrace {
+
+class NearestSearch {
+ public:
+  /// All must outlive this object.
+  NearestSearch(const Primitives& primitives, const Tree& tree, Selection selection)
+      : primitives_(primitives), tree_(tree), selection_(selection) {}
+
+  /// p is in scene coordinates, and so is the result.
+  [[nodiscard]] std::optional<NearestPoint> nearest(const Vec3& p, Poll& poll);
+
+ private:
+  /// The nearest triangle so far. Of duplicates `id` is the least that is selected.
+  struct Candidate {
+    PrimitiveId id;
+    Triangle triangle;
+    TriangleDistance distance{};
+    std::optional<exact::Nearest> exactly{};  // computed when first needed
+  };
+
+  void search_tree(const Vec3& p, Poll& poll);
+  void consider(PrimitiveId id, const Triangle& triangle, const Vec3& p);
+  [[nodiscard]] bool precedes(Candidate& candidate, Candidate& best, const Vec3& p) const;
+  const Primitives& primitives_;
+  const Tree& tree_;
+  Selection selection_;
+  std::optional<Candidate> best_;
+  /// Boxes whose squared distance, computed with a few roundings, is above this are farther away
+  /// than the best.
+  double limit_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace microtrace

@@ -1,0 +1,171 @@
+#include "accel/bvh_tree.hpp"
+#include "accel/exact_hits.hpp"
+#include "accel/filters/shape_filter.hpp"
+#include "accel/hit_resolver.hpp"
+#include "exact/intersect.hpp"
+#include "float_environment.hpp"
+#include "queries/duplicates.hpp"
+#include "queries/ray_search.hpp"
+#include "queries/runs.hpp"
+
+#include <microtrace/queries.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+/// A primitive of the tree that the ray hits, and bounds of its t. It may represent duplicates.
+struct BoundedHit {
+  PrimitiveId id;
+  double lo, hi;
+};
+
+/// All hits of one ray at a time.
+class HitFinder {
+ public:
+  explicit HitFinder(const PreparedScene& scene)
+      : scene_(scene), shared_(scene.bvh().tree()), tree_(shared_->tree) {}
+
+  [[nodiscard]] std::uint32_t count(const Ray& ray, Poll& poll) {
+    find(ray, poll);
+    std::uint32_t count = 0;
+    for (const BoundedHit& hit : found_)
+      for_each_duplicate(tree_.duplicates, hit.id, [&](PrimitiveId) { ++count; });
+    return count;
+  }
+
+  /// Appends the hits in their order.
+  void append(const Ray& world_ray, std::vector<Hit>& hits, Poll& poll) {
+    find(world_ray, poll);
+    const ExactHits exactly(primitives_, ray_);
+    std::ranges::sort(found_, [&](const BoundedHit& a, const BoundedHit& b) {
+      if (a.hi < b.lo) return true;
+      if (b.hi < a.lo) return false;
+      if (a.id == b.id) return false;
+      poll();
+      const auto order = exactly.order(a.id, b.id);
+      return order < 0 || (order == 0 && a.id < b.id);
+    });
+    const HitResolver resolver(primitives_, ray_);
+    if (tree_.duplicates.empty()) {
+      for (const BoundedHit& hit : found_) hits.push_back(resolver.hit(hit.id));
+      return;
+    }
+    // The ids of duplicates interleave with those of other primitives at the same t.
+    for (std::size_t i = 0; i < found_.size();) {
+      const std::size_t first = hits.size();
+      const float t = resolver.hit(found_[i].id).t;
+      std::size_t end = i;
+      do {
+        for_each_duplicate(tree_.duplicates, found_[end].id,
+                           [&](PrimitiveId id) { hits.push_back({.id = id, .t = t}); });
+        ++end;
+      } while (end < found_.size() && found_[end].lo <= found_[i].hi &&
+               exactly.order(found_[end].id, found_[i].id) == 0);
+      std::sort(hits.begin() + static_cast<std::ptrdiff_t>(first), hits.end(),
+                [](const Hit& a, const Hit& b) { return a.id < b.id; });
+      i = end;
+    }
+  }
+
+ private:
+  /// Finds the primitives of the tree that the ray hits.
+  void find(const Ray& world_ray, Poll& poll) {
+    poll();
+    found_.clear();
+    ray_ = scene_.in_scene(world_ray);
+    if (!exact::is_valid(ray_)) return;
+    const ExactHits exactly(primitives_, ray_);
+    const HitResolver resolver(primitives_, ray_);
+    const Range range{.t_min = ray_.t_min, .t_max = ray_.t_max};
+    const DVec3 d(ray_.d);
+    const bool filterable = is_filterable(ray_.o) && is_filterable(ray_.d);
+    const auto add = [&](PrimitiveId id, const FilterResult& filtered) {
+      if (filtered.certainty == Certainty::hit) {
+        found_.push_back({.id = id, .lo = filtered.lo, .hi = filtered.hi});
+      } else if (filtered.certainty == Certainty::unsure) {
+        if (const auto bounds = exactly.bounds(id))
+          found_.push_back({.id = id, .lo = bounds->lo, .hi = bounds->hi});
+      }
+    };
+    RaySearch(tree_, ray_)
+        .for_each(
+            [&](const TriangleBlock& block, unsigned lanes) {
+              poll();
+              for (; lanes != 0; lanes &= lanes - 1) {
+                const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+                FilterResult filtered{.certainty = Certainty::unsure};
+                if (filterable) filtered = seen_from(ray_.o, triangle_in(block, lane))(d, range);
+                add(block.id[lane], filtered);
+              }
+            },
+            [&](PrimitiveId id) {
+              poll();
+              add(id, resolver.filtered(id));
+            });
+    // A triangle that was split among leaves is found several times.
+    std::ranges::sort(found_, {}, &BoundedHit::id);
+    const auto [first, last] = std::ranges::unique(found_, {}, &BoundedHit::id);
+    found_.erase(first, last);
+  }
+
+  const PreparedScene& scene_;
+  std::shared_ptr<const BvhTree> shared_;
+  const Tree& tree_;
+  const Primitives& primitives_ = scene_.bvh().primitives();
+  Ray ray_;  // in scene coordinates
+  std::vector<BoundedHit> found_;
+};
+
+/// Rays that a thread takes at a time.
+constexpr std::uint64_t kRaysOfRun = 64;
+
+}  // namespace
+
+RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
+                      const QueryOptions& options) {
+  const FloatEnvironment environment;
+  return limiting_memory([&] {
+    RayHits result;
+    std::vector<std::vector<Hit>> hits_of_run((rays.size() + kRaysOfRun - 1) / kRaysOfRun);
+    result.offsets.resize(rays.size() + 1);
+    for_each_run(rays.size(), kRaysOfRun, options,
+                 [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
+                   HitFinder finder(scene);
+                   std::vector<Hit>& hits = hits_of_run[first / kRaysOfRun];
+                   for (std::uint64_t i = first; i < last; ++i) {
+                     const std::size_t before = hits.size();
+                     finder.append(rays[i], hits, poll);
+                     result.offsets[i + 1] = hits.size() - before;
+                   }
+                 });
+    for (std::size_t i = 0; i < rays.size(); ++i) result.offsets[i + 1] += result.offsets[i];
+    result.hits.reserve(result.offsets.back());
+    for (std::vector<Hit>& hits : hits_of_run) {
+      result.hits.insert(result.hits.end(), hits.begin(), hits.end());
+      hits = {};
+    }
+    return result;
+  });
+}
+
+void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
+                     std::span<std::uint32_t> counts, const QueryOptions& options) {
+  assert(rays.size() == counts.size());
+  const FloatEnvironment environment;
+  limiting_memory([&] {
+    for_each_run(rays.size(), kRaysOfRun, options,
+                 [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
+                   HitFinder finder(scene);
+                   for (std::uint64_t i = first; i < last; ++i)
+                     counts[i] = finder.count(rays[i], poll);
+                 });
+  });
+}
+
+}  // namespace microtrace
