@@ -92,8 +92,7 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
   if (is_grazing) return std::nullopt;
   // A triangle that was split among leaves is found several times.
   std::ranges::sort(crossed_);
-  const auto [first, last] = std::ranges::unique(crossed_);
-  crossed_.erase(first, last);
+  crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   std::uint64_t count = 0;
   for (const PrimitiveId id : crossed_) count += selection_.count(tree_.duplicates, id);
   return count % 2 == 1 ? Location::inside : Location::outside;

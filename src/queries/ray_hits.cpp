@@ -110,8 +110,8 @@ class HitFinder {
             });
     // A triangle that was split among leaves is found several times.
     std::ranges::sort(found_, {}, &BoundedHit::id);
-    const auto [first, last] = std::ranges::unique(found_, {}, &BoundedHit::id);
-    found_.erase(first, last);
+    const auto is_same = [](const BoundedHit& a, const BoundedHit& b) { return a.id == b.id; };
+    found_.erase(std::unique(found_.begin(), found_.end(), is_same), found_.end());
   }
 
   const PreparedScene& scene_;

@@ -11,6 +11,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
@@ -18,9 +19,9 @@ namespace microtrace {
 class RaySearch {
  public:
   RaySearch(const Tree& tree, const Ray& ray) : tree_(&tree), t_min_(ray.t_min), t_max_(ray.t_max) {
-    for (int axis = 0; axis < 3; ++axis) {
-      o_[axis] = ray.o[axis];
-      d_[axis] = ray.d[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      o_[axis] = ray.o[static_cast<int>(axis)];
+      d_[axis] = ray.d[static_cast<int>(axis)];
     }
   }
 
@@ -70,7 +71,7 @@ class RaySearch {
     enter.fill(t_min_);
     leave.fill(t_max_);
     unsigned lanes = (1U << kWidth) - 1;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const double o = o_[axis], d = d_[axis];
       if (d == 0) {
         for (int i = 0; i < kWidth; ++i)
