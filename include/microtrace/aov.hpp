@@ -8,6 +8,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 
 namespace microtrace {
@@ -41,6 +42,8 @@ inline constexpr std::array kAovs = {Aov::depth,       Aov::distance,    Aov::po
 /// The name on the command line, and before the dot in channel names.
 [[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(Aov aov);
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Aov> aov_named(std::string_view name);
+/// The names of its channels, one to three.
+[[nodiscard]] MICROTRACE_EXPORT std::span<const std::string_view> channels_of(Aov aov);
 
 /// A picture of one quantity. For id, instances have different colors. 8-bit formats show normals n
 /// as (n + 1) / 2; depth and distance from 1 for the nearest to 0.2 for the farthest visible point,

@@ -29,6 +29,7 @@
 #include <microtrace/ray.hpp>
 #include <microtrace/read_files.hpp>
 #include <microtrace/render.hpp>
+#include <microtrace/render_aovs.hpp>
 #include <microtrace/sample_sums.hpp>
 #include <microtrace/sampled_aov.hpp>
 #include <microtrace/scene.hpp>
@@ -38,6 +39,7 @@
 #include <microtrace/sidecar.hpp>
 #include <microtrace/spawn.hpp>
 #include <microtrace/stage_counts.hpp>
+#include <microtrace/surface_buffers.hpp>
 #include <microtrace/surface_interaction.hpp>
 #include <microtrace/texture.hpp>
 #include <microtrace/threads.hpp>

@@ -7,6 +7,7 @@
 #include <microtrace/memory.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
+#include <microtrace/surface_buffers.hpp>
 #include <microtrace/surface_interaction.hpp>
 
 #include <memory>
@@ -63,6 +64,9 @@ class MICROTRACE_EXPORT PreparedScene {
   /// Position, normals, texture coordinates, object and triangle at a hit of `ray`. Refers to the
   /// scene, which this object or a copy must keep alive.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const;
+  /// The same for many rays and their hits, faster. Both spans have the same size.
+  void surfaces(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
+                const SurfaceBuffers& buffers) const;
 
   /// Mip maps, environment tables and the tree, for PrepareOptions::tables. They don't refer to the
   /// scene.

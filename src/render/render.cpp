@@ -6,11 +6,11 @@
 #include "render/samples/draw_at_random.hpp"
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
+#include "render/view.hpp"
 #include "scene/check_indices.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
-#include <microtrace/segments.hpp>
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -90,34 +91,6 @@ void check(const RenderOptions& options) {
   }
 }
 
-PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
-  if (!crop) return {.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height};
-  if (crop->x0 < crop->x1 && crop->y0 < crop->y1 && crop->x1 <= size.width &&
-      crop->y1 <= size.height)
-    return *crop;
-  throw Error(ErrorKind::usage, "",
-              "the crop must hold pixels of the picture: 0 <= x0 < x1 <= " +
-                  std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
-}
-
-/// The rendered scene: the prepared one, or a variant with widened points and lines or a translated
-/// origin.
-struct View {
-  std::shared_ptr<const PreparedScene::Content> content;
-  RayGenerator camera;
-
-  View(std::shared_ptr<const PreparedScene::Content> c, const Camera& from, ImageSize size)
-      : content(std::move(c)), camera(from, size) {}
-
-  [[nodiscard]] World world(std::uint32_t samples) const {
-    return {.scene = content->scene(),
-            .bvh = content->bvh(),
-            .camera = camera,
-            .samples = samples,
-            .surfaces = content->surfaces()};
-  }
-};
-
 Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Camera& camera,
           ImageSize size, const RenderOptions& options) {
   check(options);
@@ -129,15 +102,15 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const Integrator& integrator = options.integrator != nullptr ? *options.integrator : flat;
   const std::uint32_t samples = integrator.is_random() ? kSamplesOfRandomTextures : options.samples;
 
-  const auto shown = has_segments(content->scene()) ? content->widened(camera, size) : content;
+  const auto shown = content_for(content, camera, size);
   // Exact quantities refer to the untranslated scene.
-  const View exact(shown, camera, size);
-  std::optional<View> near;
+  const SceneView exact(shown, camera, size);
+  std::optional<SceneView> near;
   if (integrator.is_random()) {
     if (const auto moved = shown->recentered(camera))
       near.emplace(moved->content, moved->camera, size);
   }
-  const View& view = near ? *near : exact;
+  const SceneView& view = near ? *near : exact;
   (void)view.content->bvh();
   if (!options.aovs.empty()) (void)exact.content->bvh();
   const auto built = Clock::now();
@@ -154,9 +127,10 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
                 numbers_of_pixel(options));
   std::optional<World> exact_world;
   std::optional<AovPainter> channels;
-  if (!options.aovs.empty()) {
+  const std::vector<AovBuffer> buffers = add_channels(options.aovs, film);
+  if (!buffers.empty()) {
     exact_world.emplace(exact.world(1));
-    channels.emplace(*exact_world, options.aovs, window, film);
+    channels.emplace(*exact_world, buffers, window);
   }
   const auto paint_channels = [&](const PixelRect& tile) {
     if (channels) channels->paint(tile);

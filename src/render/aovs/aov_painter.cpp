@@ -7,48 +7,59 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <variant>
 
 namespace microtrace {
 
-AovPainter::AovPainter(const World& world, std::span<const Aov> aovs, const PixelRect& window,
-                       Film& film)
-    : world_(world), rays_(world.camera, world.scene), aovs_(aovs), window_(window), film_(film) {
+std::vector<AovBuffer> add_channels(std::span<const Aov> aovs, Film& film) {
   const std::size_t pixels = std::size_t{film.size().width} * film.size().height;
+  std::vector<AovBuffer> buffers;
   for (const Aov aov : aovs) {
-    for (const std::string_view channel : channels_of(aov)) {
-      Channel added{.name = std::string(name_of(aov)).append(".").append(channel), .values = {}};
-      if (aov == Aov::id) {
-        added.values = std::vector<std::uint32_t>(pixels);
-      } else {
-        added.values = std::vector<float>(pixels);
-      }
+    const auto channels = channels_of(aov);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      Channel added{.name = std::string(name_of(aov)).append(".").append(channels[c]),
+                    .values = {}};
+      AovBuffer buffer{.aov = aov, .row_stride = std::ptrdiff_t{film.size().width}, .channel = c};
+      if (aov == Aov::id)
+        buffer.data = added.values.emplace<std::vector<std::uint32_t>>(pixels).data();
+      else
+        buffer.data = added.values.emplace<std::vector<float>>(pixels).data();
       film.channels.push_back(std::move(added));
+      buffers.push_back(buffer);
     }
   }
+  return buffers;
 }
 
-void AovPainter::set(std::size_t pixel, const Ray& ray, const std::optional<Hit>& hit) const {
+AovPainter::AovPainter(const World& world, std::span<const AovBuffer> buffers,
+                       const PixelRect& window)
+    : world_(world), rays_(world.camera, world.scene), buffers_(buffers), window_(window) {}
+
+void AovPainter::set(std::ptrdiff_t x, std::ptrdiff_t y, const Ray& ray,
+                     const std::optional<Hit>& hit) const {
   std::optional<Sight> sight;
-  if (hit && std::ranges::any_of(aovs_, [](Aov aov) { return aov != Aov::id; })) {
+  if (hit && std::ranges::any_of(buffers_, [](const auto& b) { return b.aov != Aov::id; })) {
     sight.emplace(Sight{.world = world_,
                         .ray = ray,
                         .hit = *hit,
                         .at = interact(world_.bvh.primitives(), ray, *hit)});
   }
-  std::size_t channel = 0;
-  const auto store = [&](const auto& values, std::size_t count) {
-    using Number = typename std::remove_cvref_t<decltype(values)>::value_type;
-    for (std::size_t i = 0; i < count; ++i) {
-      std::get<std::vector<Number>>(film_.channels[channel++].values)[pixel] = values[i];
-    }
-  };
-  for (const Aov aov : aovs_) {
-    const std::size_t count = channels_of(aov).size();
-    if (aov == Aov::id) {
-      store(ids_of(world_, hit), count);
-    } else {
-      store(sight ? value_of(aov, *sight) : value_of_nothing(aov), count);
-    }
+  for (const AovBuffer& buffer : buffers_) {
+    const auto store = [&](const auto& values) {
+      using Number = typename std::remove_cvref_t<decltype(values)>::value_type;
+      Number* to = std::get<Number*>(buffer.data) + y * buffer.row_stride + x * buffer.pixel_stride;
+      if (buffer.channel) {
+        *to = values[*buffer.channel];
+        return;
+      }
+      for (std::size_t c = 0; c < channels_of(buffer.aov).size(); ++c)
+        to[static_cast<std::ptrdiff_t>(c) * buffer.channel_stride] = values[c];
+    };
+    if (buffer.aov == Aov::id)
+      store(ids_of(world_, hit));
+    else
+      store(sight ? value_of(buffer.aov, *sight) : value_of_nothing(buffer.aov));
   }
 }
 
@@ -62,10 +73,8 @@ void AovPainter::paint(const PixelRect& tile) const {
   find_seen(world_, std::span(rays).first(count), std::span(hits).first(count));
   count = 0;
   for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-    for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++count) {
-      set(std::size_t{y - window_.y0} * film_.size().width + (x - window_.x0), rays[count],
-          hits[count]);
-    }
+    for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++count)
+      set(std::ptrdiff_t{x - window_.x0}, std::ptrdiff_t{y - window_.y0}, rays[count], hits[count]);
   }
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-/// Fills the film's AOV channels tile by tile.
+/// Renders AOVs tile by tile.
 
 #include "render/camera_rays.hpp"
 
 #include <microtrace/aov.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/integrator.hpp>
+#include <microtrace/render_aovs.hpp>
 
 #include <cstddef>
 #include <span>
@@ -13,24 +14,25 @@
 
 namespace microtrace {
 
+/// Adds the channels of these quantities to the film.
+[[nodiscard]] std::vector<AovBuffer> add_channels(std::span<const Aov> aovs, Film& film);
+
 /// Any number of threads may paint disjoint tiles.
 class AovPainter {
  public:
-  /// Adds the channels to the film, which has the pixels of `window`. All arguments must outlive
-  /// this object.
-  AovPainter(const World& world, std::span<const Aov> aovs, const PixelRect& window, Film& film);
+  /// The buffers have the pixels of `window`. All arguments must outlive this object.
+  AovPainter(const World& world, std::span<const AovBuffer> buffers, const PixelRect& window);
 
   /// A tile of the window, at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:
-  void set(std::size_t pixel, const Ray& ray, const std::optional<Hit>& hit) const;
+  void set(std::ptrdiff_t x, std::ptrdiff_t y, const Ray& ray, const std::optional<Hit>& hit) const;
 
   const World& world_;
   CameraRays rays_;
-  std::span<const Aov> aovs_;
+  std::span<const AovBuffer> buffers_;
   const PixelRect& window_;
-  Film& film_;
 };
 
 }  // namespace microtrace

@@ -10,12 +10,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string_view>
 
 namespace microtrace {
-
-/// The channel names of a quantity, at most three.
-[[nodiscard]] std::span<const std::string_view> channels_of(Aov aov);
 
 /// Finds the first visible surface of each ray, as defined by Aov.
 void find_seen(const World& world, std::span<const Ray> rays, std::span<std::optional<Hit>> hits);

@@ -1,3 +1,4 @@
+#include "float_environment.hpp"
 #include "render/prepared/content.hpp"
 #include "scene/check_indices.hpp"
 
@@ -91,9 +92,45 @@ void PreparedScene::occluded(std::span<const Ray> rays, std::span<bool> results)
 }
 
 SurfaceInteraction PreparedScene::surface(const Ray& ray, const Hit& hit) const {
+  const FloatEnvironment environment;
   SurfaceInteraction at = interact(bvh().primitives(), in_scene(ray), hit);
   at.p += scene().origin;
   return at;
+}
+
+namespace {
+
+/// Stores component c of value i.
+template <class T>
+void store(const OutputArray<T>& array, std::size_t i, std::size_t c, auto value) {
+  if (array.data == nullptr) return;
+  array.data[static_cast<std::ptrdiff_t>(i) * array.stride +
+             static_cast<std::ptrdiff_t>(c) * array.component_stride] = static_cast<T>(value);
+}
+
+template <class T, glm::length_t n>
+void store_vector(const OutputArray<T>& array, std::size_t i, const glm::vec<n, double>& value) {
+  for (glm::length_t c = 0; c < n; ++c) store(array, i, static_cast<std::size_t>(c), value[c]);
+}
+
+}  // namespace
+
+void PreparedScene::surfaces(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
+                             const SurfaceBuffers& buffers) const {
+  const FloatEnvironment environment;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    std::optional<SurfaceInteraction> at;
+    if (hits[i]) at = surface(rays[i], *hits[i]);
+    store_vector(buffers.p, i, at ? at->p : DVec3(0));
+    store_vector(buffers.n, i, at ? at->n : DVec3(0));
+    store_vector(buffers.ns, i, at ? at->ns : DVec3(0));
+    store_vector(buffers.barycentrics, i,
+                 at && at->triangle ? at->triangle->barycentrics : DVec3(0));
+    store_vector(buffers.uv, i, at ? at->uv(0).value_or(DVec2(0)) : DVec2(0));
+    store(buffers.front, i, 0, at && at->front);
+    store(buffers.object, i, 0, at ? at->object : SurfaceBuffers::kNone);
+    store(buffers.primitive, i, 0, at ? at->primitive : SurfaceBuffers::kNone);
+  }
 }
 
 }  // namespace microtrace

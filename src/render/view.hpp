@@ -1,0 +1,43 @@
+#pragma once
+/// What a picture shows: a scene, a camera, and a part of the picture.
+
+#include "render/prepared/content.hpp"
+
+#include <microtrace/camera.hpp>
+#include <microtrace/film.hpp>
+#include <microtrace/integrator.hpp>
+#include <microtrace/prepared_scene.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace microtrace {
+
+/// The part of the picture to render. Throws Error (usage) if the crop is empty or not inside.
+[[nodiscard]] PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop);
+
+/// The scene as this camera sees it, with widened points and lines.
+[[nodiscard]] std::shared_ptr<const PreparedScene::Content> content_for(
+    std::shared_ptr<const PreparedScene::Content> content, const Camera& camera, ImageSize size);
+
+/// The rendered scene: the prepared one, or a variant with widened points and lines or a translated
+/// origin.
+struct SceneView {
+  std::shared_ptr<const PreparedScene::Content> content;
+  RayGenerator camera;
+
+  SceneView(std::shared_ptr<const PreparedScene::Content> c, const Camera& from, ImageSize size)
+      : content(std::move(c)), camera(from, size) {}
+
+  [[nodiscard]] World world(std::uint32_t samples) const {
+    return {.scene = content->scene(),
+            .bvh = content->bvh(),
+            .camera = camera,
+            .samples = samples,
+            .surfaces = content->surfaces()};
+  }
+};
+
+}  // namespace microtrace
