@@ -1,13 +1,16 @@
 #include "queries/nearest_search.hpp"
 
+#include "accel/filters/roundings.hpp"
 #include "accel/filters/shape_filter.hpp"
 #include "exact/range.hpp"
 #include "queries/ray_search.hpp"
+#include "simd/vectors.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -17,54 +20,68 @@ namespace {
 /// Relative errors of results that float64 may have.
 constexpr double kDistanceError = 0x1p-40, kPositionError = 0x1p-42;
 
-/// One for each lane of a node or a block.
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One number for each lane of a node or a block.
 using Distances = std::array<double, kWidth>;
 
-double larger(double x, double y) {
-  return x > y ? x : y;
-}
-
-/// The distances from p to the boxes of a node's children, squared. Roundings change them by less
-/// than six units.
+/// The squared distances of the boxes of a node's children; infinity for unused slots. Roundings
+/// change them by less than eight units.
 Distances squared_distances(const WideNode& node, const DVec3& p) {
-  const float* const lo[3] = {node.lo_x, node.lo_y, node.lo_z};
-  const float* const hi[3] = {node.hi_x, node.hi_y, node.hi_z};
-  Distances sum{};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      const double gap = larger(larger(lo[axis][i] - p[axis], p[axis] - hi[axis][i]), 0);
-      sum[i] += gap * gap;
+  Distances result;
+  for (int i = 0; i < kWidth; i += 2) {
+    Double<2> sum{};
+    for (int axis = 0; axis < 3; ++axis) {
+      // The arrays are consecutive.
+      const auto below = widened<2>(node.lo_x + kWidth * axis + i) - p[axis];
+      const auto above = p[axis] - widened<2>(node.hi_x + kWidth * axis + i);
+      const auto gap = greater(greater(below, above), Double<2>{});
+      sum += gap * gap;
     }
+    for (int k = 0; k < 2; ++k) result[static_cast<std::size_t>(i + k)] = sum[k];
   }
-  return sum;
+  return result;
 }
 
-/// The same for the bounding boxes of triangles. Unused lanes, which have NaN in a, may have any
-/// result.
+/// Lower bounds of the squared distances of a block's triangles, with roundings as above. Unused
+/// lanes may have any result.
+///
+/// The larger of two bounds: the distance of the bounding box, which is good near the triangle; and
+/// for G = A + B + C, with A, B, C from p to the vertices, the least of A.G / |G|, B.G / |G|, C.G /
+/// |G|, which is good far away. A.G has three terms of at most 3 m^2, where m is the largest
+/// |component| of A, B, C, with six roundings.
 Distances squared_distances(const TriangleBlock& block, const DVec3& p) {
-  const float* const a[3] = {block.a_x, block.a_y, block.a_z};
-  const float* const b[3] = {block.b_x, block.b_y, block.b_z};
-  const float* const c[3] = {block.c_x, block.c_y, block.c_z};
-  Distances sum{};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < kWidth; ++i) {
-      const float x = a[axis][i], y = b[axis][i], z = c[axis][i];
-      const float above = x > y ? x : y, below = x < y ? x : y;
-      const float hi = above > z ? above : z, lo = below < z ? below : z;
-      const double gap = larger(larger(lo - p[axis], p[axis] - hi), 0);
-      sum[i] += gap * gap;
+  const float *const a = block.a_x, *const b = block.b_x, *const c = block.c_x;
+  Distances result;
+  for (int i = 0; i < kWidth; i += 2) {
+    using Pair = Double<2>;
+    Pair sum{}, size{}, from_a{}, from_b{}, from_c{}, squared_g{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Pair x = widened<2>(a + kWidth * axis + i) - p[axis];
+      const Pair y = widened<2>(b + kWidth * axis + i) - p[axis];
+      const Pair z = widened<2>(c + kWidth * axis + i) - p[axis];
+      const Pair least = lesser(x, lesser(y, z)), greatest = greater(x, greater(y, z));
+      const Pair gap = greater(greater(least, -greatest), Pair{});
+      sum += gap * gap;
+      size = greater(size, greater(-least, greatest));
+      const Pair g = x + y + z;
+      from_a += x * g;
+      from_b += y * g;
+      from_c += z * g;
+      squared_g += g * g;
+    }
+    const Pair from = lesser(from_a, lesser(from_b, from_c)) - 3 * 3 * 8 * kRoundoff * size * size;
+    for (int k = 0; k < 2; ++k) {
+      double& squared = result[static_cast<std::size_t>(i + k)];
+      squared = sum[k];
+      if (from[k] > 0) squared = std::max(squared, from[k] * from[k] / squared_g[k]);
     }
   }
-  return sum;
+  return result;
 }
 
 bool suits_float64(const Triangle& triangle, const Vec3& p) {
   return is_filterable(p) && is_filterable(triangle);
-}
-
-const exact::Nearest& exact_nearest(auto& candidate, const Vec3& p) {
-  if (!candidate.exactly) candidate.exactly = exact::nearest(candidate.triangle, p);
-  return *candidate.exactly;
 }
 
 /// Bounds of the distance of exact::nearest.
@@ -81,28 +98,27 @@ TriangleDistance distance_of(const exact::Nearest& nearest) {
 
 }  // namespace
 
-/// Whether a candidate is nearer than the best so far, or as near with a lower id.
-bool NearestSearch::precedes(Candidate& candidate, Candidate& best, const Vec3& p) const {
-  if (candidate.distance.hi < best.distance.lo) return true;
-  if (candidate.distance.lo > best.distance.hi) return false;
-  if (share_feature(candidate.triangle, candidate.distance, best.triangle, best.distance))
-    return candidate.id < best.id;
-  const auto order = compare_distances(exact_nearest(candidate, p), exact_nearest(best, p));
-  return order < 0 || (order == 0 && candidate.id < best.id);
+bool NearestSearch::precedes(const Candidate& candidate, const Vec3& p) {
+  if (share_feature(candidate.triangle, candidate.distance, best_->triangle, best_->distance))
+    return candidate.id < best_->id;
+  if (!exact_best_) exact_best_ = exact::nearest(best_->triangle, p);
+  const exact::Nearest exactly = exact::nearest(candidate.triangle, p);
+  const auto order = compare_distances(exactly, *exact_best_);
+  return order < 0 || (order == 0 && candidate.id < best_->id);
 }
 
 void NearestSearch::consider(PrimitiveId id, const Triangle& triangle, const Vec3& p) {
+  const TriangleDistance distance = suits_float64(triangle, p)
+                                        ? triangle_distance(triangle, p)
+                                        : distance_of(exact::nearest(triangle, p));
+  if (best_ && distance.lo > best_->distance.hi) return;
   const auto selected = selection_.least(tree_.duplicates, id);
   if (!selected || (best_ && best_->id == *selected)) return;
-  Candidate candidate{.id = *selected, .triangle = triangle};
-  if (suits_float64(triangle, p))
-    candidate.distance = triangle_distance(triangle, p);
-  else
-    candidate.distance = distance_of(exact_nearest(candidate, p));
-  if (best_ && !precedes(candidate, *best_, p)) return;
+  const Candidate candidate{.id = *selected, .triangle = triangle, .distance = distance};
+  if (best_ && !(distance.hi < best_->distance.lo) && !precedes(candidate, p)) return;
   best_ = candidate;
-  const double hi = best_->distance.hi;
-  limit_ = hi * hi * (1 + 0x1p-48);
+  exact_best_.reset();
+  limit_ = distance.hi * distance.hi * (1 + 0x1p-48);
 }
 
 void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
@@ -122,7 +138,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       const Distances distances = squared_distances(node, point);
       const std::size_t first = size;
       for (std::size_t i = 0; i < kWidth; ++i) {
-        if (distances[i] > limit_ || !(node.lo_x[i] <= node.hi_x[i])) continue;
+        if (!(distances[i] <= limit_) || distances[i] == kInfinity) continue;
         // The nearest is on top.
         std::size_t k = size++;
         for (; k > first && stack[k - 1].squared_distance < distances[i]; --k)
@@ -153,7 +169,8 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
 std::optional<NearestPoint> NearestSearch::nearest(const Vec3& p, Poll& poll) {
   if (!exact::is_finite(p)) return std::nullopt;
   best_.reset();
-  limit_ = std::numeric_limits<double>::infinity();
+  exact_best_.reset();
+  limit_ = kInfinity;
   for (const PrimitiveId id : tree_.unbounded) {
     poll();
     if (const auto triangle = primitives_.triangle(id)) consider(id, *triangle, p);

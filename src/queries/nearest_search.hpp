@@ -25,21 +25,24 @@ class NearestSearch {
   [[nodiscard]] std::optional<NearestPoint> nearest(const Vec3& p, Poll& poll);
 
  private:
-  /// The nearest triangle so far. Of duplicates `id` is the least that is selected.
+  /// A triangle; of duplicates `id` is the least that is selected.
   struct Candidate {
     PrimitiveId id;
     Triangle triangle;
-    TriangleDistance distance{};
-    std::optional<exact::Nearest> exactly{};  // computed when first needed
+    TriangleDistance distance;
   };
 
   void search_tree(const Vec3& p, Poll& poll);
   void consider(PrimitiveId id, const Triangle& triangle, const Vec3& p);
-  [[nodiscard]] bool precedes(Candidate& candidate, Candidate& best, const Vec3& p) const;
+  /// Whether a candidate is nearer than the best so far, or as near with a lower id; the bounds of
+  /// their distances overlap.
+  [[nodiscard]] bool precedes(const Candidate& candidate, const Vec3& p);
+
   const Primitives& primitives_;
   const Tree& tree_;
   Selection selection_;
-  std::optional<Candidate> best_;
+  std::optional<Candidate> best_;             // the nearest so far
+  std::optional<exact::Nearest> exact_best_;  // its exact distance, computed when first needed
   /// Boxes whose squared distance, computed with a few roundings, is above this are farther away
   /// than the best.
   double limit_ = std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include "support/adversarial_scenes.hpp"
 #include "support/closed_bodies.hpp"
 #include "support/effort.hpp"
+#include "support/solid_cases.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/queries.hpp>
@@ -53,7 +54,7 @@ void expect_equal_hits(const PreparedScene& scene, const std::vector<Ray>& rays)
 
 TEST(AllHits, AreThoseOfRepeatedNext) {
   Random random(61);
-  for (int round = 0; round < 150; ++round) {
+  for (int round = 0; round < 60; ++round) {
     Scene scene = random_scene(random);
     if (round % 3 == 0) {
       // Duplicates, also among others with the same t.
@@ -123,81 +124,17 @@ Location location_by_definition(const Mesh& mesh, const Vec3& p, Random& random)
   }
 }
 
-// On vertices, on edges, on faces, one ulp beside them, near them, and anywhere.
-Vec3 point_about(Random& random, const Mesh& mesh, const Vec3& center, float size) {
-  const auto count = static_cast<int>(mesh.triangles.size());
-  const Triangle t = triangle_of(mesh, static_cast<std::size_t>(random.between(0, count - 1)));
-  const auto ulps = [&](Vec3 p, int most) {
-    for (int k = 0; k < 3; ++k) {
-      for (int step = random.between(-most, most); step != 0; step += step < 0 ? 1 : -1)
-        p[k] = std::nextafter(p[k], step < 0 ? -INFINITY : INFINITY);
-    }
-    return p;
-  };
-  const float s = static_cast<float>(random.between(0, 8)) / 8;
-  const float r = static_cast<float>(random.between(0, 8)) / 8;
-  switch (random.between(0, 6)) {
-    case 0:
-      return t.a;
-    case 1:
-      return ulps(t.b, 1);
-    case 2:
-      return t.a + s * (t.b - t.a);
-    case 3:
-      return ulps(t.b + s * (t.c - t.b), 1);
-    case 4:
-      return t.a + s * (t.b - t.a) + r * (1 - s) * (t.c - t.a);
-    case 5:
-      return ulps(t.a + s * (t.b - t.a) + r * (1 - s) * (t.c - t.a), 3);
-    default:
-      return center + random.in_cube(1.5F * size);
-  }
-}
-
-struct Place {
-  Vec3 center;
-  float size;
-};
-
-std::vector<Place> places() {
-  return {{Vec3(0), 1},          {Vec3(0), 0x1p-44F},      {Vec3(0), 0x1p-130F},
-          {{1, 2, 3}, 0x1p-44F}, {{1000, -2000, 3000}, 1}, {{0x1p20F, 0x1p21F, 0}, 100},
-          {Vec3(0), 0x1p50F},    {Vec3(0), 0x1p110F}};
-}
-
-template <class F>
-void for_each_body(Random& random, int rounds, const F& f) {
-  for (int round = 0; round < rounds; ++round) {
-    for (const Place& place : places()) {
-      for (const BodyKind kind : kBodyKinds) {
-        SCOPED_TRACE(testing::Message()
-                     << name(kind) << ", size " << place.size << ", round " << round);
-        Mesh mesh = closed_body(random, kind, place.center, place.size);
-        // Another body inside, or across.
-        if (random.one_in(3)) {
-          const Mesh other = closed_body(random, kind, place.center, 0.5F * place.size);
-          const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-          for (const Vec3& p : other.positions) mesh.positions.push_back(p);
-          for (const auto& [a, b, c] : other.triangles)
-            mesh.triangles.push_back({a + first, b + first, c + first});
-        }
-        f(mesh, place);
-        if (testing::Test::HasFatalFailure()) return;
-      }
-    }
-  }
-}
-
 TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
   Random random = traversal::announced_random(63);
   const auto per_body = static_cast<int>(traversal::ray_count(0.04) / 192) + 1;
   std::size_t inside = 0, boundary = 0;
-  for_each_body(random, 3, [&](const Mesh& mesh, const Place& place) {
+  for (const SolidCase& solid_case : solid_cases(random, 3)) {
+    SCOPED_TRACE(solid_case.name);
+    const Mesh& mesh = solid_case.mesh;
     const Solid solid{PreparedScene(scene_of(mesh))};
     EXPECT_TRUE(solid.is_closed());
     std::vector<Vec3> points;
-    for (int i = 0; i < per_body; ++i)
-      points.push_back(point_about(random, mesh, place.center, place.size));
+    for (int i = 0; i < per_body; ++i) points.push_back(point_about(random, solid_case));
     std::vector<Location> locations(points.size());
     solid.locate(points, locations);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -205,7 +142,8 @@ TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
       inside += locations[i] == Location::inside ? 1 : 0;
       boundary += locations[i] == Location::boundary ? 1 : 0;
     }
-  });
+    if (HasFatalFailure()) return;
+  }
   EXPECT_GT(inside, 1000U);
   EXPECT_GT(boundary, 1000U);
 }
@@ -213,11 +151,12 @@ TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
 TEST(Solid, FindsTheNearestOfAllTriangles) {
   Random random = traversal::announced_random(64);
   const auto per_body = static_cast<int>(traversal::ray_count(0.01) / 192) + 1;
-  for_each_body(random, 3, [&](const Mesh& mesh, const Place& place) {
+  for (const SolidCase& solid_case : solid_cases(random, 3)) {
+    SCOPED_TRACE(solid_case.name);
+    const Mesh& mesh = solid_case.mesh;
     const Solid solid{PreparedScene(scene_of(mesh))};
     std::vector<Vec3> points;
-    for (int i = 0; i < per_body; ++i)
-      points.push_back(point_about(random, mesh, place.center, place.size));
+    for (int i = 0; i < per_body; ++i) points.push_back(point_about(random, solid_case));
     std::vector<std::optional<NearestPoint>> nearest(points.size());
     solid.nearest_points(points, nearest);
     std::vector<double> distances(points.size());
@@ -254,7 +193,7 @@ TEST(Solid, FindsTheNearestOfAllTriangles) {
       const double most = std::max({difference.x, difference.y, difference.z});
       ASSERT_LE(most, 0x1p-40 * size + 0x1p-50 * coordinates) << i;
     }
-  });
+  }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ MAY_INCLUDE = {
     "exact": {"base"},
     "scene": {"base", "simd"},
     "accel": {"base", "simd", "exact", "scene"},
-    "queries": {"base", "exact", "scene", "accel"},
+    "queries": {"base", "simd", "exact", "scene", "accel"},
     "render": {"base", "simd", "scene"},
     "io": {"base", "scene"},
     "cli": {"base", "scene"},
