@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <variant>
 
@@ -62,18 +63,66 @@ struct EnvironmentCamera {
   Pose pose{};
 };
 
-using Camera = std::variant<PerspectiveCamera, OrthographicCamera, EnvironmentCamera>;
+/// Lens distortion of OpenCV's calibrateCamera, with the coefficients in OpenCV's order. The point
+/// (x, y) of the plane at depth 1, x to the right and y down, moves to
+///
+///   x' = x s + 2 p1 x y + p2 (r^2 + 2 x^2)       r^2 = x^2 + y^2
+///   y' = y s + p1 (r^2 + 2 y^2) + 2 p2 x y       s = (1 + k1 r^2 + k2 r^4 + k3 r^6) /
+///                                                    (1 + k4 r^2 + k5 r^4 + k6 r^6)
+///
+/// If all coefficients are 0, there is no distortion.
+struct RationalDistortion {
+  double k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0;
+
+  bool operator==(const RationalDistortion&) const = default;
+};
+
+/// The projection of OpenCV's fisheye module, equidistant if all coefficients are 0. A direction at
+/// the angle a from the viewing direction appears at the distance
+/// a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8) from the principal point, in units of the focal
+/// lengths. a may exceed pi / 2.
+struct FisheyeDistortion {
+  double k1 = 0, k2 = 0, k3 = 0, k4 = 0;
+
+  bool operator==(const FisheyeDistortion&) const = default;
+};
+
+using Distortion = std::variant<RationalDistortion, FisheyeDistortion>;
+
+/// A real camera with the parameters of OpenCV's calibration. A picture of another size than
+/// `image` shows the same view, scaled in x and in y, as resizing `image` would. Pixels have rays
+/// within the largest disk around the principal axis in which the distortion is invertible
+/// (docs/derivations.md); all others are black, or transparent if the picture has alpha, and hit
+/// nothing.
+struct CalibratedCamera {
+  Pose pose{};                ///< see pose_from_opencv
+  ImageSize image{};          ///< size of the calibration images
+  double fx = 640, fy = 640;  ///< focal lengths in pixels of `image`
+  /// The principal point in pixels of `image`, where pixel centers have integer coordinates, as in
+  /// OpenCV. Where they have halves (RayGenerator, CameraModel), it is 0.5 more.
+  double cx = 319.5, cy = 239.5;
+  Distortion distortion{};
+  DepthRange depth{};  ///< of a fisheye camera: the range of distances from the position
+};
+
+/// The pose of a camera with OpenCV's extrinsic parameters: a rigid transform from world space to
+/// a camera space with x right, y down, z forward.
+[[nodiscard]] MICROTRACE_EXPORT Pose pose_from_opencv(const DMat4& camera_from_world);
+
+using Camera =
+    std::variant<PerspectiveCamera, OrthographicCamera, EnvironmentCamera, CalibratedCamera>;
 
 /// A picture's camera model for other programs. Camera space is right-handed, x right, y up, z
-/// backward. The point (x, y, z) appears at pixel coordinates (center.x + pixels_per_unit x / w,
-/// center.y - pixels_per_unit y / w), where w is -z for perspective cameras and 1 for orthographic
-/// ones.
+/// backward. The point (x, y, z) appears at pixel coordinates (center.x + pixels_per_unit.x x / w,
+/// center.y - pixels_per_unit.y y / w), where w is -z for perspective cameras and 1 for
+/// orthographic ones. For calibrated cameras w is -z, and `distortion` is applied to (x / w, -y /
+/// w) before the scaling.
 struct CameraModel {
   DMat4 world_from_camera{1};  ///< rigid
-  DVec2 center{0};             ///< center of the picture in pixels
-  /// The focal length in pixels, the same for x and y; orthographic: pixels per world unit;
-  /// environment: 0.
-  double pixels_per_unit = 0;
+  DVec2 center{0};             ///< the principal point in pixels; the first pixel's center is 0.5
+  /// The focal lengths in pixels; orthographic: pixels per world unit; environment: 0.
+  DVec2 pixels_per_unit{0};
+  std::optional<Distortion> distortion{};  ///< only of calibrated cameras
   DepthRange depth{};
 };
 
@@ -83,6 +132,8 @@ struct RayDifferential {
   DVec3 d_dx{0}, d_dy{0};
 };
 
+class Lens;
+
 /// Generates the rays of one camera for one picture. Directions have unit length, computed in
 /// float64 and rounded once.
 class MICROTRACE_EXPORT RayGenerator {
@@ -91,9 +142,16 @@ class MICROTRACE_EXPORT RayGenerator {
 
   /// The ray through pixel coordinates (x, y): (0, 0) is the picture's upper left corner, (0.5,
   /// 0.5) the center of the first pixel; fractions and points outside the picture are allowed.
+  /// Where a calibrated camera has no ray, the result has t_max = -1, so that it hits nothing.
   [[nodiscard]] Ray operator()(double x, double y) const;
 
-  /// The depth of a point along the viewing direction; for an environment camera its distance.
+  /// The pixel coordinates at which a point appears, inside the picture or not: the inverse of
+  /// operator(), without regard to the depth range. Nothing for points that no ray reaches, such as
+  /// those behind a perspective camera.
+  [[nodiscard]] std::optional<DVec2> project(const DVec3& point) const;
+
+  /// The depth of a point along the viewing direction, negative behind the camera; for an
+  /// environment camera its distance.
   [[nodiscard]] double depth(const DVec3& point) const;
 
   [[nodiscard]] CameraModel model() const;
@@ -106,10 +164,13 @@ class MICROTRACE_EXPORT RayGenerator {
   friend class SegmentWidener;  // computes the inverse, from points to pixels
 
   // Perspective: the origin, and d ~ corner + x right + y down. Orthographic: the origin in the
-  // same form, and a constant d. Environment: the frame.
-  enum class Kind { perspective, orthographic, environment };
+  // same form, and a constant d. Environment and distorted: the frame, right, down and forward.
+  enum class Kind { perspective, orthographic, environment, distorted };
   Kind kind_;
   DVec3 position_, forward_, corner_, right_, down_;
+  DVec2 center_, pixels_per_unit_;  // as in CameraModel
+  std::optional<Distortion> distortion_;
+  std::shared_ptr<const Lens> lens_;  // distorted
   DepthRange depth_;
   ImageSize size_;
 };

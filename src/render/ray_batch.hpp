@@ -13,6 +13,13 @@ namespace microtrace {
 template <std::size_t Size>
 class RayBatch {
  public:
+  /// Places where the camera has no ray are opaque and black, or transparent if the film has alpha.
+  /// Integrators of data tell themselves what they store for rays that hit nothing.
+  RayBatch(const Integrator& integrator, bool has_alpha)
+      : integrator_(integrator),
+        no_ray_{.color = Vec3(0), .alpha = has_alpha ? 0.0F : 1.0F},
+        is_data_(integrator.is_data()) {}
+
   [[nodiscard]] bool is_full() const { return count_ == Size; }
 
   /// make_ray() creates the ray in place, because copying a value that was just written in parts is
@@ -26,14 +33,20 @@ class RayBatch {
 
   /// Calls f(pixel, sample) in the order of the rays, and clears the batch.
   template <class F>
-  void trace(const Integrator& integrator, const World& world, F&& f) {
-    integrator.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
-                     std::span(samples_).first(count_));
-    for (std::size_t i = 0; i < count_; ++i) f(pixels_[i], samples_[i]);
+  void trace(const World& world, F&& f) {
+    integrator_.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
+                      std::span(samples_).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) {
+      const bool has_ray = rays_[i].t_max >= 0;  // see RayGenerator
+      f(pixels_[i], has_ray || is_data_ ? samples_[i] : no_ray_);
+    }
     count_ = 0;
   }
 
  private:
+  const Integrator& integrator_;
+  Sample no_ray_;
+  bool is_data_;
   std::size_t count_ = 0;
   std::array<Ray, Size> rays_;
   std::array<SampleId, Size> ids_;

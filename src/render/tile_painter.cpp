@@ -63,7 +63,7 @@ void TilePainter::paint_block(const PixelRect& block) const {
     set_pixel(film_, block.x0 - window_.x0 + index % width, block.y0 - window_.y0 + index / width,
               sample.color, sample.alpha, background_);
   };
-  RayBatch<kMaxBatch> batch;
+  RayBatch<kMaxBatch> batch(integrator_, film_.has_alpha());
   const auto gather = [&](auto&& before_each) {
     std::size_t pixel = 0;
     for (std::uint32_t y = block.y0; y < block.y1; ++y) {
@@ -79,15 +79,15 @@ void TilePainter::paint_block(const PixelRect& block) const {
   };
   if (pattern_.size() == 1) {
     gather([] {});
-    batch.trace(integrator_, world_, set);
+    batch.trace(world_, set);
     return;
   }
   std::array<Sum, kTilePixels> sums{};
   const auto add = [&](std::size_t pixel, const Sample& sample) { sums[pixel].add(sample); };
   const std::size_t pixels = gather([&] {
-    if (batch.is_full()) batch.trace(integrator_, world_, add);
+    if (batch.is_full()) batch.trace(world_, add);
   });
-  batch.trace(integrator_, world_, add);
+  batch.trace(world_, add);
   for (std::size_t p = 0; p < pixels; ++p) {
     set(p, sums[p].over(static_cast<double>(pattern_.size())));
   }

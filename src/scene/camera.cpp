@@ -1,10 +1,13 @@
 #include "float_environment.hpp"
+#include "scene/lens/lens.hpp"
 #include "scene/math/trigonometry.hpp"
 
 #include <microtrace/camera.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
 #include <type_traits>
 #include <variant>
 
@@ -37,7 +40,20 @@ float at_least_above_zero(double t) {
   return std::max(static_cast<float>(t), std::numeric_limits<float>::denorm_min());
 }
 
+// The coordinates of v in the basis of two perpendicular steps.
+DVec2 in_steps(const DVec3& v, const DVec3& right, const DVec3& down) {
+  return {glm::dot(v, right) / glm::dot(right, right), glm::dot(v, down) / glm::dot(down, down)};
+}
+
 }  // namespace
+
+Pose pose_from_opencv(const DMat4& camera_from_world) {
+  const FloatEnvironment environment;
+  const glm::dmat3 world_from_camera = glm::transpose(glm::dmat3(camera_from_world));
+  return {.position = -(world_from_camera * DVec3(camera_from_world[3])),
+          .direction = world_from_camera[2],
+          .up = -world_from_camera[1]};
+}
 
 RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
   const FloatEnvironment environment;
@@ -45,6 +61,8 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
   const Frame frame = frame_of(pose);
   position_ = pose.position;
   forward_ = frame.forward;
+  center_ = DVec2(size.width, size.height) * 0.5;
+  pixels_per_unit_ = DVec2(0);
 
   // Sets the image plane: `half` is half its height, in units of the focus (perspective) or of the
   // world.
@@ -53,6 +71,7 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
     right_ = frame.right * (2 * half * aspect(size) / size.width);
     down_ = frame.up * (-2 * half / size.height);
     corner_ = middle - frame.right * (half * aspect(size)) + frame.up * half;
+    pixels_per_unit_ = DVec2(1 / glm::length(right_));
   };
   const auto set = [&]<typename AnyCamera>(const AnyCamera& c) {
     if constexpr (std::is_same_v<AnyCamera, PerspectiveCamera>) {
@@ -62,6 +81,23 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
     } else if constexpr (std::is_same_v<AnyCamera, OrthographicCamera>) {
       set_plane(Kind::orthographic, fitted(c.height / 2, c.aspect_ratio, size), position_);
       depth_ = c.depth;
+    } else if constexpr (std::is_same_v<AnyCamera, CalibratedCamera>) {
+      const DVec2 scale = DVec2(size.width, size.height) / DVec2(c.image.width, c.image.height);
+      center_ = DVec2(c.cx + 0.5, c.cy + 0.5) * scale;
+      pixels_per_unit_ = DVec2(c.fx, c.fy) * scale;
+      distortion_ = c.distortion;
+      depth_ = c.depth;
+      if (c.distortion == Distortion(RationalDistortion{})) {
+        kind_ = Kind::perspective;
+        right_ = frame.right / pixels_per_unit_.x;
+        down_ = -frame.up / pixels_per_unit_.y;
+        corner_ = forward_ - right_ * center_.x - down_ * center_.y;
+      } else {
+        kind_ = Kind::distorted;
+        right_ = frame.right;
+        down_ = -frame.up;
+        lens_ = std::make_shared<const Lens>(c.distortion);
+      }
     } else {
       static_assert(std::is_same_v<AnyCamera, EnvironmentCamera>);
       kind_ = Kind::environment;
@@ -75,16 +111,18 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
 Ray RayGenerator::operator()(double x, double y) const {
   const FloatEnvironment environment;
   Ray ray;
+  // `toward` is the direction, scaled to depth 1 or, for depth ranges of distances, to length 1.
+  const auto set_direction = [&](const DVec3& toward) {
+    const double length = std::sqrt(glm::dot(toward, toward));
+    ray.o = Vec3(position_);
+    ray.d = Vec3(toward * (1 / length));
+    ray.t_min = at_least_above_zero(depth_.near * length);
+    ray.t_max = static_cast<float>(depth_.far * length);
+  };
   switch (kind_) {
-    case Kind::perspective: {
-      const DVec3 toward = corner_ + right_ * x + down_ * y;  // direction scaled to depth 1
-      const double length = std::sqrt(glm::dot(toward, toward));
-      ray.o = Vec3(position_);
-      ray.d = Vec3(toward * (1 / length));
-      ray.t_min = at_least_above_zero(depth_.near * length);
-      ray.t_max = static_cast<float>(depth_.far * length);
+    case Kind::perspective:
+      set_direction(corner_ + right_ * x + down_ * y);
       break;
-    }
     case Kind::orthographic:
       ray.o = Vec3(corner_ + right_ * x + down_ * y);
       ray.d = Vec3(forward_);
@@ -100,8 +138,42 @@ Ray RayGenerator::operator()(double x, double y) const {
                    right_ * (level * sin_degrees(longitude)) - down_ * sin_degrees(latitude));
       break;
     }
+    case Kind::distorted:
+      if (const auto d = lens_->direction((DVec2(x, y) - center_) / pixels_per_unit_)) {
+        set_direction(right_ * d->x + down_ * d->y + forward_ * d->z);
+      } else {
+        ray = {.o = Vec3(position_), .d = Vec3(forward_), .t_max = -1};
+      }
+      break;
   }
   return ray;
+}
+
+std::optional<DVec2> RayGenerator::project(const DVec3& point) const {
+  const FloatEnvironment environment;
+  const DVec3 v = point - position_;
+  const double depth = glm::dot(v, forward_);
+  switch (kind_) {
+    case Kind::perspective:
+      if (!(depth > 0)) return std::nullopt;
+      return center_ + in_steps(v, right_, down_) / depth;
+    case Kind::orthographic:
+      return center_ + in_steps(v, right_, down_);
+    case Kind::environment: {
+      const double across = glm::dot(v, right_), up = -glm::dot(v, down_);
+      const double level = std::sqrt(across * across + depth * depth);
+      if (!(level > 0 || up != 0)) return std::nullopt;
+      const double longitude = atan2_radians(across, depth);
+      return DVec2((longitude / (2 * std::numbers::pi) + 0.5) * size_.width,
+                   (0.5 - atan2_radians(up, level) / std::numbers::pi) * size_.height);
+    }
+    case Kind::distorted: {
+      const auto image = lens_->image({glm::dot(v, right_), glm::dot(v, down_), depth});
+      if (!image) return std::nullopt;
+      return center_ + *image * pixels_per_unit_;
+    }
+  }
+  return std::nullopt;
 }
 
 double RayGenerator::depth(const DVec3& point) const {
@@ -113,11 +185,11 @@ double RayGenerator::depth(const DVec3& point) const {
 CameraModel RayGenerator::model() const {
   const FloatEnvironment environment;
   const DVec3 right = glm::normalize(right_), up = -glm::normalize(down_);
-  const double step = kind_ == Kind::environment ? 0 : glm::length(right_);  // between pixels
   return {.world_from_camera =
               DMat4(DVec4(right, 0), DVec4(up, 0), DVec4(-forward_, 0), DVec4(position_, 1)),
-          .center = DVec2(size_.width, size_.height) * 0.5,
-          .pixels_per_unit = step > 0 ? 1 / step : 0,
+          .center = center_,
+          .pixels_per_unit = pixels_per_unit_,
+          .distortion = distortion_,
           .depth = depth_};
 }
 
@@ -139,6 +211,14 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
       const DVec3 south = width > 0 ? glm::cross(d, east) / width : right_;
       return {.d_dx = east * (2 * std::numbers::pi / size_.width),
               .d_dy = south * (std::numbers::pi / size_.height)};
+    }
+    case Kind::distorted: {
+      const auto [dx, dy] =
+          lens_->differential({glm::dot(d, right_), glm::dot(d, down_), glm::dot(d, forward_)});
+      const auto in_world = [this](const DVec3& v) {
+        return right_ * v.x + down_ * v.y + forward_ * v.z;
+      };
+      return {.d_dx = in_world(dx) / pixels_per_unit_.x, .d_dy = in_world(dy) / pixels_per_unit_.y};
     }
   }
   return {};

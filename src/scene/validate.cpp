@@ -145,10 +145,11 @@ Rule check(const Pose& pose) {
   return broken("up", "must not be parallel to direction");
 }
 
-Rule check(const std::optional<double>& aspect_ratio, const DepthRange& depth) {
-  if (aspect_ratio) {
-    if (Rule rule = positive("aspect_ratio", *aspect_ratio)) return rule;
-  }
+Rule check(const std::optional<double>& aspect_ratio) {
+  return aspect_ratio ? positive("aspect_ratio", *aspect_ratio) : Rule{};
+}
+
+Rule check(const DepthRange& depth) {
   if (!(depth.near >= 0 && is_finite(depth.near))) {
     return broken("near",
                   std::string("must be finite and not negative, is ").append(decimal(depth.near)));
@@ -164,16 +165,32 @@ Rule check(const PerspectiveCamera& camera) {
     return broken("vertical_fov",
                   std::string("must lie between 0 and 180 degrees, is ").append(decimal(degrees)));
   }
-  return first(positive("focus", camera.focus), check(camera.aspect_ratio, camera.depth));
+  return first(positive("focus", camera.focus), check(camera.aspect_ratio), check(camera.depth));
 }
 
 Rule check(const OrthographicCamera& camera) {
-  return first(check(camera.pose), positive("height", camera.height),
-               check(camera.aspect_ratio, camera.depth));
+  return first(check(camera.pose), positive("height", camera.height), check(camera.aspect_ratio),
+               check(camera.depth));
 }
 
 Rule check(const EnvironmentCamera& camera) {
   return check(camera.pose);
+}
+
+Rule check(const RationalDistortion& d) {
+  return first(finite("k1", d.k1), finite("k2", d.k2), finite("p1", d.p1), finite("p2", d.p2),
+               finite("k3", d.k3), finite("k4", d.k4), finite("k5", d.k5), finite("k6", d.k6));
+}
+
+Rule check(const FisheyeDistortion& d) {
+  return first(finite("k1", d.k1), finite("k2", d.k2), finite("k3", d.k3), finite("k4", d.k4));
+}
+
+Rule check(const CalibratedCamera& camera) {
+  return first(check(camera.pose), validate(camera.image), positive("fx", camera.fx),
+               positive("fy", camera.fy), finite("cx", camera.cx), finite("cy", camera.cy),
+               std::visit([](const auto& d) { return check(d); }, camera.distortion),
+               check(camera.depth));
 }
 
 Rule check_side(const char* field, std::uint32_t side) {

@@ -33,8 +33,9 @@ struct BrokenRule {
 [[nodiscard]] std::optional<BrokenRule> broken_index(const Mesh& mesh);
 
 /// Position, direction and up finite, direction and up not zero in float32; the angle between up
-/// and direction's line more than 1e-9 radians; vertical_fov in (0, pi); focus, height and
-/// aspect_ratio positive; 0 <= near < far with near finite.
+/// and direction's line more than 1e-9 radians; vertical_fov in (0, pi); focus, height,
+/// aspect_ratio, fx and fy positive; the image of a calibration of valid size; 0 <= near < far with
+/// near finite.
 [[nodiscard]] std::optional<BrokenRule> validate(const Camera& camera);
 
 /// At least 1 pixel per side; at most kMaxImageSide per side and kMaxImagePixels in all.

@@ -63,6 +63,38 @@ TEST(JsonScene, ReadsCameras) {
   EXPECT_EQ(scene.cameras[2].name, "cameras/2");
 }
 
+TEST(JsonScene, ReadsCalibratedCameras) {
+  const Scene scene =
+      parse(R"({"version": 1, "objects": [{"type": "plane", "point": [0,0,0], "normal": [0,1,0]}],
+    "cameras": [
+      {"type": "calibrated", "position": [1, 2, 3], "direction": [4, 5, 6], "up": [7, 8, 8],
+       "image": {"width": 1920, "height": 1080}, "fx": 1400.5, "fy": 1400.25, "cx": 950, "cy": 540,
+       "distortion": {"type": "rational", "k1": 1, "k2": 2, "p1": 3, "p2": 4, "k3": 5, "k4": 6, "k5": 7, "k6": 8}},
+      {"type": "calibrated", "extrinsic": [[1, 0, 0, 1], [0, 0, -1, 2], [0, 1, 0, 3], [0, 0, 0, 1]],
+       "image": {"width": 64, "height": 48}, "fx": 1, "fy": 1, "cx": 0, "cy": 0,
+       "distortion": {"type": "fisheye", "k1": 0.1, "k2": 0.2, "k3": 0.3, "k4": 0.4}}]})");
+  ASSERT_EQ(scene.cameras.size(), 2U);
+  const auto& first = std::get<CalibratedCamera>(scene.cameras[0].camera);
+  EXPECT_EQ(first.pose.position, DVec3(1, 2, 3));
+  EXPECT_EQ(first.pose.direction, DVec3(4, 5, 6));
+  EXPECT_EQ(first.pose.up, DVec3(7, 8, 8));
+  EXPECT_EQ(first.image.width, 1920U);
+  EXPECT_EQ(first.image.height, 1080U);
+  EXPECT_EQ(first.fx, 1400.5);
+  EXPECT_EQ(first.fy, 1400.25);
+  EXPECT_EQ(first.cx, 950);
+  EXPECT_EQ(first.cy, 540);
+  EXPECT_EQ(first.distortion, Distortion(RationalDistortion{1, 2, 3, 4, 5, 6, 7, 8}));
+  const auto& second = std::get<CalibratedCamera>(scene.cameras[1].camera);
+  // Forward is the matrix's third row, down its second.
+  EXPECT_EQ(second.pose.direction, DVec3(0, 1, 0));
+  EXPECT_EQ(second.pose.up, DVec3(0, 0, 1));
+  EXPECT_EQ(second.pose.position, DVec3(-1, -3, 2));
+  EXPECT_EQ(second.distortion, Distortion(FisheyeDistortion{0.1, 0.2, 0.3, 0.4}));
+  EXPECT_EQ(scene.size.width, 1920U);  // of the first camera
+  EXPECT_EQ(scene.size.height, 1080U);
+}
+
 TEST(JsonScene, ReadsShapesInFileOrder) {
   const Scene scene = parse(
       R"({"version": 1, "image": {"width": 7, "height": 5}, "background": "sky", "epsilon": 0.25,

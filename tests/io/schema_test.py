@@ -12,6 +12,8 @@ import jsonschema
 
 # Rules that JSON Schema can't express; the schema accepts these files and the loader must not.
 BEYOND_SCHEMA = {
+    "calibrated_extrinsic_mirrored": "a determinant",
+    "calibrated_extrinsic_scaled": "products of members",
     "camera_name_taken": "names are unique",
     "color_name_unknown": "a name refers to a member elsewhere",
     "color_name_without_table": "a name refers to a member elsewhere",

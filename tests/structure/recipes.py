@@ -14,7 +14,8 @@ HEADERS = "include/microtrace"
 
 # header -> the alternatives in code, and their names in files and on the command line
 SETS = {
-    "camera": (["PerspectiveCamera", "OrthographicCamera", "EnvironmentCamera"], ["perspective", "orthographic", "environment"]),
+    "camera": (["PerspectiveCamera", "OrthographicCamera", "EnvironmentCamera", "CalibratedCamera"],
+               ["perspective", "orthographic", "environment", "calibrated"]),
     "light": (["DirectionalLight", "PointLight", "SpotLight"], ["directional", "point", "spot"]),
     "shape": (["Sphere", "Plane", "Disc", "Triangle", "Quadric"], ["sphere", "plane", "disc", "triangle", "quadric"]),
     "tone_map": (["ToneMap::khronos_pbr_neutral", "ToneMap::aces", "ToneMap::agx"], ["khronos-pbr-neutral", "aces", "agx"]),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -115,11 +116,248 @@ TEST(EnvironmentCamera, LongitudeAcrossLatitudeDown) {
   expect_near(ray(180, 45).d, {0, std::numbers::sqrt2 / 2, -std::numbers::sqrt2 / 2}, 1e-7);
 }
 
-TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
+constexpr RationalDistortion kStrong{
+    .k1 = -0.35, .k2 = 0.11, .p1 = 0.004, .p2 = -0.006, .k3 = 0.02};
+constexpr RationalDistortion kRational{
+    .k1 = 4.2, .k2 = 1.3, .p1 = -0.001, .p2 = 0.0007, .k3 = 0.05, .k4 = 4.6, .k5 = 2.1, .k6 = 0.3};
+constexpr FisheyeDistortion kWide{.k1 = 0.03, .k2 = -0.008, .k3 = 0.001, .k4 = -0.0001};
+
+/// A direction at the angles `from_axis` and `around` in degrees, x right, y down, z forward.
+DVec3 at_angles(double from_axis, double around) {
+  return {sin_degrees(from_axis) * cos_degrees(around),
+          sin_degrees(from_axis) * sin_degrees(around), cos_degrees(from_axis)};
+}
+
+/// In the camera space of a camera with the default pose.
+DVec3 in_opencv(const Vec3& d) {
+  return {d.x, -d.y, -d.z};
+}
+
+TEST(CalibratedCamera, GoldenRaysWithoutDistortion) {
+  // ((x - 0.5 - cx) / fx, (y - 0.5 - cy) / fy, 1)
+  const RayGenerator ray(CalibratedCamera{.fx = 500, .fy = 400, .cx = 300, .cy = 200}, kSize);
+  expect_near(ray(300.5, 200.5).d, {0, 0, -1}, 1e-7);
+  expect_near(ray(800.5, 200.5).d, glm::normalize(DVec3(1, 0, -1)), 1e-7);
+  expect_near(ray(50.5, 300.5).d, glm::normalize(DVec3(-0.5, -0.25, -1)), 1e-7);
+}
+
+TEST(CalibratedCamera, GoldenRaysOfLenses) {
+  // By hand: the point (0.5, 0.25) of the plane at depth 1 has r^2 = 0.3125, so that its factor is
+  // 1 + 0.1 r^2 - 0.2 r^4 = 1.01171875.
+  const double factor = 1.01171875;
+  CalibratedCamera camera{
+      .fx = 400, .fy = 400, .distortion = RationalDistortion{.k1 = 0.1, .k2 = -0.2}};
+  RayGenerator ray(camera, kSize);
+  expect_near(ray(320 + 200 * factor, 240 + 100 * factor).d, glm::normalize(DVec3(0.5, -0.25, -1)),
+              1e-7);
+  // Tangential: x' = 0.5 + 2 p1 x y + p2 (r^2 + 2 x^2), y' = 0.25 + p1 (r^2 + 2 y^2) + 2 p2 x y.
+  camera.distortion = RationalDistortion{.p1 = 0.08, .p2 = 0.16};
+  ray = RayGenerator(camera, kSize);
+  const double x = 0.5 + 0.08 * 0.25 + 0.16 * 0.8125, y = 0.25 + 0.08 * 0.4375 + 0.16 * 0.25;
+  expect_near(ray(320 + 400 * x, 240 + 400 * y).d, glm::normalize(DVec3(0.5, -0.25, -1)), 1e-7);
+  // Fisheye: backward at 120 degrees.
+  const double a = std::numbers::pi * 2 / 3;
+  camera.distortion = FisheyeDistortion{.k1 = 0.01};
+  ray = RayGenerator(camera, kSize);
+  expect_near(ray(320, 240 - 400 * (a + 0.01 * a * a * a)).d, {0, std::sqrt(0.75), 0.5}, 2e-7);
+}
+
+TEST(CalibratedCamera, WithoutDistortionIsAPerspectiveCamera) {
+  const Pose pose{.position = {1, 2, 3}, .direction = {3, -1, 2}, .up = {0.2, 1, 0}};
+  const PerspectiveCamera perspective{
+      .pose = pose, .vertical_fov = 1, .depth = {.near = 0.5, .far = 9}};
+  const double f = 240 / tan_radians(0.5);
+  const RayGenerator a(perspective, kSize),
+      b(CalibratedCamera{.pose = pose, .fx = f, .fy = f, .depth = perspective.depth}, kSize);
+  for (double y = -3; y < 490; y += 17.3) {
+    for (double x = -3; x < 650; x += 13.7) {
+      const Ray r = a(x, y), s = b(x, y);
+      EXPECT_EQ(r.o, s.o);
+      expect_near(s.d, DVec3(r.d), 6e-8);  // rounding to float32
+      EXPECT_FLOAT_EQ(r.t_min, s.t_min);
+      EXPECT_FLOAT_EQ(r.t_max, s.t_max);
+    }
+  }
+}
+
+/// All distortions that have weak spots: folds inside the picture, poles, tangents, wiggles.
+std::vector<Distortion> all_distortions() {
+  return {RationalDistortion{},
+          kStrong,
+          kRational,
+          kWide,
+          RationalDistortion{.k1 = -0.6},
+          RationalDistortion{.k1 = 0.9, .k2 = 2},
+          RationalDistortion{.k1 = -0.3, .k2 = 0.2, .p1 = 0.05, .p2 = -0.08},
+          RationalDistortion{.p1 = 0.02, .p2 = 0.01},
+          RationalDistortion{.k4 = -0.8},
+          RationalDistortion{.k1 = 12, .k2 = -40, .k3 = 160, .k4 = 11.5, .k5 = -36, .k6 = 150},
+          RationalDistortion{.k4 = 0.4, .k5 = 0.3, .k6 = 0.1},
+          FisheyeDistortion{},
+          FisheyeDistortion{.k1 = -0.2},
+          FisheyeDistortion{.k1 = 0.1, .k2 = 0.5, .k3 = -0.6, .k4 = 0.2},
+          FisheyeDistortion{.k1 = -0.05, .k2 = 0.01, .k3 = -0.003, .k4 = 0.0004}};
+}
+
+TEST(CalibratedCamera, ProjectsRaysToTheirPixels) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> angle(0, 180), around(0, 360);
+  for (const Distortion& distortion : all_distortions()) {
+    const bool fisheye = std::holds_alternative<FisheyeDistortion>(distortion);
+    SCOPED_TRACE(testing::PrintToString(distortion.index()));
+    const RayGenerator rays(CalibratedCamera{.fx = 300, .fy = 250, .distortion = distortion},
+                            kSize);
+    int seen = 0;
+    for (int i = 0; i < 2000; ++i) {
+      // Each point that a pixel shows is the point of that pixel's ray.
+      const DVec3 d = at_angles(fisheye ? angle(random) : angle(random) / 2, around(random));
+      const auto pixel = rays.project({d.x, -d.y, -d.z});
+      if (!pixel) continue;
+      ++seen;
+      const Ray ray = rays(pixel->x, pixel->y);
+      ASSERT_GT(ray.t_max, 0) << d.x << " " << d.y << " " << d.z;
+      // Next to a fold, rounding of the pixel moves the ray by its square root.
+      EXPECT_LT(glm::length(in_opencv(ray.d) - d), 1e-6) << d.x << " " << d.y << " " << d.z;
+    }
+    EXPECT_GT(seen, 300);
+    int shown = 0;
+    for (double y = 0.5; y < 480; y += 8) {
+      for (double x = 0.5; x < 640; x += 8) {
+        const Ray ray = rays(x, y);
+        if (ray.t_max < 0) {
+          EXPECT_LT(ray.t_max, ray.t_min);
+          continue;
+        }
+        ++shown;
+        EXPECT_NEAR(glm::length(DVec3(ray.d)), 1, 1e-7);
+        const auto pixel = rays.project(DVec3(ray.d));
+        // The rounding of rays may push them over the edge.
+        if (pixel) {
+          EXPECT_LT(glm::length(*pixel - DVec2(x, y)), 2e-4) << x << " " << y;
+        }
+      }
+    }
+    EXPECT_GT(shown, 500);
+  }
+}
+
+TEST(CalibratedCamera, MirroredLensesHaveMirroredRays) {
+  RationalDistortion mirrored = kStrong;
+  mirrored.p2 = -mirrored.p2;
+  const RayGenerator a(CalibratedCamera{.cx = 300.25, .distortion = kStrong}, kSize),
+      b(CalibratedCamera{.cx = 639 - 300.25, .distortion = mirrored}, kSize);
+  for (double y = 0.5; y < 480; y += 13) {
+    for (double x = 0.5; x < 640; x += 13) {
+      const Vec3 d = a(x, y).d, e = b(640 - x, y).d;
+      expect_near({-e.x, e.y, e.z}, DVec3(d), 6e-8);
+    }
+  }
+}
+
+TEST(CalibratedCamera, OtherSizesScaleThePicture) {
+  for (const Distortion& distortion : {Distortion(kStrong), Distortion(kWide), Distortion()}) {
+    const CalibratedCamera camera{
+        .fx = 310, .fy = 290, .cx = 311, .cy = 252, .distortion = distortion};
+    const RayGenerator whole(camera, kSize), half(camera, {.width = 320, .height = 240}),
+        squeezed(camera, {.width = 160, .height = 960});
+    for (double y = 0; y <= 480; y += 48) {
+      for (double x = 0; x <= 640; x += 64) {
+        const DVec3 d(whole(x, y).d);
+        expect_near(half(x / 2, y / 2).d, d, 6e-8);
+        expect_near(squeezed(x / 4, y * 2).d, d, 6e-8);
+      }
+    }
+    const CameraModel model = squeezed.model();
+    EXPECT_EQ(model.pixels_per_unit, DVec2(77.5, 580));
+    EXPECT_EQ(model.center, DVec2(77.875, 505));
+    EXPECT_EQ(model.distortion, distortion);
+  }
+}
+
+TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
+  // r - 0.3 r^3 has its maximum at sqrt(1 / 0.9), 2 / 3 of this.
+  const double most = std::sqrt(1 / 0.9) * 2 / 3;
+  const RayGenerator rays(CalibratedCamera{.distortion = RationalDistortion{.k1 = -0.3}}, kSize);
+  EXPECT_GT(rays(320 + 640 * (most - 1e-9), 240).t_max, 0);
+  EXPECT_EQ(rays(320 + 640 * (most + 1e-9), 240).t_max, -1);
+  EXPECT_EQ(rays(320, 240 - 640 * 1.1 * most).t_max, -1);
+  EXPECT_FALSE(rays.project({1.06, 0, -1}));
+  EXPECT_TRUE(rays.project({1.05, 0, -1}));
+  EXPECT_FALSE(rays.project({0.1, 0.1, 1}));
+  // a - 0.2 a^3 has its maximum at sqrt(1 / 0.6) = 74 degrees.
+  const RayGenerator fisheye(CalibratedCamera{.distortion = FisheyeDistortion{.k1 = -0.2}}, kSize);
+  const double farthest = std::sqrt(1 / 0.6) * 2 / 3;
+  EXPECT_GT(fisheye(320 + 640 * (farthest - 1e-9), 240).t_max, 0);
+  EXPECT_EQ(fisheye(320 + 640 * (farthest + 1e-9), 240).t_max, -1);
+  // Equidistant: all directions, and nothing beyond.
+  const RayGenerator full(CalibratedCamera{.fx = 70, .fy = 70, .distortion = FisheyeDistortion{}},
+                          kSize);
+  expect_near(full(320 + 70 * std::numbers::pi * (1 - 1e-9), 240).d, {0, 0, 1}, 1e-7);
+  EXPECT_EQ(full(320 + 70 * 3.1416, 240).t_max, -1);
+  EXPECT_EQ(full(0, 0).t_max, -1);
+}
+
+TEST(CalibratedCamera, DepthsOfFisheyeCamerasAreNegativeBehind) {
+  const CalibratedCamera camera{
+      .fx = 100, .fy = 100, .distortion = FisheyeDistortion{}, .depth = {.near = 2, .far = 5}};
+  const RayGenerator rays(camera, kSize);
+  EXPECT_NEAR(rays.depth({1, 0, 2}), -2, 1e-15);
+  const Ray ray = rays(320 + 50 * std::numbers::pi, 240);  // to the right
+  expect_near(ray.d, {1, 0, 0}, 1e-7);
+  EXPECT_FLOAT_EQ(ray.t_min, 2);
+  EXPECT_FLOAT_EQ(ray.t_max, 5);
+}
+
+TEST(CalibratedCamera, PoseOfOpenCvExtrinsics) {
+  // World x is the camera's z (forward), world y its x (right), world z its -y (up).
+  DMat4 camera_from_world(0);
+  camera_from_world[0] = DVec4(0, 0, 1, 0);
+  camera_from_world[1] = DVec4(1, 0, 0, 0);
+  camera_from_world[2] = DVec4(0, -1, 0, 0);
+  camera_from_world[3] = DVec4(7, 8, 9, 1);
+  const Pose pose = pose_from_opencv(camera_from_world);
+  EXPECT_EQ(pose.direction, DVec3(1, 0, 0));
+  EXPECT_EQ(pose.up, DVec3(0, 0, 1));
+  EXPECT_EQ(pose.position, DVec3(-9, -7, 8));
+}
+
+TEST(RayGenerator, ProjectsRaysToTheirPixels) {
   const Pose pose{.position = {1, 2, 3}, .direction = {3, -1, 2}, .up = {0.2, 1, 0}};
   const Camera cameras[] = {PerspectiveCamera{.pose = pose, .vertical_fov = 1.2},
                             OrthographicCamera{.pose = pose, .height = 7},
-                            EnvironmentCamera{.pose = pose}};
+                            EnvironmentCamera{.pose = pose},
+                            CalibratedCamera{.pose = pose, .fx = 700, .fy = 650, .cx = 17}};
+  for (const Camera& camera : cameras) {
+    const RayGenerator rays(camera, kSize);
+    for (double y = 0.5; y < 480; y += 13) {
+      for (double x = 0.5; x < 640; x += 13) {
+        const Ray ray = rays(x, y);
+        const auto pixel = rays.project(DVec3(ray.o) + DVec3(ray.d) * 4.0);
+        ASSERT_TRUE(pixel) << camera.index();
+        EXPECT_LT(glm::length(*pixel - DVec2(x, y)), 1e-2) << camera.index();
+      }
+    }
+  }
+  EXPECT_FALSE(RayGenerator(cameras[0], kSize).project(pose.position - pose.direction));
+  EXPECT_FALSE(RayGenerator(cameras[2], kSize).project(pose.position));
+  const auto above = RayGenerator(EnvironmentCamera{}, kSize).project({0, 3, 0});
+  ASSERT_TRUE(above);
+  EXPECT_EQ(above->y, 0);
+  const auto behind = RayGenerator(EnvironmentCamera{}, kSize).project({0, 0, 3});
+  ASSERT_TRUE(behind);
+  EXPECT_EQ(behind->x, 640);
+  EXPECT_EQ(behind->y, 240);
+}
+
+TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
+  const Pose pose{.position = {1, 2, 3}, .direction = {3, -1, 2}, .up = {0.2, 1, 0}};
+  const Camera cameras[] = {
+      PerspectiveCamera{.pose = pose, .vertical_fov = 1.2},
+      OrthographicCamera{.pose = pose, .height = 7},
+      EnvironmentCamera{.pose = pose},
+      CalibratedCamera{.pose = pose, .fx = 700, .fy = 650},
+      CalibratedCamera{.pose = pose, .distortion = kStrong},
+      CalibratedCamera{.pose = pose, .fx = 130, .fy = 140, .distortion = kWide}};
   for (const Camera& camera : cameras) {
     const RayGenerator ray(camera, kSize);
     const Ray here = ray(100, 400);

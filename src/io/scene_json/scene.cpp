@@ -4,6 +4,7 @@
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
 #include "io/scene_json/color.hpp"
+#include "io/scene_json/image_size.hpp"
 #include "io/scene_json/light.hpp"
 #include "io/scene_json/material.hpp"
 #include "io/scene_json/mesh.hpp"
@@ -11,26 +12,13 @@
 #include "io/scene_json/shape.hpp"
 #include "scene/mesh/merge.hpp"
 
-#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
+#include <variant>
 
 namespace microtrace::io {
 namespace {
-
-/// A side of the picture; numbers too large for ImageSize stay too large.
-std::uint32_t read_side(const JsonReader& json) {
-  return static_cast<std::uint32_t>(std::min<std::uint64_t>(json.count(), 0xFFFFFFFFU));
-}
-
-ImageSize read_image(const JsonReader& json) {
-  json.require_object({"width", "height"});
-  const ImageSize size{.width = read_side(json.member("width")),
-                       .height = read_side(json.member("height"))};
-  json.require(validate(size));
-  return size;
-}
 
 float read_epsilon(const JsonReader& json) {
   const double x = json.number();
@@ -57,6 +45,13 @@ void read_cameras(const JsonReader& json, Scene& scene) {
     const Camera camera = read_camera(item);
     scene.cameras.push_back({.name = names.read(item), .camera = camera});
   }
+}
+
+/// The size of a picture of the default camera.
+ImageSize default_size(const Scene& scene) {
+  if (scene.cameras.empty()) return {};
+  const auto* calibrated = std::get_if<CalibratedCamera>(&scene.cameras.front().camera);
+  return calibrated != nullptr ? calibrated->image : ImageSize{};
 }
 
 void read_lights(const JsonReader& json, const Colors& colors, Scene& scene) {
@@ -167,12 +162,14 @@ LoadedScene read_json_scene(const JsonDocument& document, const std::filesystem:
                        "materials", "cameras", "lights", "environment", "objects"});
   LoadedScene out;
   if (const auto schema = root.find("$schema")) (void)schema->string();
-  if (const auto image = root.find("image")) out.scene.size = read_image(*image);
+  const auto image = root.find("image");
+  if (image) out.scene.size = read_image_size(*image);
   Colors colors;
   if (const auto table = root.find("colors")) colors = read_colors(*table);
   if (const auto color = root.find("background")) out.scene.background = read_color(*color, colors);
   if (const auto epsilon = root.find("epsilon")) out.scene.epsilon = read_epsilon(*epsilon);
   if (const auto cameras = root.find("cameras")) read_cameras(*cameras, out.scene);
+  if (!image) out.scene.size = default_size(out.scene);
   if (const auto lights = root.find("lights")) read_lights(*lights, colors, out.scene);
   if (const auto environment = root.find("environment")) {
     out.scene.environment = read_environment(*environment, colors, folder, out.warnings);

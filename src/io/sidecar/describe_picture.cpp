@@ -56,8 +56,22 @@ DMat4 inverse(const DMat4& rigid) {
   return result;
 }
 
+std::string members(const RationalDistortion& d) {
+  std::string text = R"("type": "rational")";
+  const auto add = [&](std::string_view name, double value) {
+    text.append(", \"").append(name).append("\": ").append(number(value));
+  };
+  add("k1", d.k1), add("k2", d.k2), add("p1", d.p1), add("p2", d.p2);
+  add("k3", d.k3), add("k4", d.k4), add("k5", d.k5), add("k6", d.k6);
+  return text;
+}
+std::string members(const FisheyeDistortion& d) {
+  return R"("type": "fisheye", "k1": )" + number(d.k1) + R"(, "k2": )" + number(d.k2) +
+         R"(, "k3": )" + number(d.k3) + R"(, "k4": )" + number(d.k4);
+}
+
 std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origin) {
-  constexpr std::array kTypes = {"perspective", "orthographic", "environment"};
+  constexpr std::array kTypes = {"perspective", "orthographic", "environment", "calibrated"};
   static_assert(std::variant_size_v<Camera> == kTypes.size());
   CameraModel model = RayGenerator(camera, size).model();
   model.world_from_camera[3] += DVec4(origin, 0);
@@ -66,14 +80,21 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
   text.append("    \"axes\": \"x right, y up, z backward\",\n");
   text.append("    \"world_from_camera\": ").append(rows(model.world_from_camera)).append(",\n");
   text.append("    \"camera_from_world\": ").append(rows(inverse(model.world_from_camera)));
-  if (model.pixels_per_unit > 0) {
-    const bool is_perspective = std::holds_alternative<PerspectiveCamera>(camera);
-    const std::string scale = number(model.pixels_per_unit);
-    text.append(",\n    ").append(is_perspective ? "\"fx\": " : "\"pixels_per_unit\": ");
-    text.append(scale);
-    if (is_perspective) text.append(", \"fy\": ").append(scale);
+  if (model.pixels_per_unit.x > 0) {
+    const DVec2 scale = model.pixels_per_unit;
+    if (std::holds_alternative<OrthographicCamera>(camera)) {
+      text.append(",\n    \"pixels_per_unit\": ").append(number(scale.x));
+    } else {
+      text.append(",\n    \"fx\": ").append(number(scale.x));
+      text.append(", \"fy\": ").append(number(scale.y));
+    }
     text.append(", \"cx\": ").append(number(model.center.x));
     text.append(", \"cy\": ").append(number(model.center.y));
+    if (model.distortion) {
+      text.append(",\n    \"distortion\": {");
+      text.append(std::visit([](const auto& d) { return members(d); }, *model.distortion));
+      text.append("}");
+    }
     text.append(",\n    \"near\": ").append(number(model.depth.near));
     text.append(", \"far\": ").append(number(model.depth.far));
   }

@@ -18,14 +18,15 @@ RandomPainter::RandomPainter(const World& world, const Integrator& integrator,
       ray_(world.camera, world.scene),
       filter_(options.filter),
       background_(background),
+      has_alpha_(options.transparent),
       kernels_(kShadingKernels.best()) {}
 
 void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
                         std::span<PixelSum> sums) const {
-  RayBatch<kRandomBatch> batch;
+  RayBatch<kRandomBatch> batch(integrator_, has_alpha_);
   std::uint64_t invalid = 0;
   const auto trace = [&] {
-    batch.trace(integrator_, world_, [&](std::size_t pixel, const Sample& sample) {
+    batch.trace(world_, [&](std::size_t pixel, const Sample& sample) {
       if (!sums[pixel].add(sample.color, sample.alpha, background_)) ++invalid;
     });
   };

@@ -36,6 +36,7 @@ class RandomPainter {
   CameraRays ray_;
   FilterSampler filter_;
   Vec3 background_;
+  bool has_alpha_;
   const ShadingKernels& kernels_;
   mutable std::atomic<std::uint64_t> samples_ = 0, invalid_ = 0;
 };

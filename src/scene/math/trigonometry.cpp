@@ -46,6 +46,11 @@ double atan_radians(double x) {
   const double half = 2 * atan_kernel(tangent / (1 + std::sqrt(1 + tangent * tangent)));
   return std::copysign(near_one ? std::numbers::pi / 4 + half : half, x);
 }
+double atan2_radians(double y, double x) {
+  if (x == 0 && y == 0) return 0;
+  const double angle = atan_radians(std::abs(y) / std::abs(x));
+  return std::copysign(x < 0 ? std::numbers::pi - angle : angle, y);
+}
 double sin_degrees(double x) {
   return reduced_degrees(x).sine();
 }

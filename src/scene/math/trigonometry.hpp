@@ -13,6 +13,9 @@ namespace microtrace {
 /// The angle in [-pi/2, pi/2] whose tangent is x, any number or infinity.
 [[nodiscard]] double atan_radians(double x);
 
+/// The angle in [-pi, pi] of the vector (x, y); 0 if both are 0.
+[[nodiscard]] double atan2_radians(double y, double x);
+
 /// Accepts any finite angle; multiples of 90 degrees give exactly 0 and +-1.
 [[nodiscard]] double sin_degrees(double x);
 [[nodiscard]] double cos_degrees(double x);

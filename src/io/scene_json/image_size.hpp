@@ -1,0 +1,13 @@
+#pragma once
+/// Sizes of pictures in a JSON scene.
+
+#include "io/json/reader.hpp"
+
+#include <microtrace/camera.hpp>
+
+namespace microtrace::io {
+
+/// An object with `width` and `height`. Throws Error.
+[[nodiscard]] ImageSize read_image_size(const JsonReader& json);
+
+}  // namespace microtrace::io
