@@ -14,7 +14,8 @@ namespace microtrace {
 /// + 2 i + 1, where n is the first id after the mesh's own triangles. They are one pixel wide in a
 /// picture of this size and extend half a pixel beyond the segment's ends; a segment shorter than a
 /// pixel becomes a square. Segments are clipped to the view; invisible ones are replaced by two
-/// empty triangles with coordinates that are not finite. `render` calls this function itself.
+/// empty triangles with coordinates that are not finite. Environment cameras and lens distortion
+/// show lines that are wider in places, never thinner. `render` calls this function itself.
 MICROTRACE_EXPORT void widen_segments(Scene& scene, const Camera& camera, ImageSize size);
 
 }  // namespace microtrace

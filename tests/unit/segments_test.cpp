@@ -1,7 +1,9 @@
 #include <microtrace/render.hpp>
 #include <microtrace/segments.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <random>
 #include <utility>
@@ -159,6 +161,54 @@ TEST(Segments, EnvironmentCamerasSeeAllDirections) {
             {.width = 60, .height = 30});
   EXPECT_TRUE(is_connected(quarter));
   EXPECT_NEAR(static_cast<double>(quarter.size()), 16, 2);
+}
+
+TEST(Segments, DistortedLinesAreConnectedAndVisible) {
+  CalibratedCamera camera{.pose = {.position = {0, 0, 5}},
+                          .image = kSize,
+                          .fx = 36,
+                          .fy = 38,
+                          .cx = 27,
+                          .cy = 21,
+                          .distortion = RationalDistortion{.k1 = -0.25, .p1 = 0.01}};
+  const Camera cameras[] = {camera,
+                            [camera]() mutable {
+                              camera.distortion = RationalDistortion{.k1 = 0.6, .k2 = 0.5};
+                              return camera;
+                            }(),
+                            [camera]() mutable {
+                              camera.fx = camera.fy = 14;
+                              camera.distortion = FisheyeDistortion{.k1 = 0.02};
+                              return camera;
+                            }()};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> x(-3, 3), z(-8, 4);
+  for (const Camera& any : cameras) {
+    const RayGenerator rays(any, kSize);
+    const auto shown = [&](const Vec3& p) {
+      const auto pixel = rays.project(DVec3(p));
+      const DVec2 size(kSize.width, kSize.height);
+      return pixel && pixel->x > 1 && pixel->y > 1 && pixel->x < size.x - 1 && pixel->y < size.y - 1
+                 ? pixel
+                 : std::nullopt;
+    };
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 a(x(random), x(random), z(random)), b(x(random), x(random), z(random));
+      const std::vector<Pixel> point = line(a, a, any);
+      EXPECT_EQ(shown(a) ? point.empty() : false, false) << i;
+      const std::vector<Pixel> pixels = line(a, b, any);
+      const auto p = shown(a), q = shown(b);
+      if (!p || !q) continue;
+      EXPECT_TRUE(is_connected(pixels)) << i;
+      for (const DVec2& end : {*p, *q}) {
+        const auto reaches = [&](const Pixel& pixel) {
+          const DVec2 center(pixel.first + 0.5, kSize.height - 0.5 - pixel.second);
+          return std::abs(center.x - end.x) <= 1.5 && std::abs(center.y - end.y) <= 1.5;
+        };
+        EXPECT_TRUE(std::ranges::any_of(pixels, reaches)) << any.index() << " " << i;
+      }
+    }
+  }
 }
 
 TEST(Segments, OccludeAndAreOccluded) {

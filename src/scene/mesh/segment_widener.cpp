@@ -1,11 +1,13 @@
 #include "scene/mesh/segment_widener.hpp"
 
+#include "scene/lens/lens.hpp"
 #include "scene/support.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
@@ -36,34 +38,77 @@ struct Part {
 
 }  // namespace
 
-SegmentWidener::SegmentWidener(const Camera& camera, ImageSize size) : rays_(camera, size) {}
+SegmentWidener::SegmentWidener(const Camera& camera, ImageSize size)
+    : rays_(camera, size),
+      is_planar_(rays_.kind_ == RayGenerator::Kind::perspective ||
+                 rays_.kind_ == RayGenerator::Kind::orthographic),
+      right_(rays_.right_),
+      down_(rays_.down_),
+      low_(-kMargin),
+      high_(size.width + kMargin, size.height + kMargin),
+      // At the equator; nearer to the poles a pixel spans more horizontally.
+      angle_(std::max(std::numbers::pi / size.height, 2 * std::numbers::pi / size.width)) {
+  if (rays_.kind_ == RayGenerator::Kind::distorted) allow_for_lens();
+}
+
+/// Lines get the width of the pixels that show the largest part of the scene, so that no line is
+/// thinner than a pixel.
+void SegmentWidener::allow_for_lens() {
+  constexpr int kSamples = 32;       // on each side of the picture
+  constexpr double kMaxStretch = 4;  // where the distortion ceases to be invertible it is infinite
+  const DVec2 focal = rays_.pixels_per_unit_, size(rays_.size_.width, rays_.size_.height);
+  is_planar_ = std::holds_alternative<RationalDistortion>(*rays_.distortion_);
+  right_ /= focal.x;
+  down_ /= focal.y;
+  DVec2 low(0), high(0);  // of directions at depth 1
+  for (int y = 0; y <= kSamples; ++y) {
+    for (int x = 0; x <= kSamples; ++x) {
+      const DVec2 pixel = size * DVec2(x, y) / double{kSamples};
+      const auto direction = rays_.lens_->direction((pixel - rays_.center_) / focal);
+      if (!direction) continue;
+      const DVec3 d = *direction / std::sqrt(glm::dot(*direction, *direction));
+      const LensDifferential step = rays_.lens_->differential(d);
+      const auto stretch = [&](const DVec3& v) {
+        const DVec2 across = (DVec2(v) - DVec2(d) * (v.z / d.z)) / d.z;  // at depth 1
+        return std::sqrt(is_planar_ ? glm::dot(across, across) : glm::dot(v, v));
+      };
+      width_ = std::clamp(std::max(stretch(step.dx), stretch(step.dy)), width_, kMaxStretch);
+      if (is_planar_) {
+        low = glm::min(low, DVec2(*direction));
+        high = glm::max(high, DVec2(*direction));
+      }
+    }
+  }
+  // Twice as much as the samples show, so that nothing between them is missing.
+  low_ = rays_.center_ + 2.0 * low * focal - kMargin;
+  high_ = rays_.center_ + 2.0 * high * focal + kMargin;
+  angle_ = width_ / std::min(focal.x, focal.y);
+}
 
 std::optional<WideSegment> SegmentWidener::operator()(const Vec3& a, const Vec3& b) const {
   if (!is_finite(a) || !is_finite(b)) return std::nullopt;
-  const bool environment = rays_.kind_ == RayGenerator::Kind::environment;
-  return environment ? spherical(DVec3(a), DVec3(b)) : planar(DVec3(a), DVec3(b));
+  return is_planar_ ? planar(DVec3(a), DVec3(b)) : spherical(DVec3(a), DVec3(b));
 }
 
 SegmentWidener::Projected SegmentWidener::project(const DVec3& p) const {
   const DVec3 v = p - rays_.position_;
   const double depth = glm::dot(v, rays_.forward_);
-  const double w = rays_.kind_ == RayGenerator::Kind::perspective ? depth : 1;
+  const double w = rays_.kind_ == RayGenerator::Kind::orthographic ? 1 : depth;
   const auto along = [&v](const DVec3& step) { return glm::dot(v, step) / glm::dot(step, step); };
-  return {.x = along(rays_.right_) + w * (rays_.size_.width / 2.0),
-          .y = along(rays_.down_) + w * (rays_.size_.height / 2.0),
+  return {.x = along(right_) + w * rays_.center_.x,
+          .y = along(down_) + w * rays_.center_.y,
           .w = w,
           .depth = depth};
 }
 
 std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b) const {
   const Projected f = project(a), g = project(b);
-  const double right = rays_.size_.width + kMargin, bottom = rays_.size_.height + kMargin;
   Part part;
   const bool seen = part.keep(f.depth - rays_.depth_.near, g.depth - rays_.depth_.near) &&
-                    part.keep(f.x + kMargin * f.w, g.x + kMargin * g.w) &&
-                    part.keep(right * f.w - f.x, right * g.w - g.x) &&
-                    part.keep(f.y + kMargin * f.w, g.y + kMargin * g.w) &&
-                    part.keep(bottom * f.w - f.y, bottom * g.w - g.y);
+                    part.keep(f.x - low_.x * f.w, g.x - low_.x * g.w) &&
+                    part.keep(high_.x * f.w - f.x, high_.x * g.w - g.x) &&
+                    part.keep(f.y - low_.y * f.w, g.y - low_.y * g.w) &&
+                    part.keep(high_.y * f.w - f.y, high_.y * g.w - g.y);
   if (!seen) return std::nullopt;
 
   struct End {
@@ -89,11 +134,10 @@ std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b
   }
   if (!(start.w > 0 && end.w > 0)) return std::nullopt;  // at the camera's position
 
-  const glm::dvec2 cap = along * kHalfWidth;
+  const glm::dvec2 cap = along * (kHalfWidth * width_);
   const glm::dvec2 side(cap.y, -cap.x);  // to the left of the segment
   const auto corner = [&](const End& from, const glm::dvec2& pixels) {
-    return Vec3(from.p +
-                (rays_.right_ * (pixels.x + kBias) + rays_.down_ * (pixels.y + kBias)) * from.w);
+    return Vec3(from.p + (right_ * (pixels.x + kBias) + down_ * (pixels.y + kBias)) * from.w);
   };
   return WideSegment{.corners = {corner(start, side - cap), corner(start, -side - cap),
                                  corner(end, cap - side), corner(end, cap + side)},
@@ -102,15 +146,12 @@ std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b
 }
 
 std::optional<WideSegment> SegmentWidener::spherical(const DVec3& a, const DVec3& b) const {
-  // The angle of a pixel at the equator; nearer to the poles it spans more pixels horizontally.
-  const double pixel =
-      std::max(std::numbers::pi / rays_.size_.height, 2 * std::numbers::pi / rays_.size_.width);
   DVec3 v = a - rays_.position_, w = b - rays_.position_;
   const DVec3 normal = glm::cross(w, v);
   const double area = std::sqrt(glm::dot(normal, normal));
   double start = 0, end = 1;
   DVec3 side, along;
-  if (area > pixel * std::sqrt(glm::dot(v, v) * glm::dot(w, w)) ||
+  if (area > angle_ * std::sqrt(glm::dot(v, v) * glm::dot(w, w)) ||
       (glm::dot(v, w) < 0 && area > 0)) {
     side = normal / area;
     along = glm::normalize(w - v);
@@ -124,7 +165,7 @@ std::optional<WideSegment> SegmentWidener::spherical(const DVec3& a, const DVec3
     side /= std::sqrt(glm::dot(side, side));
   }
   const auto corner = [&](const DVec3& from, double sideward, double onward) {
-    const double half = kHalfWidth * pixel * std::sqrt(glm::dot(from, from));
+    const double half = kHalfWidth * angle_ * std::sqrt(glm::dot(from, from));
     return Vec3(rays_.position_ + from + side * (sideward * half) + along * (onward * half));
   };
   return WideSegment{

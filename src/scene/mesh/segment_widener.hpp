@@ -27,11 +27,19 @@ class SegmentWidener {
   struct Projected {
     double x, y, w, depth;
   };
+  void allow_for_lens();
   [[nodiscard]] Projected project(const DVec3& p) const;
   [[nodiscard]] std::optional<WideSegment> planar(const DVec3& a, const DVec3& b) const;
   [[nodiscard]] std::optional<WideSegment> spherical(const DVec3& a, const DVec3& b) const;
 
   RayGenerator rays_;
+  bool is_planar_;
+  // Planar: pixels of the picture or, with a lens, of the picture without distortion. The world
+  // steps of a pixel at depth 1, and the rectangle to which segments are clipped.
+  DVec3 right_, down_;
+  DVec2 low_, high_;
+  double width_ = 1;  // of a line in these pixels
+  double angle_ = 0;  // spherical: of a pixel
 };
 
 }  // namespace microtrace
