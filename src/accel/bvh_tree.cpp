@@ -1,6 +1,6 @@
 #include "accel/bvh_tree.hpp"
 
-#include "accel/build/reference.hpp"
+#include "accel/build/references/reference.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/error.hpp>

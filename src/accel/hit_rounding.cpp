@@ -1,6 +1,6 @@
 #include "accel/hit_rounding.hpp"
 
-#include "accel/hit_resolver.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 
 #include <algorithm>
 

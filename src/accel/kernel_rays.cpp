@@ -1,6 +1,6 @@
 #include "accel/kernel_rays.hpp"
 
-#include "accel/hit_resolver.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 #include "exact/intersect.hpp"
 
 #include <algorithm>

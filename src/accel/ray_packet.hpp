@@ -1,9 +1,9 @@
 #pragma once
 /// Rays with a common origin, traced together.
 
-#include "accel/closest_hit.hpp"
 #include "accel/filters/shape_filter.hpp"
-#include "accel/hit_resolver.hpp"
+#include "accel/resolve/closest_hit.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 
 #include <microtrace/primitives.hpp>
 

@@ -1,7 +1,7 @@
 #include "accel/ray_stream.hpp"
 
-#include "accel/hit_resolver.hpp"
 #include "accel/hit_rounding.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,5 +1,5 @@
 #pragma once
-#include "accel/build/duplicates.hpp"
+#include "accel/build/references/duplicates.hpp"
 
 namespace microtrace {
 

@@ -1,8 +1,8 @@
 // libFuzzer entry point for images: the PNG, JPEG, WebP and KTX2 decoders behind the module's
 // interface.
 
-#include "io/image/decode_image.hpp"
-#include "io/image/image_header.hpp"
+#include "io/image/decode/decode_image.hpp"
+#include "io/image/decode/image_header.hpp"
 
 #include <cstddef>
 #include <cstdint>

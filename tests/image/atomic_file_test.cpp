@@ -1,4 +1,4 @@
-#include "io/image/atomic_file.hpp"
+#include "io/atomic_file.hpp"
 
 #include "folder.hpp"
 

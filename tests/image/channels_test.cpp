@@ -1,7 +1,7 @@
 // Channels of files other than three colors, read back by OpenImageIO itself.
 
 #include "folder.hpp"
-#include "io/image/eight_bits.hpp"
+#include "io/image/encode/eight_bits.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

@@ -1,6 +1,6 @@
 #include "io/gltf/bytes/uri.hpp"
-#include "io/image/decode_image.hpp"
-#include "io/image/image_header.hpp"
+#include "io/image/decode/decode_image.hpp"
+#include "io/image/decode/image_header.hpp"
 #include "support/png_file.hpp"
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-#include "io/image/decode_image.hpp"
-#include "io/image/image_header.hpp"
-#include "io/image/ktx2_colors.hpp"
+#include "io/image/decode/decode_image.hpp"
+#include "io/image/decode/image_header.hpp"
+#include "io/image/decode/ktx2_colors.hpp"
 #include "support/source_folder.hpp"
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // PNG pictures, read back by libpng.
 
 #include "folder.hpp"
-#include "io/image/decode_image.hpp"
-#include "io/image/eight_bits.hpp"
+#include "io/image/decode/decode_image.hpp"
+#include "io/image/encode/eight_bits.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>

@@ -3,8 +3,8 @@
 
 #include "accel/build/tree.hpp"
 
-#include "accel/build/presplit.hpp"
-#include "accel/build/shape_box.hpp"
+#include "accel/build/references/presplit.hpp"
+#include "accel/build/references/shape_box.hpp"
 #include "support/generated_meshes.hpp"
 #include "support/tree_walk.hpp"
 

@@ -1,9 +1,9 @@
 #include "accel/build/refit.hpp"
 
 #include "accel/build/area.hpp"
-#include "accel/build/collapse.hpp"
-#include "accel/build/shape_box.hpp"
-#include "accel/build/wide_tree.hpp"
+#include "accel/build/references/shape_box.hpp"
+#include "accel/build/wide/collapse.hpp"
+#include "accel/build/wide/wide_tree.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,12 +1,12 @@
 #include "accel/build/tree.hpp"
 
-#include "accel/build/binning.hpp"
-#include "accel/build/collapse.hpp"
-#include "accel/build/presplit.hpp"
-#include "accel/build/reference.hpp"
+#include "accel/build/binary/binning.hpp"
+#include "accel/build/references/presplit.hpp"
+#include "accel/build/references/reference.hpp"
 #include "accel/build/refit.hpp"
-#include "accel/build/tree_writer.hpp"
-#include "accel/build/wide_tree.hpp"
+#include "accel/build/wide/collapse.hpp"
+#include "accel/build/wide/tree_writer.hpp"
+#include "accel/build/wide/wide_tree.hpp"
 
 namespace microtrace {
 namespace {

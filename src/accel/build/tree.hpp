@@ -2,8 +2,8 @@
 /// The bounding volume hierarchy over a scene's primitives: eight children per node, built by the
 /// surface area heuristic.
 
-#include "accel/build/duplicates.hpp"
 #include "accel/build/page_allocator.hpp"
+#include "accel/build/references/duplicates.hpp"
 #include "accel/layout.hpp"
 
 #include <microtrace/primitives.hpp>

@@ -1,7 +1,7 @@
 #include "accel/spawn/spawn_among.hpp"
 
-#include "accel/build/shape_box.hpp"
-#include "accel/hit_resolver.hpp"
+#include "accel/build/references/shape_box.hpp"
+#include "accel/resolve/hit_resolver.hpp"
 #include "accel/spawn/origin_search.hpp"
 #include "accel/spawn/touching.hpp"
 

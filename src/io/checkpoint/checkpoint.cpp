@@ -1,6 +1,6 @@
+#include "io/atomic_file.hpp"
 #include "io/checkpoint/bytes.hpp"
 #include "io/file.hpp"
-#include "io/image/atomic_file.hpp"
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/digest.hpp>

@@ -1,7 +1,7 @@
 #include "io/image/module.hpp"
 
 #include "base/start_threads.hpp"
-#include "io/image/module_picture.hpp"
+#include "io/image/encode/module_picture.hpp"
 #include "io/module_function.hpp"
 
 #include <microtrace/error.hpp>

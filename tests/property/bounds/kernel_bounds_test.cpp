@@ -2,10 +2,10 @@
 // every function. Different inputs are the worst with and without fused operations, so each bound
 // has some for both.
 
-#include "accel/hit_resolver.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "accel/packet_resolver.hpp"
+#include "accel/resolve/hit_resolver.hpp"
+#include "accel/resolve/packet_resolver.hpp"
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
 #include "support/reproduction.hpp"

@@ -5,9 +5,9 @@
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/bytes/uri.hpp"
 #include "io/gltf/extensions/extensions.hpp"
-#include "io/image/decode_image.hpp"
-#include "io/image/image_header.hpp"
-#include "io/image/ktx2_colors.hpp"
+#include "io/image/decode/decode_image.hpp"
+#include "io/image/decode/image_header.hpp"
+#include "io/image/decode/ktx2_colors.hpp"
 #include "scene/material_textures.hpp"
 
 #include <algorithm>

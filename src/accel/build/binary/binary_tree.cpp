@@ -1,0 +1,235 @@
+#include "accel/build/binary/binary_tree.hpp"
+
+#include "accel/build/binary/binning.hpp"
+
+#include <algorithm>
+
+namespace microtrace::build {
+namespace {
+
+// The number of references per task while all threads work on one set, and the size of sets that
+// one thread builds alone. Both are constants, so that the tree does not depend on the number of
+// threads.
+constexpr std::size_t kChunkSize = std::size_t{1} << 13U;
+constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
+
+// Beyond this depth sets are halved without evaluating costs, so at most log2(size) levels follow.
+constexpr unsigned kDepthLimit = 58;
+
+constexpr std::uint32_t kMaxLeafWeight = 8;
+
+// References of a node that is not yet split. They are stored in one of two arrays, at their final
+// positions; splitting moves them to the other array.
+struct Set {
+  BinaryNode* node;
+  unsigned depth, array;
+  Box centroids;
+};
+
+struct CentroidBoxes {
+  Box left, right;
+
+  void include(const CentroidBoxes& b) {
+    left.include(b.left);
+    right.include(b.right);
+  }
+};
+
+// Moves references to one of two positions without a branch, because the branch would be
+// unpredictable.
+CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mapping,
+                        const Split& split, Reference* left, Reference* right) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  CentroidBoxes boxes;
+  std::array<Reference*, 2> to{left, right};
+  for (const Reference& r : from) {
+    const bool goes_right = mapping(r)[split.axis] > split.last_bin;
+    *to[goes_right]++ = r;
+    const Float4 c = centroid(r.box);
+    const Int4 is_right = splat(static_cast<float>(goes_right)) > splat(0.5F);
+    boxes.left.lo = min(boxes.left.lo, is_right ? splat(infinity) : c);
+    boxes.left.hi = max(boxes.left.hi, is_right ? splat(-infinity) : c);
+    boxes.right.lo = min(boxes.right.lo, is_right ? c : splat(infinity));
+    boxes.right.hi = max(boxes.right.hi, is_right ? c : splat(-infinity));
+  }
+  return boxes;
+}
+
+int bins_for(std::size_t count, int most) {
+  return static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(most), 8 + count / 4));
+}
+
+class Builder {
+ public:
+  Builder(PageVector<Reference> references, int bins, WorkerPool& pool)
+      : arrays_{std::move(references), {}}, max_bins_(bins), pool_(pool) {
+    arrays_[1].resize(arrays_[0].size());
+    tree_.ids.resize(arrays_[0].size());
+  }
+
+  BinaryTree build() {
+    std::vector<Set> open{whole()}, small;
+    while (!open.empty()) {
+      const Set set = open.back();
+      open.pop_back();
+      if (set.node->count <= kSubtreeSize) {
+        small.push_back(set);
+        continue;
+      }
+      const auto [left, right] = split_together(set);
+      open.push_back(right);
+      open.push_back(left);
+    }
+    tree_.subtrees.resize(small.size());
+    pool_.run(small.size(), [&](std::size_t i) {
+      Bins bins;
+      build_alone(small[i], tree_.subtrees[i], bins);
+    });
+    return std::move(tree_);
+  }
+
+ private:
+  using Halves = std::array<Set, 2>;
+
+  std::span<Reference> references(const Set& set) {
+    return {arrays_[set.array].data() + set.node->begin, set.node->count};
+  }
+
+  // Recomputes a set's boxes and weight.
+  static void summarize(std::span<const Reference> references, Set& set) {
+    set.node->box = set.centroids = {};
+    set.node->weight = 0;
+    for (const Reference& r : references) {
+      set.node->box.include(r.box);
+      set.centroids.include(centroid(r.box));
+      set.node->weight += r.weight();
+    }
+  }
+
+  Set whole() {
+    tree_.root.count = static_cast<std::uint32_t>(arrays_[0].size());
+    Set set{.node = &tree_.root, .depth = 0, .array = 0, .centroids = {}};
+    summarize(references(set), set);
+    return set;
+  }
+
+  // Creates the nodes of the two halves, with only the data of the split filled in.
+  static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
+    BinaryNode* pair = set.node->children = arena.allocate_pair();
+    pair[0].box = split.left;
+    pair[0].begin = set.node->begin;
+    pair[0].count = split.left_load.count;
+    pair[0].weight = split.left_load.weight;
+    pair[1].box = split.right;
+    pair[1].begin = set.node->begin + pair[0].count;
+    pair[1].count = split.right_load.count;
+    pair[1].weight = split.right_load.weight;
+    Set half{.node = pair, .depth = set.depth + 1, .array = 1 - set.array, .centroids = {}};
+    Set other = half;
+    other.node = pair + 1;
+    return {half, other};
+  }
+
+  // Splits by count alone: if no plane separates centroids, or near the depth limit.
+  Halves halve(const Set& set, NodeArena& arena) {
+    Split split;
+    split.left_load.count = set.node->count / 2;
+    split.right_load.count = set.node->count - split.left_load.count;
+    Halves sets = halves(set, arena, split);
+    for (Set& half : sets) {
+      half.array = set.array;
+      summarize(references(half), half);
+    }
+    return sets;
+  }
+
+  [[nodiscard]] static bool is_deep(const Set& set) {
+    return set.depth + static_cast<unsigned>(std::bit_width(set.node->count)) >= kDepthLimit;
+  }
+
+  Halves split_alone(const Set& set, NodeArena& arena, Bins& bins) {
+    const BinMapping mapping(set.centroids, bins_for(set.node->count, max_bins_));
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, arena);
+    bins.clear(mapping.bins());
+    bins.add(references(set), mapping);
+    const Split split = bins.best_split(mapping.bins(), AreaMeasure(set.node->box));
+    if (!split.exists()) return halve(set, arena);
+    Halves sets = halves(set, arena, split);
+    const CentroidBoxes centroids = partition(
+        references(set), mapping, split, references(sets[0]).data(), references(sets[1]).data());
+    sets[0].centroids = centroids.left;
+    sets[1].centroids = centroids.right;
+    return sets;
+  }
+
+  Halves split_together(const Set& set) {
+    const BinMapping mapping(set.centroids, max_bins_);
+    if (is_deep(set) || mapping.is_degenerate()) return halve(set, tree_.top);
+    const std::span<const Reference> all = references(set);
+    const std::size_t chunks = (all.size() + kChunkSize - 1) / kChunkSize;
+    const auto chunk = [&](std::size_t i) {
+      return all.subspan(i * kChunkSize, std::min(kChunkSize, all.size() - i * kChunkSize));
+    };
+    std::vector<Bins> bins(chunks);
+    pool_.run(chunks, [&](std::size_t i) {
+      bins[i].clear(mapping.bins());
+      bins[i].add(chunk(i), mapping);
+    });
+    Bins sum = bins[0];
+    for (std::size_t i = 1; i < chunks; ++i) sum.add(bins[i], mapping.bins());
+    const Split split = sum.best_split(mapping.bins(), AreaMeasure(set.node->box));
+    if (!split.exists()) return halve(set, tree_.top);
+
+    Halves sets = halves(set, tree_.top, split);
+    std::vector<std::size_t> left_before(chunks);
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < chunks; ++i) {
+      left_before[i] = left;
+      left += bins[i].load_up_to(split.axis, split.last_bin).count;
+    }
+    std::vector<CentroidBoxes> centroids(chunks);
+    pool_.run(chunks, [&](std::size_t i) {
+      centroids[i] =
+          partition(chunk(i), mapping, split, references(sets[0]).data() + left_before[i],
+                    references(sets[1]).data() + (i * kChunkSize - left_before[i]));
+    });
+    for (std::size_t i = 1; i < chunks; ++i) centroids[0].include(centroids[i]);
+    sets[0].centroids = centroids[0].left;
+    sets[1].centroids = centroids[0].right;
+    return sets;
+  }
+
+  // The recursion is at most a few levels deeper than kDepthLimit.
+  void build_alone(const Set& set, NodeArena& arena, Bins& bins) {
+    const BinaryNode& node = *set.node;
+    const bool of_one_kind = node.weight == node.count || node.count <= 1;
+    if (of_one_kind && node.weight <= kMaxLeafWeight) {
+      const auto leaf = references(set);
+      for (std::size_t i = 0; i < leaf.size(); ++i) tree_.ids[node.begin + i] = leaf[i].id();
+      return;
+    }
+    for (const Set& half : split_alone(set, arena, bins)) build_alone(half, arena, bins);
+  }
+
+  std::array<PageVector<Reference>, 2> arrays_;
+  BinaryTree tree_;
+  int max_bins_;
+  WorkerPool& pool_;
+};
+
+}  // namespace
+
+BinaryNode* NodeArena::allocate_pair() {
+  if (used_ == kChunk) {
+    chunks_.push_back(std::make_unique<BinaryNode[]>(kChunk));
+    used_ = 0;
+  }
+  used_ += 2;
+  return &chunks_.back()[used_ - 2];
+}
+
+BinaryTree build_binary_tree(PageVector<Reference> references, int bins, WorkerPool& pool) {
+  return Builder(std::move(references), bins, pool).build();
+}
+
+}  // namespace microtrace::build

@@ -1,0 +1,59 @@
+#pragma once
+/// The binary tree, before it is collapsed to wide nodes.
+
+#include "accel/build/references/reference.hpp"
+#include "accel/build/worker_pool.hpp"
+
+#include <array>
+#include <memory>
+
+namespace microtrace::build {
+
+/// The optimal collapse of a node and its subtree; see collapse.hpp.
+struct CollapsePlan {
+  std::array<float, 8> cost{};            ///< [i - 1]: cost as at most i subtrees
+  std::array<std::uint8_t, 9> to_left{};  ///< [i]: left ones of i subtrees; 0: as for i - 1
+  bool is_leaf = true;
+};
+
+/// `count` references starting at `begin`, in the order of BinaryTree::ids.
+struct BinaryNode {
+  Box box;
+  std::uint32_t begin = 0, count = 0, weight = 0;
+  BinaryNode* children = nullptr;  ///< two consecutive nodes; null for a leaf
+  CollapsePlan plan;
+};
+
+/// Allocates nodes with stable addresses.
+class NodeArena {
+ public:
+  /// Two consecutive nodes.
+  [[nodiscard]] BinaryNode* allocate_pair();
+
+  /// Calls f(node) for each node, newest first: children before their parents.
+  template <class F>
+  void for_each_backwards(F&& f) {
+    for (std::size_t i = chunks_.size(); i-- > 0;) {
+      for (std::size_t k = i + 1 == chunks_.size() ? used_ : kChunk; k-- > 0;) f(chunks_[i][k]);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kChunk = 512;
+  std::vector<std::unique_ptr<BinaryNode[]>> chunks_;
+  std::size_t used_ = kChunk;
+};
+
+struct BinaryTree {
+  BinaryNode root;
+  NodeArena top;                    ///< nodes built by all threads together
+  std::vector<NodeArena> subtrees;  ///< nodes built by one thread each
+  PageVector<PrimitiveId> ids;
+};
+
+/// Splits down to leaves with one kind of primitive and at most eight primitives. Consumes the
+/// references. The result depends only on their order. `bins` is at most kMaxBins.
+[[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references, int bins,
+                                           WorkerPool& pool);
+
+}  // namespace microtrace::build

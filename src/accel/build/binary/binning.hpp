@@ -1,0 +1,83 @@
+#pragma once
+/// Chooses the plane that splits a set by the surface area heuristic. The candidates are the
+/// boundaries of equal bins of the centroids: I. Wald, On fast construction of SAH-based bounding
+/// volume hierarchies, 2007.
+
+#include "accel/build/area.hpp"
+#include "accel/build/references/reference.hpp"
+
+#include <span>
+
+namespace microtrace::build {
+
+inline constexpr int kMaxBins = 32;
+
+/// A quarter of the sum of a box's corners: stays finite, and orders boxes like their centroids.
+[[nodiscard]] inline Float4 centroid(const Box& b) {
+  return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
+}
+
+/// The bin of a reference along each axis.
+class BinMapping {
+ public:
+  BinMapping(const Box& centroids, int bins);
+
+  [[nodiscard]] int bins() const { return bins_; }
+  [[nodiscard]] Int4 operator()(const Reference& r) const {
+    const Float4 slot = min((centroid(r.box) - origin_) * scale_, splat(last_));
+    return __builtin_convertvector(slot, Int4);
+  }
+  /// Whether all references are in one bin along every axis.
+  [[nodiscard]] bool is_degenerate() const {
+    return scale_[0] == 0 && scale_[1] == 0 && scale_[2] == 0;
+  }
+
+ private:
+  Float4 origin_, scale_{};
+  float last_;
+  int bins_;
+};
+
+/// Number of references, and their weight.
+struct Load {
+  std::uint32_t count = 0, weight = 0;
+
+  Load& operator+=(const Load& b) {
+    count += b.count;
+    weight += b.weight;
+    return *this;
+  }
+};
+
+/// The number of blocks for a weight.
+[[nodiscard]] inline std::uint32_t blocks(std::uint32_t weight) {
+  return weight / 8 + (weight % 8 != 0 ? 1 : 0);
+}
+
+/// References in bins up to `last_bin` along `axis` go left.
+struct Split {
+  int axis = -1, last_bin = 0;
+  float cost = std::numeric_limits<float>::infinity();  ///< sum of area times blocks
+  Box left, right;
+  Load left_load, right_load;
+
+  [[nodiscard]] bool exists() const { return axis >= 0; }
+};
+
+/// Boxes and loads of the bins.
+class Bins {
+ public:
+  void clear(int bins);
+  void add(std::span<const Reference> references, const BinMapping& mapping);
+  void add(const Bins& other, int bins);
+  [[nodiscard]] Split best_split(int bins, const AreaMeasure& area) const;
+  [[nodiscard]] Load load_up_to(int axis, int last_bin) const;
+
+ private:
+  void try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const;
+
+  Box boxes_[3][kMaxBins];
+  Load loads_[3][kMaxBins];
+};
+
+}  // namespace microtrace::build

@@ -1,0 +1,34 @@
+#pragma once
+/// Collapses a binary tree to nodes with up to eight children, at the least expected cost of a ray:
+/// H. Ylitie, T. Karras, S. Laine, Efficient incoherent ray traversal on GPUs through compressed
+/// wide BVHs, 2017, section 3.2.
+
+#include "accel/build/area.hpp"
+#include "accel/build/binary/binary_tree.hpp"
+
+namespace microtrace::build {
+
+/// Costs of entering a node and of testing a block of triangles.
+inline constexpr float kNodeCost = 0.6F;
+inline constexpr float kBlockCost = 1;
+
+/// Plans a node whose children are already planned.
+void plan_collapse(BinaryNode& node, const AreaMeasure& area);
+
+/// The children of a wide node: at most eight subtrees that together make up the given one.
+class WideChildren {
+ public:
+  explicit WideChildren(const BinaryNode& node);
+  [[nodiscard]] const BinaryNode* const* begin() const { return children_.data(); }
+  [[nodiscard]] const BinaryNode* const* end() const { return children_.data() + count_; }
+  [[nodiscard]] const BinaryNode& operator[](std::size_t i) const { return *children_[i]; }
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+ private:
+  void cut(const BinaryNode& node, unsigned parts);
+
+  std::array<const BinaryNode*, 8> children_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace microtrace::build

@@ -1,0 +1,195 @@
+#include "io/atomic_file.hpp"
+
+#include "io/unfinished_files.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/read_files.hpp>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <fcntl.h>
+#include <optional>
+#include <random>
+#include <string>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace microtrace::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_write(const fs::path& named, int error, std::string_view remedy) {
+  std::string message = "can't be written: ";
+  message += std::strerror(error);
+  message += "; ";
+  message += remedy;
+  throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
+}
+
+/// The file descriptor N of "-", /dev/fd/N or /proc/self/fd/N, to which /dev/stdout is a link.
+std::optional<int> descriptor_number(const fs::path& path) {
+  if (path == "-") return STDOUT_FILENO;
+  const fs::path folder = path.parent_path();
+  if (folder != "/dev/fd" && folder != "/proc/self/fd") return std::nullopt;
+  const std::string name = path.filename().string();
+  int number = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return number;
+}
+
+/// Follows symbolic links in the last component of the path, even if the final file does not exist
+/// yet.
+fs::path follow_links(fs::path path) {
+  constexpr int kMaxLinks = 40;  // as the kernel's limit
+  std::error_code ignored;
+  for (int links = 0; links < kMaxLinks; ++links) {
+    if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
+    path = path.parent_path() / fs::read_symlink(path, ignored);
+  }
+  return path;
+}
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+std::string random_name() {
+  std::random_device device;
+  std::string name = ".microtrace-";
+  for (int i = 0; i < 16; ++i) name += "0123456789abcdef"[device() % 16];
+  name += ".tmp";
+  return name;
+}
+
+bool is_stream_resolved(const fs::path& target) {
+  struct stat status {};
+  return descriptor_number(target) || (::stat(target.c_str(), &status) == 0 &&
+                                       !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
+}
+
+/// The permissions of the file that will be replaced, if it exists.
+std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& target) {
+  if (!target.has_filename()) fail_to_write(named, EISDIR, "name a file");
+  struct stat status {};
+  std::optional<mode_t> mode;
+  if (::stat(target.c_str(), &status) == 0) {
+    if (S_ISDIR(status.st_mode)) fail_to_write(named, EISDIR, "name a file in that folder");
+    if (::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) {
+      fail_to_write(named, errno, "allow writing to it, or name another file");
+    }
+    mode = status.st_mode & 0777;
+  } else if (errno != ENOENT) {
+    fail_to_write(named, errno, "name another file");
+  }
+  if (::faccessat(AT_FDCWD, folder_of(target).c_str(), W_OK | X_OK, AT_EACCESS) != 0) {
+    fail_to_write(named, errno,
+                  errno == ENOENT ? "create its folder first"
+                                  : "name a file in a folder that may be written to");
+  }
+  return mode;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& target) : named_(target), target_(follow_links(target)) {
+  if (const std::optional<int> number = descriptor_number(target_)) {
+    descriptor_ = ::fcntl(*number, F_DUPFD_CLOEXEC, 0);
+    if (descriptor_ < 0) fail(errno, "open that descriptor for writing");
+  } else if (is_stream_resolved(target_)) {
+    descriptor_ = ::open(target_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno, "name a file");
+  } else {
+    open_temporary();
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  discard();
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+  forget_unfinished_file(slot_);
+  slot_ = -1;
+}
+
+void AtomicFile::fail(int error, std::string_view remedy) {
+  discard();
+  fail_to_write(named_, error, remedy);
+}
+
+void AtomicFile::open_temporary() {
+  const std::optional<mode_t> mode = check_resolved(named_, target_);
+  do {
+    forget_unfinished_file(slot_);
+    temporary_ = folder_of(target_) / random_name();
+    slot_ = note_unfinished_file(temporary_.c_str());
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  } while (descriptor_ < 0 && (errno == EEXIST || errno == EINTR));
+  if (descriptor_ < 0) {
+    const int error = errno;
+    temporary_.clear();
+    fail(error, "name a file in a folder that may be written to");
+  }
+  // Some file systems have no permissions; this must not make the write fail.
+  if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written > 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    } else if (written == 0 || errno != EINTR) {
+      fail(written == 0 ? EIO : errno, "free some space, or name another file");
+    }
+  }
+}
+
+void AtomicFile::close() {
+  if (descriptor_ < 0) return;
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  // After EINTR Linux has closed the descriptor, and the kernel has the data.
+  if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
+}
+
+void AtomicFile::commit() {
+  close();
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "name another file");
+  temporary_.clear();
+  discard();
+}
+
+void check_target(const fs::path& target) {
+  const fs::path resolved = follow_links(target);
+  if (!is_stream_resolved(resolved)) check_resolved(target, resolved);
+}
+
+bool is_stream(const fs::path& target) {
+  return is_stream_resolved(follow_links(target));
+}
+
+}  // namespace microtrace::io
+
+namespace microtrace {
+
+bool are_same_target(const std::filesystem::path& a, const std::filesystem::path& b) {
+  if (const auto file = identity_of(a)) return file == identity_of(b);
+  const auto place = [](const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path target = io::follow_links(path);
+    return std::filesystem::weakly_canonical(io::folder_of(target), ignored) / target.filename();
+  };
+  return (a == "-" || b == "-") ? a == b : place(a) == place(b);
+}
+
+}  // namespace microtrace

@@ -1,0 +1,85 @@
+#include "io/image/decode/decode_image.hpp"
+
+#include "base/memory_account.hpp"
+#include "io/image/codec_abi.hpp"
+#include "io/module_function.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <exception>
+#include <new>
+#include <utility>
+
+namespace microtrace::io {
+namespace {
+
+/// Exceptions must not propagate through the module's frames, so failures are stored here.
+struct Decoding {
+  DecodedImage result{};
+  MemoryAccount work{memory_account().budget()};
+  std::exception_ptr failure{};
+};
+
+/// Upper bound of a decoder's memory per pixel, in addition to the pixels: coefficients of a
+/// progressive JPEG, colors of a WebP.
+constexpr std::uint64_t kWorkOfPixel = 6;
+
+void* begin(void* context, const MicrotraceImageHeader* header) {
+  auto& decoding = *static_cast<Decoding*>(context);
+  DecodedImage& result = decoding.result;
+  const std::uint64_t pixels = std::uint64_t{header->width} * header->height;
+  if (pixels > kMaxTexturePixels) {
+    result.too_large = true;
+    return nullptr;
+  }
+  try {
+    Image image{.width = header->width, .height = header->height, .channels = header->channels};
+    void* samples = nullptr;
+    const std::size_t count = pixels * header->channels;
+    take_memory(count * (header->depth / 8), "the pixels of images");
+    decoding.work.take(pixels * kWorkOfPixel, "decoding images");
+    if (header->depth == 16) {
+      samples = image.samples.emplace<std::vector<std::uint16_t>>(count).data();
+    } else {
+      samples = image.samples.emplace<std::vector<std::uint8_t>>(count).data();
+    }
+    result.image = std::move(image);
+    return samples;
+  } catch (const std::bad_alloc&) {
+    result.too_large = true;
+    return nullptr;
+  } catch (const Error&) {
+    decoding.failure = std::current_exception();
+    return nullptr;
+  }
+}
+
+void complain(void* context, const char* text) {
+  DecodedImage& result = static_cast<Decoding*>(context)->result;
+  try {
+    if (result.complaint.empty()) result.complaint = text;
+  } catch (const std::bad_alloc&) {
+    result.too_large = true;
+  }
+}
+
+}  // namespace
+
+DecodedImage decode_image(std::string_view bytes) {
+  static const ModuleFunction codec = find_module_function(kCodecModuleFileName, kDecodeName);
+  if (codec.address == nullptr) {
+    return {.complaint = codec.complaint +
+                         "; build the target microtrace_codecs, or set MICROTRACE_MODULE_PATH to "
+                         "its folder",
+            .no_module = true};
+  }
+  Decoding decoding;
+  const MicrotraceImageSink sink{&decoding, begin, complain};
+  const auto decode = reinterpret_cast<MicrotraceDecode>(codec.address);
+  const bool is_decoded = decode(bytes.data(), bytes.size(), &sink) != 0;
+  if (decoding.failure) std::rethrow_exception(decoding.failure);
+  if (!is_decoded) decoding.result.image.reset();
+  return std::move(decoding.result);
+}
+
+}  // namespace microtrace::io

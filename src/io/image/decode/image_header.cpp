@@ -1,0 +1,108 @@
+#include "io/image/decode/image_header.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+namespace microtrace::io {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+std::uint32_t byte(std::string_view bytes, std::size_t at) {
+  return static_cast<unsigned char>(bytes[at]);
+}
+
+std::uint32_t big_endian(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t result = 0;
+  for (std::size_t i = 0; i < size; ++i) result = result << 8U | byte(bytes, at + i);
+  return result;
+}
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t result = 0;
+  for (std::size_t i = size; i-- > 0;) result = result << 8U | byte(bytes, at + i);
+  return result;
+}
+
+struct Size {
+  std::uint32_t width, height;
+};
+// 0 x 0 marks an invalid header. The functions below return nothing if the file ends too early.
+constexpr Size kNoSize{0, 0};
+
+/// PNG (ISO/IEC 15948), section 11.2.2: the chunk IHDR comes first.
+std::optional<Size> png_size(std::string_view bytes) {
+  constexpr std::string_view kFirstChunk = "\0\0\0\x0dIHDR"sv;
+  if (!bytes.substr(8, 8).starts_with(kFirstChunk.substr(0, bytes.size() - 8))) return kNoSize;
+  if (bytes.size() < 33) return std::nullopt;
+  return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
+}
+
+/// JPEG (ITU-T T.81), annex B: segments up to the frame header, SOFn. Bytes between segments are
+/// skipped as libjpeg does, but a file that does not start with a segment and has no frame is
+/// invalid.
+std::optional<Size> jpeg_size(std::string_view bytes) {
+  for (std::size_t at = 2; at + 4 <= bytes.size();) {
+    const std::uint32_t marker = byte(bytes, at + 1);
+    if (byte(bytes, at) != 0xFF || marker == 0xFF || marker == 0) {
+      ++at;
+      continue;
+    }
+    const bool is_frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (is_frame) {
+      if (at + 9 > bytes.size()) return std::nullopt;
+      return Size{big_endian(bytes, at + 7, 2), big_endian(bytes, at + 5, 2)};
+    }
+    if (marker == 0xD9 || marker == 0xDA) return kNoSize;
+    const bool alone = marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
+    at += alone ? 2 : 2 + std::max(big_endian(bytes, at + 2, 2), 2U);
+  }
+  if (bytes.size() > 3 && byte(bytes, 3) == 0) return kNoSize;
+  return std::nullopt;
+}
+
+/// WebP (RFC 9649), section 2.5 to 2.7: simple lossy, simple lossless, extended.
+std::optional<Size> webp_size(std::string_view bytes) {
+  if (bytes.size() < 30) return std::nullopt;
+  const std::string_view kind = bytes.substr(12, 4);
+  if (kind == "VP8 ") {
+    return Size{little_endian(bytes, 26, 2) & 0x3FFFU, little_endian(bytes, 28, 2) & 0x3FFFU};
+  }
+  if (kind == "VP8L") {
+    const std::uint32_t bits = little_endian(bytes, 21, 4);
+    return Size{(bits & 0x3FFFU) + 1, (bits >> 14U & 0x3FFFU) + 1};
+  }
+  if (kind == "VP8X") return Size{little_endian(bytes, 24, 3) + 1, little_endian(bytes, 27, 3) + 1};
+  return kNoSize;
+}
+
+/// KTX File Format Specification 2.0, section 2: the header and the first entry of the level index.
+std::optional<Size> ktx2_size(std::string_view bytes) {
+  if (bytes.size() < 104) return std::nullopt;
+  return Size{little_endian(bytes, 20, 4), little_endian(bytes, 24, 4)};
+}
+
+ImageHeader header(ImageFormat format, const std::optional<Size>& size) {
+  using State = ImageHeader::State;
+  if (!size) return {.format = format, .state = State::cut_off};
+  if (size->width == 0 || size->height == 0) return {.format = format, .state = State::damaged};
+  return {.format = format, .width = size->width, .height = size->height};
+}
+
+}  // namespace
+
+ImageHeader read_image_header(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return header(ImageFormat::png, png_size(bytes));
+  if (bytes.starts_with("\xff\xd8\xff"sv)) return header(ImageFormat::jpeg, jpeg_size(bytes));
+  if (bytes.starts_with("RIFF"sv) && bytes.substr(0, 12).ends_with("WEBP"sv)) {
+    return header(ImageFormat::webp, webp_size(bytes));
+  }
+  if (bytes.starts_with("\xabKTX 20\xbb\r\n\x1a\n"sv)) {
+    return header(ImageFormat::ktx2, ktx2_size(bytes));
+  }
+  return {};
+}
+
+}  // namespace microtrace::io

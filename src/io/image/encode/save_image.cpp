@@ -1,0 +1,125 @@
+#include "float_environment.hpp"
+#include "io/atomic_file.hpp"
+#include "io/image/encode/png.hpp"
+#include "io/image/encode/ppm.hpp"
+#include "io/image/module.hpp"
+
+#include <microtrace/error.hpp>
+#include <microtrace/io.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace microtrace {
+namespace {
+
+/// The name's extension in lower case without the dot. Standard output and streams without an
+/// extension use PPM. Throws Error(usage) if there is none.
+std::string format_extension(const std::filesystem::path& path) {
+  if (path == "-") return "ppm";
+  std::string extension = path.extension().string();
+  if (extension.empty() && io::is_stream(path)) return "ppm";
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  if (extension.size() < 2) {
+    throw Error(ErrorKind::usage, path.string(),
+                "has no extension that selects a picture format; use .ppm, .png or .exr");
+  }
+  return extension.substr(1);
+}
+
+void write_ppm(const Film& film, PpmEncoding encoding, io::AtomicFile& file) {
+  constexpr std::size_t kBlock = std::size_t{1} << 16;
+  std::string bytes = io::ppm_header(film.size(), encoding);
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    io::append_ppm_row(film, y, encoding, bytes);
+    if (bytes.size() < kBlock) continue;
+    file.write(bytes);
+    bytes.clear();
+  }
+  file.write(bytes);
+}
+
+/// Throws Error(usage) unless the format can store everything in the film.
+void require(const FilmContents& contents, const MicrotraceFormat& format,
+             const std::filesystem::path& path, const std::string& extension) {
+  const auto refuse = [&](const std::string& message) {
+    throw Error(ErrorKind::usage, path == "-" ? "standard output" : path.string(),
+                "." + extension + message);
+  };
+  if (contents.channels && format.has_channels == 0)
+    refuse(" stores only colors; write further channels to an .exr file");
+  if (contents.alpha && format.has_alpha == 0)
+    refuse(" has no alpha; write .png or .exr, or give the background a color");
+}
+
+/// The writer for files with one extension; loads its module if necessary. Formats that need no
+/// library are written here, as PPM is; their capabilities are in format_.
+class Writer {
+ public:
+  Writer(const std::filesystem::path& path, const std::string& extension) : extension_(extension) {
+    if (extension == "ppm") return;
+    if (extension == "png") {
+      png_.emplace(path.string());
+      format_.has_alpha = 1;
+    } else {
+      others_.emplace(path.string(), extension);
+      format_ = others_->find_format(extension);
+    }
+  }
+
+  [[nodiscard]] const MicrotraceFormat& format() const { return format_; }
+
+  void write(const Film& film, PpmEncoding ppm, io::AtomicFile& file) const {
+    const auto out = [&file](std::string_view bytes) { file.write(bytes); };
+    if (png_) return png_->encode(film, out);
+    if (others_) return others_->encode(film, extension_, out);
+    write_ppm(film, ppm, file);
+  }
+
+ private:
+  std::string extension_;
+  std::optional<io::PngEncoder> png_;
+  std::optional<io::ImageModule> others_;
+  MicrotraceFormat format_{};  // PPM's: 8 bits, no alpha, no channels
+};
+
+}  // namespace
+
+void check_image_path(const std::filesystem::path& path, const FilmContents& contents) {
+  const std::string extension = format_extension(path);
+  require(contents, Writer(path, extension).format(), path, extension);
+  io::check_target(path);
+}
+
+void check_sidecar_path(const std::filesystem::path& path, const std::filesystem::path& picture) {
+  std::error_code ignored;
+  if (path == picture || std::filesystem::equivalent(path, picture, ignored)) {
+    throw Error(ErrorKind::usage, path.string(),
+                "is also the picture's file; name another file for the sidecar");
+  }
+  io::check_target(path);
+}
+
+void save_image(const Film& film, const std::filesystem::path& path, PpmEncoding ppm,
+                const Sidecar* sidecar) {
+  const FloatEnvironment environment;
+  const std::string extension = format_extension(path);
+  const FilmContents contents{.alpha = film.has_alpha(), .channels = !film.channels.empty()};
+  const Writer writer(path, extension);
+  require(contents, writer.format(), path, extension);
+  std::optional<io::AtomicFile> beside;
+  if (sidecar != nullptr) {
+    beside.emplace(sidecar->path);
+    beside->write(sidecar->text);
+    beside->close();
+  }
+  io::AtomicFile file(path);
+  writer.write(film, ppm, file);
+  file.commit();
+  if (beside) beside->commit();
+}
+
+}  // namespace microtrace
