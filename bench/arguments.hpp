@@ -1,5 +1,5 @@
 #pragma once
-/// Reading the command lines of benchmarks.
+/// Parses the command lines of benchmarks.
 
 #include <string>
 #include <string_view>
@@ -10,7 +10,7 @@ namespace microtrace::bench {
 /// Throws std::invalid_argument if the text is not a number from 1 to 1024.
 [[nodiscard]] unsigned number(std::string_view text);
 
-/// The parts between commas.
+/// Splits a list at its commas.
 [[nodiscard]] std::vector<std::string> split_names(const std::string& text);
 
 }  // namespace microtrace::bench

@@ -1,5 +1,5 @@
-// Scenes whose walls lie along the axes, touch and share planes, beside the same scenes turned by
-// an odd angle: time per question, and how many questions reach each stage behind float32.
+// Compares scenes of axis-aligned walls that touch and share planes with the same scenes rotated by
+// an odd angle: time per query, and the number of queries that reach each stage after float32.
 
 #include "arguments.hpp"
 #include "rays.hpp"
@@ -36,7 +36,7 @@ constexpr const char* kUsage =
     "--pictures  lit pictures of 320x240 pixels instead of rays\n";
 
 constexpr ImageSize kSize{.width = 320, .height = 240};
-constexpr std::size_t kBatch = 1024;  // as many as an integrator asks about at a time
+constexpr std::size_t kBatch = 1024;  // the batch size of integrators
 constexpr int kBounces = 4;
 
 enum Kind : std::size_t { camera, origin, path, shadow, kKinds };
@@ -49,7 +49,7 @@ struct Cost {
 };
 using Costs = std::array<Cost, kKinds>;
 
-/// Follows paths from one view, four bounces long, asking for a shadow ray at each hit.
+/// Traces paths from one view, four bounces long, with a shadow ray at each hit.
 class Tracer {
  public:
   Tracer(const Bvh& bvh, const DVec3& light) : bvh_(bvh), light_(light) {}
@@ -86,7 +86,7 @@ class Tracer {
     }
   }
 
-  /// Asks for light at each hit; returns the rays that go on.
+  /// Casts a shadow ray from each hit; returns the next rays of the paths.
   std::vector<Ray> scatter(const std::vector<Ray>& rays,
                            const std::vector<std::optional<Hit>>& hits, std::uint64_t seed) {
     std::vector<Bvh::Spawn> spawns;
@@ -119,7 +119,7 @@ class Tracer {
     return on;
   }
 
-  /// Of unit length, on the side from which d comes; nothing without an area.
+  /// The unit normal on the side of the incoming ray d; nothing for triangles without area.
   std::optional<DVec3> normal(PrimitiveId id, const DVec3& d) const {
     return bvh_.primitives().visit(id, [&](const auto& shape) -> std::optional<DVec3> {
       if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
@@ -136,7 +136,7 @@ class Tracer {
   Costs costs_{};
 };
 
-/// A scene or its turned twin, ready to be asked.
+/// A scene or its rotated copy, ready for queries.
 struct Subject {
   explicit Subject(ArchitectureScene made)
       : architecture(std::move(made)),

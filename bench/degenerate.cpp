@@ -1,5 +1,5 @@
-// Pictures of a mesh with copies of itself in one place, and among triangles without area: what
-// these cost beside the mesh alone.
+// Measures pictures of a mesh with coincident copies of itself, and of a mesh among triangles
+// without area, relative to the mesh alone.
 
 #include "arguments.hpp"
 #include "rays.hpp"
@@ -25,9 +25,9 @@ using namespace microtrace;
 using namespace microtrace::bench;
 
 constexpr ImageSize kSize{.width = 320, .height = 240};
-constexpr std::uint32_t kSamples = 4;  // of a lit picture
+constexpr std::uint32_t kSamples = 4;  // per pixel of path-traced pictures
 
-/// Within a cube around the mesh.
+/// A point in a cube around the mesh.
 Vec3 place(std::uint64_t counter, double half_width) {
   return {half_width * random_point(1, counter)};
 }
@@ -44,7 +44,7 @@ Mesh copies(const Mesh& mesh, int count, bool turned) {
   return all;
 }
 
-/// Adds segments, of length 0 points, in a ball around the mesh.
+/// Adds segments in a ball around the mesh; segments of length 0 are points.
 Mesh with_segments(Mesh mesh, std::uint64_t count, double length) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -89,7 +89,7 @@ class Pictures {
     scene_.objects.push_back({.name = "mesh", .shape = mesh});
   }
 
-  /// Of the fastest run.
+  /// The time of the fastest run.
   [[nodiscard]] double seconds(bool lit, unsigned runs) const {
     const PathIntegrator path;
     RenderOptions options{.threads = 1};

@@ -1,4 +1,4 @@
-// One exact decision for each shape: what a ray pays where the filters are unsure.
+// Measures one exact decision for each shape: the cost of a ray for which the filters are unsure.
 
 #include "exact/grid.hpp"
 #include "exact/intersect.hpp"

@@ -1,4 +1,5 @@
-// Whole pictures without files: rays per second of a scene's first camera, by number of threads.
+// Measures whole pictures without file output: rays per second for a scene's first camera, by
+// number of threads.
 
 #include <microtrace/io.hpp>
 #include <microtrace/render.hpp>

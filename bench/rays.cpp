@@ -21,7 +21,7 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter) {
   return z ^ (z >> 31U);
 }
 
-// In [0, 1).
+// A number in [0, 1).
 double random(std::uint64_t seed, std::uint64_t counter) {
   return static_cast<double>(random_bits(seed, counter) >> 11U) * 0x1p-53;
 }
@@ -69,7 +69,7 @@ std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double exte
     DVec3 n = glm::cross(DVec3(triangle.b) - a, DVec3(triangle.c) - a);
     if (n == DVec3(0)) continue;
     n = glm::normalize(glm::dot(n, d) > 0 ? -n : n);
-    // The normal plus a point of the unit sphere has cosine-distributed direction.
+    // The sum of the normal and a point on the unit sphere has a cosine-distributed direction.
     const DVec3 sum = n + random_point(seed, i);
     const double length = glm::length(sum);
     const DVec3 p = DVec3(ray.o) + double{traced.hits[i]->t} * d + 1e-5 * extent * n;

@@ -1,6 +1,6 @@
 #pragma once
-/// The rays that ray-casting benchmarks ask about. The same on every machine, up to the C library's
-/// sine and cosine.
+/// The rays of ray-casting benchmarks. They are the same on every machine, except for differences
+/// between the sines and cosines of C libraries.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
@@ -13,37 +13,37 @@
 
 namespace microtrace::bench {
 
-/// Rays of one tile of pixels follow each other in the order of its rows.
+/// Rays are ordered tile by tile, and row by row in a tile.
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTileRays = std::size_t{kTileEdge} * kTileEdge;
 
-/// A hit for each ray, nothing where it misses.
+/// Rays, and the hit of each; nothing for misses.
 struct Traced {
   std::span<const Ray> rays;
   std::span<const std::optional<Hit>> hits;
 };
 
-/// Uniform on the unit sphere; another for each seed and counter.
+/// A point uniformly distributed on the unit sphere, a function of seed and counter.
 [[nodiscard]] DVec3 random_point(std::uint64_t seed, std::uint64_t counter);
 
-/// The diagonal of the mesh's bounding box, world units.
+/// The length of the diagonal of the mesh's bounding box, in world units.
 [[nodiscard]] double extent(const Mesh& mesh);
 
 /// One ray through the center of each pixel, tile by tile. Width and height are multiples of
 /// kTileEdge.
 [[nodiscard]] std::vector<Ray> primary_rays(const Camera& camera, ImageSize size);
 
-/// From each hit one ray with a cosine-distributed direction about the geometric normal on the side
-/// the hit was seen from, in the order of the hits. Origins lie 1e-5 of the extent above the
-/// surface, so that rounding in either program puts none of them on its wrong side. Hits are by the
-/// index of a triangle in the mesh; triangles without area send none.
+/// One ray from each hit, in the order of the hits, in a cosine-distributed direction about the
+/// geometric normal on the side of the incoming ray. Origins are 1e-5 of the extent above the
+/// surface, so that rounding in either program never puts one on the wrong side. Hits have the
+/// triangle's index in the mesh; triangles without area emit no rays.
 [[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
                                            float t_max, std::uint64_t seed);
 
-/// A fixed permutation: neighbors have nothing in common afterwards.
+/// Applies a fixed permutation, so that neighboring rays are incoherent.
 void shuffle(std::span<Ray> rays, std::uint64_t seed);
 
-/// Every `step`-th run of `length` rays: a sample with the coherence of the whole.
+/// Every `step`-th run of `length` rays: a sample with the coherence of all rays.
 [[nodiscard]] std::vector<Ray> sample(std::span<const Ray> rays, std::size_t length,
                                       std::size_t step);
 

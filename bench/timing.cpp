@@ -21,7 +21,7 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Volatile: the processor has to compute it under the modes of this thread.
+// Volatile, so that the processor computes it in the floating-point mode of this thread.
 void require_denormals() {
   const volatile float least_normal = std::numeric_limits<float>::min();
   const volatile float least_denormal = std::numeric_limits<float>::denorm_min();

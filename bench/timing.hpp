@@ -1,5 +1,5 @@
 #pragma once
-/// How long work takes, and how it is shared out.
+/// Measures time, and divides work between threads.
 
 #include <cstddef>
 #include <functional>
@@ -7,17 +7,17 @@
 
 namespace microtrace::bench {
 
-/// Seconds that f() takes. With one thread the processor time of this process, which other
-/// programs on the machine disturb least; with more the time that passes.
+/// The seconds that f() takes: with one thread the processor time of this process, which other
+/// programs affect least; with more threads the elapsed time.
 [[nodiscard]] double seconds(unsigned threads, const std::function<void()>& f);
 
-/// f(begin, end) for consecutive parts of [0, size), one on each thread. Parts begin at multiples
-/// of 64. Throws if denormal numbers are flushed to zero on a thread before or after: Embree's
-/// manual asks for that, and one of the two programs must not run under other rules than the other.
+/// Calls f(begin, end) for consecutive parts of [0, size), one per thread. Parts begin at multiples
+/// of 64. Throws if a thread flushes denormal numbers to zero before or afterwards: Embree's manual
+/// recommends flushing, and both programs must run in the same mode.
 void split(unsigned threads, std::size_t size,
            const std::function<void(std::size_t, std::size_t)>& f);
 
-/// Of a copy; the mean of the middle two where their number is even.
+/// Takes a copy. The median of an even number of values is the mean of the two in the middle.
 [[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace microtrace::bench

@@ -1,5 +1,5 @@
-// Ray casting against Embree: the same meshes, the same rays, in turn. bench/README.md says what is
-// compared and how.
+// Compares ray casting with Embree: the same meshes and the same rays, alternately. bench/README.md
+// describes the comparison.
 
 #include "accel/kernels/dispatch.hpp"
 #include "arguments.hpp"
@@ -70,7 +70,7 @@ Arguments parse(std::span<char*> words) {
 }
 
 void run(const Arguments& arguments) {
-  // What takes long to make is made when its turn comes.
+  // Large scenes are created only when it is their turn.
   std::vector<std::function<BenchScene()>> scenes;
   if (arguments.scaling) {
     for (const unsigned triangles : {10'000U, 100'000U, 1'000'000U, 10'000'000U})

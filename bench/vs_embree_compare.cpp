@@ -17,8 +17,8 @@
 namespace microtrace::bench {
 namespace {
 
-// One of Embree's scenes. Which instruction set and build quality are best depends on the mesh and
-// the kind of rays.
+// A scene of Embree. The best instruction set and build quality depend on the mesh and the kind of
+// rays.
 struct Peer {
   std::string name;
   bool robust;
@@ -31,8 +31,8 @@ struct Choice {
   std::string name;
 };
 
-// Robust scenes have one quality: Embree makes its spatial splits, which are what high adds, for
-// fast ones only.
+// Robust scenes have one quality: the high quality adds spatial splits, which Embree makes only in
+// non-robust scenes.
 std::vector<Peer> make_peers(const Mesh& mesh, unsigned threads) {
   std::vector<Peer> peers;
   const auto add = [&](const std::string& name, PeerOptions options) {
@@ -58,7 +58,8 @@ std::string name_of(const std::string& scene, PeerMode mode) {
          (mode.coherent ? " coherent" : "");
 }
 
-// The fastest way to ask Embree such a question. One thread finds it: processor time is steadier.
+// The fastest mode of Embree for such a query. It is found with one thread, because processor time
+// varies less.
 Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& question) {
   Choice best;
   double best_seconds = std::numeric_limits<double>::infinity();
@@ -133,7 +134,8 @@ RayRow compare_rays(const Bvh& bvh, const std::vector<Peer>& peers, Kind kind, Q
   const std::array<std::function<void()>, 3> programs{
       [&] { question.ask_microtrace(bvh, threads); }, [&] { ask(fast); }, [&] { ask(robust); }};
   std::array<std::vector<double>, 3> times;
-  // Each run begins with another program: what the one before leaves in the caches helps none more.
+  // Each run begins with another program, so that none always profits from the cache contents that
+  // the previous one leaves.
   for (unsigned i = 0; i < 3 * options.runs; ++i) {
     const std::size_t turn = (i + i / 3) % 3;
     times[turn].push_back(seconds(threads, programs[turn]));

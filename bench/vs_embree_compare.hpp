@@ -1,5 +1,5 @@
 #pragma once
-/// Both programs on one scene.
+/// Measures both programs on one scene.
 
 #include "vs_embree_scenes.hpp"
 
@@ -10,17 +10,20 @@
 namespace microtrace::bench {
 
 struct CompareOptions {
-  unsigned threads = 1;                           ///< of both programs, for building and asking
-  unsigned runs = 7;                              ///< of each program, in turn; the median counts
-  ImageSize size{.width = 1920, .height = 1080};  ///< of the picture the rays come from
+  unsigned threads = 1;                           ///< for building and for queries, in both
+                                                  ///< programs
+  unsigned runs = 7;                              ///< alternating runs of each program; the median
+                                                  ///< is reported
+  ImageSize size{.width = 1920, .height = 1080};  ///< of the picture that generates the rays
 };
 
 struct BuildRow {
   std::string scene;
   std::size_t triangles = 0;
   unsigned threads = 1;
-  double ms_microtrace = 0, ms_embree = 0, ms_embree_medium = 0;  ///< Embree: high, medium quality
-  double bytes_per_triangle_microtrace = 0, bytes_per_triangle_embree = 0;  ///< without the mesh
+  double ms_microtrace = 0, ms_embree = 0, ms_embree_medium = 0;  ///< Embree at high and at medium
+                                                                  ///< quality
+  double bytes_per_triangle_microtrace = 0, bytes_per_triangle_embree = 0;  ///< excluding the mesh
 };
 
 struct RayRow {
@@ -28,12 +31,12 @@ struct RayRow {
   unsigned threads = 1;
   std::size_t rays = 0;
   double mrays_microtrace = 0, mrays_embree_fast = 0, mrays_embree_robust = 0;
-  std::string mode_fast, mode_robust;  ///< Embree's best: instruction set, build quality, rays of a
-                                       ///< call, flag
-  double disagreements_fast = 0;       ///< share of rays that hit one thing here, another there
+  std::string mode_fast, mode_robust;  ///< Embree's best mode: instruction set, build quality, rays
+                                       ///< per call, flag
+  double disagreements_fast = 0;       ///< fraction of rays for which the programs disagree
   double disagreements_robust = 0;
-  /// Our questions to the stages behind float32, for each ray; see StageCounts. With
-  /// several threads not known.
+  /// Queries per ray of microtrace to the stages after float32; see StageCounts. Unknown with
+  /// several threads.
   double edges = 0, filters = 0, exact = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace microtrace::bench {
 namespace {
 
-// Embree's types and functions by the number of rays of a packet.
+// Embree's types and functions for packets of K rays.
 template <int K>
 struct Calls;
 template <>
@@ -53,7 +53,7 @@ std::vector<RayPacket<K>> pack(std::span<const Ray> rays) {
   return packets;
 }
 
-// What stays the same from packet to packet.
+// Sets the members that are the same for every packet.
 template <int K>
 void clear(typename Calls<K>::Ray& to) {
   to = {};
@@ -99,7 +99,7 @@ PeerHit hit_of(unsigned geometry, unsigned primitive, float t) {
   return {geometry == RTC_INVALID_GEOMETRY_ID ? kMiss : primitive, t};
 }
 
-// f(first ray, number of rays) for each packet of [begin, end).
+// Calls f(first ray, number of rays) for each packet of [begin, end).
 template <class F>
 void for_each_packet(std::size_t begin, std::size_t end, std::size_t width, F f) {
   for (std::size_t i = begin; i < end; i += width) f(i, std::min(width, end - i));

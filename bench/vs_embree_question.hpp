@@ -1,5 +1,5 @@
 #pragma once
-/// Many rays, asked of either program.
+/// A query of many rays, for either program.
 
 #include "vs_embree_peer.hpp"
 
@@ -18,7 +18,7 @@ enum class Kind {
   occlusion  ///< any hit of short cosine-distributed rays, tile by tile
 };
 
-/// The rays of one kind and the answers of both programs, which the askings overwrite.
+/// The rays of one kind and the results of both programs. Each run overwrites the results.
 class Question {
  public:
   Question(Kind kind, std::vector<Ray> rays);
@@ -26,12 +26,12 @@ class Question {
   void ask_microtrace(const Bvh& bvh, unsigned threads);
   void ask_embree(const PeerScene& scene, PeerMode mode, unsigned threads);
 
-  /// Share of rays for which the last answers differ in hit or miss, or in the triangle.
+  /// The fraction of rays for which the last results differ in hit or miss, or in the triangle.
   [[nodiscard]] double disagreements() const;
 
   [[nodiscard]] std::size_t size() const { return rays_.size(); }
   [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
-  /// Of microtrace; none for occlusion.
+  /// The hits of microtrace; none for occlusion rays.
   [[nodiscard]] std::span<const std::optional<Hit>> hits() const { return hits_; }
 
  private:

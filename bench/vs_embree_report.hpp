@@ -1,5 +1,5 @@
 #pragma once
-/// The comparison for people and for programs.
+/// Formats the comparison as a table and as JSON.
 
 #include "vs_embree_compare.hpp"
 
@@ -8,11 +8,11 @@
 
 namespace microtrace::bench {
 
-/// The lines of one scene under table_head(). Times over 1: microtrace is ahead.
+/// The lines of one scene under table_head(). Ratios above 1 mean that microtrace is faster.
 [[nodiscard]] std::string table_lines(const SceneRows& rows);
 [[nodiscard]] std::string table_head();
 
-/// A JSON array with an object for each build and each kind of rays.
+/// A JSON array with one object for each build and each kind of rays.
 [[nodiscard]] std::string json(std::span<const SceneRows> scenes);
 
 }  // namespace microtrace::bench

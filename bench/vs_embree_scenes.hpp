@@ -1,5 +1,5 @@
 #pragma once
-/// What the comparison with Embree looks at.
+/// The scenes of the comparison with Embree.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/scene.hpp>
@@ -10,7 +10,7 @@
 
 namespace microtrace::bench {
 
-/// One mesh, so that both programs number its triangles alike.
+/// One mesh, so that both programs number triangles in the same way.
 struct BenchScene {
   std::string name;
   Scene scene;
@@ -19,18 +19,18 @@ struct BenchScene {
   [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene.objects[0].shape); }
 };
 
-/// The scenes' names, in the order they are run.
+/// The names of the scenes in the order of the runs.
 [[nodiscard]] const std::vector<std::string>& generated_scene_names();
 
 /// sphere (1 M triangles), hall (1 M, seen from inside) or terrain (10 M); one hundredth of that if
 /// `small`. Throws std::invalid_argument for another name.
 [[nodiscard]] BenchScene generated_scene(const std::string& name, bool small);
 
-/// The displaced sphere of about that many triangles.
+/// The displaced sphere with about this number of triangles.
 [[nodiscard]] BenchScene sphere_scene(std::size_t triangles);
 
 /// All triangles of a glTF or JSON scene, seen from the diagonal of their bounding box. Throws
-/// Error if it can't be read, std::invalid_argument if it has no triangle.
+/// Error if it can't be read, std::invalid_argument if it has no triangles.
 [[nodiscard]] BenchScene scene_from_file(const std::string& path);
 
 }  // namespace microtrace::bench

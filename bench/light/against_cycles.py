@@ -21,7 +21,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import files
 import textures
 
-THETA, PHI, FOV = 35, 65, 45  # degrees: about +y from +z, and from +y
+THETA, PHI, FOV = 35, 65, 45  # degrees: azimuth about +y from +z, and polar angle from +y
 
 
 def in_gltf(p):
@@ -31,7 +31,7 @@ def in_gltf(p):
 
 def load(asset):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    # Else lights are divided by 683 lumen a watt, which glTF's units have no need of.
+    # Without this option the importer divides lights by 683 lumens per watt, but glTF's units don't need it.
     bpy.ops.import_scene.gltf(filepath=str(asset), export_import_convert_lighting_mode="COMPAT")
     for thing in list(bpy.data.objects):
         thing.animation_data_clear()
@@ -88,7 +88,7 @@ def render(path, options):
     cycles = scene.cycles
     cycles.device, cycles.samples = "CPU", options.spp
     cycles.use_denoising = cycles.use_adaptive_sampling = False
-    if not options.defaults:  # else it clamps and blurs light that comes indirectly, and ends paths early
+    if not options.defaults:  # By default Cycles clamps and blurs indirect light and terminates paths early.
         cycles.sample_clamp_indirect = cycles.blur_glossy = 0
         for kind in ("max", "diffuse", "glossy", "transmission", "volume"):
             setattr(cycles, "max_bounces" if kind == "max" else f"{kind}_bounces", 31)

@@ -14,7 +14,7 @@ import numpy as np
 import agreement_scenes
 import time_helmet
 
-BLOCK = 8  # pixels
+BLOCK = 8  # in pixels
 
 
 def blocks(picture):
@@ -56,7 +56,8 @@ def main():
         small_a, small_b = (np.array([blocks(p)[..., 1] for p in pictures]) for pictures in (a, b))
         z = small_a.mean(0) - small_b.mean(0)
         spread = np.sqrt((small_a.var(0, ddof=1) + small_b.var(0, ddof=1)) / n)
-        lit = spread > 1e-3 * small_b.mean(0)  # else it is the sky itself, whose pixels lie otherwise
+        lit = spread > 1e-3 * small_b.mean(0)  # otherwise the block shows the sky itself, and the programs place its pixels
+                                               # differently
         z = np.abs(z[lit] / spread[lit])
         print(f"{scene.name} | {np.mean(whole_a):.5f} | {np.mean(whole_b):.5f} | "
               f"{(np.mean(whole_a) - np.mean(whole_b)) / deviation:.2f} | {np.sqrt(np.mean(z**2)):.2f} | {z.max():.1f}", flush=True)

@@ -114,7 +114,7 @@ def write(folder):
     lamp = Both(folder, "room_under_lamp")
     add_room(lamp)
     lamp.add(quad((-0.3, 0.98, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0), emission=12.0)
-    # From behind, a one-sided surface lets light pass in glTF; in Mitsuba it does not.
+    # The back of a one-sided surface transmits light in glTF but not in Mitsuba.
     lamp.add(quad((-0.3, 0.985, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0))
     yield lamp.finish()
 

@@ -59,7 +59,7 @@ def main():
         errors.append(mean_error(pictures, reference))
         times.append(float(np.mean(seconds_ours)))
         print(f"microtrace: {spp} spp: error {errors[-1]:.5f}, {times[-1]:.2f} s")
-    # Both are about straight over logarithms.
+    # Both curves are approximately straight lines on logarithmic scales.
     spp = np.exp(np.interp(-np.log(goal), -np.log(errors), np.log(SAMPLES)))
     time = times[-1] * spp / SAMPLES[-1]
     slope = np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]

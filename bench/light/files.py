@@ -11,7 +11,7 @@ def write_png(path, pixels):
     height, width = pixels.shape[:2]
     channels = 1 if pixels.ndim == 2 else 3
     rows = pixels.reshape(height, width * channels)
-    up = np.empty((height, width * channels + 1), np.uint8)  # filter 2: less the row above
+    up = np.empty((height, width * channels + 1), np.uint8)  # PNG filter 2 (Up): the difference from the row above
     up[:, 0] = 2
     up[0, 1:] = rows[0]
     up[1:, 1:] = rows[1:] - rows[:-1]

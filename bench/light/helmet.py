@@ -30,7 +30,7 @@ def shell(u, v):
     radius += 0.1 * bump(np.hypot(y + 0.1, z), 0.28)
     radius += 0.006 * np.sin(14 * y) * np.sin(11 * phi) * np.sin(theta)
     p = d * radius[..., None] * np.array([1.0, 1.1, 1.15])
-    p[..., 1] += 0.5 * np.maximum(-0.75 - y, 0)  # hollow from below
+    p[..., 1] += 0.5 * np.maximum(-0.75 - y, 0)  # concave from below
     return p
 
 
@@ -66,7 +66,7 @@ def patch(surface, columns, rows, box):
     """A grid of quadrilaterals over (u, v) in the unit square, whose texture coordinates fill box."""
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
     p, e = surface(u, v), 1e-4
-    inner = np.clip(v, 2 * e, 1 - 2 * e)  # at a pole there is no direction along u
+    inner = np.clip(v, 2 * e, 1 - 2 * e)  # the direction along u is undefined at a pole
     along = surface(u + e, inner) - surface(u - e, inner)
     down = surface(u, inner + e) - surface(u, inner - e)
     n = np.cross(down, along)  # tangent, bitangent (-down) and normal are right-handed

@@ -44,7 +44,7 @@ def maps():
     seam = np.minimum(np.abs((x * 12) % 1 - 0.5), np.abs((y * 12) % 1 - 0.5))
     seam = smooth(seam, 0.01, 0.03)
     is_visor = ((x < 0.5) & (y > 0.62)).astype(np.float32)
-    bare = np.maximum(smooth(wear, 0.52, 0.6), is_visor)  # where the paint is gone
+    bare = np.maximum(smooth(wear, 0.52, 0.6), is_visor)  # areas without paint
     lamp = ((np.abs((x * 12) % 1 - 0.25) < 0.06) & (np.abs((y * 30) % 1 - 0.5) < 0.25) &
             (np.abs(y - 0.4) < 0.04) & (np.abs(x - 0.5) > 0.06)).astype(np.float32)
 

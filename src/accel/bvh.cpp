@@ -208,7 +208,7 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
   fallback_stages.origins += spawns.size();
   std::vector<Spawn> represented;
   if (const Duplicates& duplicates = impl_->tree.duplicates; !duplicates.empty()) {
-    // The tree has only one of several duplicates. If the surface is another one, its
+    // The tree has only one of several duplicates. If the surface is another duplicate, its
     // representative would count as a separate wall.
     represented.assign(spawns.begin(), spawns.end());
     for (Spawn& spawn : represented) spawn.hit.id = duplicates.representative(spawn.hit.id);

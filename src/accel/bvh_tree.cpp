@@ -29,7 +29,7 @@ Tree tree_of_few(const Primitives& primitives) {
   return tree;
 }
 
-/// The memory for a build. Releases the previous tree if there is no room for both.
+/// Reserves memory for a build. Releases the previous tree if there is no room for both.
 MemoryAccount room_for_build(PrimitiveId count, BvhOptions& options) {
   if (options.previous) {
     try {

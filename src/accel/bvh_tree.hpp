@@ -10,13 +10,13 @@
 
 namespace microtrace {
 
-/// What scenes share of a Bvh: the tree, and the memory that it takes.
+/// The part of a Bvh that scenes can share: the tree and its memory account.
 struct BvhTree {
   Tree tree;
   MemoryAccount memory;
 };
 
-/// All of few primitives are in Tree::unbounded. Throws Error (limit).
+/// Keeps the primitives of small scenes in Tree::unbounded, without a tree. Throws Error (limit).
 [[nodiscard]] std::shared_ptr<const BvhTree> make_bvh_tree(const Primitives& primitives,
                                                            BvhOptions options);
 

@@ -7,8 +7,8 @@
 namespace microtrace {
 namespace {
 
-// Triangle vertices by primitive id. Consecutive hits are mostly on the same mesh, which is looked
-// up once.
+// Looks up triangle vertices by primitive id. Consecutive hits are mostly on the same mesh, so the
+// mesh is looked up once.
 class Corners {
  public:
   explicit Corners(const Primitives& primitives) : primitives_(&primitives) {}

@@ -16,7 +16,7 @@ bool within(const Vec3& v, float limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
-// The t before which hits may be culled, given that hits count from t on.
+// The t before which hits may be culled if hits count from t on.
 float begin_at(float t) {
   return t < kLeastBegin ? 0 : std::min(t, kFarthestCoordinate);
 }

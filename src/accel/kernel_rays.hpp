@@ -11,7 +11,7 @@
 namespace microtrace {
 
 /// The power of two 2^k for which the ray, written as o + (2^k t) (d / 2^k), is within KernelRay's
-/// limits: 1 for a ray already within the limits. Returns 0 if there is none, if a component of d /
+/// limits; 1 if the ray is already within them. Returns 0 if there is none, if a component of d /
 /// 2^k would be rounded, or if the ray is invalid.
 [[nodiscard]] double kernel_t_scale(const Ray& ray);
 
@@ -19,8 +19,8 @@ namespace microtrace {
 /// are multiplied by it.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray, double t_scale);
 
-/// The same for a ray that looks for hits after a number with known bounds. Hits that may be on
-/// either side of the number go to the fallback.
+/// The same for a ray that looks for hits after a number with known bounds. The fallback decides
+/// hits that may be on either side of the number.
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
 

@@ -24,8 +24,8 @@ class RayStream {
   };
   explicit RayStream(const Target& target) : target_(target) {}
 
-  /// hits[i] and results[i] answer rays[i] if it is within the kernels' limits; otherwise other(i)
-  /// is called.
+  /// Sets hits[i] and results[i] for rays[i] within the kernels' limits; calls other(i) for other
+  /// rays.
   void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits, const auto& other) {
     find_closest(rays, hits);
     for_each_unsuited(other);

@@ -1,5 +1,5 @@
 #pragma once
-/// Per-thread counters of queries to the stages after float32.
+/// Per-thread counters of the queries that float32 kernels pass on.
 
 #include <microtrace/stage_counts.hpp>
 

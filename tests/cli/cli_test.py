@@ -326,7 +326,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(decoded("--integrator", "albedo"), decoded("--integrator", "depth", "--aov", "albedo"))
         self.assertLess(decoded("--integrator", "albedo"), decoded("--spp", "1"))
         self.assertEqual(decoded("--integrator", "flat", "--aov", "normal"), decoded("--integrator", "flat"))
-        # The quantities are the same, decoded or not.
+        # Pictures of exact quantities are the same whether or not textures are decoded.
         for quantity in ("depth", "normal", "uv", "id"):
             pictures = []
             for options in ((), ("--aov", "albedo")):
@@ -389,7 +389,7 @@ class CommandLine(ProgramTest):
             self.assertEqual(result.returncode, 4, name)
             message = result.stderr.decode()
             self.assertIn(f"error: {name}: microtrace reads JSON scenes and glTF (.gltf, .glb), not .{name[2:].lower()}; convert", message)
-        # A scene with a foreign extension is rendered.
+        # A scene with an unknown file extension is rendered.
         self.write("scene.obj", minimal())
         self.assertEqual(self.run_program("scene.obj", "-q", "-o", "a.ppm").returncode, 0)
 

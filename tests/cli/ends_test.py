@@ -18,7 +18,7 @@ from program import PROGRAM, ProgramTest, environment
 
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
-# Hours of work.
+# A rendering that takes hours.
 LONG = [SCENE, "--size", "4000x4000", "--spp", "65536", "--integrator", "path", "-q", "-o", "out.ppm"]
 
 

@@ -23,7 +23,7 @@ class Files(ProgramTest):
         super().setUp()
         self.asset = self.folder / "asset"
         self.asset.mkdir()
-        # A triangle with a texture: two files beside the asset's own.
+        # A triangle with a texture: two files besides the asset itself.
         (self.asset / "data.bin").write_bytes(
             struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + struct.pack("<6f", 0, 0, 1, 0, 0, 1))
         result = self.run_program(SOURCE / "scenes/perspective1.json", "-q", "--size", "4x4", "-o", "asset/wood.png")

@@ -167,7 +167,7 @@ class DarkPictures(ProgramTest):
                          {"lights": [self.lamp(0)], "environment": {"type": "studio"}},
                          {"background": [1, 0, 0], "lights": [self.lamp(30)]}):
             self.assertEqual(self.warnings(document), "", document)
-        # Far away, before a black background.
+        # A small sphere, far away, on a black background.
         small = {"objects": [{"type": "sphere", "center": [0, 0, -20], "radius": 1}]}
         self.assertEqual(self.warnings(small), "")
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--max-depth", "1"), "")

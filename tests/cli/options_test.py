@@ -16,9 +16,9 @@ from program import ProgramTest
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
 LIGHT = [SCENE, "--integrator", "path", "--size", "16x12", "-q"]
-# Without these an option is refused.
+# Options that other options require.
 CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--fps": ["--frames", "3:3"]}
-# Other values than the defaults.
+# Values other than the defaults.
 SAMPLES_DEPEND = {
     "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
     "--filter": "blackman-harris", "--seed": "1", "--max-depth": "1", "--backfaces": "occlude",
@@ -91,7 +91,7 @@ class Options(ProgramTest):
             result = self.run_program(*LIGHT, *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertTrue(result.stderr.startswith(message), result.stderr)
-        # Switches may be repeated, and switched off.
+        # Switches may be repeated and switched off.
         self.assertEqual(self.run_program(*LIGHT, "-q", "--quiet", "--spp", "1", "-o", "a.ppm").stderr, b"")
         self.assertIn(b"wrote", self.run_program(*LIGHT[:-1], "--quiet=false", "--spp", "1", "-o", "a.ppm").stderr)
         self.assertEqual(self.run_program(*LIGHT, "--quiet=perhaps").returncode, 2)

@@ -98,10 +98,10 @@ class Samples(ProgramTest):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stderr, rb"^wrote merged\.ppm: 32 x 20 pixels, 50 samples each, in [0-9.]+ s\n$")
             self.assertEqual(self.bytes_of("merged.ppm"), whole)
-        # With other display options.
+        # Merges with other display options.
         self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
         self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
-        # If samples are missing, there is a picture only with --partial; another run can add them.
+        # If samples are missing, a picture is written only with --partial; another run can add the samples.
         result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
         self.assertEqual(result.returncode, 2)
         self.assertIn(b"error: samples 16 to 32 of 50 are missing; ", result.stderr)
@@ -184,7 +184,7 @@ class Samples(ProgramTest):
         stats = json.loads(self.render("-o", "a.ppm", *options, "-t", "1"))
         self.assertLess(stats["rays"], 512 * 32 * 20)
         self.assertGreaterEqual(stats["rays"], 32 * 32 * 20)
-        # The same on more threads, and after an interruption.
+        # Renders the same with more threads, and after an interruption.
         self.render("-o", "b.ppm", "--spp", "40", *options[2:], "--checkpoint", "c")
         again = json.loads(self.render("-o", "b.ppm", *options, "-t", "3", "--checkpoint", "c"))
         self.assertEqual(again["samples_per_pixel"], stats["samples_per_pixel"])

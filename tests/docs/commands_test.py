@@ -24,7 +24,7 @@ from program import PROGRAM, ProgramTest, environment
 SOURCE = Path(sys.argv[2]).resolve()
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
-# Commands that are run elsewhere.
+# Commands that other tests run.
 RUN_ELSEWHERE = [
     r"\./demo$|\./test$",  # .ci/run
     r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test, with other presets
@@ -36,7 +36,7 @@ RUN_ELSEWHERE = [
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
-# Code blocks that contain formulas and the like instead of commands.
+# Pages whose code blocks contain formulas instead of commands.
 PROSE = {"derivations.md", "exactness.md"}
 
 

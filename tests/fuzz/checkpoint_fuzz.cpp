@@ -1,5 +1,5 @@
-// libFuzzer entry point for checkpoints: files with a valid digest and arbitrary content are read,
-// merged and rendered.
+// libFuzzer entry point for checkpoints: reads, merges and renders files with a valid digest and
+// arbitrary content.
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/digest.hpp>

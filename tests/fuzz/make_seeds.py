@@ -323,7 +323,7 @@ def strips():
 def compressed():
     asset = Asset()
     asset.uses("EXT_meshopt_compression")
-    # An index sequence of the least codec: header, two literal triangles in the table's codes, and the tail.
+    # The least index sequence that the codec accepts: header, two literal triangles in the table's codes, and the tail.
     data = bytes([0xE1, 0xF0, 0x10] + [0] * 16)
     asset.json["bufferViews"][1]["extensions"] = {"EXT_meshopt_compression": {
         "buffer": 0, "byteOffset": asset.json["bufferViews"][asset.view(data)]["byteOffset"], "byteLength": len(data),
@@ -362,7 +362,7 @@ def main():
     for name, ranges in {"none": [], "one": [(0, 4)], "two": [(0, 4), (8, 9)]}.items():
         (folder / "checkpoint" / name).write_bytes(checkpoint(ranges))
     (folder / "checkpoint.dict").write_text('"microtrace samples"\n"--seed"\n')
-    # Markers of JPEG, chunks of WebP; those of PNG carry checksums.
+    # Markers of JPEG and chunk names of WebP. Those of PNG are omitted, because chunks have checksums.
     words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]
     words += ["RIFF", "WEBP", "VP8 ", "VP8L", "VP8X", "ALPH", "ANIM", "ICCP", "IDAT", "PLTE", "tRNS"]
     words += ["KTX 20", "KTXorientation", "KTXswizzle", "rgba", "\\x28\\xb5\\x2f\\xfd"]

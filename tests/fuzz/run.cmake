@@ -7,8 +7,8 @@ cmake_minimum_required(VERSION 3.25)
 set(program ${BUILD}/tests/fuzz/fuzz_${FORMAT})
 set(work ${BUILD}/tests/fuzz/${FORMAT})
 file(MAKE_DIRECTORY ${work}/corpus ${work}/findings)
-# An allocation of more than 256 MiB is a finding, because files have a few KiB at most. So is a run of more than a minute,
-# a limit that busy machines keep.
+# An allocation of more than 256 MiB is a finding, because files have only a few KiB. So is a run of more than a minute, a
+# limit that even busy machines keep.
 execute_process(
   COMMAND ${program} ${work}/corpus ${BUILD}/tests/fuzz/seeds/${FORMAT}
     -dict=${BUILD}/tests/fuzz/seeds/${FORMAT}.dict -artifact_prefix=${work}/findings/

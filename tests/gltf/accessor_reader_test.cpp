@@ -90,7 +90,7 @@ TEST(GltfAccessorReader, MatricesAreColumnMajor) {
 
 TEST(GltfAccessorReader, SelectedElementsEqualThoseOfAFullRead) {
   AssetBuilder asset;
-  std::vector<std::int16_t> numbers;  // interleaved: the accessor uses three of four
+  std::vector<std::int16_t> numbers;  // interleaved: the accessor uses three of every four numbers
   for (int i = 0; i < 400; ++i) numbers.push_back(static_cast<std::int16_t>(i * 80));
   const int accessor = add<std::int16_t>(asset, 5122, "VEC3", true, numbers, 100, 8);
   const std::size_t changed = asset.add_view(bytes_of<std::uint8_t>({0, 7, 50, 99}));

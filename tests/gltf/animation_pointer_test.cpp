@@ -40,7 +40,7 @@ void point(AssetBuilder& asset, const char* pointer, const char* shape, const Nu
   point(asset, pointer, asset.add_numbers<float>(shape, values), interpolation);
 }
 
-/// Texture 0, and texture coordinates.
+/// Adds texture 0 and texture coordinates.
 void add_texture(AssetBuilder& asset) {
   asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
       asset.add_numbers<float>("VEC2", {0, 0, 1, 0, 0, 1, 1, 1, 0, 0, 1, 0, 0, 1, 1, 1});
@@ -292,7 +292,7 @@ TEST(GltfAnimationPointer, IgnoresValuesOfAnotherSize) {
   }
 }
 
-// As for a sequence of frames.
+// Loads several poses of one file, as a sequence of frames does.
 TEST(GltfAnimationPointer, OneFileGivesManyPoses) {
   AssetBuilder asset = cube();
   point(asset, "/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});

@@ -26,7 +26,8 @@ void expect_near(const Vec3& value, const Vec3& wanted) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], wanted[i], 1e-6) << i;
 }
 
-/// A cube that rotates once about z from 1 to 3 seconds, in four quarters, and moves by 10 in x.
+/// A cube that makes one full rotation about z from 1 to 3 seconds, in four quarters, and moves by
+/// 10 along x.
 AssetBuilder turning_cube() {
   AssetBuilder asset = cube();
   const float half = std::sqrt(0.5F);
@@ -89,7 +90,7 @@ TEST(GltfAnimation, StepAndCubicSplineAreRead) {
   EXPECT_EQ(corner_at(asset, 0.99).x, 1);
   EXPECT_EQ(corner_at(asset, 1).x, 11);
   asset.json.erase("animations");
-  // Along x with the tangents 0 and 8 inward, along y the tangents 4 outward and 0.
+  // The tangents inward are 0 and 8 along x, outward 4 and 0 along y.
   asset.animate(0, 0, "translation", input,
                 asset.add_numbers<float>("VEC3", {7, 7, 7, 0, 0, 0, 0, 4, 0,  //
                                                   8, 0, 0, 1, 1, 0, 7, 7, 7}),
@@ -216,7 +217,7 @@ TEST(GltfAnimation, IgnoresUnplayableChannels) {
   EXPECT_EQ(corner_at(broken, 2), Vec3(1));
 }
 
-/// The cube moved to these positions at these times; returns its x at a time, minus 1.
+/// Moves the cube to these positions at these times; returns its x at a time, minus 1.
 float x_at(const std::vector<float>& times, const std::vector<float>& places, double time) {
   AssetBuilder asset = cube();
   std::vector<float> moves;

@@ -55,12 +55,12 @@ struct AssetBuilder {
 
   /// Appends to an array of the root object and returns the new index.
   std::size_t add(const char* array, Json item);
-  /// Appends bytes to the buffer, aligned to 4, and a view of them.
+  /// Appends bytes to the buffer, aligned to 4, and adds a view of them.
   std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
   std::size_t add_positions(const std::vector<Vec3>& positions);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, ComponentType type);
-  /// Numbers in a view of their own, with min and max for scalars; `shape` is as in glTF: "SCALAR",
-  /// "VEC3", "MAT4".
+  /// Adds numbers in a view of their own, with min and max for scalars; `shape` is as in glTF:
+  /// "SCALAR", "VEC3", "MAT4".
   template <typename Number>
   std::size_t add_numbers(const char* shape, const std::vector<Number>& numbers,
                           bool normalized = false) {
@@ -68,10 +68,10 @@ struct AssetBuilder {
   }
   std::size_t add_accessor(const char* shape, const std::string& bytes, int component_type,
                            bool normalized);
-  /// A sampler in animation `index`, which is created if necessary, and a channel that uses it.
+  /// Adds a channel to animation `index`, which is created if necessary, and a sampler for it.
   void animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
                std::size_t output, const char* interpolation = "LINEAR");
-  /// A mesh with one primitive on a new node of the default scene; returns the node's index.
+  /// Adds a mesh with one primitive on a new node of the default scene; returns the node's index.
   std::size_t add_object(Json primitive);
 
   /// The asset with its buffer as a data URI, and as a GLB file.
@@ -95,10 +95,11 @@ inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 [[nodiscard]] AssetBuilder cube();
 
 /// The asset with one change: sets the value at the JSON pointer `where`, or removes it if `value`
-/// is empty; if the pointer is empty, `value` is a JSON merge patch (RFC 7396) to the whole.
+/// is empty. If the pointer is empty, applies `value` as a JSON merge patch (RFC 7396) to the whole
+/// asset.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
-/// Loads bytes as "test.gltf" in an empty folder name.
+/// Loads bytes as "test.gltf", without a folder.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);

@@ -1,4 +1,5 @@
-// Writes draco.glb and meshopt.glb, a sphere each, which only the module of that name can read.
+// Writes draco.glb and meshopt.glb, each with a sphere that only the module of this name can
+// decode.
 //
 // usage: compressed_assets FOLDER
 

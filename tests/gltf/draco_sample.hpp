@@ -1,6 +1,6 @@
 #pragma once
-/// A mesh encoded and decoded by Draco's own library. In a module of its own, because the library
-/// contains another tinygltf, and the two must not be linked into one program.
+/// A mesh encoded and decoded by Draco's own library. It is in a separate module, because that
+/// library contains another tinygltf, and the two must not be linked into one program.
 
 #include <microtrace/math.hpp>
 

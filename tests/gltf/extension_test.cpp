@@ -56,7 +56,7 @@ bool is_texture(const Rule& rule) {
 /// A value that no property has as its default.
 Json value_of(const Rule& rule) {
   const double least = std::max(rule.min, -1.0), most = std::min(rule.max, least + 1);
-  // Different for two keys that may be combined.
+  // The values of two keys that may be combined differ.
   const int sum = std::accumulate(rule.key.begin(), rule.key.end(), 0);
   const double share = 0.4 + 0.002 * (sum % 97);
   const double number = least + share * (most - least);
@@ -181,7 +181,7 @@ TEST(GltfExtensions, OfMaterialsAreDrawn) {
     const bool alone = is_seen({{name, numbers}});
     EXPECT_TRUE(alone || is_seen(within)) << name << " changes no picture";
     for (const Rule& rule : rules_of(*extension)) {
-      // A thickness only matters by being positive or zero.
+      // For a thickness, only whether it is positive matters.
       if (!is_texture(rule) || rule.key == "thicknessTexture") continue;
       Json textured = numbers;
       textured[rule.key] = {{"index", 0}};
@@ -211,8 +211,8 @@ TEST(GltfExtensions, EachPropertyThatIsReadHasARule) {
   EXPECT_GT(count, keys.size());
 }
 
-/// The names of extensions between two headings of docs/gltf.md. A row may name several by their
-/// endings: `KHR_materials_ior`, `_specular`.
+/// The names of extensions between two headings of docs/gltf.md. A row may abbreviate names to
+/// their endings: `KHR_materials_ior`, `_specular`.
 std::set<std::string> documented(const std::string& heading, const std::string& next) {
   std::string text = text_of("docs/gltf.md");
   text = text.substr(text.find(heading));

@@ -105,7 +105,8 @@ TEST(GltfKeyframes, SlerpGivesUnitQuaternionsAndIsAccurateAtSmallAngles) {
     const double t = 0.05 * (i % 21);
     const Quaternion q = slerp(a, b, t);
     ASSERT_NEAR(glm::length(q), 1, 1e-14);
-    // Its angle to a is t times that from a to b, compared by chord lengths, which are precise.
+    // The angle to a is t times the angle between a and b; compares chord lengths, which are
+    // precise.
     const double whole =
         std::asin(std::min(1.0, glm::length(glm::dot(a, b) < 0 ? a + b : a - b) / 2));
     ASSERT_NEAR(glm::length(q - a), 2 * std::sin(t * whole), 2e-15);
@@ -121,7 +122,7 @@ TEST(GltfKeyframes, RotationsAreNormalized) {
   EXPECT_THAT(value_at(turn, 0), ElementsAre(0, 0, 0, 1));
   EXPECT_THAT(value_at(turn, 0.5), ElementsAre(0, 0, DoubleNear(std::sin(angle / 4), 1e-15),
                                                DoubleNear(std::cos(angle / 4), 1e-15)));
-  // A cubic's values leave the unit sphere between the keys.
+  // The values of a cubic spline leave the unit sphere between the keys.
   turn = keys(Interpolation::cubic_spline, {0, 1},
               {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, 4);
   turn.are_rotations = true;

@@ -14,12 +14,12 @@ constexpr auto kInvalid = ErrorKind::invalid_scene;
 constexpr auto kUnsupported = ErrorKind::unsupported;
 constexpr auto kLimit = ErrorKind::limit;
 
-/// The cube with one change, as `mutated` makes it.
+/// The cube with one change, made by mutated().
 struct Mutation {
   const char* where;
   const char* value;
   ErrorKind kind = kInvalid;
-  const char* pointer = nullptr;  ///< of the message, if not `where`
+  const char* pointer = nullptr;  ///< of the message; null: same as `where`
 };
 
 // Accessor 0 of the cube has 8 positions (96 bytes), accessor 1 has 36 indices (72 bytes).
@@ -113,7 +113,7 @@ const Mutation mutations[] = {
      R"({"count": 3, "indices": {"bufferView": 1, "componentType": 5123},
          "values": {"bufferView": 0}})",
      kInvalid, "/accessors/0/sparse/indices"},
-    {"/accessors/0/sparse",  // the 1 and the 0 before it as one number beyond the count
+    {"/accessors/0/sparse",  // reads the 1 and the preceding 0 as one number, beyond the count
      R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 4, "componentType": 5125},
          "values": {"bufferView": 0}})",
      kInvalid, "/accessors/0/sparse/indices"},

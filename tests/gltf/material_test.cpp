@@ -13,7 +13,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// The cube with a material of this JSON, whose extensions are all declared, and 24 textures with
+/// The cube with the material of this JSON, with all extensions declared, and with 24 textures of
 /// different images.
 AssetBuilder with_material(const char* material) {
   AssetBuilder asset = cube();
@@ -202,7 +202,7 @@ TEST(GltfMaterial, SpecularGlossinessReplacesMetallicRoughness) {
       EXPECT_EQ(own.specular_glossiness.value().specular, m.specular_glossiness->specular);
     }
   }
-  // Omitted members have their defaults.
+  // Replaces omitted members by their defaults.
   Json& own = both.json["materials"][0]["extensions"];
   own["KHR_materials_pbrSpecularGlossiness"] = Json::object();
   EXPECT_EQ(load(both).scene.materials.at(0).base_color, Vec4(1));
@@ -242,7 +242,7 @@ TEST(GltfMaterial, OnlyImagesThatThePictureReadsAreDecoded) {
   EXPECT_THAT(decoded(asset, SurfaceDetail::shape), IsEmpty());
   EXPECT_THAT(decoded(asset, SurfaceDetail::color), ElementsAre(0));
   EXPECT_THAT(decoded(asset, SurfaceDetail::shape_and_color), ElementsAre(0));
-  // All but occlusion, 3, and thickness, 8.
+  // All except occlusion (3) and thickness (8).
   EXPECT_THAT(decoded(asset, SurfaceDetail::all),
               ElementsAre(0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18));
   asset.json["materials"][0]["alphaMode"] = "MASK";
@@ -258,7 +258,7 @@ TEST(GltfMaterial, AnImageWithSeveralUsesIsDecodedIfOneIsRead) {
   EXPECT_THAT(decoded(asset, SurfaceDetail::all), testing::Contains(1));
 }
 
-// Only the header of an image that nothing reads is examined.
+// Only the header of an image that no shader reads is examined.
 TEST(GltfMaterial, DamagedPixelsThatNothingReadsAreNoError) {
   AssetBuilder asset = with_material(kEverything);
   std::string png = png_of(1, 1, {9, 8, 7, 6});

@@ -201,13 +201,13 @@ TEST(GltfMeshopt, OctahedralFilterGivesUnitVectors) {
   const auto decode16 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 8); };
   EXPECT_THAT(filtered<std::int16_t>({0, 0, 511, 3, 0, 511, 511, -4}, decode16),
               ElementsAre(0, 0, 32767, 3, 0, 32767, 0, -4));
-  // Meaningless input still gives some number.
+  // Meaningless input still gives a number.
   (void)filtered<std::int16_t>({1, -1, 0, 3, -32768, 32767, -1, 0, 0, 0, 0, 0}, decode16);
 }
 
 TEST(GltfMeshopt, QuaternionFilterRestoresTheLargestComponent) {
-  // The last number is 2047, the maximum of 12 bits, with the index of the largest component, 3 and
-  // 1, in its low bits.
+  // The last number is 2047, the maximum of 12 bits; its low bits hold the index of the largest
+  // component, 3 and 1.
   const std::vector<std::int16_t> stored = {0, 0, 0, 2047, 2047, 0, 0, 2045, 0, 0, 0, 0};
   const auto decoded = filtered<std::int16_t>(stored, io::gltf::decode_quaternions);
   EXPECT_THAT(std::vector(decoded.begin(), decoded.begin() + 4), ElementsAre(0, 0, 0, 32767));

@@ -68,7 +68,7 @@ TEST(GltfMorph, AnimationsSetWeights) {
                 "CUBICSPLINE");
   EXPECT_THAT(first_mesh(load(asset, {.time = 0.5})).positions,
               ElementsAre(Vec3(0.5F, 0, 2), Vec3(1.5F, 0, 0), Vec3(0.5F, 5, 0)));
-  // Normalized bytes.
+  // Weights as normalized bytes.
   asset.json.erase("animations");
   asset.animate(0, 0, "weights", asset.add_numbers<float>("SCALAR", {0, 1}),
                 asset.add_numbers<std::uint8_t>("SCALAR", {255, 0, 0, 255}, true));
@@ -85,7 +85,7 @@ TEST(GltfMorph, TargetsMorphOtherAttributes) {
   EXPECT_THAT(mesh.normals, ElementsAre(Vec3(half, 0, half), Vec3(0, 0, 1), Vec3(0, 0, -1)));
   EXPECT_THAT(mesh.tangents, ElementsAre(Vec4(0, 0, 1, 1), Vec4(1, 0, 0, 1), Vec4(-1, 0, 0, -1)));
   EXPECT_THAT(mesh.uv_sets.at(0), ElementsAre(Vec2(1, 2), Vec2(1, 0), Vec2(0, 1)));
-  // Clamped to [0, 1].
+  // Colors are clamped to [0, 1].
   EXPECT_THAT(mesh.colors,
               ElementsAre(Vec4(0.5F, 0.125F, 0, 1), Vec4(1, 0, 1, 1), Vec4(0.5F, 0.5F, 0.5F, 1)));
 }

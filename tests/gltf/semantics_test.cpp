@@ -9,7 +9,7 @@ using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
 
-/// The rig with one change, as `mutated` makes it; the default pointer is `where`.
+/// The rig with one change, made by mutated(); the default pointer is `where`.
 struct Change {
   const char* where;
   const char* value;

@@ -131,7 +131,7 @@ TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
   for (const std::uint8_t byte : bytes) shorts.push_back(static_cast<std::uint16_t>(257 * byte));
   attributes["WEIGHTS_0"] = asset.add_numbers<std::uint16_t>("VEC4", shorts, true);
   EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
-  // A second set, with three quarters of each weight for the elbow.
+  // Adds a second set of influences, with three quarters of each weight for the elbow.
   std::vector<float> quarter, rest;
   for (int i = 0; i < 6; ++i) {
     quarter.insert(quarter.end(), {0.25F, 0, 0, 0});

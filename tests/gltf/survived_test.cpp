@@ -11,8 +11,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A violation of the specification that is rendered with a warning. `where` and `value` are those
-/// of `mutated`.
+/// A violation of the specification that is rendered with a warning. `where` and `value` are
+/// arguments of mutated().
 struct Survived {
   const char* where;
   const char* value;

@@ -15,7 +15,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_name("demo_sha256.txt")
-# The lines of ./demo that draw: a loop, and commands of their own.
+# The lines of ./demo that render: a loop, and single commands.
 DRAWING = re.compile(r"^(for name in .*|  microtrace .*|done|microtrace scenes/.*)$", re.MULTILINE)
 
 

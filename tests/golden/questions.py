@@ -11,7 +11,7 @@ from pathlib import Path
 
 LIST = Path(__file__).with_name("questions.txt")
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-PIXEL_BYTES, DIGEST_BYTES = 84, 8  # of a checkpoint, as src/io/checkpoint/checkpoint.cpp writes them at its end
+PIXEL_BYTES, DIGEST_BYTES = 84, 8  # Sizes at the end of a checkpoint, as written by src/io/checkpoint/checkpoint.cpp.
 
 
 @dataclasses.dataclass

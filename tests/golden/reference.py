@@ -78,8 +78,8 @@ class View:
             m = minus(center, eye)
             self.spheres.append((m, dot(m, m) - radius * radius, color))
         self.planes = [(n, dot(minus(p, eye), n), color) for p, n, color in PLANES]
-        # A ray passes through a triangle if it lies on one side of the three planes through the eye
-        # and an edge; those have the normals of `sides`.
+        # A ray passes through a triangle if it is on one side of the three planes through the eye and an edge; `sides` has
+        # the normals of these planes.
         self.triangles = []
         for corners, color in TRIANGLES:
             a, b, c = (minus(corner, eye) for corner in corners)
@@ -108,7 +108,7 @@ class View:
             discriminant = half_b * half_b - dd * c
             if discriminant < 0:
                 continue
-            # Every eye stands outside every sphere: c > 0, both roots have one sign.
+            # The eye is outside every sphere: c > 0, so both roots have the same sign.
             t = (half_b - math.sqrt(discriminant)) / dd
             if 0 < t < nearest:
                 nearest, seen = t, color

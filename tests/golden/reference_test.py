@@ -57,7 +57,7 @@ class Reference(unittest.TestCase):
         self.assertIn("WRONG", text)
 
     def test_a_neighbor_of_an_edge_is_a_fault(self):
-        # The horizon passes half a pixel from row 240's centers: far more than rounding.
+        # The horizon is half a pixel from the centers of row 240, far more than the rounding error.
         faults, text = compare(with_pixel(10, 240, (0, 0, 0)))
         self.assertEqual(faults, 1)
         self.assertIn("WRONG", text)
@@ -70,7 +70,7 @@ class Reference(unittest.TestCase):
 
     def test_distance_to_the_horizon(self):
         for angle in (2.0 ** -30, 2.0 ** -20, 2.0 ** -10):
-            # Left of every shape; the plane's horizon is three quarters of the angle above.
+            # A ray left of every shape; the plane's horizon is at three quarters of the angle above.
             below = (-0.6, -math.tan(0.75 * angle) * math.hypot(0.6, 1), -1)
             self.assertEqual(VIEW.distance_to((0, 0, 0), below), angle)
 

@@ -61,7 +61,7 @@ def main():
         compared = 0
         for name, program in programs.items():
             for isa, threads in everything if is_long or name == "this build" else few:
-                # Samples in passes, and with seven threads tile by tile.
+                # One thread renders samples in passes; seven threads render tile by tile.
                 answer = questions.ask(program, question, threads, isa, with_samples=threads < 7)
                 expected = expected or answer
                 compared += 1

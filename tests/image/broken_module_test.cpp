@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The module's file with other bytes, alone in its folder.
+/// Puts other bytes into the module's file, which is alone in its folder.
 class BrokenModule : public testing::Test {
  protected:
   void SetUp() override {

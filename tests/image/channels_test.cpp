@@ -1,4 +1,4 @@
-// Channels of files other than three colors, read back by OpenImageIO itself.
+// Checks files with channels other than three colors, read back by OpenImageIO itself.
 
 #include "folder.hpp"
 #include "io/image/encode/eight_bits.hpp"
@@ -86,7 +86,7 @@ TEST(Alpha, EightBitsComputedByHand) {
   film.at(1, 0) = {0.3F, 0.3F, 0.3F};
   film.alpha_at(1, 0) = 1;
   film.at(2, 0) = {0, 0, 0};
-  film.at(3, 0) = {9, 9, 9};  // light without coverage is not representable
+  film.at(3, 0) = {9, 9, 9};  // no format can represent light without coverage
   std::vector<std::uint8_t> row(16);
   io::encode_row(film, 0, row.data());
   EXPECT_THAT(row, ElementsAre(255, 188, 0, 128, 149, 149, 149, 255, 0, 0, 0, 0, 0, 0, 0, 0));

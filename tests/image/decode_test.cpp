@@ -20,7 +20,7 @@ using tests::PngPicture;
 using Bytes = std::vector<std::uint8_t>;
 using Shorts = std::vector<std::uint16_t>;
 
-/// 4 x 3: two and a half rows of one color, the rest of another.
+/// A picture of 4 x 3 pixels: two and a half rows of one color, the rest of another.
 const std::string kJpeg = gltf::decode_base64(
                               "/9j/4AAQSkZJRgABAQAAAQABAAD/"
                               "2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZGNywt"

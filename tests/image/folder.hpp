@@ -1,5 +1,5 @@
 #pragma once
-/// Shared by image tests: a temporary folder, files as bytes, a picture to save.
+/// Helpers of image tests: a temporary folder, files as bytes, a picture to save.
 
 #include <microtrace/film.hpp>
 

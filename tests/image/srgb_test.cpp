@@ -9,8 +9,8 @@
 namespace microtrace::io {
 namespace {
 
-/// 255 times the transfer function of IEC 61966-2-1, in the direction opposite to the encoder's
-/// table, with a 64-bit significand.
+/// 255 times the transfer function of IEC 61966-2-1, with a 64-bit significand. It is the inverse
+/// of the function that the encoder's table represents.
 long double transfer(float v) {
   const auto x = static_cast<long double>(v);
   const long double encoded =

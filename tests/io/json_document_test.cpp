@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using Kind = JsonValue::Kind;
 
-/// Collects the text of every token in the tree, found only by the offsets.
+/// Collects the text of every token in the tree by its offsets.
 void collect(std::string_view text, const JsonValue& value, std::string& out) {
   out.append(text.substr(value.offset, 5)).append("|");
   for (const JsonValue& item : value.items) collect(text, item, out);

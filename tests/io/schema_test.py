@@ -10,7 +10,7 @@ import sys
 
 import jsonschema
 
-# Rules that JSON Schema can't express; the schema accepts these files and the loader must not.
+# Rules that JSON Schema can't express: the schema accepts these files, but the loader must not.
 BEYOND_SCHEMA = {
     "calibrated_extrinsic_mirrored": "a determinant",
     "calibrated_extrinsic_scaled": "products of members",

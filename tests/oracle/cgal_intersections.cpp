@@ -23,8 +23,8 @@ Corners<Kernel> corners(const Triangle& t) {
   return {point<Kernel>(t.a), point<Kernel>(t.b), point<Kernel>(t.c)};
 }
 
-/// The convex hull of three vertices as the CGAL object of its dimension: a collinear Triangle_3
-/// would break preconditions.
+/// The CGAL object for the convex hull of three vertices, by dimension: a collinear Triangle_3
+/// would violate preconditions.
 template <class Kernel>
 using Hull =
     std::variant<typename Kernel::Triangle_3, typename Kernel::Segment_3, typename Kernel::Point_3>;

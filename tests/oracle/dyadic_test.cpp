@@ -1,4 +1,4 @@
-/// Dyadic and Root against CGAL's rationals and square-root extensions.
+/// Compares Dyadic and Root with CGAL's rationals and square-root extensions.
 
 #include "exact/numbers/root.hpp"
 #include "oracle/real_roots.hpp"
@@ -24,7 +24,7 @@ Twin twin(float x) {
   return {x, Rational(double{x})};
 }
 
-/// The value of a random expression of the given degree in float32 numbers.
+/// The value of a random expression of float32 numbers with the given degree.
 Twin expression(Random& random, int degree, int lo, int hi) {
   if (degree == 1) return twin(random.any_float(lo, hi));
   const int left = random.between(1, degree - 1);
@@ -72,7 +72,7 @@ Dyadic integer(Random& random, int lo, int hi) {
   return static_cast<float>(random.between(lo, hi));
 }
 
-/// A root of small integers, so that equal numbers of different form are frequent: sqrt(8) / 2 =
+/// A root of small integers, so that equal numbers in different forms are frequent: sqrt(8) / 2 =
 /// sqrt(2).
 Root small_root(Random& random) {
   return {integer(random, -8, 8), integer(random, 0, 50), integer(random, 1, 6),
@@ -120,7 +120,7 @@ TEST(RootOracle, OrderOfLargeRootsAndOfNearlyEqualOnes) {
     const int lo = full_range ? -149 : -9, hi = full_range ? 127 : 9;
     const Root x = large_root(random, lo, hi), y = large_root(random, lo, hi);
     check(x, y);
-    // The same number in another form, then one that differs from it in a very low bit.
+    // The same number in another form, then a number that differs from it in a very low bit.
     const Dyadic k = 3.0f;
     Root z{x.p * k, x.q * k * k, x.r * k, x.sign};
     check(x, z);

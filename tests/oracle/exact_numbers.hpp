@@ -1,5 +1,5 @@
 #pragma once
-/// Conversion of float32 and Dyadic to CGAL's number types. Only included by the oracle.
+/// Conversions of float32 and Dyadic to CGAL's number types, for the oracle tests only.
 
 #include "exact/numbers/dyadic.hpp"
 

@@ -113,7 +113,7 @@ std::optional<Real> first_parameter(const Quadric& q, const Ray& ray) {
 Real to_real(const exact::Root& t) {
   const Rational r = to_rational(t.r);
   const Rational rational_part = to_rational(t.p) / r;
-  // CGAL requires a positive number below the root.
+  // CGAL requires a positive number under the root.
   if (t.sign == 0 || t.q.sign() == 0) return Real(rational_part);
   return Real(rational_part, t.sign / r, to_rational(t.q));
 }

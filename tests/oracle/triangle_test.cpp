@@ -51,7 +51,7 @@ int sign(std::strong_ordering order) {
   return order < 0 ? -1 : order > 0;
 }
 
-/// True if fixed-width integers, if they can represent the numbers, agree with the oracle.
+/// True if the fixed-width integers either can't represent the numbers or agree with the oracle.
 template <int Limbs>
 ::testing::AssertionResult is_right(const exact::GridHit<Limbs>& hit, bool is_hit) {
   using exact::Found;

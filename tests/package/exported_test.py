@@ -26,7 +26,7 @@ def is_declared(symbol):
     name = re.match(r"microtrace::(\w+)(::)?", symbol)
     if not name:
         return False
-    # A class within a class is no part of what is exported.
+    # Excludes classes within a class.
     is_nested = re.match(r"microtrace::\w+::([A-Z]\w*)::", symbol)
     return name[1] in classes and not is_nested or not name[2] and name[1] in functions
 

@@ -44,7 +44,7 @@ function(install_to folder)
   endforeach()
   file(RENAME ${WORK}/installed ${folder})
   if(FLAGS)
-    return()  # builds with sanitizers have debugging information, which names it rightly
+    return()  # builds with sanitizers contain the path in debugging information, which is allowed
   endif()
   file(GLOB_RECURSE files ${folder}/*)
   foreach(file ${files})
@@ -55,7 +55,7 @@ function(install_to folder)
   endforeach()
 endfunction()
 
-# A program in another folder, linked with the library in ${prefix}.
+# Builds a program in another folder, linked with the library in ${prefix}.
 function(check_library)
   set(consumer ${prefix}-consumer)
   run(${CMAKE_COMMAND} -S ${SOURCE}/tests/package/consumer -B ${consumer} -G ${GENERATOR}
@@ -111,13 +111,13 @@ foreach(module ${MODULES})
   run_alone(${module} -- ${program} ${SOURCE}/scenes/${scene} --size 64x48 --samples 1 --strict -q -o ${picture})
   check_pictures(${picture})
 endforeach()
-# If the program is started through a link, the link's target counts.
+# A program started through a link looks for modules beside the link's target.
 file(CREATE_LINK ${program} ${WORK}/link SYMBOLIC)
 if("codecs" IN_LIST MODULES)
   run_alone(codecs -- ${WORK}/link ${SOURCE}/scenes/perspective1.json --size 64x48 -q -o ${WORK}/link.png)
 endif()
 
-# The same with the shared library.
+# Checks the same with the shared library.
 set(prefix ${WORK}/shared)
 install_to(${prefix} Unspecified shared)
 check_library()

@@ -1,4 +1,5 @@
-// Boxes that are certainly clear of a surface: no segment between two of their points meets it.
+// Checks boxes that are certainly clear of a surface: no segment between two of their points meets
+// it.
 
 #include "accel/spawn/box_clearance.hpp"
 
@@ -13,7 +14,8 @@ namespace {
 
 using adversarial::Random;
 
-// Vertices on a grid, where many triangles have no area; some near a vertex that they almost share.
+// Vertices on a grid, where many triangles have no area; some are near a vertex that they almost
+// share.
 Triangle triangle_on_grid(Random& random) {
   Triangle t{random.on_grid(4), random.on_grid(4), random.on_grid(4)};
   switch (random.between(0, 4)) {
@@ -58,7 +60,7 @@ TEST(BoxClearance, CertainClearanceOfTriangles) {
   EXPECT_GT(met, 10000);
 }
 
-// In projection along any of the axes.
+// Projects along each of the axes.
 TEST(BoxClearance, CertainClearanceOfSegments) {
   Random random(42);
   for (int i = 0; i < 10000; ++i) {

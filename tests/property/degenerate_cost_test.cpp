@@ -22,7 +22,7 @@ namespace {
 
 using adversarial::Random;
 
-// The instruction set is the parameter.
+// The parameter is the instruction set.
 class DegenerateCost : public testing::TestWithParam<const Kernels*> {
  protected:
   void SetUp() override { setenv("MICROTRACE_ISA", GetParam()->name, 1); }
@@ -117,7 +117,7 @@ TEST_P(DegenerateCost, DuplicatesCostNothing) {
   }
 }
 
-// Too few triangles for a tree, then enough.
+// First too few triangles for a tree, then enough.
 TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   Mesh once;
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
@@ -132,8 +132,8 @@ TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   }
 }
 
-// The next hit is that of the copy, at the same t; rays that leave the copy have the origins of
-// rays that leave the first.
+// The next hit after one of a duplicate is the copy's, at the same t. Rays that leave the copy have
+// the same origins as rays that leave the first.
 TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
@@ -172,8 +172,8 @@ TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   }
 }
 
-// Single points, fewer and more than a tree needs, among other triangles, on their vertices and
-// beside them.
+// Single points, fewer and more than the minimum for a tree, among other triangles, on their
+// vertices and beside them.
 TEST_P(DegenerateCost, PointsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
@@ -239,7 +239,7 @@ TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
     std::vector<Ray> rays;
     for (int i = 0; i < 512; ++i) rays.push_back({.o = in_plane(2), .d = in_plane(2)});
     const Asked asked = ask(scene_of(mesh), rays);
-    // Rays that do hit an edge in the plane are decided exactly, by every function.
+    // Rays that hit an edge in the plane are decided exactly, by every function.
     EXPECT_LT(exact(asked.counts), 32 * asked.hits + 64) << count;
     EXPECT_LT(asked.hits, rays.size() / 2);
   }

@@ -1,6 +1,6 @@
-// No path leaves a closed mesh except through a surface on purpose: meshes with few triangles, from
-// tiny to huge, far away and a few ulps thick, alone and with other shapes inside, with every
-// function.
+// No path leaves a closed mesh without passing through a surface on purpose. The meshes have few
+// triangles, are tiny to huge, far away or a few ulps thick, alone and with other shapes inside;
+// every function is tested.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -236,7 +236,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     } else if (random_.one_in(2)) {
       bvh.intersect(rays, hits);
     } else {
-      // Each ray as one of a packet.
+      // Casts each ray as one of a packet.
       for (std::size_t i = 0; i < rays.size(); ++i) {
         std::array<Ray, 8> tile;
         for (Ray& ray : tile) ray = {.o = rays[i].o, .t_min = 0, .d = random_.jitter(rays[i].d, 9)};
@@ -260,7 +260,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     }
   }
 
-  // In a batch; now and then also one by one, with the same results.
+  // Computes the origins in a batch; sometimes also one by one, with the same results.
   std::vector<std::optional<Vec3>> ask_origins(const Bvh& bvh,
                                                const std::vector<Bvh::Spawn>& spawns) {
     std::vector<std::optional<Vec3>> origins(spawns.size());

@@ -45,12 +45,12 @@ void check(const Ray& ray, const S& shape, Count& count) {
   }
   if (filtered.certainty == Certainty::hit) {
     ASSERT_GE(number(filtered.hi), *root) << reproduction(ray, shape);
-    // Narrow enough to round t immediately, nearly always.
+    // The interval is nearly always narrow enough to round t immediately.
     ASSERT_TRUE(std::isfinite(filtered.hi)) << reproduction(ray, shape);
   }
 }
 
-// Cases unchanged, and with the ends of the ray's interval at the hit or an ulp beside it.
+// Checks cases unchanged, and with the ends of the ray's interval at the hit or one ulp away.
 template <class MakeCase>
 Count check_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
@@ -76,7 +76,8 @@ TEST(Filter, Triangle) {
   }
 }
 
-// Points and ends of segments that rays hit exactly although a - o has more bits than float64.
+// Points, and ends of segments, that rays hit exactly although a - o needs more bits than float64
+// has.
 TEST(Filter, TriangleWithoutAreaWithRoundedOffset) {
   Random random(3);
   Count count;

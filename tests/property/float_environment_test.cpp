@@ -41,7 +41,7 @@ std::uint16_t x87_control() {
   return control;
 }
 
-/// 24 bits, or all 64.
+/// Sets the precision to 24 or to 64 bits.
 void set_x87_precision(bool is_short) {
   const auto control =
       static_cast<std::uint16_t>((x87_control() & ~0x300U) | (is_short ? 0U : 0x300U));
@@ -105,8 +105,8 @@ TEST_P(HostRules, ChangeNoPicture) {
   }
 }
 
-// Decimals without exact binary value, lights and materials of many kinds, and no camera: all steps
-// from text to picture bytes compute something.
+// Decimal numbers without exact binary values, lights and materials of many kinds, and no camera,
+// so that every step from text to picture bytes computes something.
 constexpr const char* kLit = R"({
   "version": 1,
   "image": {"width": 24, "height": 18},
@@ -169,7 +169,7 @@ TEST_P(HostRules, ChangeNoPathTracedPicture) {
   }
 }
 
-// Steps that a program may call separately.
+// The steps that a program may call separately.
 TEST_P(HostRules, ChangeNoStep) {
   const auto steps = [] {
     const Scene scene = parse_scene(kLit, "lit.json", scenes_folder()).scene;
@@ -240,7 +240,7 @@ TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   EXPECT_TRUE(actual == expected);
 }
 
-// A triangle smaller than the least normal number: flushed to zero, it would be a point.
+// A triangle smaller than the least normal number; flushed to zero, it would be a point.
 TEST_P(HostRules, ChangeNoHit) {
   constexpr float kLeast = std::numeric_limits<float>::denorm_min();
   Scene scene;

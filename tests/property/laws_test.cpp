@@ -1,4 +1,4 @@
-// Changes that must not affect an answer: the order of a triangle's vertices and of primitives,
+// Changes that must not affect a result: the order of a triangle's vertices and of primitives,
 // mirrored or permuted axes, powers of two in size or position, the build method and its number of
 // threads.
 
@@ -25,7 +25,7 @@ using namespace adversarial;
 using Answers = std::vector<std::optional<Hit>>;
 using Move = std::function<Vec3(Vec3)>;
 
-/// The scene with its points and normals mapped, and its lengths scaled.
+/// The scene with its points and normals transformed, and its lengths scaled.
 Scene moved(Scene scene, const Move& point, const Move& normal, float length) {
   for (Object& object : scene.objects) {
     if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
@@ -92,7 +92,7 @@ std::string kind_name(const testing::TestParamInfo<SceneKind>& kind) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Laws, testing::ValuesIn(kSceneKinds), kind_name);
 
-// Kinds that leave room at the ends of the float32 range.
+// Kinds of scenes that can be scaled without leaving the float32 range.
 using LawsOfSize = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfSize,
                          testing::Values(SceneKind::soup, SceneKind::lattice,
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfSize,
                                          SceneKind::slivers, SceneKind::walls),
                          kind_name);
 
-// Kinds whose coordinates have few bits.
+// Kinds of scenes whose coordinates have few bits.
 using LawsOfPlace = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfPlace, testing::Values(SceneKind::lattice, SceneKind::walls),
                          kind_name);
@@ -120,12 +120,12 @@ TEST_P(Laws, OrderOfVerticesHasNoEffect) {
   });
 }
 
-// Among equal t another primitive may be first, but t may not change.
+// Among equal t another primitive may be first, but t must not change.
 TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
   for_each_case(2, [](Random& random, const Case& c) {
     Scene shuffled = c.scene;
     std::vector<std::size_t> old_place(
-        shuffled.objects.size());  // previous index of the object now at an index
+        shuffled.objects.size());  // the previous index of each object
     std::iota(old_place.begin(), old_place.end(), 0U);
     for (std::size_t i = old_place.size() - 1; i > 0; --i)
       std::swap(old_place[i],
@@ -182,7 +182,7 @@ TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
   });
 }
 
-// If nothing over- or underflows.
+// Scaling must neither overflow nor underflow.
 TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
   for_each_case(4, [](Random& random, Case c) {
     const bool exact =

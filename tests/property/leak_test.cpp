@@ -28,8 +28,8 @@ class Leak : public testing::TestWithParam<std::size_t> {
 INSTANTIATE_TEST_SUITE_P(Meshes, Leak, testing::Range<std::size_t>(0, 5),
                          [](const auto& i) { return std::string(closed_meshes()[i.param].name); });
 
-// A fifth of the rays for each mesh; each ray alone, in a packet and in a stream, with alternating
-// kernels.
+// Casts a fifth of the rays for each mesh: each ray alone, in a packet and in a stream, with
+// alternating kernels.
 TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
   Scene scene;
@@ -73,7 +73,7 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
       stream.occluded(apart, std::span(occluded.get(), kBatch));
       ASSERT_TRUE(std::all_of(occluded.get(), occluded.get() + kBatch, [](bool b) { return b; }));
     }
-    ++turn;  // so that each kernel is used for each function
+    ++turn;  // so that each kernel is used by each function
   }
 }
 
@@ -83,8 +83,8 @@ std::size_t count_hits(const Bvh& bvh, const Ray& ray) {
   return count;
 }
 
-// Paths of many reflections, each starting at a vertex, an edge or next to one: spawned origins are
-// inside again.
+// Paths of many reflections, each starting at a vertex, on an edge or next to one: spawned origins
+// are inside again.
 TEST_P(Leak, NoPathFromWithinLeaves) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
   Scene scene;
@@ -103,7 +103,7 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       ASSERT_TRUE(hit.has_value()) << "path " << path << ", bounce " << bounce;
       const exact::Implicit face(triangle_of(closed.mesh, hit->id));
       const exact::Root t = exact::rational(0.0F);  // without effect on the slope of a plane
-      // To the side of the incoming ray; sometimes along a neighboring edge or the face.
+      // Reflects to the side of the incoming ray; sometimes along a neighboring edge or the face.
       Vec3 d = random.in_cube(1);
       if (random.one_in(3)) d = aimed_exactly(random, closed, o).d;
       const int side = face.sign_behind(ray, t, -ray.d), there = face.sign_behind(ray, t, d);
@@ -126,8 +126,8 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
         ASSERT_TRUE(bvh.occluded({.o = *q, .t_min = 0, .d = random.in_cube(1)}))
             << "path " << path << ", bounce " << bounce;
       }
-      // And through the face: outside, where a ray that hits no edge crosses an even number of
-      // faces.
+      // Also transmits through the face: from outside, a ray that hits no edge crosses an even
+      // number of faces.
       if (bounce > 0 && side * there != 0) {
         const auto outside = bvh.spawn_origin(ray, *hit, -d);
         ASSERT_TRUE(outside.has_value());

@@ -25,7 +25,7 @@ std::vector<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   primitives.for_each([&](PrimitiveId id, const auto& shape) {
     if (const auto root = exact::first_hit(shape, ray)) roots.emplace_back(*root, id);
   });
-  // Already sorted by id.
+  // The roots are already sorted by id.
   std::stable_sort(roots.begin(), roots.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<Hit> hits;
@@ -55,7 +55,7 @@ std::vector<Hit> one_after_another(const Bvh& bvh, const Ray& ray) {
   return failure;
 }
 
-// The instruction set is the parameter.
+// The parameter is the instruction set.
 class Next : public testing::TestWithParam<const Kernels*> {
  protected:
   void SetUp() override {
@@ -88,7 +88,7 @@ TEST_P(Next, EnumeratesAllHitsInExactOrder) {
   EXPECT_GT(ties, 1000U);
 }
 
-// Sixty coplanar copies, and sixty at distances of an ulp.
+// Sixty coplanar copies, then sixty at distances of one ulp.
 TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   Scene scene;
   const auto add = [&](float z) {
@@ -108,8 +108,8 @@ TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   }
 }
 
-// Triangles that start at another vertex, have the opposite winding, and are among others with the
-// same t.
+// Triangles that start at another vertex or have the opposite winding, among other triangles with
+// the same t.
 TEST_P(Next, FindsDuplicateTriangles) {
   Random random(23);
   std::size_t ties = 0;

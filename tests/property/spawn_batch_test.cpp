@@ -91,7 +91,7 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Computes the origins of each hit for some directions one by one, in a batch, and in another
+/// Computes the origins of each hit for some directions: one by one, in a batch, and in another
 /// order, with both kinds of trees.
 std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& hits) {
   std::vector<Bvh::Spawn> spawns;
@@ -134,8 +134,8 @@ struct Effort {
   int most;
 };
 
-/// Rays with one shape each, in scenes of one or several shapes. Returns the fraction of queries
-/// that have an answer.
+/// Tests rays that hit one shape each, in scenes of one or several shapes. Returns the fraction of
+/// queries that have a result.
 template <class MakeCase>
 double check_cases(std::uint64_t seed, const Effort& effort, MakeCase make_case) {
   Random random = traversal::announced_random(seed);

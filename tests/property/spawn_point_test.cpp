@@ -41,7 +41,7 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
-/// The kernel's result: the point if it is certain.
+/// The kernel's point if it is certain, otherwise nothing.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
   HitPointLanes lanes{};
   for (std::size_t i = 0; i < kSpawnLanes; ++i) {
@@ -96,7 +96,7 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   count.sure_in_lanes += q ? 1 : 0;
 }
 
-// If the other coordinates are known exactly, only the roundings of this one need the bound.
+// The other coordinates are known exactly, so that only the roundings of this one use the bound.
 TEST(SpawnPoint, BoundsOfACoordinateInAPlaneHold) {
   Random random = traversal::announced_random(97);
   std::size_t bounded = 0;
@@ -135,7 +135,7 @@ TEST(SpawnPoint, BoundsHoldOnWalls) {
     check(ray, triangle, count);
   }
   EXPECT_GT(count.hits, traversal::ray_count(0.05));
-  // The others are hit at a grazing angle.
+  // The remaining rays hit at grazing angles.
   EXPECT_GT(count.sure, count.hits / 100 * 97);
   EXPECT_GT(count.sure_in_lanes, count.hits / 100 * 97);
 }

@@ -114,7 +114,7 @@ void check(Random& random, const Ray& ray, const S& shape, Count& count) {
   if (!q) return;
   ++count.spawned;
   const exact::Implicit f(shape);
-  // The side of the outgoing or incoming rays at the exact point.
+  // The side of the outgoing rays, or else of the incoming rays, at the exact point.
   int side = f.sign_behind(ray, *t, direction);
   if (side == 0) side = f.sign_behind(ray, *t, -ray.d);
   if (side == 0) side = 1;
@@ -164,8 +164,8 @@ TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   }
 }
 
-// Expects an origin for every flat surface, unless the hit point exceeds the largest float32, and
-// for curved ones unless they are about as small as the spacing of float32 numbers.
+// Expects an origin for every flat surface unless the hit point exceeds the largest float32, and
+// for every curved surface unless it is about as small as the spacing of float32 numbers.
 template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {

@@ -54,7 +54,7 @@ Scene touching_scene(Random& random) {
   return scene;
 }
 
-/// The rational point `point` / `weight`, weight > 0.
+/// The point `point` / `weight` with rational coordinates; weight > 0.
 struct Rational {
   Vector point;
   Dyadic weight;
@@ -80,8 +80,8 @@ bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
               s = dot(to_w, cross(a, b)).sign();
     return u * v >= 0 && v * s >= 0 && s * u >= 0;
   }
-  // In the plane: disjoint if some line through two of the five points separates the triangle from
-  // the segment.
+  // The case of a segment in the triangle's plane: they are disjoint if some line through two of
+  // the five points separates them.
   const auto side = [&](const Vector& x, const Vector& y) { return dot(n, cross(x, y)).sign(); };
   const std::array<Vector, 3> corners{a, b, c};
   for (std::size_t k = 0; k < 3; ++k) {

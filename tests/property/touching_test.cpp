@@ -17,7 +17,7 @@ namespace {
 
 using adversarial::Random;
 
-// The instruction set is the parameter.
+// The parameter is the instruction set.
 class Touching : public testing::TestWithParam<const Kernels*> {};
 
 INSTANTIATE_TEST_SUITE_P(Isa, Touching, testing::ValuesIn(kRayKernels.available()),
@@ -37,7 +37,7 @@ class Places {
     tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
   }
 
-  /// Nothing if there are too many.
+  /// Nothing if the query finds too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi) const {
     BoxQuery query{};
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
@@ -81,7 +81,7 @@ TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
   }
 }
 
-// Long segments and slivers, hundreds of which have the box in their bounding boxes.
+// Long segments and slivers; the box is in the bounding boxes of hundreds of them.
 TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
   Random random(52);
   int answered = 0, met = 0;

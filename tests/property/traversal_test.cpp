@@ -1,6 +1,6 @@
-// Compares the tree and its kernels with a test of every primitive: each kernel of the machine,
-// each function, with adversarial scenes and rays. MICROTRACE_TRAVERSAL_RAYS scales the number of
-// rays.
+// Compares the tree and its kernels with a test of every primitive: each kernel that the machine
+// supports, each function, with adversarial scenes and rays. MICROTRACE_TRAVERSAL_RAYS scales the
+// number of rays.
 
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_packet.hpp"
@@ -43,8 +43,8 @@ std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   return best;
 }
 
-// The nearest hit by the float64 filters, which filter_test.cpp compares with exact arithmetic, and
-// exact arithmetic for undecided cases.
+// The nearest hit by the float64 filters, which filter_test.cpp compares with exact arithmetic;
+// exact arithmetic decides the uncertain cases.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   RayPacket bundle(primitives, std::span(&ray, 1));
@@ -95,7 +95,7 @@ std::vector<Ray> rays_for(Random& random, const Scene& scene) {
   return rays;
 }
 
-// Every function, with the kernels selected by the environment.
+// Calls every function, with the kernels that the environment variable selects.
 void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& expected) {
   Answers together(rays.size(), Hit{});
   bvh.intersect(rays, together);
@@ -109,7 +109,7 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
   }
 }
 
-/// Calls f with each of the machine's kernels, which trees built meanwhile use.
+/// Calls f with each of the machine's kernels selected; trees built by f use it.
 template <class F>
 void with_each_kernel(const F& f) {
   for (const Kernels* kernels : kRayKernels.available()) {

@@ -29,7 +29,7 @@ Scene scene_of(std::vector<Shape> shapes) {
 
 class Random {
  public:
-  /// In [-1, 1).
+  /// A number in [-1, 1).
   float symmetric() { return static_cast<float>(static_cast<std::int32_t>(bits_())) * 0x1p-31F; }
   Vec3 in_cube() { return {symmetric(), symmetric(), symmetric()}; }
   Triangle triangle(float size) {
@@ -52,8 +52,8 @@ Mesh soup(std::size_t triangles, float size) {
   return mesh;
 }
 
-// Builds and walks the tree, and expects each primitive in the place `expected(id)`, except
-// duplicates, and points, which are not in blocks.
+// Builds and walks the tree. Expects each primitive in the array `expected(id)`, except for
+// duplicates and for points, which are not in blocks.
 template <class Expected>
 Tree check(const Scene& scene, Expected expected) {
   const Primitives primitives(scene);
@@ -249,7 +249,7 @@ TEST(Tree, StoresDuplicatesOnce) {
   std::ranges::shuffle(shuffled.triangles.edit(), std::minstd_rand(1));
   EXPECT_EQ(duplicates(shuffled), 20001U);
 
-  // One copy of a few triangles among many, and zeros of both signs.
+  // One copy of a few triangles among many others, and zeros of both signs.
   Mesh few = soup(30000, 0.01F);
   few.triangles.push_back(few.triangles[7]);
   EXPECT_EQ(duplicates(few), 1U);
@@ -261,7 +261,7 @@ TEST(Tree, StoresDuplicatesOnce) {
   few.triangles.push_back({90003, 90004, 90005});
   EXPECT_EQ(duplicates(few), 2U);
 
-  // Too large for blocks, with coincident spheres.
+  // Triangles too large for blocks, and coincident spheres.
   const Triangle large{{0, 0x1p40F, 0}, {1, 0, 0}, {0, 0, 1}};
   const Tree tree = check(scene_of({large, Sphere{}, Sphere{}, large}), Place::others);
   EXPECT_EQ(tree.duplicates.ids(), std::vector<PrimitiveId>{3});
@@ -327,7 +327,7 @@ TEST(Tree, HandlesAnyScale) {
     Mesh mesh = soup(3000, 0.1F);
     for (Vec3& p : mesh.positions.edit()) p *= scale;
     check(scene_of({mesh}), Place::blocks);
-    // With one triangle of maximum size.
+    // The mesh with one triangle of maximum size.
     Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
     check(scene, Place::blocks);
   }

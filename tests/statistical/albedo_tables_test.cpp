@@ -1,4 +1,4 @@
-// Compares tables of albedos with integrals by another method: over directions of light, not over
+// Compares tables of albedos with integrals by another method: over light directions instead of
 // visible normals.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
@@ -128,7 +128,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
         const Ggx<1> ggx(roughness);
         for (const double theta : {0.1, 0.6, 1.0, 1.3}) {
           const Vec3 wo = direction(theta);
-          // Over the normals visible from wo.
+          // Integrates over the normals visible from wo.
           double sum = 0;
           constexpr int steps = 150;
           for (int i = 0; i < steps * steps; ++i) {

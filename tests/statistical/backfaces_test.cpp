@@ -140,7 +140,7 @@ TEST(Backfaces, WhiteRoomInWhiteLight) {
   EXPECT_NEAR(model.seen(Backfaces::pass, 32).mean, 1, 0.01);
 }
 
-// A sheet over the box: the shadow of its front falls on the box.
+// A sheet above the box casts a shadow on it if the sheet's front faces the light.
 TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   Model model;
   model.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
@@ -175,7 +175,7 @@ void expect_same(const Scene& scene, const Camera& camera) {
   EXPECT_EQ(rays[0].beyond, rays[1].beyond);
 }
 
-// Surfaces that enclose a medium always have a back; thin panes transmit through their backs for
+// Surfaces that enclose a medium always have a back; the backs of thin panes transmit light for
 // both values.
 TEST(Backfaces, GlassIsTheSame) {
   for (const bool is_body : {true, false}) {

@@ -116,7 +116,7 @@ TEST(Bsdf, SmoothGlassRefracts) {
   EXPECT_GT(below, 150);
 }
 
-// A body that is half opaque: light from inside leaves eventually, without gain.
+// A body that is half opaque: light from inside eventually leaves, without a gain of energy.
 TEST(Bsdf, HalfGlassGainsNoEnergy) {
   for (const float roughness : {0.05F, 0.3F, 0.8F}) {
     for (const float eta : {1.5F, 1 / 1.5F, 1 / 2.0F}) {

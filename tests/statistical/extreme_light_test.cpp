@@ -25,7 +25,7 @@ namespace {
 
 constexpr float kMax = std::numeric_limits<float>::max();
 
-/// Numbers of all magnitudes, often equal ones and the ends of the float32 range.
+/// Numbers of all magnitudes; often equal ones, or the ends of the float32 range.
 struct Extremes {
   explicit Extremes(unsigned seed) : bits(seed) {}
 
@@ -46,7 +46,7 @@ struct Extremes {
     if (below(4) == 0) return Vec3(any());
     return {any(), any(), any()};
   }
-  /// Near another point: at the smallest possible differences.
+  /// A point at the least possible distances from another point.
   Vec3 place_near(const Vec3& p) {
     Vec3 result = p;
     for (int i = 0; i < 3; ++i)
@@ -90,14 +90,14 @@ std::vector<LightBounds> lights(Extremes& random, std::size_t count) {
   return result;
 }
 
-/// The importance without cosines.
+/// The importance without its cosine factors.
 double head_on(const LightBounds& light, const Vec3& p) {
   const DVec3 low(light.low), high(light.high), way = DVec3(p) - (low + high) / 2.0;
   const double square = std::max(glm::dot(way, way), glm::dot(high - low, high - low) / 4);
   return square > 0 ? light.power / square : 0;
 }
 
-// Except for lights at grazing angles below rounding.
+// Excludes lights at grazing angles below the rounding error.
 TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
   for (unsigned seed = 0; seed < 3000; ++seed) {
     Extremes random(seed);

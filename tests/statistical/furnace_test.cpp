@@ -28,16 +28,16 @@ DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Ve
   return sum / double(samples);
 }
 
-/// Includes the remaining noise of the samples.
+/// The bound includes the remaining noise of the samples.
 constexpr double kMost = 1.003;
 
-/// At most `loss` of the light is lost at any angle and roughness.
+/// Expects a loss of at most `loss` of the light at any angle and roughness.
 void expect_white(const char* what, Parameters p, const std::optional<Layers>& layers, double loss,
                   double azimuth = 0.3, double most = kMost) {
   for (const float roughness : {0.05F, 0.25F, 0.45F, 0.7F, 1.0F}) {
     p.roughness = roughness;
     for (const double theta : {0.05, 0.5, 0.9, 1.2, 1.4, 1.5}) {
-      // Few samples first.
+      // Starts with few samples.
       const Vec3 wo = direction(theta, azimuth);
       double white = furnace(p, layers, wo, 1U << 14U).x;
       if (white < 1 - loss || white > 1.001) white = furnace(p, layers, wo, 1U << 17U).x;
@@ -145,7 +145,7 @@ class AnyMaterial {
     return p;
   }
 
-  /// Layers, and the normal of their coat.
+  /// The layers, and the coat's normal.
   struct Cover {
     std::optional<Layers> layers{};
     Vec3 coat_normal{0, 0, 1};
@@ -188,14 +188,14 @@ TEST(Furnace, NothingGainsEnergy) {
   }
 }
 
-// The pdfs of random materials integrate to at most one.
+// Checks that the pdfs of random materials integrate to at most one, and match the samples.
 TEST(Furnace, PdfsAreThoseOfTheSamples) {
   AnyMaterial any(2);
   std::mt19937 random(3);
   for (int i = 0; i < 40; ++i) {
     Parameters p = any.parameters();
     p.roughness = 0.35F + 0.65F * p.roughness;
-    // Without refraction the lobes are narrower than the cells.
+    // If the surface hardly refracts, the lobes are narrower than the cells.
     if (p.eta) p.eta = *p.eta > 1 ? std::max(*p.eta, 1.2F) : std::min(*p.eta, 0.8F);
     auto [layers, coat_normal] = any.cover(p);
     if (layers) layers->coat_roughness = 0.35F + 0.65F * layers->coat_roughness;

@@ -100,7 +100,7 @@ Scene blocks(const Vec3& shift) {
   return scene;
 }
 
-// The same numbers far away: as precise as here.
+// The scene with the same float32 offsets, far away: it must be as precise as near the origin.
 TEST(Invariance, FarFromTheOriginPicturesAreEqual) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Shot shot{.size = {.width = 64, .height = 48}, .samples = 16};
@@ -142,7 +142,7 @@ TEST(Invariance, FarFromTheOriginExactQuantitiesAreUnchanged) {
   }
 }
 
-// An integrator that has rendered lights renders a scene without lights correctly.
+// An integrator that has rendered a lit scene renders a scene without lights correctly.
 TEST(Invariance, ScenesWithoutLightsAreBlackAfterOthers) {
   Scene lit = blocks(Vec3(0)), unlit = lit;
   lit.lights.push_back(
@@ -160,7 +160,8 @@ TEST(Invariance, ScenesWithoutLightsAreBlackAfterOthers) {
   EXPECT_EQ(pixels(unlit, used), pixels(unlit, fresh));
 }
 
-// Area lights, a map, blending, smooth and rough surfaces: any number of threads and any window.
+// Area lights, a map, blending, smooth and rough surfaces must not depend on the number of threads
+// or the window.
 TEST(Invariance, ThreadsAndCropsKeepAllBytes) {
   Scene scene = blocks(Vec3(0));
   RadianceMap map{.width = 8, .height = 4};

@@ -43,7 +43,7 @@ std::vector<LightBounds> lights(Random& random, int count) {
   return result;
 }
 
-// Except for nodes neither of whose children contributes, although their union seems to.
+// Excludes nodes neither of whose children contributes, although their union seems to.
 TEST(LightTree, ProbabilitiesAddUpToOne) {
   Random random;
   for (const int count : {1, 2, 3, 17, 300}) {
@@ -78,7 +78,8 @@ TEST(LightTree, ChoosesEachByItsProbability) {
   }
 }
 
-// No contributing light is left out: a tree's bounds are nonzero wherever a light's are.
+// The bounds of a tree are nonzero wherever those of a light are, so no contributing light is left
+// out.
 TEST(LightTree, UnitedBoundsContainBoth) {
   Random random;
   for (int i = 0; i < 20000; ++i) {
@@ -91,7 +92,7 @@ TEST(LightTree, UnitedBoundsContainBoth) {
   }
 }
 
-// A floor under many lights, compared with the sum over all lights.
+// A floor under many lights, compared with the sum of all lights.
 TEST(LightTree, ManyLightsOverAFloor) {
   Scene scene;
   scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .metallic = 1, .roughness = 1}};
@@ -117,7 +118,8 @@ TEST(LightTree, ManyLightsOverAFloor) {
   }
   scene.lights = all;
   EXPECT_NEAR(brightness(16384), sum, 0.01 * sum);
-  // And with few samples: selection by power alone would have an error of half with 256 samples.
+  // Few samples must suffice too: selection by power alone would have an error of half with 256
+  // samples.
   EXPECT_NEAR(brightness(256), sum, 0.1 * sum);
 }
 

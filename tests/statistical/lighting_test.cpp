@@ -59,7 +59,7 @@ Scene lamps(bool with_map) {
   return scene;
 }
 
-/// The pdf of all lights in a direction, one behind the other.
+/// The sum of the pdfs of all lights in a direction, including hidden ones.
 double pdf(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
            const LightSampleContext& context, const Vec3& d) {
   double sum = double{lighting.environment(context, d).pdf};
@@ -94,7 +94,7 @@ TEST_P(Lamps, SamplesHaveTheirPdf) {
       const auto light = light_sample(lighting, context, place, u(random));
       ++counts[light ? cell_of(light->wi) : counts.size() - 1];
       if (!light || i >= 2000) continue;
-      // The sample's own values, without other lights in the same direction.
+      // Compares the sample's own pdf, without other lights in the same direction.
       ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-5);
       differ += double{light->pdf} > 1.01 * pdf(lighting, shading, bvh, context, light->wi) + 1e-6
                     ? 1
@@ -134,7 +134,7 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
   constexpr int samples = 100000, side = 10, half = side / 2;
-  // The triangle is selected by its contribution at the context, so each is counted separately:
+  // Triangles are selected by their contribution at the context, so each is counted separately, in
   // two cells of equal area for each square of the grid over the parallelogram.
   std::array<std::vector<double>, 2> counts{std::vector<double>(side * half),
                                             std::vector<double>(side * half)};

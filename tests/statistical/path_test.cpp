@@ -43,7 +43,7 @@ struct Floor {
       .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.01};
 };
 
-/// f of a rough dielectric, seen from straight above, lit at an angle.
+/// The BSDF of a rough dielectric, seen from straight above and lit at an angle.
 double rough_reflectance(float albedo, double cosine) {
   const bsdf::Scattering bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.x / cosine;
@@ -120,7 +120,7 @@ TEST(Path, DepthOneIsEmissionOnly) {
   EXPECT_GT(mean(floor.scene, floor.camera, 2, {.max_depth = 2}).x, 1);
 }
 
-// Panes with half opacity: blended over an emitter behind them.
+// Half-opaque panes are blended over an emitter behind them.
 TEST(Path, BlendedSurfacesTransmitByOpacity) {
   Floor floor({.emissive = {1, 1, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 0.5F}, .alpha_mode = AlphaMode::blend});

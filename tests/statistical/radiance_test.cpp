@@ -38,7 +38,7 @@ struct Floor {
       .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.001};
 };
 
-/// f |cos| of the floor's material toward its camera.
+/// The BSDF of the floor's material toward its camera, times |cos|.
 double scattered(const Material& m, double cosine) {
   const bsdf::Scattering bsdf(
       {.base_color = Vec3(m.base_color), .metallic = m.metallic, .roughness = m.roughness},
@@ -46,7 +46,8 @@ double scattered(const Material& m, double cosine) {
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.y;
 }
 
-/// The radiance that the floor reflects up, for light that depends only on the zenith angle.
+/// The radiance reflected straight up by the floor, for light that depends only on the zenith
+/// angle.
 template <class Radiance>
 double lit_by(const Material& material, Radiance&& radiance) {
   double sum = 0;
@@ -83,7 +84,7 @@ Mesh ball(const DVec3& center, double radius) {
   return mesh;
 }
 
-// Straight above: the light within the cone tangent to the ball.
+// A ball straight above the floor: its light is within the cone tangent to it.
 TEST(Radiance, EmissiveBallOverFloor) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
@@ -91,7 +92,7 @@ TEST(Radiance, EmissiveBallOverFloor) {
     const double expected = lit_by(material, [&](double c) { return c > edge ? 5.0 : 0.0; });
     Floor floor(material);
     floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(5)});
-    // The single sphere is found by paths only, its mesh is also sampled.
+    // Paths find the sphere only by chance; its mesh is also sampled.
     floor.scene.objects.push_back({.name = "ball", .shape = Sphere{{0, 3, 0}, 1}, .material = 1});
     expect_mean(estimate(floor.scene, floor.camera, shot, kSeeds), expected);
     floor.scene.objects.back().shape = ball({0, 3, 0}, 1);
@@ -160,7 +161,7 @@ TEST(Radiance, RoomOfEmissiveWhiteWalls) {
            {parallelogram(low, x, y), parallelogram(low, y, z), parallelogram(low, z, x),
             parallelogram(high, -y, -x), parallelogram(high, -z, -y), parallelogram(high, -x, -z)})
         scene.objects.push_back({.name = "wall", .shape = wall, .material = 0});
-      scene.environment = Environment{.content = Vec3(1e6F)};  // must not enter
+      scene.environment = Environment{.content = Vec3(1e6F)};  // must not be visible from inside
       const Shot shot{.size = kSize, .samples = 32, .max_depth = 6};
       const Estimate room = estimate(scene, EnvironmentCamera{}, shot, kSeeds);
       EXPECT_NEAR(room.mean, 3, kFar * room.deviation + 0.01) << metallic << ' ' << roughness;
@@ -181,7 +182,8 @@ TEST(Radiance, SampledAndUnsampledEmittersAgree) {
       floor.scene.objects.push_back({.name = "lamp", .shape = lamp, .material = 1});
       return estimate(floor.scene, floor.camera, shot, kSeeds);
     };
-    const Estimate met = lit(Quadric{.a = 1, .b = 1, .c = 1, .h = -4, .j = 3});  // about (0, 2, 0)
+    const Estimate met =
+        lit(Quadric{.a = 1, .b = 1, .c = 1, .h = -4, .j = 3});  // centered at (0, 2, 0)
     for (const Shape& shape : {Shape{Sphere{{0, 2, 0}, 1}}, Shape{ball({0, 2, 0}, 1)}}) {
       const Estimate sampled = lit(shape);
       EXPECT_NEAR(sampled.mean, met.mean,
@@ -199,7 +201,7 @@ struct Lamp {
 
 class LampShapes : public testing::TestWithParam<Lamp> {};
 
-// One sample per pixel is nearly sufficient; with BSDF sampling alone, the error of lights of this
+// One sample per pixel is nearly sufficient; with BSDF sampling alone, the error for lights of this
 // size would exceed the mean.
 TEST_P(LampShapes, HaveTheExpectedRadiance) {
   for (const Material& material : {kMatt, kShiny}) {

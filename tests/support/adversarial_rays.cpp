@@ -63,7 +63,7 @@ Case<Triangle> grid(Random& random) {
   return {ray({random.on_grid(n, s), random.on_grid(random.between(1, 4))}), t};
 }
 
-/// A triangle at a distance of up to 2^12 times its size, and an origin equally far away.
+/// A triangle at a distance of up to 2^12 times its size, and an origin at the same distance.
 struct Placed {
   Triangle triangle;
   Vec3 o;
@@ -130,7 +130,8 @@ Vec3 scaled(const DVec3& v, int k) {
 }
 
 Case<Triangle> full_range(Random& random) {
-  if (random.one_in(3)) {  // one size, any magnitude, and a direction of another magnitude
+  if (random.one_in(3)) {  // a shape of one size with any magnitude, and a direction of another
+                           // magnitude
     const int k = random.between(-140, 110);
     const Triangle t{random.any_vector(k, k + 10), random.any_vector(k, k + 10),
                      random.any_vector(k, k + 10)};

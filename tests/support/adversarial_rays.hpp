@@ -1,5 +1,5 @@
 #pragma once
-/// Rays and shapes that are adversarial for rounded arithmetic: rays through vertices and along
+/// Rays and shapes that are difficult for rounded arithmetic: rays through vertices and along
 /// edges, origins on surfaces, tangents, degenerate shapes, all magnitudes of float32. A seed gives
 /// the same cases on every machine.
 
@@ -32,7 +32,7 @@ class Random {
   Vec3 any_vector(int lo, int hi);
   /// A point in the cube [-half_width, half_width]^3.
   Vec3 in_cube(float half_width);
-  /// A point with coordinates -n to n times spacing.
+  /// A point whose coordinates are integers from -n to n times the spacing.
   Vec3 on_grid(int n, float spacing = 1);
   /// The vector with each coordinate moved by up to n units in the last place.
   Vec3 jitter(const Vec3& v, int n);
@@ -44,8 +44,8 @@ class Random {
 /// x moved by n units in the last place; x itself if it is near zero or the largest number.
 [[nodiscard]] float moved(float x, int n);
 
-/// An origin and a direction. Initializer lists are evaluated from left to right, function
-/// arguments in any order. Expressions that draw several random numbers are therefore in lists, so
+/// An origin and a direction. Initializer lists are evaluated from left to right, but function
+/// arguments in any order; expressions that draw several random numbers are therefore in lists, so
 /// that every compiler draws the same.
 struct Line {
   Vec3 o, d;
@@ -114,7 +114,7 @@ inline constexpr std::array kShapeKinds = {
 [[nodiscard]] Case<Sphere> sphere_case(Random& random, ShapeKind kind);
 [[nodiscard]] Case<Quadric> quadric_case(Random& random, ShapeKind kind);
 
-/// The ray with t_min or t_max, or both, placed at t or one ulp beside it.
+/// The ray with t_min or t_max, or both, at t or one ulp away.
 [[nodiscard]] Ray with_range_near(Random& random, Ray ray, float t);
 
 }  // namespace microtrace::adversarial

@@ -1,5 +1,5 @@
 #pragma once
-/// Scenes and rays that are adversarial for a tree and its kernels: shared vertices, duplicates,
+/// Scenes and rays that are difficult for a tree and its kernels: shared vertices, duplicates,
 /// coplanar walls, slivers, huge triangles beside tiny ones, scenes far from the origin, numbers
 /// beyond the kernels' limits or not finite.
 
@@ -14,7 +14,7 @@ namespace microtrace::adversarial {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Triangles without shared vertices, each from make_corners().
+/// Triangles without shared vertices, each made by make_corners().
 [[nodiscard]] Mesh mesh_of(int triangles, auto&& make_corners) {
   Mesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -45,7 +45,7 @@ inline constexpr std::array kSceneKinds = {
 /// A mesh of up to 400 triangles, often a second one of any kind or a copy of the first, and some
 /// other shapes.
 [[nodiscard]] Scene random_scene(Random& random, SceneKind kind);
-/// Of any kind.
+/// A scene of any kind.
 [[nodiscard]] Scene random_scene(Random& random);
 
 /// A point from which rays are likely to hit such a scene, often on one of its surfaces.

@@ -19,7 +19,7 @@ std::uint64_t random_bits(std::uint64_t counter) {
   return z ^ (z >> 31U);
 }
 
-/// Vertices counterclockwise and not shared, as exporters write flat faces.
+/// Adds a quad whose vertices are counterclockwise and not shared, as exporters write flat faces.
 void add_quad(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : {a, b, c, d}) mesh.positions.push_back(p);
@@ -27,7 +27,7 @@ void add_quad(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-/// The six faces of lo .. hi, facing inwards if `inside`.
+/// Adds the six faces of the box lo .. hi, facing inwards if `inside`.
 void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool inside = false) {
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -45,7 +45,7 @@ void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool inside = false) {
   }
 }
 
-/// Coordinates in tenths, to which most modeling programs snap.
+/// A point with coordinates in tenths, the grid to which most modeling programs snap.
 Vec3 tenths(int x, int y, int z) {
   return {0.1 * x, 0.1 * y, 0.1 * z};
 }
@@ -53,7 +53,7 @@ void add_box_of_tenths(Mesh& mesh, const std::array<int, 6>& b, bool inside = fa
   add_box(mesh, tenths(b[0], b[1], b[2]), tenths(b[3], b[4], b[5]), inside);
 }
 
-/// An area light with edges of 2 * reach, facing down.
+/// Adds a square area light with edges of 2 * reach, facing down.
 void add_lamp(ArchitectureScene& scene, const Vec3& center, float reach) {
   const Vec3 u(reach, 0, 0), v(0, 0, reach);
   add_quad(scene.lamp, center - u - v, center + u - v, center + u + v, center - u + v);
@@ -158,7 +158,7 @@ ArchitectureScene plates() {
   add_box_of_tenths(scene.mesh, {-3, -1, -3, 69, 0, 69});
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 6; ++k) {
-      // Stacks are next to each other; the steps of a stack lie on each other.
+      // Stacks are next to each other; the steps of a stack are on top of each other.
       const int x = 11 * i, z = 11 * k,
                 steps = 1 + static_cast<int>(
                                 random_bits(static_cast<std::uint64_t>(36 + 6 * i + k)) % 3);

@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes typical of architecture and CAD: axis-aligned walls, faces that touch, share edges or lie
-/// in one plane. Filters are least certain there. The same bits on every machine.
+/// Scenes typical of architecture and CAD: axis-aligned walls, and faces that touch, share edges or
+/// are coplanar. Filters are most often unsure there. The same bits on every machine.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
@@ -32,7 +32,7 @@ struct ArchitectureScene {
 /// Throws std::invalid_argument for another name.
 [[nodiscard]] ArchitectureScene architecture(const std::string& name);
 
-/// Rotated by an odd angle in float64 and rounded once, with its emitter and its views.
+/// The scene rotated by an odd angle in float64 and rounded once, with its emitter and its views.
 [[nodiscard]] ArchitectureScene turned(ArchitectureScene scene);
 
 /// The mesh and the emitter, numbered in this order, with diffuse materials.

@@ -117,8 +117,8 @@ Mesh hull(std::vector<Vec3> points) {
     for (auto& t : mesh.triangles.edit()) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
-    // Edges by their vertices, with the direction of one face along each. If rounding makes faces
-    // overlap, several may share an edge; an even number of them cancels.
+    // The edges by their vertices, each with its direction in one of its faces. If rounding makes
+    // faces overlap, several faces may share an edge; an even number of them cancels.
     std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles.edit(), [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;

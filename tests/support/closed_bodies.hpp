@@ -26,9 +26,9 @@ inline constexpr std::array kBodyKinds = {
 
 [[nodiscard]] const char* name(BodyKind kind);
 
-/// 4 to 64 triangles, or twice that for a shell. Each edge has an even number of triangles, so a
-/// point is inside if a ray from it crosses an odd number. Rounding may cause triangles without
-/// area or overlapping triangles.
+/// A body of 4 to 64 triangles, or twice as many for a shell. Each edge has an even number of
+/// triangles, so a point is inside if a ray from it crosses an odd number of triangles. Rounding
+/// may cause triangles without area or overlapping triangles.
 [[nodiscard]] Mesh closed_body(Random& random, BodyKind kind, const Vec3& center, float size);
 
 }  // namespace microtrace::adversarial

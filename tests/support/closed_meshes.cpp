@@ -7,7 +7,8 @@
 namespace microtrace::adversarial {
 namespace {
 
-// Differences and small multiples of grid points are exact, so rays can be aimed exactly.
+// Rounds vertices to a grid: differences and small multiples of grid points are exact, so rays can
+// be aimed exactly.
 Mesh on_grid(Mesh mesh, float spacing) {
   for (Vec3& p : mesh.positions.edit()) {
     for (int k = 0; k < 3; ++k) p[k] = std::nearbyint(p[k] / spacing) * spacing;
@@ -71,7 +72,7 @@ std::vector<ClosedMesh> closed_meshes() {
        .center = Vec3(0),
        .radius = 0.5F,
        .spacing = 0x1p-10F},
-      // The grid is the float32 spacing there.
+      // The grid has the spacing of float32 numbers at this distance.
       {.name = "far",
        .mesh = scaled(on_grid(displaced_sphere(5000), 0x1p-8F), Vec3(64),
                       Vec3(0x1p21F, -0x1p20F, 0x1p21F)),

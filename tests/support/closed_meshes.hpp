@@ -14,11 +14,12 @@ struct ClosedMesh {
   const char* name;
   Mesh mesh;
   Vec3 center;    ///< inside
-  float radius;   ///< of a ball around `center` that is inside the mesh
-  float spacing;  ///< of the grid of all vertices
+  float radius;   ///< radius of a ball around `center` that is inside the mesh
+  float spacing;  ///< spacing of the grid on which all vertices are
 };
 
-/// Few triangles and many, walls in one plane, long thin triangles, and a mesh far from the origin.
+/// Meshes with few and with many triangles, with coplanar walls, with long thin triangles, and far
+/// from the origin.
 [[nodiscard]] std::vector<ClosedMesh> closed_meshes();
 
 /// A ray from o exactly at a vertex, or at one of the fifteen points that divide an edge into

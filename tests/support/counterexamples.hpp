@@ -1,5 +1,5 @@
 #pragma once
-/// Rays and triangles for which well-known float32 tests give the wrong answer.
+/// Rays and triangles for which well-known float32 tests give the wrong result.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -13,7 +13,7 @@ struct Counterexample {
   const char* name;
   Ray ray;
   Triangle triangle;
-  bool hit;  ///< the truth
+  bool hit;  ///< the exact result
 };
 
 [[nodiscard]] inline Ray from_zero(const Vec3& o, const Vec3& d) {

@@ -14,7 +14,7 @@
 
 namespace microtrace {
 
-/// Local coordinates, z up; radians.
+/// A direction in local coordinates, z up; angles in radians.
 inline Vec3 direction(double theta, double phi = 0.3) {
   return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
 }

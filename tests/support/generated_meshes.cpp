@@ -89,12 +89,14 @@ struct RadiusHeight {
 Mesh displaced_sphere(std::size_t triangles) {
   const std::uint32_t k = root(static_cast<double>(triangles) / 8);
   Mesh mesh;
-  // On one quarter z runs over 0 .. k, x and y over a square: rows of the whole double pyramid.
+  // One quarter of the surface, as rows of the whole double pyramid: z runs over 0 .. k, x and y
+  // over a square.
   const auto point = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
     const DVec3 p = glm::normalize(DVec3(x, y, z));
     return Vec3(p * (1 + 0.15 * bumps(p)));
   };
-  // Ring r of points has |z| = k - |r - k| away from a pole: 4 m points, or one for m = 0.
+  // Ring r of points has |z| = k - |r - k|. At distance m from a pole it has 4 m points, or one for
+  // m = 0.
   const auto ring_size = [&](std::uint32_t r) {
     const std::uint32_t m = r <= k ? r : 2 * k - r;
     return m == 0 ? 1U : 4 * m;

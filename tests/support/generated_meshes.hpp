@@ -10,8 +10,8 @@
 
 namespace microtrace::generated {
 
-/// A closed surface around the origin with a radius of about 1 and bumps of many triangles: similar
-/// to a scanned object.
+/// A closed surface around the origin with a radius of about 1 and many bumps of many triangles
+/// each, similar to a scanned object.
 [[nodiscard]] Mesh displaced_sphere(std::size_t triangles);
 
 /// A height field over a square with edges of 2 in the xz plane.
@@ -21,10 +21,10 @@ namespace microtrace::generated {
 /// triangles, shafts with long thin ones, and mostly tiny triangles in capitals and busts.
 [[nodiscard]] Mesh hall(std::size_t triangles);
 
-/// Rotated so that no face of a hall is axis-aligned, and bounding boxes fit badly.
+/// The mesh rotated so that no face of a hall is axis-aligned and bounding boxes fit badly.
 [[nodiscard]] Mesh turned(Mesh mesh);
 
-/// The same for a point or a direction, without rounding.
+/// The same rotation of a point or a direction, without rounding.
 [[nodiscard]] DVec3 turned(const DVec3& p);
 
 }  // namespace microtrace::generated

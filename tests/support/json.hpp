@@ -12,7 +12,7 @@
 
 namespace microtrace::tests {
 
-/// Behaves like nlohmann::json as far as tests need it, but has no templates, which would take
+/// Behaves like nlohmann::json as far as tests need it, but without templates, which would take
 /// seconds of compile time in every file.
 class Json {
  public:
@@ -47,16 +47,16 @@ class Json {
   void push_back(const Json& value);
   void erase(std::size_t index);
   void erase(std::string_view key);
-  /// Sets the keys of another object.
+  /// Sets the members of another object.
   void update(const Json& other);
-  /// RFC 7396.
+  /// Applies a merge patch (RFC 7396).
   void merge_patch(const Json& patch);
 
   [[nodiscard]] bool contains(std::string_view key) const;
   [[nodiscard]] std::size_t size() const;
-  /// Of an object.
+  /// The members of an object.
   [[nodiscard]] const std::map<std::string, Json, std::less<>>& members() const;
-  /// Of an array.
+  /// The elements of an array.
   [[nodiscard]] std::vector<Json>::iterator begin();
   [[nodiscard]] std::vector<Json>::iterator end();
   [[nodiscard]] std::size_t to_size() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of lights for single points.
+/// Samples lights for single points.
 
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// BSDFs of single points: the templates' instances of one lane.
+/// BSDFs at single points: the instances of the BSDF templates with one lane.
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/parameters.hpp"
@@ -12,7 +12,7 @@
 
 namespace microtrace::bsdf {
 
-/// In local coordinates.
+/// In local shading coordinates.
 inline Surface<1> surface_of(const Parameters& parameters, const Layers& layers = {},
                              const Vec3& coat_normal = {0, 0, 1}) {
   SurfaceLanes lanes{};
@@ -35,7 +35,7 @@ std::optional<DirectionSample> sample_of(const Model& model, const Vec2& u, floa
   return DirectionSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf};
 }
 
-/// Has the features that the parameters need, as the vertices of paths.
+/// A BSDF with the features that the parameters need, as at the vertices of paths.
 class Scattering {
  public:
   /// wo.z > 0, in local coordinates like all directions.

@@ -12,10 +12,10 @@ namespace microtrace {
 
 enum class Place { nowhere, blocks, others, unbounded };
 
-/// Visits a whole tree and records the first error: a box that does not contain its children's or
-/// its primitives' vertices, a node, block or entry visited twice or never, a block that does not
-/// match its triangles, a primitive in two kinds of leaf. A triangle may be in several leaves; then
-/// a lattice of its points must be in their boxes.
+/// Visits a whole tree and records the first error: a box that does not contain its children or its
+/// primitives' vertices, a node, block or entry visited twice or never, a block that does not match
+/// its triangles, a primitive in two kinds of leaf. A triangle may be in several leaves; then a
+/// lattice of its points must be in their boxes.
 class TreeWalk {
  public:
   TreeWalk(const Tree& tree, const Primitives& primitives);
@@ -41,20 +41,23 @@ class TreeWalk {
   int depth_ = 0;
   std::vector<Place> places_;
   std::size_t triangle_references_ = 0;
-  std::map<PrimitiveId, std::vector<Bounds>> pieces_;  // leaves that do not hold a whole triangle
-  std::unordered_set<PrimitiveId> whole_;              // triangles that some leaf holds
+  std::map<PrimitiveId, std::vector<Bounds>> pieces_;  // leaves that contain only a part of a
+                                                       // triangle
+  std::unordered_set<PrimitiveId> whole_;              // triangles that some leaf contains
+                                                       // completely
   std::vector<bool> nodes_, blocks_, others_;          // visited
 };
 
-/// Expected visits of a long random ray that hits the root's box, by the surface area heuristic.
+/// The expected number of visits of a random line that hits the root's box, by the surface area
+/// heuristic.
 struct TreeCost {
   double nodes = 0, blocks = 0;
   [[nodiscard]] double total() const { return 0.6 * nodes + blocks; }
 };
 [[nodiscard]] TreeCost cost_of(const Tree& tree);
 
-/// The cost of a simple good tree: halves by count along the longest axis of the centroids, nodes
-/// of three such levels, leaves of eight.
+/// The cost of a simple good tree: splits in halves by count along the longest axis of the
+/// centroids, nodes of three such levels, leaves of eight.
 [[nodiscard]] TreeCost cost_of_object_medians(const Mesh& mesh);
 
 }  // namespace microtrace

@@ -37,9 +37,9 @@ struct Interval {
   double begin = 0, end = 0;
 };
 
-/// The t >= 0 of facets that transmit light, in the terms of over_facets(), where c is the cosine
-/// of the critical angle: z + p t >= c sqrt(1 + q t^2). The left side is linear, the right side
-/// convex.
+/// The interval of t >= 0 of the facets that transmit light, in the terms of over_facets(); c is
+/// the cosine of the critical angle: z + p t >= c sqrt(1 + q t^2). The left side is linear, the
+/// right side convex.
 Interval transmitting(double z, double p, double q, double c) {
   // a t^2 + 2 b t + d >= 0
   const double a = p * p - c * c * q, b = z * p, d = z * z - c * c, square = b * b - a * d;
@@ -92,7 +92,7 @@ double refraction_loss(double alpha, double z, double eta, const Quadrature& poi
 }
 
 double Sheen::lambda(double z) const {
-  // The paper's fit.
+  // The fit of the paper.
   const double t = (1 - alpha_) * (1 - alpha_);
   const auto mix = [t](double rough, double smooth) { return rough + t * (smooth - rough); };
   const auto fit = [&](double x) {
@@ -118,7 +118,7 @@ double Sheen::around(double z, double z_in, double masking, const Quadrature& po
 double Sheen::albedo(double z, const Quadrature& points) const {
   const double here = 1 + lambda(z);
   double sum = 0;
-  for (const double from : {0.0, 0.5}) {  // the fit has an edge between
+  for (const double from : {0.0, 0.5}) {  // the fit has a discontinuous derivative between the two
     for (std::size_t k = 0; k < points.at.size(); ++k) {
       const double z_in = from + 0.5 * points.at[k];
       sum += 0.5 * points.weights[k] * z_in * around(z, z_in, here + lambda(z_in), points);

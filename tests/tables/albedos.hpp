@@ -6,12 +6,12 @@
 
 namespace microtrace::tables {
 
-/// As bsdf::Ggx.
+/// As in bsdf::Ggx.
 [[nodiscard]] double alpha_of(double roughness);
 
 [[nodiscard]] double fifth_power(double x);
 
-/// For F = 1 and F = (1 - cos)^5.
+/// The albedo for F = 1 and for F = (1 - cos)^5.
 struct Albedo {
   double f1 = 0, schlick = 0;
 };
@@ -21,9 +21,9 @@ struct Albedo {
                                 const Quadrature& points);
 
 /// The fraction of light from z = cos(theta) that single scattering at a rough boundary neither
-/// reflects nor refracts. eta: the index of refraction behind the boundary divided by that of the
-/// light's side. The Fresnel term is Schlick's for the cosine in the thinner medium; of the two
-/// masking terms of refraction, the smaller one counts.
+/// reflects nor refracts. eta is the index of refraction behind the boundary divided by that on the
+/// light's side. The Fresnel term is Schlick's for the cosine in the medium with the lower index;
+/// of the two masking terms of refraction, the smaller one applies.
 [[nodiscard]] double refraction_loss(double alpha, double z, double eta, const Quadrature& points);
 
 /// Sheen as published (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen BRDF,
@@ -34,8 +34,8 @@ class Sheen {
 
   [[nodiscard]] double lambda(double z) const;
 
-  /// The integral of D V for the cosines z of wo and z_in of wi over the azimuth between them;
-  /// `points` must be graded. masking: 1 + lambda(z) + lambda(z_in).
+  /// The integral of D V over the azimuth between directions with the cosines z of wo and z_in of
+  /// wi; `points` must be graded. masking is 1 + lambda(z) + lambda(z_in).
   [[nodiscard]] double around(double z, double z_in, double masking,
                               const Quadrature& points) const;
 

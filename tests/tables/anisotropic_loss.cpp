@@ -15,7 +15,7 @@
 namespace microtrace::tables {
 namespace {
 
-/// Coefficients of powers of four variables, or of two.
+/// The numbers of powers of four variables, or of two.
 constexpr std::size_t kAlphaPowers = 5, kAzimuthPowers = 5, kCosinePowers = 8;
 constexpr std::size_t kEdgeAlphaPowers = 3, kEdgeAzimuthPowers = 3, kEdgeCosinePowers = 4;
 constexpr std::size_t kMeanPowers = 7;
@@ -23,7 +23,7 @@ constexpr double kLossPenalty = 5, kEdgePenalty = 10;
 
 using Points = std::vector<double>;
 
-/// n points in [0, 1], close to each other at the ends.
+/// n points in [0, 1], denser at the ends.
 Points chebyshev(std::size_t n) {
   Points result;
   for (std::size_t i = 0; i < n; ++i) {
@@ -41,7 +41,7 @@ Points middles(std::size_t n) {
   return result;
 }
 
-/// Square roots of alphas: the smaller, and the greater.
+/// The square roots of two alphas: of the smaller, and of the greater.
 struct Pair {
   double smaller, greater;
 
@@ -49,7 +49,7 @@ struct Pair {
   [[nodiscard]] double alpha_y() const { return smaller * smaller; }
 };
 
-/// As KHR_materials_anisotropy makes them.
+/// The pairs that KHR_materials_anisotropy defines.
 std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
   constexpr double least = 0.0316227766016837933;  // of the least alpha
   std::vector<Pair> result;
@@ -62,7 +62,7 @@ std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
   return result;
 }
 
-/// Powers of 2 x - 1.
+/// Appends powers of 2 x - 1.
 void append_powers(Points& row, double x, std::size_t count) {
   double power = 1;
   for (std::size_t k = 0; k < count; ++k) {
@@ -77,7 +77,7 @@ Points powers_of(double x, std::size_t count) {
   return row;
 }
 
-/// The matrix of the polynomials at these places, each row times a weight.
+/// The matrix of the polynomials at these points, with each row multiplied by a weight.
 Factors polynomials(const Points& at, std::size_t count, const Points& weights) {
   Points matrix;
   for (std::size_t i = 0; i < at.size(); ++i)
@@ -99,8 +99,8 @@ Factors pair_polynomials(const std::vector<Pair>& at, std::size_t count, const P
   return {matrix, count * count};
 }
 
-/// The direction of cosine z at whose azimuth the alpha is c, and c by its place between the
-/// square roots.
+/// The direction of cosine z for whose azimuth the alpha is c; c is given by its position between
+/// the square roots.
 struct Azimuth {
   double alpha, cosine, sine;
 
@@ -179,11 +179,11 @@ Polynomial4 loss_fit() {
 
 Polynomial4 edge_fit() {
   const std::vector<Pair> at = pairs(middles(kRoughnesses), middles(kStrengths));
-  Points azimuths = middles(16);  // equidistant angles where one alpha is much greater
+  Points azimuths = middles(16);  // equidistant angles, for pairs with one much greater alpha
   for (double& place : azimuths) place = cos_radians(place * std::numbers::pi / 2);
   const Points cosines = middles(12);
-  // The rougher facets are, the more their errors count: a polynomial can't follow the sharpest
-  // ones, and would be worse everywhere.
+  // Errors of rougher facets count more: a polynomial can't follow the sharpest facets, and would
+  // be worse everywhere else.
   Points differences, pair_weights, cosine_weights;
   for (const Pair& pair : at) pair_weights.push_back(pair.smaller * (pair.greater - pair.smaller));
   for (const double root : cosines) cosine_weights.push_back(1 - root);
@@ -200,7 +200,7 @@ Polynomial4 edge_fit() {
       }
     }
   }
-  // Of the negative term, because the term should rarely be too small.
+  // Fits the negative term, because the term should rarely be too small.
   Polynomial4 result{.coefficients = low_fit(
                          {pair_polynomials(at, kEdgeAlphaPowers, pair_weights),
                           polynomials(azimuths, kEdgeAzimuthPowers, Points(azimuths.size(), 1)),

@@ -16,8 +16,8 @@ constexpr double kUnit = 1.0 / 16384;
 
 using Nodes = std::array<double, kNodes>;
 
-/// The polynomials that are orthogonal over [0, 1] with weight 2 z: p_k+1 = (z - a_k) p_k - b_k
-/// p_k-1, by the method of Stieltjes.
+/// The polynomials that are orthogonal over [0, 1] with weight 2 z, by the method of Stieltjes:
+/// p_k+1 = (z - a_k) p_k - b_k p_k-1.
 struct Orthogonal {
   Nodes a{}, b{};
 
@@ -74,7 +74,7 @@ Nodes gauss_nodes() {
   return result;
 }
 
-/// Lagrange's polynomials of the nodes at z.
+/// The values of the nodes' Lagrange polynomials at z.
 Nodes lagrange(const Nodes& nodes, double z) {
   Nodes result{};
   for (std::size_t k = 0; k < kNodes; ++k) {

@@ -41,17 +41,17 @@ struct Facet {
   double weight;        ///< D(h) (wo . h) dh
 };
 
-/// Angles in ascending order, from 0 to pi; quick changes are expected at all of them.
+/// Angles from 0 to pi in ascending order. The integrand may change quickly near each of them.
 inline constexpr std::array kHalves{0.0, std::numbers::pi / 2, std::numbers::pi};
 
-/// Calls visit(facet) for the points of a quadrature over the facets visible from wo. With
-/// (x, y) = t (alpha_x cos(a), alpha_y sin(a)),
+/// Calls visit(facet) for the points of a quadrature over the facets visible from wo. With (x, y) =
+/// t (alpha_x cos(a), alpha_y sin(a)),
 ///
-///   D(h) (h . z) dh = 2 t / (1 + t^2)^2 dt da / (2 pi),   wo . (x, y, 1) = wo.z + p t,
+/// D(h) (h . z) dh = 2 t / (1 + t^2)^2 dt da / (2 pi),   wo . (x, y, 1) = wo.z + p t,
 ///
-/// where p is greatest for some angle; `turns` divides the angles on both sides of it. With
-/// q = (x^2 + y^2) / t^2, cuts(p, q) returns an array of t in ascending order, which divides the
-/// range of the integral.
+/// where p has its maximum at some angle; `turns` divides the angles on both sides of it. With q =
+/// (x^2 + y^2) / t^2, cuts(p, q) returns an array of t in ascending order, which divides the range
+/// of the integral.
 template <typename Turns, typename Cuts, typename Visit>
 void over_facets(const Alphas& alphas, const Direction& wo, const Quadrature& points,
                  const Turns& turns, const Cuts& cuts, const Visit& visit) {
@@ -81,7 +81,7 @@ void over_facets(const Alphas& alphas, const Direction& wo, const Quadrature& po
       }
     }
   };
-  // Both sides are alike if wo is on an axis.
+  // Both sides are equal if wo is on an axis.
   const bool is_symmetric = alphas.x == alphas.y || px == 0 || py == 0;
   const double share = (is_symmetric ? 2 : 1) / (2 * std::numbers::pi);
   for (std::size_t part = 0; part + 1 < turns.size(); ++part) {
@@ -119,7 +119,7 @@ void over_reflections(const Alphas& alphas, const Direction& wo, const Quadratur
   const auto cuts = [&](double p, double q) {
     const double end = reflection_end(wo.z, p, q);
     double edge = 0;
-    if (least > 0 && p > 0) edge = p / (wo.z * q);  // of facets that don't change the cosine
+    if (least > 0 && p > 0) edge = p / (wo.z * q);  // t of facets that don't change the cosine
     return std::array{0.0, edge, end};
   };
   const double root = alphas.root(wo);

@@ -28,7 +28,7 @@ std::vector<double> contracted(const std::vector<double>& values, std::size_t fr
   return result;
 }
 
-/// Q^T or Q of all axes.
+/// Multiplies all axes by Q^T or by Q.
 std::vector<double> to_q(const std::vector<Factors>& axes, std::vector<double> values) {
   std::size_t inner = 1;
   for (std::size_t a = axes.size(); a-- > 0;) {
@@ -51,7 +51,7 @@ std::vector<double> from_q(const std::vector<Factors>& axes, std::vector<double>
 
 }  // namespace
 
-// Modified Gram-Schmidt, twice for orthogonality.
+// Modified Gram-Schmidt, applied twice for orthogonality.
 Factors::Factors(std::vector<double> matrix, std::size_t columns)
     : columns_(columns), q_(std::move(matrix)), r_(columns * columns) {
   const std::size_t n = rows();

@@ -6,7 +6,7 @@
 
 namespace microtrace::tables {
 
-/// A matrix, row by row, with more rows than columns, as Q R.
+/// The factors Q R of a matrix with more rows than columns, given row by row.
 class Factors {
  public:
   Factors(std::vector<double> matrix, std::size_t columns);
@@ -26,13 +26,13 @@ class Factors {
   std::vector<double> q_, r_;
 };
 
-/// The coefficients x for which the product of the axes' matrices applied to x is nearest to the
-/// targets, in least squares. The axes of targets and coefficients are in the order of `axes`; the
-/// last is contiguous.
+/// The coefficients x for which the product of the axes' matrices, applied to x, is nearest to the
+/// targets in the least-squares sense. The axes of targets and coefficients are in the order of
+/// `axes`; the last is contiguous.
 [[nodiscard]] std::vector<double> fit(const std::vector<Factors>& axes,
                                       const std::vector<double>& targets);
 
-/// The same where a square above a target counts 1 + penalty times.
+/// The same, but the square of an error above a target counts 1 + penalty times.
 [[nodiscard]] std::vector<double> low_fit(const std::vector<Factors>& axes,
                                           const std::vector<double>& targets, double penalty);
 

@@ -28,7 +28,7 @@ double interpolated(const Row& row, double s) {
   return row[first] + share * (row[first + 1] - row[first]);
 }
 
-/// The cosine-weighted mean of a row, interpolated at s(z) between the inverse z(s).
+/// The cosine-weighted mean of a row, interpolated at s(z); z(s) is the inverse function.
 template <typename S, typename Z>
 double mean(const Row& row, const S& s_of, const Z& z_of) {
   const Quadrature cell = graded(20);

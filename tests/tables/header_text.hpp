@@ -10,7 +10,8 @@
 
 namespace microtrace::tables {
 
-/// The value with so many decimals and the suffix F, or an integer if there are none.
+/// The value with this number of decimals and the suffix F, or as an integer if there are no
+/// decimals.
 [[nodiscard]] std::string number_text(double value, int decimals);
 
 /// The value that number_text() writes.
@@ -25,8 +26,8 @@ namespace microtrace::tables {
                                      std::span<const double> values,
                                      const std::vector<std::size_t>& sizes, int decimals);
 
-/// "/// TEXT" in lines of at most 100 columns. Blank lines stay, and so do lines that start with
-/// two spaces.
+/// "/// TEXT" in lines of at most 100 columns. Keeps blank lines, and lines that start with two
+/// spaces.
 [[nodiscard]] std::string comment_text(const std::string& text);
 
 /// "0.006 | -0.0006 | 0.0004", cells of the table in docs/derivations.md.
@@ -35,7 +36,7 @@ namespace microtrace::tables {
 /// "at most 0.006 above and 0.0006 below the integral, rms 0.0004"
 [[nodiscard]] std::string error_text(const StatedError& error);
 
-/// The whole header from its comment, includes and content; adds the origin to the comment.
+/// The whole header: comment, includes and content. Adds to the comment that the file is generated.
 [[nodiscard]] std::string header_text(const std::string& comment,
                                       const std::vector<std::string>& includes,
                                       const std::string& content);

@@ -1,7 +1,7 @@
 // Computes the tables of src/render/bsdf.
 //
-//   make_tables FOLDER           writes all headers
-//   make_tables FOLDER HEADER    computes one and fails unless it is in the folder
+// make_tables FOLDER           writes all headers
+// make_tables FOLDER HEADER    computes one, and fails unless it equals the one in the folder
 
 #include "tables/tables.hpp"
 

@@ -10,11 +10,11 @@ struct Quadrature {
   std::vector<double> at, weights;
 };
 
-/// Exact for polynomials of degree 2 n - 1.
+/// A quadrature that is exact for polynomials of degree 2 n - 1.
 [[nodiscard]] Quadrature gauss_legendre(int n);
 
-/// The same for functions that have square roots or change quickly near 0 and 1: Gauss quadrature
-/// over v where x = v^3 (10 - 15 v + 6 v^2).
+/// A quadrature for functions that have square roots or change quickly near 0 and 1: Gauss
+/// quadrature over v where x = v^3 (10 - 15 v + 6 v^2).
 [[nodiscard]] Quadrature graded(int n);
 
 }  // namespace microtrace::tables

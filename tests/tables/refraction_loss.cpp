@@ -17,7 +17,7 @@ constexpr std::size_t kIndices = 8, kRows = 12, kColumns = 17;
 constexpr double kGreatestCritical = 0.96, kUnit = 1e-4;
 constexpr double kPenalty = 33;
 
-/// Positions from `from` to nodes - 1, `per_node` to each node.
+/// Positions from `from` to nodes - 1, with `per_node` for each node.
 std::vector<double> positions(double from, std::size_t nodes, std::size_t per_node) {
   std::vector<double> result;
   for (std::size_t i = 0; i <= (nodes - 1) * per_node; ++i) {
@@ -28,7 +28,8 @@ std::vector<double> positions(double from, std::size_t nodes, std::size_t per_no
   return result;
 }
 
-/// Interpolation by the parabola through the three nearest nodes, a row for each position.
+/// The matrix of interpolation by the parabola through the three nearest nodes, with a row for each
+/// position.
 Factors parabolas(const std::vector<double>& at, std::size_t nodes) {
   std::vector<double> matrix(at.size() * nodes);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -43,7 +44,7 @@ Factors parabolas(const std::vector<double>& at, std::size_t nodes) {
   return {matrix, nodes};
 }
 
-/// Linear interpolation.
+/// The matrix of linear interpolation.
 Factors lines(const std::vector<double>& at, std::size_t nodes) {
   std::vector<double> matrix(at.size() * nodes);
   for (std::size_t i = 0; i < at.size(); ++i) {

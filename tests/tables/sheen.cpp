@@ -25,8 +25,8 @@ double cosine_at(double s, double b) {
 
 using Row = std::vector<double>;
 
-/// The published model. It has a maximum in the first columns and diverges very near to the
-/// horizon; a divisor has to be the maximum there.
+/// The albedo of the published model. It has a maximum in the first columns and diverges very near
+/// the horizon; a divisor has to be the maximum there.
 Row raw_row(double roughness) {
   const Sheen sheen(roughness);
   const Quadrature points = graded(64);
@@ -40,7 +40,7 @@ Row raw_row(double roughness) {
 }
 
 /// The albedo for z at s of the model divided by `raw` for z or the other cosine, whichever is
-/// larger, where this is more than 1.
+/// larger, where this exceeds 1.
 double scaled_albedo(double roughness, const Row& raw, double s) {
   const Sheen sheen(roughness);
   const Quadrature azimuths = graded(32), cell = graded(12);
@@ -70,7 +70,7 @@ Row scaled_row(double roughness, const Row& raw) {
   Row result(kColumns);
   for (std::size_t i = 1; i < kColumns; ++i)
     result[i] = scaled_albedo(roughness, raw, place(i, kColumns));
-  // So that the middle of the first cell is right.
+  // Chosen so that the middle of the first cell is right.
   result[0] = 2 * scaled_albedo(roughness, raw, 0.5 / (kColumns - 1)) - result[1];
   return result;
 }

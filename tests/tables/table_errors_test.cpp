@@ -1,4 +1,4 @@
-// Compares albedos as the renderer evaluates them from its tables with the integrals that the
+// Compares the albedos that the renderer evaluates from its tables with the integrals that the
 // tables approximate.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
@@ -37,9 +37,9 @@ class Errors {
     ++count_;
   }
 
-  /// They must not exceed what is stated, nor be much smaller.
+  /// Measured errors must not exceed the stated ones, nor be much smaller.
   void expect(const tables::StatedError& stated, const char* what) const {
-    constexpr double rounding = 1e-6;  // of float32
+    constexpr double rounding = 1e-6;  // rounding error of float32
     const double rms = std::sqrt(squares_ / count_);
     EXPECT_LE(above_, stated.above + rounding) << what;
     EXPECT_LE(below_, stated.below + rounding) << what;
@@ -141,8 +141,8 @@ TEST(TableErrors, GgxMeans) {
   schlick.expect(tables::kGgxMeanSchlickError, "Schlick");
 }
 
-// What single scattering loses, by the tables, is returned by a lobe whose albedo is the loss
-// divided by its tabulated mean.
+// By the tables, a lobe whose albedo is the loss divided by its tabulated mean returns the energy
+// that single scattering loses.
 TEST(TableErrors, WhiteMetalConservesEnergy) {
   const Quadrature points = tables::graded(32), cosines = tables::graded(64);
   double least = 1, most = 1;
@@ -231,7 +231,7 @@ TEST(TableErrors, RefractionLoss) {
     Errors errors;
     Spread criticals = spread(0, 3), roughnesses = spread(1, 3), columns = spread(2, 3);
     for (int i = 0; i < 4000; ++i) {
-      constexpr double least = 0.0775;  // of an index of 1.003
+      constexpr double least = 0.0775;  // for an index of 1.003
       const double critical = least + (kGreatestCritical - least) * criticals();
       const double inverse = std::sqrt(1 - critical * critical);
       const double roughness = roughnesses(), column = columns(), part = 2 * column - 1;

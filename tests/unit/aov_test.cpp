@@ -35,7 +35,7 @@ const std::vector<std::uint32_t>& ids(const Film& film, const char* name) {
   return channel<std::uint32_t>(film, std::string("id.") + name);
 }
 
-/// A triple of channels at a pixel.
+/// The three channels of a vector AOV at a pixel.
 DVec3 triple(const Film& film, const std::string& aov, std::size_t pixel,
              const char* names = "XYZ") {
   DVec3 v;
@@ -200,7 +200,7 @@ TEST(Aov, MaskedAndCulledSurfacesAreTransparent) {
   Scene scene = scene_of({Disc{{0, 0, -2}, {0, 0, 1}, 9}, Disc{{0, 0, -3}, {0, 0, 1}, 9},
                           Disc{{0, 0, -4}, {0, 0, 1}, 9}});
   scene.materials.push_back(
-      {.base_color = {1, 1, 1, 0.4F}, .alpha_mode = AlphaMode::mask});  // below the cutoff
+      {.base_color = {1, 1, 1, 0.4F}, .alpha_mode = AlphaMode::mask});  // alpha below the cutoff
   scene.materials.push_back({.base_color = {1, 0, 0, 0.1F}, .alpha_mode = AlphaMode::blend});
   scene.objects[0].material = 0;
   scene.objects[1].material = 1;
@@ -263,7 +263,7 @@ TEST(Aov, SamplesDoNotChangeCutOuts) {
 
 TEST(AovIntegrator, DrawsTheSameNumbers) {
   Scene scene = patchwork();
-  scene.background = {0.5F, 0.5F, 0.5F};  // must not appear in a picture of quantities
+  scene.background = {0.5F, 0.5F, 0.5F};  // must not appear in a picture of exact quantities
   const Film film = drawn(scene, PerspectiveCamera{});
   for (const Aov aov : kAovs) {
     if (aov == Aov::id) continue;

@@ -61,7 +61,7 @@ TEST(ArrayTest, BorrowsWithoutCopyingUntilItIsEdited) {
   EXPECT_EQ(a, kPoints);
   Array<Vec3> moved = std::move(a);
   EXPECT_EQ(address(moved), points.data());
-  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): nothing that could dangle
+  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): no dangling pointer remains
   moved.push_back(moved[0]);
   EXPECT_EQ(moved.size(), 5U);
   EXPECT_EQ(points.size(), 4U);
@@ -77,7 +77,7 @@ TEST(ArrayTest, KeepsTheOwnerOfItsMemoryAsLongAsItRefersToIt) {
   EXPECT_TRUE(a.empty());
   EXPECT_EQ(copy, kPoints);
   EXPECT_FALSE(watched.expired());
-  copy.push_back(copy[0]);  // a value of the memory that goes with it
+  copy.push_back(copy[0]);  // the argument is in the memory that is released
   EXPECT_TRUE(watched.expired());
   EXPECT_EQ(copy.back(), kPoints[0]);
 }

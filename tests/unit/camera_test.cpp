@@ -79,7 +79,7 @@ TEST(PerspectiveCamera, WindowWithAspectRatioIsFitted) {
   PerspectiveCamera camera = first_camera();
   camera.aspect_ratio = 2;
   const double half = std::tan(std::numbers::pi / 6);
-  // If the picture is wider than the window, the height fits; if narrower, the width.
+  // If the picture is wider than the window, the height fits; if it is narrower, the width.
   const DVec3 wide = RayGenerator(camera, {.width = 400, .height = 100})(200, 0).d;
   EXPECT_NEAR(wide.y / -wide.z, half, 1e-6);
   const DVec3 narrow = RayGenerator(camera, {.width = 100, .height = 100})(0, 50).d;
@@ -362,8 +362,7 @@ TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
     const RayGenerator ray(camera, kSize);
     const Ray here = ray(100, 400);
     const RayDifferential step = ray.differential(here);
-    // Float32 rays: a step of ten pixels in each direction, compared with a relative tolerance of
-    // 1/1000.
+    // Float32 rays: a step of ten pixels in each direction, with a relative tolerance of 1/1000.
     const Ray left = ray(90, 400), right = ray(110, 400), above = ray(100, 390),
               below = ray(100, 410);
     const auto compare = [&](const DVec3& a, const DVec3& b) {

@@ -37,7 +37,7 @@ std::shared_ptr<const RadianceMap> map_of(
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// Dim, with a sun of one pixel.
+/// A dim map with a sun of one pixel.
 std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t height) {
   return map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
     if (x == width / 3 && y == height / 4) return Vec3(20000, 18000, 15000);
@@ -182,7 +182,7 @@ TEST_P(Maps, PdfIntegratesToOne) {
   EXPECT_NEAR(integral, 1, 2e-5);
 }
 
-// Except for the rounding of the direction, where the map is steep.
+// Tolerates the rounding of the direction where the map is steep.
 TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   constexpr std::uint32_t kSamples = 20000;
   float brightest = 0;

@@ -112,7 +112,8 @@ TEST_P(GridKinds, QueriesOfOtherTrianglesEqualDyadic) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
     const auto root = first_hit(triangle, ray);
     if (!root) continue;
-    // Of the same kind, or with vertices of the first, so that planes and edges contain the point.
+    // Another triangle of the same kind, or one with vertices of the first, so that planes and
+    // edges contain the point.
     Triangle other = triangle_case(random_, GetParam()).shape;
     if (random_.one_in(2)) other.a = triangle.b;
     if (random_.one_in(3)) other.b = triangle.a;
@@ -126,7 +127,7 @@ TEST_P(GridKinds, QueriesOfOtherTrianglesEqualDyadic) {
   }
 }
 
-// The combination of all stages always has an answer, and always the same.
+// The combination of all stages always has a result, and always the same one.
 TEST_P(GridKinds, HitsCombineAllStages) {
   for (int i = 0; i < kCases; ++i) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());

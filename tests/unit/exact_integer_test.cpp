@@ -24,7 +24,7 @@ Dyadic dyadic(const Integer<Limbs>& x) {
   return x.is_negative() ? -sum : sum;
 }
 
-/// Up to 2^120 in magnitude, with runs of ones and zeros, which cause long carries.
+/// Numbers of up to 2^120 in magnitude, with runs of ones and zeros, which cause long carries.
 class Numbers {
  public:
   Integer<2> operator()() {
@@ -72,7 +72,7 @@ TEST(Integer, SumsAndProductsEqualDyadic) {
   }
 }
 
-// The largest forms of Grid, for maximum coordinates: none wraps around.
+// The largest forms of Grid, for maximum coordinates, must not overflow.
 TEST(Integer, HoldsTheLargestForms) {
   const auto most = Integer<2>::shifted(false, (std::uint64_t{1} << 56U) - 1, 64);  // < 2^120
   const auto difference = most - -most;

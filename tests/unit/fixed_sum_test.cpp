@@ -48,7 +48,7 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
   EXPECT_EQ(wide.value(), 0x1p100);
 }
 
-// Near 1 and far from it, where terms are added in two ways.
+// Covers both ways of adding terms: near 1 and far from it.
 TEST(FixedSum, TermsAreTruncatedToMultiplesOfTheUnit) {
   __extension__ using Wide = __int128;
   std::mt19937_64 random(2);
@@ -94,7 +94,7 @@ TEST(FixedSum, OrderAndGroupingHaveNoEffect) {
     left += right;
     EXPECT_EQ(left, sum);
   }
-  // The sum in double must depend on the order, otherwise the test would be meaningless.
+  // The sum in double must depend on the order; otherwise the test would be meaningless.
   double forth = 0, back = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     forth += terms[i];

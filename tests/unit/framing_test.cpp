@@ -148,7 +148,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   for (const Shape& shape : {Shape(sphere), Shape(quadric), Shape(negative)}) {
     const PerspectiveCamera camera = frame(scene_of({shape}), View{}, size);
     expect_tight(seen(ball, camera, size), 1e-3);
-    // The ball fills the height: sine of half the subtended angle.
+    // The ball fills the height: the sine of half the subtended angle is radius / distance.
     const double half = std::atan(kEdge * std::tan(std::numbers::pi / 8));
     EXPECT_NEAR(glm::distance(camera.pose.position, center), 2 / std::sin(half), 1e-6);
   }

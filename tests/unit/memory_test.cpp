@@ -111,7 +111,7 @@ TEST_F(FreeMemory, RespectsGroupsOfVersion1) {
   EXPECT_EQ(free_memory(root_), 500U);
 }
 
-/// A ball with as many materials as textures, all of one image.
+/// A ball with as many materials as textures; all textures share one image.
 Scene textured(std::size_t count) {
   Scene scene;
   const Image image{

@@ -66,7 +66,7 @@ TEST(Passes, SeedChangesTheNoise) {
   EXPECT_NE(one.row(0)[0], other.row(0)[0]);
 }
 
-// Machines that compute shards, in any order, and one that resumes from their checkpoints.
+// Several machines compute the shards in any order, and one resumes from their checkpoints.
 TEST(Passes, PartsAddUpToTheWhole) {
   const Film whole = drawn({.samples = 50, .transparent = true});
   std::vector<SampleSums> parts;

@@ -1,4 +1,4 @@
-// A prepared scene gives the same pictures and answers as the scene.
+// A prepared scene gives the same pictures and query results as the scene.
 
 #include "render/prepared/content.hpp"
 #include "support/generated_meshes.hpp"
@@ -38,7 +38,7 @@ std::shared_ptr<const Image> checkers() {
   return image;
 }
 
-/// A textured terrain, a lamp, a point light, `shift` away from the origin.
+/// A textured terrain, an emitter and a point light, all translated by `shift`.
 Scene furnished(const Vec3& shift = Vec3(0)) {
   Scene scene;
   Mesh mesh = generated::terrain(400);
@@ -255,7 +255,7 @@ TEST(PreparedScene, OwnsItsScene) {
   static_assert(std::is_constructible_v<Bvh, const Scene&>);
 }
 
-/// Both must refuse the scene, with this pointer.
+/// Both functions must refuse the scene, with this pointer.
 void expect_refused(const Scene& scene, const char* pointer) {
   const auto expect = [&](const auto& f) {
     try {
@@ -313,7 +313,7 @@ TEST(Validate, RefusesNumbersThatAreNotFinite) {
   Scene scene = furnished();
   std::get<Mesh>(scene.objects[0].shape).positions.edit()[3].y = std::nanf("");
   EXPECT_THROW(validate(scene), Error);
-  // Harmless: those triangles are empty.
+  // Harmless, because these triangles are empty.
   EXPECT_NO_THROW((void)render(scene, views_of(scene)[0], kSize));
   scene = furnished();
   scene.cameras.push_back({.name = "", .camera = PerspectiveCamera{.vertical_fov = 4}});

@@ -77,7 +77,7 @@ TEST(Render, StopsIfProgressReturnsFalse) {
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::canceled);
     }
-    // No call after the one that canceled.
+    // The callback is not called again after it cancels.
     EXPECT_EQ(calls, 3);
   }
 }

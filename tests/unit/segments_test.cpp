@@ -76,7 +76,7 @@ TEST(Segments, PointsCoverTheirPixel) {
   for (const float x : {7.0F, 7.25F, 7.5F, 7.75F}) {
     for (const float y : {9.0F, 9.25F, 9.5F, 9.75F}) {
       const Scene scene = scene_of({Vec3(x, y, 0)}, {{0, 0}});
-      // On the border between pixels the right and the lower one is covered.
+      // A line on the border between pixels covers the right and the lower one.
       const Pixel expected(7, y == 9 ? 8 : 9);
       EXPECT_THAT(drawn(scene, kPixels), ElementsAre(expected)) << x << " " << y;
     }

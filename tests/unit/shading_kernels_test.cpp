@@ -117,7 +117,7 @@ void put_any_surface(SurfaceLanes& lanes, int i, LaneRandom& random) {
   put(lanes.along, i, random.vector());
   lanes.film_share[i] = factor();
   lanes.film_ior[i] = 1 + random.number();
-  // Some beyond the range of the fast reduction of angles.
+  // Some thicknesses are beyond the range of the fast reduction of angles.
   lanes.film_thickness[i] = random.number() < 0.1F ? 1e12F : 1000 * random.number();
   put(lanes.sheen, i, random.number() < 0.2F ? Vec3(0) : random.color());
   lanes.sheen_roughness[i] = random.number();

@@ -54,7 +54,7 @@ TEST(Sidecar, DescribesObjectsAndTheirPixels) {
   EXPECT_TRUE(objects[1]["world_box"].is_null());
   EXPECT_EQ(objects[2]["name"], "Größe/網");
   EXPECT_EQ(objects[2]["box"], json({10, 21, 11, 22}));
-  // Exactly the stored float32 numbers.
+  // The stored float32 numbers must appear exactly.
   EXPECT_EQ(objects[2]["world_box"]["max"], json({0.0, static_cast<double>(0.1F), 2.0}));
   EXPECT_EQ(sidecar["materials"], json::array({{{"id", 1}, {"name", "\tgold"}}}));
 }

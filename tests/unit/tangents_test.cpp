@@ -115,9 +115,9 @@ TEST(Tangents, PointEastOnASphere) {
 }
 
 TEST(Tangents, WeightTrianglesByAngle) {
-  // A ridge along y: at its middle the left slope has a right angle, and so has the right slope,
-  // which is divided in two. The normal points up, so both tangents are horizontal and do not
-  // cancel.
+  // A ridge along y. At its middle the left slope has a right angle, and so has the right slope,
+  // which consists of two triangles. The normal points up, so both tangents are horizontal and do
+  // not cancel.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
   mesh.normals.assign(4, {0, 0, 1});
@@ -129,7 +129,7 @@ TEST(Tangents, WeightTrianglesByAngle) {
                                                      .normals = mesh.normals,
                                                      .uv = mesh.uv_sets[0],
                                                      .triangles = mesh.triangles});
-  // The second is mirrored, so they don't share tangents.
+  // The second triangle is mirrored, so they don't share tangents.
   expect_near(corners[0], {1, 0, 0, 1});
   expect_near(corners[3], {-1, 0, 0, -1});
   mesh.uv_sets = {{{0, 0}, {1, 0}, {0, -1}, {-1, -2}}};

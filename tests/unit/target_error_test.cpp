@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// 1 left of pixel 16; a coin flip of 0 or 2 from there to pixel 31; a hundredth of that from pixel
-/// 32 on.
+/// Returns 1 left of pixel 16; 0 or 2 with equal probability up to pixel 31; a hundredth of that
+/// from pixel 32 on.
 class CoinIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
@@ -38,15 +38,15 @@ Film drawn(RenderOptions options) {
   return render(Scene{}, PerspectiveCamera{}, kSize, options);
 }
 
-/// With at most this many samples. Continues from the sums, if there are any.
+/// Renders with at most this number of samples. Continues from the sums, if there are any.
 Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
   return drawn({.threads = threads,
                 .samples = samples,
                 .passes = Passes{.sums = &sums, .target_error = target}});
 }
 
-// A coin flip of 0 or 2 has the standard deviation 1; the mean of n has at most the error 1 /
-// sqrt(n - 1).
+// A coin flip of 0 or 2 has the standard deviation 1; the mean of n flips has an error of at most 1
+// / sqrt(n - 1).
 TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   SampleSums sums;
   (void)drawn_to(0, sums, 4096);
@@ -80,8 +80,8 @@ TEST(TileErrors, ConvergedTilesHaveConvergedNeighbors) {
   EXPECT_EQ(good_tiles(errors, window, 0.1), expected);
 }
 
-// At the border between the halves, tiles wait for each other; the coin needs some 800 samples, so
-// 1024.
+// At the border between the halves, tiles wait for each other; the coin needs about 800 samples,
+// rounded up to 1024.
 TEST(TargetError, StopsConvergedTiles) {
   SampleSums sums;
   RenderCounts counts;

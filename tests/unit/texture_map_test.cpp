@@ -130,7 +130,7 @@ TEST(TextureMap, WithoutMipMapsUsesTheBaseLevel) {
 }
 
 TEST(TextureMap, ObliqueSurfacesAreFilteredAnisotropically) {
-  // Columns of two pixels: sharp if the footprint is elongated along them.
+  // Columns of two pixels, which are sharp if the footprint is elongated along them.
   std::vector<std::uint8_t> samples;
   for (int i = 0; i < 16 * 16; ++i) samples.push_back(i % 4 < 2 ? 255 : 0);
   const Image image{.width = 16, .height = 16, .channels = 1, .samples = samples};

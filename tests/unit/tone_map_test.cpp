@@ -12,8 +12,8 @@ struct Case {
   Vec3 light, khronos_pbr_neutral, aces, agx;
 };
 
-// Computed in Python, float64, from the formulas of the Khronos specification and of three.js; the
-// outset matrix of AgX is the inverse of the one printed in Filament.
+// Computed with Python in float64 from the formulas of the Khronos specification and of three.js.
+// The outset matrix of AgX is the inverse of the one printed in Filament.
 constexpr Case kCases[] = {
     {{0.18, 0.18, 0.18},
      {0.14, 0.14, 0.14},

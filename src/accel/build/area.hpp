@@ -16,27 +16,28 @@ namespace microtrace::build {
   return x * y + (x + y) * z;
 }
 
-/// Surface areas relative to a box that contains all others. Lengths are scaled by a power of two
-/// to at most 4, so that areas neither overflow nor, for ratios of sizes below 2^60, underflow.
+/// Computes surface areas relative to a box that contains all others. Lengths are scaled by a power
+/// of two to at most 4, so areas don't overflow, and don't underflow for ratios of sizes below
+/// 2^60.
 class AreaMeasure {
  public:
   explicit AreaMeasure(const Box& whole) {
     const Float4 e = half_extent(whole);
     const float largest = std::max({e[0], e[1], e[2], 0.0F});
-    const int exponent = std::bit_cast<std::int32_t>(largest) >> 23;  // biased
+    const int exponent = std::bit_cast<std::int32_t>(largest) >> 23;  // biased exponent
     if (largest > 0) scale_ = std::bit_cast<float>(std::clamp(253 - exponent, 1, 253) << 23);
   }
 
-  /// A quarter of half the surface area of a nonempty box, plus a small multiple of the perimeter:
-  /// collinear boxes have no area, but short ones are still preferable.
+  /// A quarter of half the surface area of a nonempty box, plus a small multiple of its perimeter.
+  /// Collinear boxes have no area, but shorter ones are still preferable.
   [[nodiscard]] float operator()(const Box& b) const {
     const Float4 e = half_extent(b) * splat(scale_);
     return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
   }
 
-  /// The area for a triangle in the limit of ever smaller boxes around its pieces.
+  /// The area of a triangle in the limit of ever smaller boxes around its pieces.
   [[nodiscard]] float of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
-    const float half = 0.5F * scale_;  // as in half_extent
+    const float half = 0.5F * scale_;  // as in half_extent()
     const Vec3 n = glm::abs(glm::cross((b - a) * half, (c - a) * half));
     return 0.5F * (n.x + n.y + n.z);
   }

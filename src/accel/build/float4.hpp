@@ -21,12 +21,12 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return Float4{x, x, x, x};
 }
 
-/// Sets the fourth lane to 0: other data, interpreted as a number, could be subnormal and slow.
+/// Sets the fourth lane to 0, because its other data could be a subnormal number, which is slow.
 [[nodiscard]] inline Float4 xyz(Float4 v) {
   return std::bit_cast<Float4>(std::bit_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }
 
-/// Axis-aligned, closed; empty if lo > hi.
+/// An axis-aligned, closed box; empty if lo > hi.
 struct Box {
   Float4 lo = splat(std::numeric_limits<float>::infinity());
   Float4 hi = splat(-std::numeric_limits<float>::infinity());
@@ -41,7 +41,7 @@ struct Box {
   }
 };
 
-/// Half of each extent; the full extent could exceed the largest float.
+/// Half of each extent, because the full extent could exceed the largest float.
 [[nodiscard]] inline Float4 half_extent(const Box& b) {
   return xyz(b.hi) * splat(0.5F) - xyz(b.lo) * splat(0.5F);
 }

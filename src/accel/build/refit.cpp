@@ -13,7 +13,7 @@
 namespace microtrace::build {
 namespace {
 
-// The leaves of this many nodes are fitted by one thread.
+// One thread fits the leaves of this many nodes.
 constexpr std::size_t kNodesPerJob = 1024;
 
 class Refitter {
@@ -21,7 +21,7 @@ class Refitter {
   Refitter(const Tree& from, const Primitives& primitives, Tree& to)
       : from_(from), primitives_(primitives), to_(to) {}
 
-  // Fits the leaves of some nodes; false if a primitive does not belong in its leaf any more.
+  // Fits the leaves of some nodes. Returns false if a primitive no longer belongs in its leaf.
   bool fit_leaves(std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) {
       WideNode& node = to_.nodes[n] = from_.nodes[n];
@@ -95,7 +95,7 @@ class Refitter {
   Tree& to_;
 };
 
-// False also if nothing has an area: then the costs are infinite.
+// Also returns false if all areas are zero, because the costs are then infinite.
 bool grows_at_most(double growth, const RelativeCost& from, const RelativeCost& to) {
   return to.to_tree / from.to_tree <= growth && to.to_primitives / from.to_primitives <= growth;
 }

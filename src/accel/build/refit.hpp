@@ -13,13 +13,13 @@
 
 namespace microtrace::build {
 
-/// The previous tree for the primitives' new shapes, without `duplicates` and `unbounded`. Boxes
-/// contain all of a triangle that moved, even if the tree was built with boxes of its pieces; a
-/// leaf in which nothing moved keeps its box.
+/// Fits the previous tree to the primitives' new shapes, without `duplicates` and `unbounded`. The
+/// box of a triangle that moved contains the whole triangle, even if the tree was built with boxes
+/// of its pieces. A leaf in which nothing moved keeps its box.
 ///
-/// `references` are those of all primitives that belong in a tree. Nothing if the previous tree has
-/// other primitives, or has one of them in another kind of leaf than a new tree; or if a relative
-/// cost would be more than max_growth times that of the tree when it was built.
+/// `references` are those of all primitives that belong in a tree. Returns nothing if the previous
+/// tree has other primitives, if it has one of them in another kind of leaf than a new tree would,
+/// or if a relative cost would exceed max_growth times its value when the tree was built.
 [[nodiscard]] std::optional<Tree> refitted(const Tree& previous, const References& references,
                                            const Primitives& primitives, double max_growth,
                                            WorkerPool& pool);

@@ -15,7 +15,7 @@ using namespace build;
 
 constexpr int kBinsForPreview = 8;
 
-// For fewer references, starting threads takes longer than it saves.
+// With fewer references, starting threads takes longer than it saves.
 constexpr std::size_t kWorthThreads = 20000;
 
 void plan(BinaryTree& binary, WorkerPool& pool) {

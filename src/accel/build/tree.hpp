@@ -18,23 +18,23 @@ namespace microtrace {
 struct Tree;
 
 struct BuildOptions {
-  bool fast = false;     ///< a quick build for previews, with fewer candidates for splits
+  bool fast = false;     ///< builds faster with fewer candidate splits, for previews
   unsigned threads = 0;  ///< 0: default_threads(). The tree is the same for any number.
-  /// A tree to be fitted to the primitives if it is one of the same primitives in other positions,
-  /// and its cost does not grow more than by this factor. Released before another tree is built.
+  /// A tree to be refitted if it has the same primitives in other positions and its cost grows by
+  /// at most this factor. It is released before another tree is built.
   std::shared_ptr<const Tree> previous{};
   double max_cost_growth = 1;
 };
 
-/// World space, closed; empty if lo > hi.
+/// World-space bounds, closed; empty if lo > hi.
 struct Bounds {
   Vec3 lo{std::numeric_limits<float>::infinity()};
   Vec3 hi{-std::numeric_limits<float>::infinity()};
 };
 
 /// The expected cost of a ray by the surface area heuristic, relative to the surface area of the
-/// tree's box and to that of its primitives' boxes. The first measures trees whose primitives
-/// become larger, the second trees of which a part moves away.
+/// tree's box, and to that of its primitives' boxes. The first detects primitives that grow, the
+/// second parts of the scene that move away from each other.
 struct RelativeCost {
   double to_tree = 0, to_primitives = 0;
 };
@@ -47,15 +47,16 @@ struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
   std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
-  std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and what leaves the float32 range
-  Duplicates duplicates;  ///< primitives represented by another one with the same points
-  ChildRef root = 0;      ///< a node without children if there are no leaves
-  Bounds bounds;          ///< bounds of all leaves
+  std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and shapes beyond the float32 range
+  Duplicates duplicates;               ///< primitives with the same points as one in the tree
+  ChildRef root = 0;                   ///< a node without children if there are no leaves
+  Bounds bounds;                       ///< bounds of all leaves
 
   // For refitted().
   std::size_t primitives = 0;                ///< in leaves
   double area = 0;                           ///< References::area
-  std::optional<RelativeCost> built_cost{};  ///< of a refitted tree: that when it was built
+  std::optional<RelativeCost> built_cost{};  ///< relative cost when the tree was built, for a
+                                             ///< refitted tree
 };
 
 /// The scene of the primitives must outlive only this call. Throws Error (limit) if the tree would

@@ -10,7 +10,7 @@
 
 namespace microtrace::build {
 
-/// Threads that share loops, including the calling thread.
+/// A pool of threads that execute loops together with the calling thread.
 class WorkerPool {
  public:
   /// 0: default_threads(). Starts fewer if the system refuses more.
@@ -19,8 +19,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Calls f(0) ... f(count - 1), in any order and concurrently; returns when all are done. If some
-  /// throw, one of the exceptions is rethrown here and calls not yet started are dropped.
+  /// Calls f(0) ... f(count - 1) concurrently, in any order, and returns when all are done. If
+  /// calls throw, rethrows one of the exceptions and drops calls that have not started.
   void run(std::size_t count, const std::function<void(std::size_t)>& f);
 
  private:

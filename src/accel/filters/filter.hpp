@@ -20,8 +20,8 @@
 namespace microtrace {
 
 /// Within this limit no intermediate result overflows, and underflow adds less than kUnderflow to a
-/// form of degree six: 2^-1075 times at most 2^(6 * 64), a few hundred times. Larger coordinates
-/// are left to exact arithmetic.
+/// form of degree six: a few hundred times 2^-1075 times at most 2^(6 * 64). Larger coordinates are
+/// left to exact arithmetic.
 inline constexpr float kLargestCoordinate = 0x1p64F;
 
 [[nodiscard]] constexpr double gamma(double roundings) {
@@ -30,7 +30,7 @@ inline constexpr float kLargestCoordinate = 0x1p64F;
 
 enum class Certainty { miss, hit, unsure };
 
-/// The result of a filter. Unless it is a miss, lo is below the exact t of a hit; if the hit is
+/// The result of a filter. Unless it is a miss, lo is below the exact t of the hit; if the hit is
 /// certain, hi is above it.
 struct FilterResult {
   Certainty certainty = Certainty::miss;
@@ -43,7 +43,7 @@ struct Range {
   double t_min, t_max;
 };
 
-/// A rounded number and a bound of its distance from the exact one.
+/// A rounded number and a bound of its error.
 struct Approximate {
   double value, error;
 
@@ -51,8 +51,8 @@ struct Approximate {
   [[nodiscard]] bool is_negative() const { return value < -error; }
 };
 
-/// The sum of x_i y_i, where each product has at most `roundings` roundings, including earlier ones
-/// and the two of the sum.
+/// The sum of x_i y_i. Each product has at most `roundings` roundings, including those before this
+/// function and the two of the sum.
 [[nodiscard]] inline Approximate dot_product(const DVec3& x, const DVec3& y, int roundings) {
   const double a = x.x * y.x, b = x.y * y.y, c = x.z * y.z;
   return {.value = a + b + c,
@@ -70,7 +70,7 @@ struct Approximate {
 /// The interval of numerator / denominator, compared with the range. The quotient q of the rounded
 /// parts satisfies |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound itself has
 /// eight roundings of second order, for which 1 + gamma(8) would suffice. Any |d| above its error
-/// would be valid; four times the error keeps lo and hi close.
+/// would be valid; requiring four times the error keeps lo and hi close.
 [[nodiscard]] inline FilterResult quotient_result(const Approximate& numerator,
                                                   const Approximate& denominator,
                                                   const Range& range) {

@@ -5,7 +5,7 @@
 
 namespace microtrace {
 
-/// A plane seen from o: t = n.(point - o) / n.d.
+/// A plane relative to the ray origin o: t = n.(point - o) / n.d.
 class PlaneFilter {
  public:
   PlaneFilter(const Vec3& point, const Vec3& normal, const Vec3& o)
@@ -13,7 +13,8 @@ class PlaneFilter {
   PlaneFilter(const Plane& plane, const Vec3& o) : PlaneFilter(plane.point, plane.normal, o) {}
 
   [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
-    // Two roundings would suffice, because products of two float32 are exact; four cost nothing.
+    // Two roundings would suffice, because products of two float32 are exact. Four don't cost
+    // anything.
     return quotient_result(height_, dot_product(normal_, d, 4), range);
   }
 
@@ -22,7 +23,8 @@ class PlaneFilter {
   Approximate height_;
 };
 
-/// A disc seen from o: its plane, then the squared distance of the intersection from the center.
+/// A disc relative to the ray origin o: first its plane, then the squared distance of the
+/// intersection from the center.
 class DiscFilter {
  public:
   DiscFilter(const Disc& disc, const Vec3& o)
@@ -33,23 +35,23 @@ class DiscFilter {
   [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
     FilterResult crossing = plane_(d, range);
     if (crossing.certainty == Certainty::miss) return crossing;
-    // If the ray is nearly in the plane, t is unbounded, and so is the distance.
+    // If the ray is nearly parallel to the plane, t is unbounded, and so is the distance.
     if (!std::isfinite(crossing.lo)) return crossing;
-    // Half of the radius would suffice; the full one only makes a few more rays near the edge
+    // Half of the radius would suffice; the full one only leaves a few more rays near the edge
     // undecided.
     const double t = (crossing.lo + crossing.hi) / 2, radius_of_t = crossing.hi - crossing.lo;
     double distance2 = 0, error = 0;
     for (int k = 0; k < 3; ++k) {
-      // q = (o - c) + t d: two roundings of the first term, three of the second, including that of
-      // t, and the error of t.
+      // q = (o - c) + t d has two roundings in the first term, three in the second, including that
+      // of t, and the error of t.
       const double q = from_center_[k] + t * d[k];
       const double q_error = gamma(kRoundings) * (std::abs(from_center_[k]) + std::abs(t * d[k])) +
                              radius_of_t * std::abs(d[k]) + kUnderflow;
       distance2 += q * q;
       error += (2 * std::abs(q) + q_error) * q_error;
     }
-    // The squares and their sum have three roundings. The roundings of q_error are of second order
-    // and at most ten: 1 + gamma(10) would suffice.
+    // The squares and their sum have three roundings. The roundings of q_error are of second order,
+    // at most ten: 1 + gamma(10) would suffice.
     error = error * (1 + gamma(20)) + gamma(kRoundings) * distance2 + kUnderflow;
     const double outside = distance2 - radius2_;
     if (outside > error) return {.certainty = Certainty::miss};

@@ -7,9 +7,9 @@
 
 namespace microtrace {
 
-/// The two roots (-b -+ s) / a in order, with error bounds of the numerators; a > 0 is certain, and
-/// s is the root of the discriminant. The first root that is certainly in range is the hit; a root
-/// that may be in range makes the result unsure.
+/// Computes the two roots (-b -+ s) / a in ascending order, with error bounds of the numerators; a
+/// is certainly positive, and s is the root of the discriminant. The first root that is certainly
+/// in range is the hit; a root that may be in range makes the result unsure.
 [[nodiscard]] inline FilterResult first_root_result(const Approximate& a, const Approximate& b,
                                                     const Approximate& s, const Range& range) {
   const double error = b.error + s.error + gamma(1) * (std::abs(b.value) + s.value);
@@ -20,22 +20,22 @@ namespace microtrace {
 }
 
 /// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x)
-/// for error <= x; callers require four times as much. Half of gamma(4) would suffice, because it
-/// covers two roundings of second order.
+/// for error <= x. Callers make sure that x is at least four times the error. Half of gamma(4)
+/// would suffice, because it covers two roundings of second order.
 [[nodiscard]] inline Approximate square_root(const Approximate& x) {
   const double root = std::sqrt(x.value);
   return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(1) * root};
 }
 
-/// A sphere seen from o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 = 0. By Lagrange's
-/// identity the discriminant is r^2 d.d - |d x m|^2, without the cancellation of (d.m)^2 -
-/// (d.d)(m.m - r^2).
+/// A sphere relative to the ray origin o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 =
+/// 0. By Lagrange's identity the discriminant is r^2 d.d - |d x m|^2, without the cancellation of
+/// (d.m)^2 - (d.d)(m.m - r^2).
 class SphereFilter {
  public:
   SphereFilter(const Sphere& sphere, const Vec3& o)
       : m_(DVec3(o) - DVec3(sphere.center)), radius2_(double{sphere.radius} * sphere.radius) {
     const double m2 = glm::dot(m_, m_);
-    // Only its sign is used: two roundings of m, one of the squares, two of their sum.
+    // Only its sign is used. It has two roundings of m, one of the squares, two of their sum.
     outside_ = {.value = m2 - radius2_, .error = gamma(5) * m2 + kUnderflow};
   }
 
@@ -68,7 +68,8 @@ class SphereFilter {
   Approximate outside_{};  // m.m - r^2: positive outside the sphere
 };
 
-/// A quadric Q(p) = 0 seen from o: Q(o + t d) = alpha t^2 + (grad Q(o) . d) t + Q(o).
+/// A quadric Q(p) = 0 relative to the ray origin o: Q(o + t d) = alpha t^2 + (grad Q(o) . d) t +
+/// Q(o).
 class QuadricFilter {
  public:
   QuadricFilter(const Quadric& q, const Vec3& origin)
@@ -101,8 +102,8 @@ class QuadricFilter {
         .error = gamma(kRoundings) * glm::dot(gradient_permanent_, size) / 2 + kUnderflow};
     const double b2 = beta.value * beta.value, ac = alpha.value * value_.value;
     // The roundings of the products and of the difference are within the bounds of beta and alpha,
-    // which count more roundings than there are. Those of the bound itself are of second order: 1 +
-    // gamma(8) would suffice.
+    // which count more roundings than there are. The roundings of the bound itself are of second
+    // order: 1 + gamma(8) would suffice.
     const Approximate discriminant = {
         .value = b2 - ac,
         .error = ((2 * std::abs(beta.value) + beta.error) * beta.error +
@@ -120,9 +121,9 @@ class QuadricFilter {
   }
 
  private:
-  // Products of two float32 are exact, products of three have one rounding. Five sums follow in the
-  // form of three products, which makes six for alpha; with two more sums eight for the value. beta
-  // has three sums in the gradient, one product and two sums: six.
+  // Products of two float32 are exact, products of three have one rounding. Five sums in the form
+  // of three products follow: six roundings for alpha, and eight for the value with its two more
+  // sums. beta has three sums in the gradient, one product and two sums: six.
   static constexpr int kRoundings = 8;
 
   // a x^2 + b y^2 + c z^2 + d xy + e xz + f yz

@@ -1,7 +1,7 @@
 #pragma once
-/// The number of roundings of terms that float64 computes about triangles: for filters, and for
-/// kernels that evaluate the same formulas for several triangles at once. Plain constants; see
-/// simd/vectors.hpp for the reason.
+/// The number of roundings of terms that are computed about triangles in float64: for filters, and
+/// for kernels that evaluate the same formulas for several triangles at a time. Plain constants
+/// only; see simd/vectors.hpp for the reason.
 
 namespace microtrace {
 
@@ -14,18 +14,18 @@ inline constexpr double kRoundoff = 0x1p-53;
 /// bound.
 inline constexpr double kRounding = kRoundoff * (1 + 32 * kRoundoff);
 
-/// Above the total effect of underflow, some 2^-680; see filter.hpp.
+/// Above the total effect of underflow, which is about 2^-680; see filter.hpp.
 inline constexpr double kUnderflow = 0x1p-600;
 
-/// A product of the normal n = e1 x e2 with an exact vector: e1 and e2 have one rounding each,
-/// their products one, the difference one; the product one, the sum two.
+/// Roundings of the product of the normal n = e1 x e2 with an exact vector: one of e1 and e2, one
+/// of their products, one of the difference; one of the product, two of the sum.
 inline constexpr int kSlopeRoundings = 7;
-/// With a difference of two exact vectors, which has one more.
+/// The same for a difference of two exact vectors, which has one more rounding.
 inline constexpr int kHeightRoundings = 8;
-/// A component of n times a difference of rounded numbers, in a sum of two that is divided: 4 for
-/// n, then the difference, the product, the sum, the quotient.
+/// Roundings of a component of n times a difference of rounded numbers, in a sum of two that is
+/// divided: four of n, one each of the difference, the product, the sum, the quotient.
 inline constexpr int kTermRoundings = 8;
-/// The roundings of a quotient itself: that of t and that of lo or hi.
+/// Roundings of a quotient itself: that of t and that of lo or hi.
 inline constexpr int kQuotientRoundings = 2;
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// The filter of each shape, and the conditions under which it may be used.
+/// Selects the filter of each shape, and states the conditions under which it may be used.
 
 #include "accel/filters/planar_filter.hpp"
 #include "accel/filters/quadratic_filter.hpp"
@@ -23,7 +23,7 @@ namespace microtrace {
   return {q, o};
 }
 
-/// A shape with a negative radius is empty, but the filters square the radius.
+/// Excludes negative radii: such spheres are empty, but the filter squares the radius.
 [[nodiscard]] inline bool is_filterable(const Sphere& s) {
   return is_filterable(s.center) && is_filterable(s.radius) && s.radius >= 0;
 }

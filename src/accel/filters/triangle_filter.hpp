@@ -22,10 +22,10 @@ struct CrossProduct {
     permanent = glm::abs(left) + glm::abs(right);
   }
 
-  /// An exact vector in the form of a cross product.
+  /// Wraps an exact vector as a cross product without error.
   explicit CrossProduct(const DVec3& exact) : value(exact), permanent(glm::abs(exact)) {}
 
-  /// The product with an exact vector d: four roundings from before, one of the product, two of the
+  /// The product with an exact vector d has four earlier roundings, one of the product, two of the
   /// sum.
   [[nodiscard]] Approximate along(const DVec3& d) const {
     return {.value = glm::dot(d, value),
@@ -33,7 +33,8 @@ struct CrossProduct {
   }
 };
 
-/// The plane of a triangle seen from o: t = (A.n) / (d.n) with A = a - o and n = (b - a) x (c - a).
+/// The plane of a triangle relative to the ray origin o: t = (A.n) / (d.n) with A = a - o and n =
+/// (b - a) x (c - a).
 class TrianglePlaneFilter {
  public:
   TrianglePlaneFilter(const Triangle& triangle, const Vec3& o)
@@ -54,9 +55,9 @@ class TrianglePlaneFilter {
   Approximate height_{};
 };
 
-/// A triangle seen from o. With A = a - o, B = b - o, C = c - o the signs of w_a = d.(B x C), w_b =
-/// d.(C x A), w_c = d.(A x B) tell the side on which the ray passes each edge. Two strictly
-/// opposite signs are a miss; three equal signs are an intersection of the triangle's plane inside
+/// A triangle relative to the ray origin o. With A = a - o, B = b - o, C = c - o, the signs of w_a
+/// = d.(B x C), w_b = d.(C x A), w_c = d.(A x B) tell on which side the ray passes each edge. Two
+/// strictly opposite signs mean a miss. Three equal signs mean that the ray meets the plane inside
 /// the triangle.
 class TriangleFilter {
  public:
@@ -84,12 +85,12 @@ class TriangleFilter {
 
  private:
   /// Whether some component of d x A, d x B and d x C certainly has the same sign for all three
-  /// vertices. Projected along d, the ray is then outside the triangle, even if the triangle has no
-  /// area or contains the ray in its plane.
+  /// vertices. Projected along d, the ray is then outside the triangle. This also holds for a
+  /// triangle without area or one whose plane contains the ray.
   [[nodiscard]] bool misses_projected(const DVec3& d) const {
     std::array<bool, 3> all_positive{true, true, true}, all_negative = all_positive;
     for (const DVec3& corner : corners_) {
-      // A has one rounding, the product one; the rounding of the difference doesn't change its
+      // A and the product have one rounding each; the rounding of the difference doesn't change its
       // sign.
       const CrossProduct side(d, corner);
       for (int i = 0; i < 3; ++i) {

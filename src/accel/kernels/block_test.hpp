@@ -20,10 +20,10 @@ struct Interval {
   F lo, hi;
 };
 
-/// The interval of height / size, where size exceeds 16 times its error. Of the last factor half
-/// would suffice, because t and its ends have three roundings. So would 8 times the error: sizes
-/// that small are sums with strong cancellation, whose errors and whose height's errors are below
-/// 13/17 of their bounds.
+/// The interval of height / size, where size exceeds 16 times its error. Half of the last factor
+/// would suffice, because t and its ends have three roundings. Requiring size to exceed 8 times its
+/// error would suffice too: sizes that small are sums with strong cancellation, whose errors (and
+/// whose height's errors) are below 13/17 of their bounds.
 template <class F, class G, class H>
 inline Interval<F> interval(const F& height, const F& size, const G& height_error,
                             const H& size_error) {
@@ -42,13 +42,13 @@ inline Float<N> lanes_of(const Float<N>& x) {
   return x;
 }
 
-/// N triangles against one ray, or one triangle against N rays; the part that is not a vector is a
-/// scalar.
+/// Tests N triangles against one ray, or one triangle against N rays. The operand that is not a
+/// vector is a scalar.
 template <int N, class RayPart>
 struct VolumeTest {
   using F = Float<N>;
   Lanes maybe;    ///< lanes that are not certain misses
-  Lanes certain;  ///< those of them that are certain hits
+  Lanes certain;  ///< lanes of `maybe` that are certain hits
   F height, size, height_error;
   RayPart size_error;
 
@@ -63,7 +63,7 @@ struct VolumeTest {
                        nz = e1[0] * e2[1] - e1[1] * e2[0];
     const F signed_size = nx * d[0] + ny * d[1] + nz * d[2];
     size = magnitude(signed_size);
-    // All multiplied by the sign of signed_size.
+    // Multiplies all by the sign of signed_size.
     const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
     const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
     height = with_sign_of<N>(nx * a[0] + ny * a[1] + nz * a[2], signed_size);
@@ -87,7 +87,7 @@ struct VolumeTest {
 /// Eight triangles against a ray.
 template <int N>
 struct BlockTest {
-  Lanes maybe, certain;  ///< as VolumeTest's
+  Lanes maybe, certain;  ///< as in VolumeTest
 
   /// Drops hits that are certainly beyond t_limit. Inlined explicitly: GCC would not inline it,
   /// which makes traversal a tenth slower.
@@ -142,7 +142,7 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
 }
 
 /// Updates best to the nearest hit among the lanes that a block's test has not rejected. With kAny
-/// it stops at the first hit. fallback(id, best) is the fallback.
+/// it stops at the first hit. `fallback` decides the uncertain lanes.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
                        ClosestSoFar& best, const Slowly& fallback) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Decides most triangle edges that float32 can't: the forms of block_test.hpp in float64, for one
-/// triangle and one ray, with the same bound for the smaller unit roundoff.
+/// Decides most triangle edges that float32 can't decide: evaluates the forms of block_test.hpp in
+/// float64, for one triangle and one ray, with the same bound for the smaller unit roundoff.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -37,7 +37,7 @@ inline double largest_magnitude(const double (&x)[3]) {
 }
 
 /// Whether the plane of triangle k of a block certainly lies behind the ray. Most triangles that
-/// float32 leaves undecided are the ones that the ray has just left.
+/// float32 can't decide are the ones that the ray has just left.
 inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
   const NearTriangle t(block, k, o);
   // Bounds by each component's own terms; an axis-aligned triangle has only one. This matters

@@ -23,8 +23,8 @@ struct ClosestSoFar {
 };
 inline constexpr std::uint32_t kNoPrimitive = ~0U;
 
-/// Decides hits that float32 can't: whether primitive id is hit, and before the nearest hit so far.
-/// Updates best.
+/// Decides a hit that float32 can't decide: whether primitive `id` is hit, and whether before the
+/// nearest hit so far. Updates best.
 struct Fallback {
   void* context;
   void (*consider)(void* context, std::uint32_t id, ClosestSoFar& best);
@@ -36,14 +36,14 @@ inline constexpr float kFarthestCoordinate = 0x1p38F;  ///< every |o_i|, t_min, 
 inline constexpr float kLongestDirection = 0x1p20F;    ///< every |d_i|
 inline constexpr float kShortestDirection = 0x1p-20F;  ///< the largest |d_i|
 
-/// Most rays start at the least number above 0, and processors are slow with subnormal numbers.
-/// Culling starts at 0 instead, which only culls less.
+/// Culling starts at 0 if t_min is below this number. Most rays start at the least float above 0,
+/// and processors are slow with subnormal numbers. Culling less is always valid.
 inline constexpr float kLeastBegin = 0x1p-100F;
 
 /// A ray in the kernels' form, within the limits.
 struct KernelRay {
   float o[3], d[3];
-  float t_min, t_max;  ///< hits that are not certainly at t_min or later go to the fallback
+  float t_min, t_max;  ///< the fallback decides hits that are not certainly at or after t_min
   float t_begin;       ///< hits certainly before it are dropped; t_min, or 0 if t_min is tiny
   // ---- set by the kernel:
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
@@ -149,7 +149,7 @@ struct Kernels {
   const char* name;
   /// Updates best if the tree has a nearer hit.
   void (*closest)(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best);
-  /// Whether there is any hit within the ray's interval.
+  /// Returns whether there is any hit within the ray's interval.
   bool (*any)(const TreeView& tree, KernelRay ray, const Fallback& slow);
   /// Fills a packet, without hits, with up to kPacketRays rays of eight numbers each: o, t_min, d,
   /// t_max. Returns false if their origins differ or a ray is invalid or beyond the limits; the
@@ -161,16 +161,17 @@ struct Kernels {
   void (*prepare_stream)(KernelStream& stream);
   /// As closest, for all rays of a prepared stream.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
-  /// Finds some hit within the interval, if there is one, for every ray that has none.
+  /// Finds any hit within the interval for every ray that has none yet.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
   /// Fills t with the exact parameters rounded to nearest; returns the set of hits for which the
   /// result is certain.
   std::uint64_t (*round_t)(HitBatch& hits);
   /// The same for the hits of a packet that have a slot.
   std::uint64_t (*round_t_of_packet)(const TreeView& tree, const KernelPacket& packet, float* t);
-  /// Finds all primitives with a point in each query's box, possibly some of them twice, and
-  /// possibly others: triangles whose bounding boxes overlap it, and all primitives in a visited
-  /// leaf of other primitives. Up to kBoxQueries at a time, whose memory accesses overlap.
+  /// Finds all primitives with a point in each query's box. May return a primitive twice, and may
+  /// return others: triangles whose bounding boxes overlap the query's box, and all primitives of a
+  /// visited leaf of other primitives. Processes up to kBoxQueries at a time, whose memory accesses
+  /// overlap.
   void (*touching)(const TreeView& tree, BoxQuery* queries, int count);
   /// The number of triangle edge tests in float64 by this thread.
   std::uint64_t (*edge_tests)();

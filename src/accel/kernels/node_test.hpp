@@ -13,8 +13,8 @@ constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder limits the dep
 /// Marks the end of the stack.
 constexpr ChildRef kFinished = child_ref::kKind;
 
-/// Subtrees still to be visited, with the distance at which the ray enters them. kFinished is at
-/// the bottom.
+/// The subtrees still to be visited, each with the distance at which the ray enters it. kFinished
+/// is at the bottom.
 struct RayStack {
   int size;
   ChildRef child[kStackSize + kWidth];  // writing a node's children overwrites kWidth slots
@@ -67,9 +67,10 @@ struct NodeTest {
   }
 };
 
-/// Visits the children of a node that the ray enters before `limit`: returns the nearest, or with
-/// kAny any one, and pushes the others, with kAny without their distance. If there are none, pops a
-/// subtree: with kAny the top one, otherwise the first that starts before the limit.
+/// Visits the children of a node that the ray enters before `limit`: returns the nearest and pushes
+/// the others. With kAny returns any one, and pushes the others without their distances. If the ray
+/// enters none, pops a subtree: with kAny the top one, otherwise the first that starts before the
+/// limit.
 template <int N, bool kAny>
 inline ChildRef step_into(const WideNode& node, const KernelRay& ray, float limit,
                           RayStack& stack) {

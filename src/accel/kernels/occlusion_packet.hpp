@@ -1,7 +1,7 @@
 #pragma once
-/// Any-hit queries of rays with nearby origins. 64 rays traverse the tree with a set of the rays
-/// that enter each subtree; boxes and triangles are tested against N rays at a time. If few rays
-/// are left, the remaining work is passed to stream.hpp.
+/// Answers any-hit queries for rays with nearby origins. 64 rays traverse the tree together, with a
+/// set of the rays that enter each subtree; boxes and triangles are tested against N rays at a
+/// time. If few rays are left, stream.hpp takes over the remaining work.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// Remaining work: a ray that must visit a subtree.
+/// An item of remaining work: a ray that must visit a subtree.
 struct StreamItem {
   int ray;
   ChildRef child;
@@ -195,7 +195,7 @@ class OcclusionPacketWalk {
     });
   }
 
-  // Decides cases that float32 leaves undecided, mostly triangles that rays have just left.
+  // Decides cases that float32 can't decide, mostly triangles that rays have just left.
   void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
     std::uint64_t rest = 0;
     for (; rays != 0; rays &= rays - 1) {

@@ -1,6 +1,6 @@
 #pragma once
 /// Traverses the tree with 64 rays that have a common origin. A node's eight boxes are first tested
-/// against the beam around all rays; each remaining box is then tested against the rays until one
+/// against the beam around all rays; then each remaining box is tested against rays until one
 /// enters it. Terms that depend only on the origin are computed once per triangle, so each ray
 /// takes three dot products.
 

@@ -45,7 +45,8 @@ inline bool read_rows(const float* rays, KernelPacket& packet) {
     store<8>(packet.best_lo + i, column[7]);
     store<8>(packet.best_hi + i, column[7]);
   }
-  // Different float32 numbers never have the difference 0, and the comparison is false for NaN.
+  // The difference of two different float32 numbers is never 0, and the comparison is false for
+  // NaN.
   return less_equal<8>(differences, Float<8>{}) == kAllLanes<8>;
 }
 

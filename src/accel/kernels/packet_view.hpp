@@ -66,8 +66,8 @@ struct PacketView {
                     load<N>(block.c_z + i) - corner.z};
     Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
     F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-    // Bounds for each triangle: with common bounds, a huge triangle would make a tiny one undecided
-    // for every ray. em and m as in TriangleBlock.
+    // Bounds for each triangle. A common bound would be too large: one huge triangle would make a
+    // tiny one undecided for every ray. em and m as in TriangleBlock.
     const F a_sum = magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
     const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
     const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
@@ -86,7 +86,7 @@ struct PacketView {
     two_sided |= both << i;
 
     // A group certainly misses if u, v or size - u - v is negative for all its directions. The
-    // third form has nine roundings, for which 18 units would suffice; 1.5 bounds are more.
+    // third form has nine roundings, for which 18 units would suffice; 1.5 times the bound is more.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for (int group = 0; group < kGroups; ++group) {
       const Beam& beam = packet.group_beam[group];

@@ -1,5 +1,5 @@
 #pragma once
-/// Rounds the parameters of known hits once: t = (A.n) / (d.n) in float64 with
+/// Rounds the parameters t of known hits once: t = (A.n) / (d.n) in float64 with
 /// TrianglePlaneFilter's error bound (derived in src/accel/filters/triangle_filter.hpp), for
 /// several hits at a time.
 
@@ -115,7 +115,7 @@ class PacketRounding {
   }
 
  private:
-  // For rays that hit the same triangle, which is often the triangle of the preceding rays.
+  // Computes rays that hit the same triangle, which is often the triangle of the preceding rays.
   Lanes round_one(std::uint32_t slot, int i) {
     if (slot != place_) {
       place_ = slot;

@@ -21,8 +21,8 @@ inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 
-/// Combines all lanes by halving the vector repeatedly. The result of combine must not depend on
-/// the order.
+/// Combines all lanes by repeatedly combining the two halves of the vector. The result of `combine`
+/// must not depend on the order.
 template <int N, class Combine>
 inline float combined(const Float<N>& v, const Combine& combine) {
   if constexpr (N == 1) {
@@ -47,7 +47,7 @@ inline int first_lane(std::uint64_t lanes) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512VL__)
-/// For each set of eight lanes their indices in ascending order, one byte each.
+/// The indices of the set lanes in ascending order, one byte each, for each set of eight lanes.
 struct PackingTable {
   std::uint64_t order[256];
 };
@@ -84,8 +84,8 @@ inline void store_lanes(Lanes lanes, const T* values, T* to) {
 #endif
 }
 
-/// The lane, out of the given ones, with the least of eight nonnegative keys; without lanes some
-/// number up to 7. Keys that differ only in their last three bits count as equal.
+/// Returns the lane, among the given ones, with the least of eight nonnegative keys; without lanes
+/// any number up to 7. Keys that differ only in their last three bits count as equal.
 inline int least_lane(Lanes lanes, const float* keys) {
 #if defined(__AVX2__)
   // Stores the lane's index in the key's last bits.

@@ -23,7 +23,7 @@ inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   const F q = 1 / magnitude(d);
   const F capped = lesser(q, largest);
   const F below = moved_by_ulps<N>(capped, -2);
-  // Adding ulps to FLT_MAX would pass infinity and give NaN; one ulp gives infinity.
+  // Adding several ulps to FLT_MAX would go past infinity and give NaN; one ulp gives infinity.
   const F above = q < all<N>(0x1p127F) ? moved_by_ulps<N>(capped, 3) : all<N>(__builtin_inff());
   near = d < zero ? -below : below;
   far = d < zero ? -above : above;

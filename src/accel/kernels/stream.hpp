@@ -1,7 +1,7 @@
 #pragma once
-/// Traces many incoherent rays at a time. A single ray waits for memory, and for each step's result
-/// before the next step. Here one pass steps every ray that is at a node, and the next pass every
-/// ray that is at a leaf, so that their steps overlap and the data of the next step is prefetched.
+/// Traces many incoherent rays at a time. A single ray waits for memory, and each step waits for
+/// the result of the one before. Here one pass steps every ray that is at a node, and the next pass
+/// every ray that is at a leaf, so their steps overlap and the data of the next step is prefetched.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -50,7 +50,7 @@ void prepare_stream(KernelStream& stream) {
     std::uint64_t& set = stream.suited[i / 64];
     set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
   }
-  // Packets need full groups: the last ray is repeated.
+  // Fills the last group of a packet by repeating the last ray.
   for (int i = stream.count; i % kPacketRays != 0; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       stream.o[axis][i] = stream.o[axis][i - 1];

@@ -9,7 +9,7 @@
 namespace microtrace {
 namespace {
 
-/// A query with this many results also applies clear_triangles.
+/// Queries with this many results or more also apply clear_triangles.
 constexpr int kFewSlots = 8;
 
 /// The lanes in which [lo, hi] overlaps the box along an axis.
@@ -30,8 +30,7 @@ inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
   return lanes;
 }
 
-/// The triangles whose bounding boxes overlap the box. Unused slots are NaN, which overlaps
-/// nothing.
+/// Triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap nothing.
 template <int N>
 inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
   Lanes lanes = 0;
@@ -49,7 +48,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) 
   return lanes;
 }
 
-/// The box as center and reach; the reach is rounded up.
+/// A box as its center and half extents; the half extents are rounded up.
 struct CenteredBox {
   float center[3], reach[3];
 
@@ -61,12 +60,13 @@ struct CenteredBox {
   }
 };
 
-/// Triangles that certainly pass the box on one side although their bounding boxes overlap it, as
-/// long thin triangles do: along some axis the box is left of one edge and right of another. With A
-/// and B from the center to an edge's ends and r the reach, the area A_i B_j - A_j B_i changes by
-/// at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box. Each of its terms has three roundings;
-/// the rounding of the difference does not change its sign. Half of these bounds would suffice,
-/// both of the eight units and of the margin of the reach for second-order roundings.
+/// Triangles that are certainly clear of the box although their bounding boxes overlap it, as is
+/// common for long thin triangles: along some axis the box is left of one edge and right of
+/// another. With A and B from the center to an edge's ends and r the half extents, the area A_i B_j
+/// - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box. Each of its terms
+/// has three roundings; the rounding of the difference does not change its sign. Half of these
+/// bounds would suffice, both of the eight units and of the margin of the half extents for
+/// second-order roundings.
 template <int N>
 inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;

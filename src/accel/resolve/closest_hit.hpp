@@ -1,6 +1,6 @@
 #pragma once
-/// The nearest hit so far of one ray. Bounds of t in float64 decide if possible; exact arithmetic
-/// decides between two hits whose bounds overlap.
+/// The nearest hit so far of one ray. Compares bounds of t in float64 if possible; compares two
+/// hits whose bounds overlap by exact arithmetic.
 
 #include "accel/filters/filter.hpp"
 #include "accel/resolve/exact_hits.hpp"
@@ -55,7 +55,7 @@ class ClosestHit {
     found_ = true;
   }
 
-  // "No hit yet" is a hit at infinity.
+  // A ray without a hit has t at infinity.
   double lo_ = std::numeric_limits<double>::infinity();
   double hi_ = std::numeric_limits<double>::infinity();
   PrimitiveId id_ = 0;

@@ -6,9 +6,9 @@
 namespace microtrace {
 namespace {
 
-/// Whether two triangles lie in the same plane x_k = s that the ray crosses, such as the faces of
-/// boxes that stand on a floor or side by side. If the ray hits both, the hits have the same
-/// parameter (s - o_k) / d_k.
+/// Whether two triangles lie in the same plane x_k = s that the ray crosses, such as faces of boxes
+/// that stand on a floor or side by side. If the ray hits both, the hits have the same parameter (s
+/// - o_k) / d_k.
 bool share_axis_plane(const Triangle& a, const Triangle& b, const Vec3& d) {
   for (int k = 0; k < 3; ++k) {
     const float s = a.a[k];

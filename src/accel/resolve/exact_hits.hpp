@@ -1,6 +1,6 @@
 #pragma once
-/// Exact answers about a ray's hits: from fixed-width integers if these can represent all numbers,
-/// else from arbitrary-width numbers.
+/// Exact results about a ray's hits, computed with fixed-width integers if these can represent all
+/// numbers, else with arbitrary-width numbers.
 
 #include "exact/numbers/ratio.hpp"
 #include "exact/numbers/root.hpp"

@@ -49,7 +49,7 @@ void HitResolver::consider(std::uint32_t id, ClosestSoFar& best) const {
 }
 
 Hit HitResolver::hit(std::uint32_t id) const {
-  // For a triangle that is certainly hit, its plane gives t.
+  // Gets t from the plane of a triangle that is certainly hit.
   const auto filtered_by = [this](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
       return TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());

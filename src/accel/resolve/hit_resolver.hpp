@@ -34,7 +34,7 @@ class KnownHit;
 class HitResolver {
  public:
   /// All arguments must outlive this object. Values of t in kernels are t_scale times the ray's.
-  /// With `after`, only hits that follow it are considered.
+  /// With `after`, considers only hits that follow it.
   HitResolver(const Primitives& primitives, const Ray& ray, double t_scale = 1,
               const KnownHit* after = nullptr);
 
@@ -67,16 +67,16 @@ class HitResolver {
 /// The hit of a valid ray with a primitive, if there is one.
 class KnownHit {
  public:
-  /// All arguments must outlive this object. `id` is the primitive's; `duplicates` are the
-  /// duplicates of the primitives that will be queried.
+  /// All arguments must outlive this object. `duplicates` are those of the primitives that will be
+  /// queried.
   KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
            const Duplicates& duplicates);
 
   [[nodiscard]] bool exists() const { return exists_; }
   /// Bounds of its exact t.
   [[nodiscard]] const exact::Enclosure& bounds() const { return bounds_; }
-  /// The next hit among primitive id and its duplicates, given a filter's result for them: id
-  /// itself if it is at a larger t; at the same t, the least id above this hit's.
+  /// The next hit among primitive `id` and its duplicates, given a filter's result for them: `id`
+  /// itself if its t is larger; if t is equal, the least id above this hit's.
   [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const FilterResult& filtered) const;
 
  private:

@@ -28,7 +28,7 @@ class PacketResolver {
 
   const Primitives* primitives_;
   std::span<const Ray> rays_;
-  std::optional<RayPacket> packet_;  // created when first needed: most packets only need triangles
+  std::optional<RayPacket> packet_;  // created when first needed: most packets hit only triangles
 };
 
 }  // namespace microtrace

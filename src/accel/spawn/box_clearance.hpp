@@ -19,15 +19,15 @@ inline CrossProduct normal_of(const Triangle& t) {
   return {DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)};
 }
 
-/// Twice the area of the triangle a b p in projection along an axis, for all p in the box p +-
+/// Twice the signed area of the triangle a b p, projected along an axis, for all p in the box p +-
 /// radius.
 inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec3& p,
                               const DVec3& radius) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const DVec3 edge = DVec3(b) - DVec3(a), from_a = p - DVec3(a);
   const double left = edge[i] * from_a[j], right = edge[j] * from_a[i];
-  // Each factor has one rounding, the products one, the difference one; the change within the box
-  // four of second order, for which 1 + gamma(4) would suffice.
+  // Each factor has one rounding, the products one, the difference one. The change within the box
+  // has four roundings of second order, for which 1 + gamma(4) would suffice.
   return {
       .value = left - right,
       .error = gamma(4) * (std::abs(left) + std::abs(right)) +
@@ -35,8 +35,8 @@ inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec
                kUnderflow};
 }
 
-/// Whether the whole box p +- radius lies beside a triangle that may have no area: in projection
-/// along some axis it is certainly left of one edge and right of another.
+/// Whether the whole box p +- radius lies beside a triangle that may have no area: projected along
+/// some axis, it is certainly left of one edge and right of another.
 inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& radius) {
   for (int axis = 0; axis < 3; ++axis) {
     bool any_positive = false, any_negative = false;
@@ -50,8 +50,8 @@ inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& ra
   return false;
 }
 
-/// Whether the whole box p +- radius lies beside the triangle, in projection along the axis nearest
-/// to its normal. This is the common case for coplanar triangles.
+/// Whether the whole box p +- radius lies beside the triangle, projected along the axis nearest to
+/// its normal. This is the common case for coplanar triangles.
 inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3& p,
                       const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
@@ -71,8 +71,8 @@ inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3
 inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, const DVec3& radius) {
   const DVec3 from_center = p - DVec3(center), size = glm::abs(from_center);
   const double square = glm::dot(from_center, from_center), r2 = double{r} * r;
-  // Two roundings of the vector, three of the squares, one of the difference; a seventh for those
-  // of the change within the box, which is at most radius . (2 |x - center| + radius).
+  // Two roundings of the vector, three of the squares, one of the difference. A seventh covers the
+  // change within the box, which is at most radius . (2 |x - center| + radius).
   return {.value = square - r2,
           .error = gamma(7) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
 }

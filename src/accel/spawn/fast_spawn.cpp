@@ -12,8 +12,8 @@
 namespace microtrace {
 namespace {
 
-/// The maximum number of steps by which an origin is moved off a sphere: the number that
-/// spawn_among tries before it looks further along the ray.
+/// The maximum number of steps by which an origin is moved off a sphere. spawn_among tries as many
+/// before it tries points further along the ray.
 constexpr int kBallSteps = 8;
 
 bool is_filterable(const Ray& ray) {
@@ -53,7 +53,8 @@ FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
     second = std::max(second, std::min(gain, largest));
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Otherwise exact arithmetic chooses the axis. A gain has one rounding, far below 2^-31.
+  // If the two largest gains are nearly equal, exact arithmetic chooses the axis. A gain has one
+  // rounding, far below 2^-31.
   if (!(largest > second * (1 + 0x1p-30)))
     p_.reset();
   else
@@ -86,8 +87,8 @@ void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
     error += gamma(5) * flat.normal.permanent[k] * unit;
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // Otherwise exact arithmetic chooses the axis (TriangleSurface::gradient, which states that half
-  // of gamma(5) would suffice).
+  // If the error is larger, exact arithmetic chooses the axis (TriangleSurface::gradient, which
+  // states that half of gamma(5) would suffice).
   if (!(error <= 0x1p-9 * largest))
     p_.reset();
   else
@@ -115,7 +116,7 @@ std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) c
   for (int step = 0; step <= kFlatSteps; ++step) {
     const int sign = certain_side(flat.a, flat.normal, DVec3(q), DVec3(0));
     if (sign == side) return q;
-    // All terms are zero: on the plane, which is common on floors and walls.
+    // If all terms are zero, q is on the plane, which is common on floors and walls.
     const DVec3 from_a = DVec3(q) - DVec3(flat.a);
     const bool is_on = glm::dot(glm::abs(from_a), flat.normal.permanent) == 0;
     if (sign == 0 && !is_on) return std::nullopt;
@@ -139,7 +140,7 @@ std::optional<Vec3> FastSpawn::origin(const Ball& ball, const Vec3& direction) c
     const Approximate f = ball_value(ball.sphere.center, ball.sphere.radius, DVec3(q), DVec3(0));
     if (!f.is_positive() && !f.is_negative()) return std::nullopt;
     if (f.is_positive() == (side > 0)) {
-      // From inside a ray leaves the sphere once; from outside it must not enter it.
+      // A ray from inside leaves the sphere once; a ray from outside must not enter it.
       if (side < 0 || dot_product(DVec3(q) - center, w, 4).is_positive()) return q;
       return std::nullopt;
     }

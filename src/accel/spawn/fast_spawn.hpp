@@ -1,5 +1,6 @@
 #pragma once
-/// Spawned origins computed in float64 alone, if certain: nearly always, and much faster.
+/// Computes spawned origins in float64 alone if the result is certain. It nearly always is, and
+/// this is much faster than exact arithmetic.
 
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -28,12 +29,13 @@ class FastSpawn {
   FastSpawn(const Plane& surface, const Ray& ray);
   FastSpawn(const Disc& surface, const Ray& ray);
   FastSpawn(const Sphere& surface, const Ray& ray);
-  /// Never certain.
+  /// Not implemented for quadrics: the result is never certain.
   FastSpawn(const Quadric& surface, const Ray& ray);
 
-  /// The rounded point; nothing if it is not known precisely enough to search its neighborhood.
+  /// The rounded point; nothing if it is too imprecise to search its neighborhood.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
-  /// Bound of the distance of origins and the exact point from the rounded point, per axis.
+  /// Upper bound of the distance from the rounded point to origins and to the exact point, per
+  /// axis.
   [[nodiscard]] const DVec3& reach() const { return reach_; }
   /// The surface's plane, if it is axis-aligned.
   [[nodiscard]] std::optional<AxisPlane> axis_plane() const;
@@ -75,8 +77,8 @@ class FastSpawns {
         spawn_kernels_(spawn_kernels),
         tree_(tree) {}
 
-  /// Answers a number of spawns from the front, at least one if there are any, and returns this
-  /// number. The answer is nothing if only exact arithmetic can find it.
+  /// Computes a number of origins from the front, at least one if there are any, and returns this
+  /// number. An origin is empty if only exact arithmetic can find it.
   std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
  private:
@@ -84,10 +86,10 @@ class FastSpawns {
   static constexpr std::size_t kSpawns = 4 * kHits;
   static_assert(kHits == kSpawnLanes);
 
-  /// A surface that rays leave, whose hit point float64 can determine.
+  /// A surface that rays leave, with a hit point that float64 determines.
   struct LeftSurface {
     PrimitiveId id;
-    bool is_triangle;                ///< whether hit_points_ has it, at the index of the hit
+    bool is_triangle;                ///< whether hit_points_ holds it, at the index of the hit
     std::optional<FastSpawn> other;  ///< for surfaces other than triangles
     bool is_alone;                   ///< no other surface is between the point and the origins
   };

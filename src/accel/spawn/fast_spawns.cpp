@@ -35,7 +35,7 @@ void set_box(const Vec3& p, const DVec3& reach, BoxQuery& query) {
   }
 }
 
-/// Sets the query to an empty box.
+/// Sets the query to an empty box, which finds nothing.
 void set_empty(BoxQuery& query) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) query.lo[k] = kInfinity, query.hi[k] = -kInfinity;

@@ -56,8 +56,8 @@ struct OriginStep {
   void apply(Vec3& p) const { p[axis] = neighbor(p[axis], up); }
 };
 
-/// The axis whose step increases the surface's function most. v is the surface's gradient or a
-/// substitute.
+/// The step along the axis that increases the surface's function most. v is the surface's gradient
+/// or a substitute.
 [[nodiscard]] inline OriginStep best_step(const Vec3& p, const DVec3& v) {
   int best = 0;
   for (int k = 1; k < 3; ++k) {
@@ -236,7 +236,7 @@ class TriangleSurface {
     // Up to this error, and even twice as much, the chosen axis and sign are right or equally good.
     return error <= 0x1p-9 * largest ? normal_.value : plane().normal();
   }
-  // A ray that goes to one side of a plane doesn't return.
+  // A ray that leaves a plane toward one side never returns to it.
   [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& /*direction*/, int side) const {
     return sign_at(p) == side;
   }
@@ -280,7 +280,7 @@ std::optional<OriginSearch> origin_search(Surface& surface, const Ray& ray, cons
   const int before = surface.side(ray, -ray.d);
   int side = surface.side(ray, direction);
   if (side == 0) side = before;
-  if (side == 0) side = 1;  // the incoming ray is within the surface
+  if (side == 0) side = 1;  // the incoming ray lies in the surface
   DVec3 outwards = double(side) * surface.gradient(*p);
   if (outwards == DVec3(0)) outwards = direction;  // the apex of a cone
   return OriginSearch{.p = *p,

@@ -19,9 +19,8 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return true;
 }
 
-/// The other surfaces near a hit, and the side of each on which the origin of the new ray must be:
-/// the side of the point just before the hit if the new ray returns there, else of the point just
-/// behind the hit.
+/// The other surfaces near a hit, and the side of each on which the new ray must start: the side of
+/// the incoming ray if the new ray goes back there, otherwise the opposite side.
 class Neighbors {
  public:
   /// p is the hit point, rounded.
@@ -34,7 +33,7 @@ class Neighbors {
         witness_(goes_back ? -ray.d : ray.d),
         point_(ray, KnownHit(primitives, ray, id, Duplicates()).bounds()) {}
 
-  /// Considers primitive id if it has a point in the box.
+  /// Considers primitive `id` if a point of it is in the box.
   void add(PrimitiveId id, const Bounds& box) {
     if (id == id_) return;
     for (const Side& side : sides_) {
@@ -47,8 +46,8 @@ class Neighbors {
   }
 
   /// Whether the segment from the hit to q meets none of the surfaces: q is strictly on the
-  /// required side, or the segment passes beside the surface. A surface that contains the ray
-  /// has no required side.
+  /// required side, or the segment passes beside the surface. A surface that contains the ray has
+  /// no required side.
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       const int sign = primitives_.visit(side.id, [&](const auto& shape) {
@@ -78,13 +77,13 @@ class Neighbors {
     return true;
   }
 
-  // Whether the straight way from the hit to q, whose ends are not on one side of a surface, meets
-  // it.
+  // Whether the segment from the hit to q may meet a surface, given that its ends are not strictly
+  // on the same side.
   bool may_be_between(const Triangle& triangle, const Vec3& q) const {
     if (auto* hit = triangle_hit()) return hit->meets_segment(triangle, q);
     return exact::meets_segment(triangle, q, ray_, root());
   }
-  // By the disc's box alone, so that it is of no account which leaf of the tree has the disc.
+  // Tests only the disc's own box, so that the result doesn't depend on the leaf that has the disc.
   bool may_be_between(const Disc& disc, const Vec3& q) const {
     const build::Box box = build::box_of(disc);
     Bounds way{.lo = q, .hi = q};
@@ -100,7 +99,7 @@ class Neighbors {
     return true;
   }
 
-  // Null if it is none that is hit.
+  // Null if the surface is not a triangle that the ray hits.
   exact::TriangleHit* triangle_hit() const {
     if (!triangle_hit_ && !root_) {
       if (const auto t = primitives_.triangle(id_)) triangle_hit_.emplace(*t, ray_);
@@ -113,7 +112,7 @@ class Neighbors {
     return *root_;
   }
 
-  // Nothing for what has no sides.
+  // Nothing for shapes without sides.
   std::optional<int> side_of_witness(const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
       const TriangleSurface surface(shape);
@@ -133,8 +132,9 @@ class Neighbors {
   const Ray& ray_;
   PrimitiveId id_;
   Vec3 p_, witness_;
-  PointOnRay point_;                                        // the exact point of the hit
-  mutable std::optional<exact::TriangleHit> triangle_hit_;  // made on first need, as the next
+  PointOnRay point_;  // the exact hit point
+  // The surface that is hit; created when first needed.
+  mutable std::optional<exact::TriangleHit> triangle_hit_;
   mutable std::optional<exact::Root> root_;
   std::vector<Side> sides_;
 };
@@ -148,8 +148,9 @@ Bounds around(const Vec3& a, const Vec3& b, double margin) {
   return box;
 }
 
-/// Candidates: the rounded point and its nudges, then the same from points further along the ray on
-/// the side where it goes on, which is within the right cell of all planes through the point.
+/// Tries the rounded point and its neighbors, then the same for points further along the ray on the
+/// side to which the new ray goes. Those points are in the required cell of the arrangement of all
+/// planes through the hit point.
 template <class Surface>
 std::optional<Vec3> search(Surface surface, const Primitives& primitives, const Tree* tree,
                            std::span<const PrimitiveId> outside, const Ray& ray, PrimitiveId id,

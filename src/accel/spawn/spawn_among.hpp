@@ -1,5 +1,5 @@
 #pragma once
-/// The origin of a ray that leaves a surface, with the other surfaces of a scene.
+/// The origin of a ray that leaves a surface, with the scene's other surfaces taken into account.
 
 #include "accel/build/tree.hpp"
 
@@ -11,8 +11,8 @@
 
 namespace microtrace {
 
-/// Bvh::spawn_origin. `outside` names the primitives that no leaf of the tree holds; tree is null
-/// if it has no leaves.
+/// Implements Bvh::spawn_origin. `outside` lists the primitives that are not in the tree; `tree` is
+/// null if it has no leaves.
 [[nodiscard]] std::optional<Vec3> spawn_among(const Primitives& primitives, const Tree* tree,
                                               std::span<const PrimitiveId> outside, const Ray& ray,
                                               PrimitiveId id, const Vec3& direction);

@@ -1,5 +1,5 @@
 #pragma once
-/// The primitives of a tree near a slot.
+/// Finds the primitives of a tree near a box.
 
 #include "accel/build/tree.hpp"
 #include "accel/layout.hpp"
@@ -8,8 +8,8 @@
 
 namespace microtrace {
 
-/// f(id) for every primitive with a point in the closed box, for some others near it, and for some
-/// more than once. All of them are in the tree's leaves.
+/// Calls f(id) for every primitive in the tree with a point in the closed box. May also call it for
+/// other primitives nearby, and more than once for one primitive.
 template <class F>
 void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
   std::array<ChildRef, kMaxDepth*(kWidth - 1) + 1> stack;
@@ -30,7 +30,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
       for (std::uint32_t b = first; b < first + count; ++b) {
         const TriangleBlock& block = tree.blocks[b];
         for (int i = 0; i < kWidth; ++i) {
-          const bool used = block.a_x[i] == block.a_x[i];  // not NaN
+          const bool used = block.a_x[i] == block.a_x[i];  // unused slots have NaN
           if (used) f(block.id[i]);
         }
       }

@@ -48,7 +48,7 @@ Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize
 
 std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
                                            const Arguments& arguments) {
-  if (sequence.count() == 1) return std::nullopt;  // choose_camera frames it
+  if (sequence.count() == 1) return std::nullopt;  // choose_camera() frames a single picture
   const CameraOptions& options = arguments.camera;
   if (options.is_of_scene() && !options.camera.empty()) return std::nullopt;
   LoadedScene posed = file.at(sequence.time(0));

@@ -1,5 +1,5 @@
 #pragma once
-/// The camera that the command line asks for.
+/// Selects the camera according to the options.
 
 #include "cli/arguments.hpp"
 #include "cli/pictures/sequence.hpp"
@@ -13,16 +13,16 @@
 
 namespace microtrace::cli {
 
-/// The camera of --view or --eye, else one that frames the scenes added to `framing`; in the
+/// The camera of --view or --eye, or else one that frames the scenes added to `framing`, in the
 /// framing's coordinates. Throws Error (usage).
 [[nodiscard]] PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options);
 
-/// The camera that the options ask for, else the scene's default. Throws Error (usage) with the
-/// names of the scene's cameras.
+/// The camera of the options, or else the scene's default. Throws Error (usage) with the names of
+/// the scene's cameras.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const CameraOptions& options,
                                    ImageSize size);
 
-/// The static camera that frames all pictures of a sequence, in world coordinates; absent if the
+/// One static camera that frames all pictures of a sequence, in world coordinates. Absent if the
 /// sequence uses a camera of the scene or is a single picture. Poses the scene for every picture.
 [[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
                                                          const Arguments& arguments);

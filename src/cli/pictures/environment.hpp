@@ -1,5 +1,5 @@
 #pragma once
-/// The environment, background and display that the command line asks for.
+/// Applies the options about the environment, the background and the display.
 
 #include "cli/arguments.hpp"
 
@@ -14,17 +14,18 @@
 
 namespace microtrace::cli {
 
-/// The environment of --env, if it is given; reads its file and adds to the warnings. Throws Error.
+/// Loads the environment of --env, if it is given: reads its file and adds to the warnings. Throws
+/// Error.
 [[nodiscard]] std::optional<Environment> load_environment(const EnvironmentOptions& options,
                                                           std::vector<Diagnostic>& warnings,
                                                           MemoryBudget& memory);
 
-/// Replaces the scene's environment, if one is given, and applies the other options. Options about
-/// an environment that the scene doesn't have apply to the studio.
+/// Replaces the scene's environment if one is given, and applies the other options. Options about
+/// the environment apply to the studio if the scene has no environment.
 void apply_environment(Scene& scene, const std::optional<Environment>& environment,
                        const EnvironmentOptions& options);
 
-/// Applies exposure and tone map, unless the film shows numbers rather than light.
+/// Applies exposure and tone map, unless the film holds AOV values instead of light.
 void apply_display(Film& film, const DisplayOptions& options);
 
 }  // namespace microtrace::cli

@@ -7,7 +7,8 @@
 namespace microtrace::cli {
 namespace {
 
-/// The pattern with the number inserted, and how often; nothing if it has another use of %.
+/// The pattern with the number inserted, and the number of insertions; nothing if it uses % for
+/// anything else.
 struct Filled {
   std::string text;
   int places = 0;

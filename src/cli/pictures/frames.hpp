@@ -11,7 +11,7 @@ namespace microtrace::cli {
 
 inline constexpr std::uint32_t kMaxFrame = 999999;
 
-/// Frames first to last, both included; frame k is at k / fps seconds.
+/// Frames `first` to `last`, inclusive; frame k is at k / fps seconds.
 struct FrameRange {
   std::uint32_t first = 0, last = 0;
   double fps = 24;
@@ -20,11 +20,12 @@ struct FrameRange {
   [[nodiscard]] double time(std::uint32_t frame) const { return frame / fps; }
 };
 
-/// A:B, both included. Throws Error (usage), as does the next.
+/// Parses A:B, inclusive. This and the next function throw Error (usage).
 [[nodiscard]] FrameRange parse_frames(const OptionValue& value);
 
 /// Throws Error (usage) unless the file name contains the frame number once, as %d or %04d; %%
-/// stands for %. `option` named it. Standard output, "-", takes all frames one after another.
+/// stands for %. `option` is the option that has the name. "-" stands for standard output, which
+/// takes all frames one after another.
 void check_pattern(const char* option, const std::string& pattern);
 
 /// The file name of one frame.

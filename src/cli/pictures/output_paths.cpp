@@ -51,7 +51,7 @@ void check_paths(const ReadFiles& inputs, const Sequence& sequence) {
     check_outputs_differ({picture, sidecar});
     if (!sidecar.path.empty() && sequence.count() > 1) pictures.insert(normal(picture.path));
   }
-  // A sidecar may also have the name of another frame's picture.
+  // A sidecar must not overwrite the picture of another frame either.
   for (std::uint32_t index = 0; !pictures.empty() && index < sequence.count(); ++index) {
     const Output sidecar{"--sidecar", sequence.sidecar(index)};
     if (pictures.contains(normal(sidecar.path))) refuse_same({"--output", {}}, sidecar);

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks that no output replaces an input or another output.
+/// Checks that no output overwrites an input or another output.
 
 #include "cli/pictures/sequence.hpp"
 

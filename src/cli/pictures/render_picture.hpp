@@ -14,27 +14,26 @@
 
 namespace microtrace::cli {
 
-/// Where a picture is written.
+/// The files of a picture.
 struct PictureFiles {
   std::filesystem::path picture;
   std::filesystem::path sidecar;   ///< empty: none
-  SampleFiles* samples = nullptr;  ///< where samples are read and written; null: nowhere
+  SampleFiles* samples = nullptr;  ///< the checkpoints to read and write; null: none
 };
 
-/// Throws the Error that writing a sequence's pictures to their paths would throw; called before
-/// rendering.
+/// Throws the errors that writing the pictures of a sequence to their paths would throw. Called
+/// before rendering.
 void check_outputs(const Arguments& arguments, const Sequence& sequence);
 
-/// Reports the progress of this number of pictures as --progress asks; may be empty.
+/// A function that reports progress over `pictures` pictures according to --progress; may be empty.
 [[nodiscard]] std::function<void(double)> progress_of(const Arguments& arguments,
                                                       std::uint32_t pictures);
 
-/// Shared by the pictures of a sequence: those of the last one.
+/// The tables of the last picture of a sequence, for the next.
 using Tables = std::shared_ptr<const SharedTables>;
 
 /// Renders a scene, to which apply_environment() was applied, and writes the picture and the
-/// sidecar; for a shard only its samples. Warns of a picture that shows nothing before it is
-/// written.
+/// sidecar; for a shard only its samples. Warns before writing a picture that shows nothing.
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                     const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress);

@@ -1,5 +1,5 @@
 #pragma once
-/// The checkpoints that are read and written while rendering.
+/// Reads and writes checkpoints during rendering.
 
 #include "cli/arguments.hpp"
 
@@ -15,19 +15,19 @@ namespace microtrace::cli {
 class SampleFiles {
  public:
   /// Reads and combines the checkpoints that the options name. `files` is the digest of all files
-  /// that the scene was read from. Throws Error. The arguments must outlive it.
+  /// of the scene. `arguments` must outlive this object. Throws Error.
   SampleFiles(const Arguments& arguments, std::uint64_t files);
   SampleFiles(const SampleFiles&) = delete;
   SampleFiles& operator=(const SampleFiles&) = delete;
 
-  /// About samples beyond --spp.
+  /// Warnings about samples beyond --spp.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
-  /// For RenderOptions: continues from these samples and saves them every --save-every seconds;
-  /// progressive pictures are encoded as `display` says.
+  /// For RenderOptions: continues from these samples and saves them every --save-every seconds.
+  /// Progressive pictures are encoded with `display`.
   [[nodiscard]] Passes passes(const Display& display);
 
-  /// Writes the checkpoint of --checkpoint, if it is given.
+  /// Writes the checkpoint of --checkpoint if the option is given.
   void save() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The pictures of one run: one for each frame, or a single one.
+/// The pictures of one run: one per frame, or a single one.
 
 #include "cli/arguments.hpp"
 
@@ -11,11 +11,12 @@ namespace microtrace::cli {
 
 class Sequence {
  public:
-  /// The arguments must outlive it.
+  /// The arguments must outlive this object.
   explicit Sequence(const Arguments& arguments) : arguments_(arguments) {}
 
   [[nodiscard]] std::uint32_t count() const;
-  /// Seconds into the animation at picture `index`, from 0; absent: the pose without animation.
+  /// The animation time of picture `index` in seconds, counted from picture 0; absent: the pose
+  /// without animation.
   [[nodiscard]] std::optional<double> time(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path picture(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path sidecar(std::uint32_t index) const;

@@ -6,8 +6,8 @@
 
 namespace microtrace::bsdf {
 
-/// GgxAlbedo for anisotropic distributions, where it also depends on the azimuth; mostly accurate
-/// to half a percent.
+/// The directional albedo of anisotropic distributions, which also depends on the azimuth.
+/// Otherwise as GgxAlbedo; mostly accurate to half a percent.
 template <int N>
 class AnisotropicGgxAlbedo {
  public:
@@ -20,7 +20,7 @@ class AnisotropicGgxAlbedo {
     const F x = 2 * smaller_ - 1, y = 2 * (smaller_ + range_) - 1;
     insert<N, 5>(kTables.anisotropic_loss, x, y, loss_);
     insert<N, 3>(kTables.anisotropic_schlick, x, y, edge_);
-    // the value may be too small by this much
+    // the most by which the polynomial may be too small
     constexpr float margin = 0.0015F;
     mean_ = {1 - value<N, 7, 7>(kTables.mean_anisotropic_loss, x, y) - margin,
              value<N, 7, 7>(kTables.mean_anisotropic_schlick, x, y)};

@@ -38,14 +38,15 @@ class BaseBsdf {
   using FeaturesType = typename Parts::FeaturesType;
   using Microfacets = typename Parts::Microfacets;
 
-  /// wo.z > 0. `coating` is the coating above the surface, if there is one on both sides.
+  /// wo.z > 0. `coating` is the coating above the surface if there is one on both sides, otherwise
+  /// null.
   BaseBsdf(const FeaturesType& features, const Surface<N>& surface, const Microfacets& microfacets,
            const Coating<N>* coating, const V& wo);
 
-  /// h: half_vector(wi).
+  /// h is half_vector(wi).
   [[nodiscard]] Evaluation<N> evaluate(const Coating<N>* coating, const V& wi, const V& h) const;
 
-  /// The unit half vector of wo and wi, mirrored to above if it is below.
+  /// The unit half vector of wo and wi, mirrored to the upper side if it is below the surface.
   [[nodiscard]] V half_vector(const V& wi) const {
     return unit<N>(wo_ + V{wi.x, wi.y, magnitude(wi.z)});
   }
@@ -54,18 +55,18 @@ class BaseBsdf {
     V wi;  ///< zero if the sample is absorbed
     V h;   ///< half_vector(wi)
   };
-  /// u selects the direction, `lobe`, in [0, 1), the lobe; evaluate() returns the pdf.
+  /// u selects the direction, and `lobe`, in [0, 1), the lobe. evaluate() returns the pdf.
   [[nodiscard]] Direction sample(const Floats2<N>& u, const F& lobe) const;
 
  private:
   static constexpr bool kIsPlain = __is_same(FeaturesType, PlainFeatures);
 
-  /// Energy not reflected by facets in single scattering for F = 1, and energy that the
-  /// dielectric's facets leave for the diffuse part.
+  /// The energy that single scattering loses for F = 1, and the energy that the dielectric's
+  /// microfacets leave for the diffuse part.
   struct Left {
     F f1, diffuse;
   };
-  /// The fraction of light that the dielectric's facets do not reflect.
+  /// The fraction of light that the dielectric's microfacets do not reflect.
   [[nodiscard]] F unreflected(const Albedo<N>& albedo) const {
     return 1 - greatest_.albedo(albedo) - multiply_reflected_ * (1 - albedo.f1);
   }
@@ -82,15 +83,15 @@ class BaseBsdf {
                         const F& several);
   void add_refraction_loss(const Surface<N>& surface);
 
-  /// The fractions of light that facets reflect at this cosine, and that enters the dielectric.
+  /// The fractions of light that microfacets reflect at this cosine, and that enter the dielectric.
   struct Shares {
     V reflected, entering;
   };
   [[nodiscard]] Shares shares(const F& cosine) const;
   [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
-  /// The probability of reflection when a facet is sampled.
+  /// The probability of reflection after a microfacet normal is sampled.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;
-  /// Sets the base of the film; returns its approximate reflectance at normal incidence.
+  /// Sets the base of the film, and returns the film's approximate reflectance at normal incidence.
   V add_film(const Schlick<N>& schlick);
   /// The transmittance of the coating for wo or wi, whichever is smaller.
   [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
@@ -104,7 +105,7 @@ class BaseBsdf {
   Schlick<N> specular_;          ///< of metal and dielectric combined
   GreatestSchlick<N> greatest_;  ///< of the dielectric
   F multiply_reflected_;         ///< its multiple-scattering factor
-  V diffuse_, multiple_;         ///< all factors that do not depend on wi
+  V diffuse_, multiple_;         ///< products of all factors that do not depend on wi
   F facet_probability_;          ///< probability of sampling a facet normal
   // Not set without the feature:
   F transmittance_;  ///< transmittance of the coating
@@ -114,7 +115,8 @@ class BaseBsdf {
   V diffuse_below_, multiple_below_, transmitted_;
   RefractionLoss<N> loss_;
   V lost_, lost_below_;  ///< multiple scattering of refraction
-  F below_probability_;  ///< probability of sampling below the surface, if not a facet normal
+  F below_probability_;  ///< probability of sampling below the surface if no microfacet normal is
+                         ///< sampled
 };
 
 }  // namespace microtrace::bsdf

@@ -11,7 +11,7 @@ V mirrored(const V& w) {
   return {w.x, w.y, -w.z};
 }
 
-// Schlick's term uses the angle in the thinner medium.
+// Schlick's term uses the angle in the medium with the lower index.
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine) const -> V {
   if (!features_.has_film) return schlick(cosine);
@@ -33,7 +33,8 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   const V entering = complement(reflected) * transmitted_;
   const auto is_mixed = (metallic_ != 0) & negated(is_opaque);
   if (any(is_mixed)) {
-    // Below a film, the reflectances of metal and dielectric do not follow from those without film.
+    // The reflectances of metal and dielectric below a film do not follow from those without a
+    // film.
     const V both = features_.has_film ? mixed(reflected, reflectance(metal_, cosine), metallic_)
                                       : specular_(cosine);
     reflected = select3(is_mixed, both, reflected);
@@ -100,13 +101,13 @@ void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
   const F cos_o = dot(wo_, h), cos_i = dot(wi, h);
   const F denominator = cos_o + eta_ * cos_i;
   const Shares facet = shares(smaller_of(cos_o, all<N>(1)));
-  // The Jacobian from microfacet normals to directions; and the facets visible from each direction,
-  // 2 / (z + root) = G1 / z.
+  // The Jacobian of the map from microfacet normals to directions, and the visibility of
+  // microfacets from each direction, 2 / (z + root) = G1 / z.
   const F spreading = eta_ * eta_ * -cos_i / (denominator * denominator);
   const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (-wi.z + ggx_.root(wi));
   const F seen = ggx_.distribution(h) * cos_o * here * spreading;
-  // A facet visible from one side is masked only if fewer are visible from the other side, so a
-  // boundary of equal indices is invisible.
+  // The masking terms are combined so that only the lower visibility counts: a boundary between
+  // equal indices is then invisible.
   const F unmasked = smaller_of(all<N>(1), F(there * -wi.z / (here * wo_.z)));
   const auto refracts =
       (square > 0) & (cos_o > 0) & (cos_i < 0) & (seen < 1e30F) & negated(is_zero(transmitted_));

@@ -30,8 +30,8 @@ struct AnisotropicParts {
   using MicrofacetAlbedo = AnisotropicGgxAlbedo<N>;
 };
 
-/// A BaseBsdf below sheen below a clear coat. On refracting surfaces the layers are only on the
-/// outside, and absorb part of the light from inside.
+/// A BaseBsdf below a sheen layer below a clear coat. Refracting surfaces have the layers only on
+/// the outside, where they also absorb part of the light from inside.
 template <int N, class Parts>
 class Bsdf {
  public:
@@ -63,7 +63,7 @@ class Bsdf {
     else
       return AnisotropicGgx<N>(s.roughness, s.anisotropy, s.along);
   }
-  /// The coating that the base takes into account.
+  /// The coating that the base's energy compensation takes into account.
   [[nodiscard]] const Coating<N>* base_coating() const {
     return features_.layers == LayerSide::both ? coating_ : nullptr;
   }
@@ -100,7 +100,7 @@ Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
   coat_ = surface.coat;
   coat_transmittance_ = coating->coat_transmittance(wo);
   if (features_.layers == LayerSide::above) transmittance_ = coating->transmittance(wo);
-  // In proportion to each layer's approximate albedo, with a minimum probability.
+  // Layers are sampled in proportion to their approximate albedo, with a minimum probability.
   const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
   const F of_sheen = larger_of(F(0.5F * greatest * coating->sheen().albedo(wo.z)), least);
   const F of_coat = larger_of(F(0.8F * (1 - coat_transmittance_)), least);
@@ -127,8 +127,8 @@ void Bsdf<N, Parts>::add_coat(const V& wi, const V& h, Evaluation<N>& e) const {
   const Ggx<N>& facets = coating_->coat();
   const F d = facets.distribution(frame.to_local(h));
   const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
-  // The smaller of the cosines with either normal, for both directions: reciprocal, and never above
-  // the coat's albedo.
+  // For both directions, the smaller of the cosines with the two normals. This is reciprocal and
+  // never exceeds the coat's albedo.
   const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
   const F value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
   e.value = select3(has_coat, V(e.value + all3<N>(value)), e.value);

@@ -9,9 +9,9 @@
 namespace microtrace::bsdf {
 
 /// Sheen below a clear coat. The base is scaled by the fraction of light that the layers do not
-/// reflect, for wo or wi, whichever is smaller (as in KHR_materials_sheen). Microfacets scatter
-/// light into directions of lower transmittance: deficit() is this energy deficit, which the base
-/// compensates in other directions.
+/// reflect, for wo or wi, whichever is smaller (as in KHR_materials_sheen). This loses energy where
+/// microfacets scatter light into directions of lower transmittance. deficit() is this energy
+/// deficit; the base compensates it in other directions.
 template <int N>
 class Coating {
  public:
@@ -29,19 +29,19 @@ class Coating {
         coat_albedo_(coat_),
         coat_frame_(Frame<N>::about(surface.coat_normal)) {
     const V& n = surface.coat_normal;
-    // A coat with its own normal transmits most along that normal.
+    // A coat with its own normal has its highest transmittance along that normal.
     const auto is_turned = (coat_weight_ > 0) & ((n.x != 0) | (n.y != 0) | (n.z != 1));
     const F one = all<N>(1);
     for (int k = 0; k < kNodes; ++k) {
       const F z = all<N>(kTables.coating_node[k]);
       node_transmittance_[k] = coat_transmittance(is_turned ? one : z) * sheen_transmittance(z);
     }
-    // The table's deficit is too large if sheen is narrower than the distance of nodes, and for
-    // anisotropic facets.
+    // The tabulated deficit is too large for anisotropic microfacets, and for sheen that is
+    // narrower than the spacing of the nodes.
     F trust = surface.anisotropy > 0 ? all<N>(0.4F) : one;
     const F wide = clamped(F(5 * surface.sheen_roughness - 0.25F), F{}, one);
     trust = greatest_sheen_ > 0 ? trust * wide : trust;
-    // It has no energy deficit for coats with their own normal.
+    // Coats with their own normal get no compensation.
     trust = is_turned ? F{} : trust;
     const int rows = kCoatingRows;
     const Cell<N> row(square_root<N>(surface.roughness) * static_cast<float>(rows - 1), rows);
@@ -59,8 +59,8 @@ class Coating {
     return coat_transmittance(w) * sheen_transmittance(w.z);
   }
 
-  /// The energy deficit for light to or from z = cos(theta): the albedo of the facets if all
-  /// directions had the transmittance of z, minus the actual one.
+  /// The energy deficit for light to or from z = cos(theta): the albedo of the microfacets if all
+  /// directions had the transmittance of z, minus the actual albedo.
   [[nodiscard]] Albedo<N> deficit(const F& z) const {
     const Cell<N> cell(square_root<N>(z) * (kColumns - 1), kColumns);
     return {cell.mixed(picked<N>(deficit_f1_, cell.first), picked<N>(deficit_f1_ + 1, cell.first)),

@@ -5,7 +5,7 @@
 
 namespace microtrace::bsdf {
 
-/// Where a surface has layers.
+/// The sides of a surface on which it has layers.
 enum class LayerSide : std::uint8_t {
   none,
   both,   ///< on both sides of a thin wall
@@ -29,7 +29,7 @@ struct Features {
   }
 };
 
-/// No features, known when the kernel is compiled.
+/// No features, as a compile-time constant.
 struct PlainFeatures {
   static constexpr bool is_anisotropic = false, has_film = false, transmits = false,
                         refracts = false;

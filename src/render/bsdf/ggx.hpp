@@ -17,8 +17,8 @@ inline constexpr float kInversePi = static_cast<float>(std::numbers::inv_pi);
 /// picture, and float32 is precise enough for this alpha.
 inline constexpr float kLeastAlpha = 0.001F;
 
-/// Samples a normal visible from wo, for facets with these alphas along x and y (J. Dupuy and A.
-/// Benyoub, Sampling visible GGX normals with spherical caps, 2023).
+/// Samples a normal visible from wo, for microfacets with these alphas along x and y (J. Dupuy and
+/// A. Benyoub, Sampling visible GGX normals with spherical caps, 2023).
 template <int N>
 Floats3<N> visible_normal(const Float<N>& alpha_x, const Float<N>& alpha_y, const Floats3<N>& wo,
                           const Floats2<N>& u) {
@@ -31,8 +31,8 @@ Floats3<N> visible_normal(const Float<N>& alpha_x, const Float<N>& alpha_y, cons
   return unit<N>(V{alpha_x * (r * cosine + v.x), alpha_y * (r * sine + v.y), z + v.z});
 }
 
-/// Isotropic. With z = cos(theta), root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2) appears in all
-/// masking terms: G1(z) = 2 z / (z + root(z)).
+/// The isotropic distribution. With z = cos(theta), root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2)
+/// appears in all masking terms: G1(z) = 2 z / (z + root(z)).
 template <int N>
 class Ggx {
  public:
@@ -46,7 +46,7 @@ class Ggx {
 
   [[nodiscard]] F root(const F& z) const { return square_root<N>(square_ + (1 - square_) * z * z); }
 
-  /// The density of normals D(h) per solid angle.
+  /// The distribution of normals D(h), per solid angle.
   [[nodiscard]] F distribution(const V& h) const {
     const F q = (h.x * h.x + h.y * h.y) / square_ + h.z * h.z;
     return kInversePi / (square_ * q * q);
@@ -62,7 +62,7 @@ class Ggx {
     return distribution / (2 * (z_o + root(z_o)));
   }
 
-  // The same by directions, like AnisotropicGgx.
+  // The same by direction, like AnisotropicGgx.
   [[nodiscard]] F root(const V& w) const { return root(w.z); }
   [[nodiscard]] F visibility(const V& wo, const V& wi) const { return visibility(wo.z, wi.z); }
   [[nodiscard]] F reflected_pdf(const V& wo, const F& distribution) const {

@@ -7,14 +7,15 @@
 
 namespace microtrace::bsdf {
 
-/// The directional albedo of single scattering: for F = 1, and for F = (1 - cos)^5, the other part
-/// of Schlick's Fresnel term. The albedo for F0 is F0 f1 + (1 - F0) schlick.
+/// The directional albedo of single scattering: f1 for F = 1, and schlick for F = (1 - cos)^5, the
+/// second part of Schlick's Fresnel term. The albedo for F0 is F0 f1 + (1 - F0) schlick.
 template <int N>
 struct Albedo {
   Float<N> f1, schlick;
 };
 
-/// Schlick's Fresnel term of the brightest channel: the base gets the energy that it leaves.
+/// Schlick's Fresnel term of the brightest channel. The base gets the energy that this channel
+/// leaves.
 template <int N>
 struct GreatestSchlick {
   Float<N> f0, f90;
@@ -24,14 +25,14 @@ struct GreatestSchlick {
   }
 };
 
-/// A position between two entries of a table of `count` entries. Numbers out of range, which lanes
-/// without use may have, are at its ends.
+/// A position between two entries of a table with `count` entries. Positions beyond the table,
+/// which unused lanes may have, are clamped.
 template <int N>
 struct Cell {
   Int<N> first;
   Float<N> share;
 
-  /// At the entry with number `step`.
+  /// The position at entry `step`.
   Cell(const Float<N>& step, int count) {
     const Float<N> last = all<N>(static_cast<float>(count - 2));
     const Float<N> within = step > 0 ? step : Float<N>{};
@@ -63,7 +64,7 @@ class GgxAlbedo {
             between_rows(kTables.albedo_schlick, square_root<N>(z))};
   }
 
-  // The same by directions, like AnisotropicGgxAlbedo.
+  // The same by direction, like AnisotropicGgxAlbedo.
   [[nodiscard]] Albedo<N> at(const Floats3<N>& w) const { return at(w.z); }
   [[nodiscard]] Albedo<N> around(const F& z) const { return at(z); }
 

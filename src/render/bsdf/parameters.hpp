@@ -20,15 +20,15 @@ struct Parameters {
   /// The fraction of the light entering the dielectric that is transmitted
   /// (KHR_materials_transmission).
   float transmission = 0;
-  /// The index of refraction below divided by that above; empty for a thin wall, which doesn't
-  /// refract.
+  /// The index of refraction below the surface divided by that above; empty for a thin wall, which
+  /// doesn't refract.
   std::optional<float> eta{};
   /// The fraction of diffuse light that is transmitted, and its color
   /// (KHR_materials_diffuse_transmission).
   float diffuse_transmission = 0;
   Vec3 diffuse_transmission_color{1};
-  /// Strength in [0, 1], and the direction of the longer highlights, in world space, of any length
-  /// (KHR_materials_anisotropy). Only its part along the surface counts.
+  /// The strength in [0, 1], and the direction in which highlights are longer, in world space and
+  /// of any length (KHR_materials_anisotropy). The direction is projected to the tangent plane.
   float anisotropy = 0;
   Vec3 along{1, 0, 0};
   std::optional<ThinFilm<1>> film{};
@@ -44,7 +44,7 @@ struct Layers {
   [[nodiscard]] bool are_visible() const { return coat != 0 || sheen != Vec3(0); }
 };
 
-/// The parts that the BSDF needs for these parameters. An index of refraction alone needs none.
+/// The features that the BSDF needs for these parameters. An index of refraction alone needs none.
 [[nodiscard]] inline Features features_of(const Parameters& p, const Layers& layers) {
   Features result{.is_anisotropic = p.anisotropy > 0,
                   .has_film = p.film.has_value(),

@@ -22,8 +22,8 @@ template <int N, int rows, int columns, class Coefficient>
   return result;
 }
 
-/// Inserts the first two of four variables into n x n Polynomial2 of `size` coefficients each, and
-/// returns the coefficients of the polynomial of the other two.
+/// Substitutes the first two of four variables in n x n Polynomial2 of `size` coefficients each,
+/// and returns the coefficients of the polynomial in the other two.
 template <int N, int n, int size>
 void insert(const float* planes, const Float<N>& x, const Float<N>& y, Float<N> (&sum)[size]) {
   for (Float<N>& coefficient : sum) coefficient = Float<N>{};

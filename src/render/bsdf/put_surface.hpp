@@ -17,7 +17,7 @@ inline void put_surface(SurfaceLanes& lanes, int lane, const Parameters& p) {
   lanes.f90[lane] = p.dielectric.f90;
 }
 
-/// All others, except for the normal of the coat.
+/// All other parameters except the normal of the coat.
 inline void put_extensions(SurfaceLanes& lanes, int lane, const Parameters& p,
                            const Layers& layers) {
   lanes.transmission[lane] = p.transmission;

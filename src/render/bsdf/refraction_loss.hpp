@@ -51,18 +51,18 @@ constexpr HatWeights<n> hat_weights() {
   return result;
 }
 
-/// The energy deficit of single scattering at a rough refracting boundary, on both sides, and the
-/// division of its multiple scattering between the sides (C. Kulla and A. Conty, Revisiting
-/// physically based shading at Imageworks, 2017). Rarely more than the actual loss.
+/// The energy deficit of single scattering at a rough refracting boundary, for light from either
+/// side, and the division of its multiple scattering between the sides (C. Kulla and A. Conty,
+/// Revisiting physically based shading at Imageworks, 2017). It rarely exceeds the actual loss.
 template <int N>
 class RefractionLoss {
  public:
   using F = Float<N>;
 
-  /// No loss.
+  /// Without loss.
   RefractionLoss() = default;
 
-  /// eta: the index of refraction below divided by that above, not 1.
+  /// eta is the index of refraction below the boundary divided by that above; not 1.
   RefractionLoss(const F& roughness, const F& eta, const GreatestSchlick<N>& dielectric);
 
   /// The loss for light to or from z = cos(theta) above the surface, or -z below it.
@@ -77,7 +77,8 @@ class RefractionLoss {
     return above_is_thinner_ != 0 ? mean_within_ : mean_outside_;
   }
 
-  /// The fraction of the loss above that multiple scattering transmits; the rest is reflected.
+  /// The fraction of the loss above the surface that multiple scattering transmits; the rest is
+  /// reflected.
   [[nodiscard]] const F& through() const { return through_; }
 
  private:
@@ -117,9 +118,9 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
           (index.first + k) * rows + (row.first + j));
     }
   }
-  // The tables use the reflectance that follows from the index. If the actual reflectance is
-  // smaller by a factor, at least this fraction of the loss remains; other differences allow no
-  // conclusion.
+  // The tables assume the reflectance that follows from the index. If the actual reflectance is
+  // smaller by a factor, at least this fraction of the loss remains. Nothing is known for other
+  // differences.
   const F unsure = magnitude(F(dielectric.f0 - dielectric.f90 * r * r));
   constexpr auto weights = hat_weights<3, kColumns>();
   constexpr auto cubic = hat_weights<3, kHalf>();
@@ -136,7 +137,8 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
   }
   mean_outside_ = larger_of(mean_outside_, all<N>(1e-6F));
   mean_within_ = larger_of(mean_within_, all<N>(1e-6F));
-  // Reciprocity: through / eta^2 divided by the other side's mean is the same from both sides.
+  // By reciprocity, through / eta^2 divided by the other side's mean loss is the same from both
+  // sides.
   const F fresnel = dielectric.f0 + (dielectric.f90 - dielectric.f0) * (1 / 21.0F);
   const F ratio = eta * eta * mean_below() / mean_above();
   through_ = (1 - fresnel) * smaller_of(one, ratio);

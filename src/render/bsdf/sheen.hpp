@@ -9,10 +9,11 @@
 
 namespace microtrace::bsdf {
 
-/// Minimum roughness: such fibers are visible only within some five degrees of the surface.
+/// The minimum roughness. Smoother fibers are visible only within about five degrees of the
+/// surface.
 inline constexpr float kLeastSheenRoughness = 0.05F;
 
-/// The terms of the model that need float64.
+/// Computes the terms of the model that need float64.
 template <int N>
 struct SheenTerms {
   using D = Double<N>;
@@ -42,8 +43,9 @@ struct SheenTerms {
   }
 };
 
-/// The published model has an albedo of up to 4 for smooth fibers at grazing angles. There it is
-/// divided by its albedo for wo or wi, whichever is larger.
+/// Sheen without its color. The albedo of the published model reaches 4 for smooth fibers at
+/// grazing angles. Where it exceeds 1, the model is divided by its albedo for wo or wi, whichever
+/// is larger.
 template <int N>
 class SheenLobe {
  public:
@@ -81,7 +83,7 @@ class SheenLobe {
   /// The directional albedo for z = cos(theta), at most 1.
   [[nodiscard]] F albedo(const F& z) const { return look_up(kTables.sheen_albedo, z); }
 
-  /// Samples a direction above the surface, lower for smoother fibers. z has the pdf
+  /// Samples a direction above the surface, at lower elevations for smoother fibers. z has the pdf
   /// b (1 + b) / (z + b)^2.
   [[nodiscard]] V direction(const Floats2<N>& u) const {
     const F b = 2 * roughness_, z = smaller_of(u.y * b / (1 + b - u.y), all<N>(1));

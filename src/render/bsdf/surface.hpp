@@ -32,7 +32,7 @@ struct Surface {
   F sheen_roughness, coat, coat_roughness;
   V coat_normal;
 
-  /// Only what all surfaces have.
+  /// Reads only the parameters that all surfaces have.
   static Surface plain(const SurfaceLanes& lanes, int i) {
     Surface s{};
     s.base_color = load3<N>(lanes.base_color, i);
@@ -61,7 +61,8 @@ struct Surface {
     s.sheen_roughness = load<N>(lanes.sheen_roughness + i);
     s.coat = load<N>(lanes.coat + i);
     s.coat_roughness = load<N>(lanes.coat_roughness + i);
-    // Where it is the shading normal, exactly z despite rounding: Coating compensates energy there.
+    // If the coat's normal is the shading normal, it must be exactly z despite rounding, because
+    // Coating then compensates energy.
     const V n = load3<N>(lanes.coat_normal, i);
     const auto is_shading_normal = is_zero(V(n - frame.n));
     s.coat_normal = select3(is_shading_normal, V{F{}, F{}, all<N>(1)}, frame.to_local(n));

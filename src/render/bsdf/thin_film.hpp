@@ -19,7 +19,7 @@ struct ThinFilm {
   bool operator==(const ThinFilm&) const requires(N == 1) = default;
 };
 
-/// The computation in float64.
+/// Computes the film's reflectance in float64.
 template <int N>
 struct FilmTerms {
   using D = Double<N>;
@@ -34,8 +34,8 @@ struct FilmTerms {
     return f0 + (1 - f0) * square(square(x)) * x;
   }
 
-  /// The Fourier transform of the CIE color matching functions, as sums of Gaussians, for an
-  /// optical path in nanometers; in XYZ, with a phase for each.
+  /// The Fourier transform of the CIE color matching functions for an optical path in nanometers,
+  /// as sums of Gaussians; in XYZ, with a phase shift for each component.
   static V sensitivity(const D& path, const V& shift) {
     struct Gaussian {
       double value, position, variance, width;  // width: sqrt(2 pi variance)
@@ -62,7 +62,7 @@ struct FilmTerms {
 
   static V reflectance(const D& cosine, const D& film_ior, const D& thickness, const V& f0) {
     const D zero{}, one = zero + 1;
-    // A film of zero thickness has no effect.
+    // Makes a film of zero thickness have no effect.
     const D s = clamped(D(thickness / 0.03), zero, one);
     const D ior = 1 + (film_ior - 1) * s * s * (3 - 2 * s);
     const D inner = square_root<N>(larger_of(D(1 - (1 - square(cosine)) / square(ior)), zero));

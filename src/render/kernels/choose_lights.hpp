@@ -13,9 +13,10 @@ struct KindProbabilities {
   Float<N> environment, far, near;
 };
 
-/// In proportion to the estimated contributions, with a minimum probability. A uniform environment
-/// also has a probability, although it isn't sampled, so that fewer samples are spent where other
-/// lights contribute little. Its estimate is reduced, because indoors little of it may arrive.
+/// Selects kinds of light in proportion to their estimated contributions, with a minimum
+/// probability. A uniform environment isn't sampled but has a probability too, so that fewer
+/// samples are spent where other lights contribute little. Its estimate is reduced, because little
+/// of it may arrive indoors.
 template <int N>
 KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Doubles3<N>& p,
                                         const Floats3<N>& n) {
@@ -69,7 +70,7 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   }
 }
 
-/// Processes as many points at a time as there are lanes of float64.
+/// Processes as many points at a time as a vector has float64 lanes.
 template <int N, int width>
 void choose_lights(const LightChoiceSetup& setup, LightChoices<width>& lanes) {
   for (int i = 0; i < width; i += kDoubleLanes<N>)

@@ -6,8 +6,8 @@
 
 namespace microtrace {
 
-/// The points of N paths starting at i: the intersections with the planes of the triangles in
-/// float64, because Hit::t is rounded to float32.
+/// Computes the points of N paths starting at i. Intersects the rays with the planes of the
+/// triangles in float64, because Hit::t is rounded to float32.
 template <int N, int width>
 void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
@@ -19,7 +19,7 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   const V n = cross(e1, e2);
   const D square = dot(n, n), slope = dot(n, d);
   const D t = dot(a - o, n) / slope, hit_t = widened<N>(hits.t + i);
-  // Otherwise edge-on or without area.
+  // The test fails if the triangle is edge-on or has no area.
   const auto is_sure = (square > 0) & (magnitude(D(t - hit_t)) <= 0x1p-20 * hit_t);
   narrowed<N>(is_sure ? one : zero, hits.is_sure + i);
   const V p = o + t * d, from_a = p - a;
@@ -36,7 +36,7 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   narrowed<N>(length, hits.area + i);
 }
 
-/// The attributes of points with these normals, weights and areas.
+/// Interpolates the attributes of points with these normals, barycentric weights and areas.
 template <int N, int width>
 void interpolate(HitArrays<width>& hits, int i) {
   using F = Float<N>;

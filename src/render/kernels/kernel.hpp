@@ -13,7 +13,7 @@
 
 namespace microtrace {
 
-/// Hits of mesh triangles, `width` of them: SurfacePoint.
+/// The values of SurfacePoint for `width` hits of mesh triangles.
 template <int width>
 struct alignas(width * sizeof(float)) HitArrays {
   using Floats = float[width];
@@ -25,7 +25,7 @@ struct alignas(width * sizeof(float)) HitArrays {
   // ---- set by the kernel:
   Floats is_sure;  ///< 1 if the other results are valid; else 0
   Floats p[3], n[3], ns[3], weights[3], first_uv[2];
-  Floats from_behind;  ///< 1 if the ray arrives from behind, else 0
+  Floats from_behind;  ///< 1 if the ray hits the back, else 0
   Floats distance, uv_scale;
   Floats area;  ///< twice the triangle's area
 };
@@ -34,11 +34,11 @@ using HitLanes = HitArrays<kShadingLanes>;
 /// Points on surfaces, for shading normals.
 struct alignas(64) NormalLanes {
   LaneFloats d[3];            ///< direction of the incoming ray
-  LaneFloats n[3], ns[3];     ///< geometric and interpolated, of the front
+  LaneFloats n[3], ns[3];     ///< geometric and interpolated normal, of the front
   LaneFloats side;            ///< 1 in front, -1 behind
   LaneFloats tangents[3][3];  ///< of the vertices, [vertex][axis]
   LaneFloats weights[3];      ///< barycentric
-  LaneFloats handedness;      ///< of the tangents; 0: none
+  LaneFloats handedness;      ///< of the tangents; 0: no tangents
 };
 /// A normal texture at these points.
 struct alignas(64) NormalMapLanes {
@@ -57,7 +57,7 @@ struct alignas(64) ScatterLanes {
   LaneFloats throughput[3];
   LaneFloats through_weight[3];                 ///< weight of light that crosses the surface
   LaneFloats light_wi[3], light[3], light_pdf;  ///< LightSample; light is 0 if there is none
-  std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< of sampling::Sobol
+  std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< key and index of sampling::Sobol
   // ---- set by the kernel:
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none

@@ -10,9 +10,10 @@ namespace microtrace {
 
 /// The lights that are selected by their importance at a point.
 struct LightChoiceSetup {
-  const LightNode* nodes = nullptr;  ///< of the near lights' tree; null: there are none
+  const LightNode* nodes = nullptr;  ///< nodes of the near lights' tree; null: there are no near
+                                     ///< lights
   bool has_far = false;
-  double environment_light = 0, far_light = 0;  ///< upper estimates of the irradiance
+  double environment_light = 0, far_light = 0;  ///< upper estimates of irradiance
 };
 
 enum class LightKind : std::uint8_t { none, environment, far, near };
@@ -21,21 +22,22 @@ enum class LightKind : std::uint8_t { none, environment, far, near };
 template <int width>
 struct alignas(width * sizeof(float)) LightChoices {
   float p[3][width], n[3][width];  ///< the point and its unit normal, on either side
-  float choice[width];             ///< in [0, 1); afterwards in [0, 1) too, unless the kind is none
+  float choice[width];             ///< in [0, 1); rescaled to [0, 1) by the kernel, unless no kind
+                                   ///< is selected
   // ---- set by the kernel:
   LightKind kind[width];
-  double probability[width];   ///< with which the environment, the far lights or the near light are
-                               ///< selected
-  std::uint32_t light[width];  ///< of the near lights
+  double probability[width];   ///< selection probability of the environment, the far lights or the
+                               ///< near light
+  std::uint32_t light[width];  ///< index among the near lights
 };
 
 /// Samples of emissive triangles: LightSample.
 template <int width>
 struct alignas(width * sizeof(float)) TriangleLights {
-  float p[3][width];           ///< the lit point
+  float p[3][width];           ///< the point that is lit
   float corners[3][3][width];  ///< [corner][axis]
   float u[2][width];
-  float emission[3][width], coverage[width];  ///< at the sample, as seen from the front
+  float emission[3][width], coverage[width];  ///< at the sampled point, as seen from the front
   float has_back[width];                      ///< 1 if the back emits too, else 0
   double probability[width];                  ///< selection probability of the triangle
   // ---- set by the kernel:

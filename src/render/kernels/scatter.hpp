@@ -47,20 +47,21 @@ class Vertices {
   void scatter(const ScatterSetup& setup, const bsdf::Surface<N>& surface,
                const bsdf::Coating<N>* coating) {
     V wo = frame_.to_local(-unit<N>(load3<N>(lanes_.d, i_)));
-    wo.z = larger_of(wo.z, all<N>(1e-5F));  // above the surface, despite rounding
+    wo.z = larger_of(wo.z, all<N>(1e-5F));  // clamped, because rounding may put it below the
+                                            // surface
     const Bsdf bsdf(features_, surface, coating, wo);
     evaluate_light(bsdf);
     sample_direction(setup, bsdf);
   }
 
-  /// The lanes in which a direction is on the same side by the geometric and the shading normal.
+  /// The lanes in which the geometric and the shading normal put a direction on the same side.
   [[nodiscard]] auto is_consistent(const V& wi, const F& local_z) const {
     const F cosine = dot(wi, outwards_);
     if (!features_.transmits) return (local_z > 0) & (cosine > 0);
     return ((local_z > 0) & (cosine > 0)) | ((local_z < 0) & (cosine < 0));
   }
 
-  /// The contribution of the light sample.
+  /// Computes the contribution of the light sample.
   void evaluate_light(const Bsdf& bsdf) {
     const V wi_world = load3<N>(lanes_.light_wi, i_), wi = frame_.to_local(wi_world);
     const F pdf = load<N>(lanes_.light_pdf + i_);

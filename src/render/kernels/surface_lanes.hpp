@@ -8,8 +8,8 @@ inline constexpr int kShadingLanes = 16;
 /// One float per path.
 using LaneFloats = float[kShadingLanes];
 
-/// bsdf::Parameters and bsdf::Layers. Kernels read the second part only if bsdf::Features have its
-/// features.
+/// The members of bsdf::Parameters and bsdf::Layers. Kernels read the second part only if
+/// bsdf::Features require it.
 struct alignas(64) SurfaceLanes {
   LaneFloats base_color[3], metallic, roughness, f0[3], f90;
 

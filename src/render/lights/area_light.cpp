@@ -27,7 +27,7 @@ struct Flat {
   double area = 0;
 };
 
-/// Without area if v is zero.
+/// Has no area if v is zero.
 Flat flat(const DVec3& v, double area) {
   const double length = std::sqrt(glm::dot(v, v));
   if (!(length > 0) || !std::isfinite(length)) return {};
@@ -56,11 +56,11 @@ double pdf_of(const Flat& flat, double square, float cosine) {
   return square / (flat.area * double{cosine});
 }
 
-/// The cone of directions in which p sees a sphere.
+/// The cone of directions from p to a sphere.
 struct Cone {
   Vec3 axis{0, 0, 1};
   double distance = 0;  ///< to the center
-  double height = 0;    ///< 1 - cos(angle); 0: p is not outside
+  double height = 0;    ///< 1 - cos(angle); 0: p is inside the sphere
 
   Cone(const Sphere& s, const Vec3& p) {
     const DVec3 to_light = DVec3(s.center) - DVec3(p);
@@ -78,7 +78,7 @@ LightBounds box(const Vec3& center, const DVec3& reach) {
   return {.low = finite_point(DVec3(center) - reach), .high = finite_point(DVec3(center) + reach)};
 }
 LightBounds bounds_of(const Disc& s, const Flat& flat) {
-  // The extent of the disc's edge along each axis.
+  // The half extent of the disc along each axis.
   const Vec3 part = glm::sqrt(glm::max(Vec3(1) - flat.n * flat.n, Vec3(0)));
   return box(s.center, double{s.radius} * DVec3(part));
 }

@@ -10,8 +10,8 @@
 
 namespace microtrace {
 
-/// Bounds for the light tree, for a radiance of luminance 1. Nothing for shapes that are not
-/// sampled, planes and quadrics, and for those without area.
+/// Bounds for the light tree, for a luminance of 1. Nothing for planes, quadrics and shapes without
+/// area, which are not sampled.
 [[nodiscard]] std::optional<LightBounds> shape_bounds(const Shape& shape);
 
 /// A point of a shape as seen from another point.
@@ -22,15 +22,16 @@ struct ShapeSample {
   double pdf = 0;     ///< per solid angle
 };
 
-/// Samples a shape for which shape_bounds() returns bounds; u in [0, 1)^2. Spheres are sampled
-/// uniformly over the subtended solid angle (P. Shirley, C. Wang and K. Zimmerman, Monte Carlo
-/// techniques for direct lighting calculations, 1996), if p is outside; other shapes uniformly over
-/// their area.
+/// Samples a shape for which shape_bounds() returns bounds; u in [0, 1)^2. A sphere is sampled
+/// uniformly over the solid angle that it subtends if p is outside (P. Shirley, C. Wang and K.
+/// Zimmerman, Monte Carlo techniques for direct lighting calculations, 1996). Other shapes are
+/// sampled uniformly by area.
 [[nodiscard]] std::optional<ShapeSample> sample_shape(const Shape& shape, const Vec3& p,
                                                       const Vec2& u);
 
-/// The pdf with which sample_shape() returns a point at this distance, whose normal has this
-/// cosine, above 0, with the direction. Nonzero only for shapes with bounds.
+/// The pdf with which sample_shape() returns a point at this distance. `cosine`, above 0, is that
+/// of the angle between the direction and the normal at the point. Nonzero only for shapes with
+/// bounds.
 [[nodiscard]] double shape_pdf(const Shape& shape, const Vec3& p, float distance, float cosine);
 
 }  // namespace microtrace

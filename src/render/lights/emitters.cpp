@@ -21,7 +21,7 @@ double area_of(const Triangle& t) {
   return std::sqrt(glm::dot(n, n)) / 2;
 }
 
-/// For each emitter: its entry, its bounds and its tree nodes, including unused capacity.
+/// Bytes for each emitter: its entry, its bounds and its tree nodes, including unused capacity.
 constexpr std::uint64_t kBytesOfEmitter = 276;
 
 void take_memory_for_emitters(std::uint64_t count) {
@@ -61,7 +61,8 @@ void Emitters::add_surfaces(std::vector<LightBounds>& bounds) {
 
 void Emitters::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
   const double area = area_of(t);
-  // Filtered over approximately the triangle.
+  // Uses a texture footprint of about the triangle's size, so that the emission is approximately
+  // the mean over the triangle.
   const auto width = static_cast<float>(std::sqrt(area) * 0.75);
   const ShadingPoint middle = shading_.point_on(id, Vec3(1 / 3.0F), true, width);
   const double power = area * luminance(DVec3(shading_.emission(middle)));

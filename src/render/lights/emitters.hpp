@@ -29,19 +29,20 @@ class Emitters {
   /// Scene and shading must outlive this.
   Emitters(const Scene& scene, const Shading& shading);
 
-  /// Lights at a finite distance: surfaces, point lights and spots.
+  /// Whether there are lights at a finite distance: surfaces, point lights and spots.
   [[nodiscard]] bool has_near() const { return tree_.has_value(); }
   [[nodiscard]] bool has_surfaces() const { return surfaces_ > 0; }
-  /// Directional lights.
+  /// Whether there are directional lights.
   [[nodiscard]] bool has_far() const { return !far_lights_.empty(); }
 
-  /// For the selection of lights, without an environment.
+  /// The input for selecting lights, without an environment.
   [[nodiscard]] LightChoiceSetup choice_setup() const {
     return {
         .nodes = tree_ ? tree_->nodes() : nullptr, .has_far = has_far(), .far_light = far_light_};
   }
 
-  /// A sample of the far lights; `choice` in [0, 1), `probability` that of sampling them at all.
+  /// Samples the directional lights; `choice` in [0, 1), and `probability` is that of sampling them
+  /// instead of other lights.
   [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
                                                       double probability) const;
 
@@ -49,29 +50,30 @@ class Emitters {
   [[nodiscard]] bool is_triangle(std::uint32_t light) const {
     return emitters_[light].light == kNone && emitters_[light].shape == nullptr;
   }
-  /// Sets a triangle's values for the kernel, for a sample with lanes.u.
+  /// Sets the kernel's input for sampling a triangle with lanes.u.
   void put_triangle(std::uint32_t light, int lane, TriangleLights<kShadingLanes>& lanes) const;
   [[nodiscard]] PrimitiveId primitive(std::uint32_t light) const { return emitters_[light].id; }
-  /// A sample of another near light; u selects a point on it.
+  /// Samples a near light that is not a triangle of a mesh; u selects a point on it.
   [[nodiscard]] std::optional<LightSample> sample_near(std::uint32_t light, const Vec3& p,
                                                        const Vec2& u, double probability) const;
 
-  /// The place of an emissive surface among the lights; nothing for other primitives.
+  /// The index of an emissive surface among the lights; nothing for other primitives.
   [[nodiscard]] std::optional<std::size_t> find(PrimitiveId id) const;
-  /// The pdf by solid angle with which sample_near() yields a point of that surface, at that
-  /// distance from the context's point; `cosine`, above 0, is that of the angle to its normal.
+  /// The pdf per solid angle with which sample_near() returns a point of this surface at this
+  /// distance from the context's point. `cosine`, above 0, is that of the angle to the surface's
+  /// normal.
   [[nodiscard]] float pdf(std::size_t light, const LightSampleContext& context, float distance,
                           float cosine, double probability) const;
 
  private:
   static constexpr std::uint32_t kNone = ~0U;
 
-  /// A mesh's triangle, a shape of its own, or a near light of Scene::lights.
+  /// A triangle of a mesh, a single shape, or a near light of Scene::lights.
   struct Emitter {
     PrimitiveId id = 0;
-    std::uint32_t light = kNone;   ///< kNone: a surface
-    double area = 0;               ///< of a mesh's triangle
-    const Shape* shape = nullptr;  ///< of its own
+    std::uint32_t light = kNone;   ///< kNone for surfaces
+    double area = 0;               ///< of a triangle of a mesh
+    const Shape* shape = nullptr;  ///< of a single shape
   };
 
   void add_surfaces(std::vector<LightBounds>& bounds);

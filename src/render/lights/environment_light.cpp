@@ -17,7 +17,7 @@
 namespace microtrace {
 namespace {
 
-/// Multiplied by the greatest radiance that files may have, at most kBrightest.
+/// The intensity is multiplied by radiance, which is at most kBrightest in files.
 constexpr float kGreatestIntensity = kBrightest / 0x1p30F;
 
 constexpr float kUniformPdf = static_cast<float>(0.25 / std::numbers::pi);
@@ -33,7 +33,7 @@ float axis_range_of(const Vec3& d) {
   return std::sqrt(d.x * d.x + d.z * d.z);
 }
 
-/// The fraction of a revolution, in [0, 1).
+/// The angle as a fraction of a revolution, in [0, 1).
 float part_of_turn(double radians) {
   const double turns = radians / (2 * std::numbers::pi);
   const auto part = static_cast<float>(turns - std::floor(turns));
@@ -80,7 +80,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment,
 MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
   const float turns = atan2_revolutions(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
   const float u = turns - chosen(turns >= 1, 1, 0);
-  // With pixel centers at integers from 0; 1 is added to keep the result positive.
+  // Pixel centers are at integers from 0; 1 is added to keep the result positive.
   const float x = clamped(u * width_, width_) + 0.5F;
   // Unlike acos(y), precise at the poles.
   const float y = clamped(2 * height_ * atan2_revolutions(axis_range, d.y), height_) + 0.5F;

@@ -13,7 +13,7 @@
 
 namespace microtrace {
 
-/// A radiance map with the tables that sample it.
+/// A radiance map with its sampling tables.
 struct MapTables {
   std::shared_ptr<const RadianceMap> map;
   MemoryAccount memory;  ///< of the tables, which several scenes may share
@@ -46,8 +46,8 @@ class EnvironmentLight {
     Vec3 radiance;  ///< radiance(wi), except for rounding
     float pdf;      ///< pdf of wi, above 0, except for rounding of wi
   };
-  /// Samples directions in proportion to their radiance, approximately; each of u in [0, 1)^2. At
-  /// most MapDistribution::kMostSamples, faster than one by one.
+  /// Samples directions approximately in proportion to their radiance; each of u is in [0, 1)^2.
+  /// Takes up to MapDistribution::kMostSamples, which is faster than one at a time.
   void sample(std::span<const Vec2> u, std::span<Sample> samples) const;
 
   struct Lookup {
@@ -58,8 +58,8 @@ class EnvironmentLight {
 
   /// The mean luminance over all directions, in the unit of radiance.
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
-  /// The mean of the part of the luminance that sample() covers, which is what BSDF sampling does
-  /// not find as well. A uniform environment has the value of a constant map.
+  /// The mean luminance of the part that sample() covers; BSDF sampling finds the rest as well. A
+  /// uniform environment has the value of a constant map.
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
@@ -72,7 +72,7 @@ class EnvironmentLight {
   float width_ = 0, height_ = 0;               ///< size of the map
   float intensity_;
   float turn_;       ///< added to a direction's longitude, in [0, 1)
-  float back_turn_;  ///< added to u of the map for a longitude, in [0, 1)
+  float back_turn_;  ///< added to the map's u to get a longitude, in [0, 1)
   float mean_luminance_ = 0, sampled_luminance_ = 0;
 };
 

@@ -1,15 +1,16 @@
 #pragma once
-/// Limits that keep products of lights representable in float32, for N lanes.
+/// Limits that keep products of light parameters representable in float32, for N lanes.
 
 #include "render/luminance.hpp"
 #include "simd/vector3.hpp"
 
 namespace microtrace {
 
-/// The distances from a light whose vector is representable in float32, with all its digits.
+/// Limits of the distance to a light, so that the vector to it is representable in float32 without
+/// loss of digits.
 inline constexpr double kLeastReach = 0x1p-126, kGreatestReach = 0x1.fffffep127;
 
-/// The pdf clamped to numbers whose square is representable in float32.
+/// Clamps the pdf to numbers whose square is representable in float32.
 template <int N>
 Double<N> limited_pdf(const Double<N>& pdf) {
   constexpr double kMost = 0x1p60;
@@ -17,7 +18,7 @@ Double<N> limited_pdf(const Double<N>& pdf) {
   return pdf < kMost ? larger_of(pdf, zero + 1 / kMost) : zero + kMost;
 }
 
-/// A light that is selected with some probability, as a shadow ray needs it.
+/// A light selected with some probability, in the form that shadow rays need.
 template <int N>
 struct SelectedLight {
   Floats3<N> to_light;
@@ -26,13 +27,13 @@ struct SelectedLight {
   Float<N> pdf;
 };
 
-/// `light` and `pdf` are those before selection, `distance` the length of to_light; a pdf of 0
-/// stays 0.
+/// `light` and `pdf` are without the selection probability; `distance` is the length of to_light. A
+/// pdf of 0 stays 0.
 template <int N>
 SelectedLight<N> selected_light(const Doubles3<N>& to_light, const Double<N>& distance,
                                 const Floats3<N>& wi, const Doubles3<N>& light,
                                 const Double<N>& pdf, const Double<N>& probability) {
-  // Shadow rays need a direction that is representable in float32.
+  // Without a direction that is representable in float32 there is no shadow ray.
   const auto has_direction =
       single_mask<N>((distance >= kLeastReach) & (distance <= kGreatestReach));
   const Double<N> most = Double<N>{} + double{kBrightest};

@@ -37,7 +37,7 @@ struct LightAngle {
   static LightAngle of(const F& cosine) {
     return {cosine, square_root<N>(larger_of(F(1 - cosine * cosine), F{}))};
   }
-  /// At least 0.
+  /// Clamped to 0.
   friend LightAngle operator-(const LightAngle& a, const LightAngle& b) {
     const auto is_zero = a.cosine >= b.cosine;
     return {is_zero ? all<N>(1) : a.cosine * b.cosine + a.sine * b.sine,

@@ -23,8 +23,8 @@ struct LightSample {
   std::optional<PrimitiveId> target{};  ///< the emitter, if it is a surface
 };
 
-/// The same before the selection probability is applied, in float64, where squares of all float32
-/// distances are representable.
+/// A light sample without the selection probability, in float64, because float32 can't represent
+/// the squares of all float32 distances.
 struct FoundLight {
   DVec3 to_light{0};
   bool is_far = false;

@@ -11,8 +11,8 @@
 namespace microtrace {
 namespace {
 
-/// From this depth on lights are split in halves by count, so that no path exceeds the bits of a
-/// trail: 24 plus 32 levels for 32-bit indices.
+/// At this depth and below, lights are split into halves by count, so that no path exceeds the bits
+/// of a trail: 24 levels plus 32 for 32-bit indices.
 constexpr unsigned kDeepest = 24;
 constexpr int kBuckets = 12;
 
@@ -35,7 +35,7 @@ LightCone united(const LightCone& a, const LightCone& b) {
       sum(Angle::of(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle::of(a.cos_o));
   const Angle to_b =
       sum(Angle::of(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle::of(b.cos_o));
-  // Slightly wider, to compensate rounding.
+  // Slightly widened to compensate for rounding.
   cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
   return cone;
 }
@@ -72,7 +72,8 @@ struct Bucket {
     bounds = count == 0 ? other.bounds : united(bounds, other.bounds);
     count += other.count;
   }
-  /// Cost by power and box; the box of a single light may be flat or a point.
+  /// The cost is the power times the area of the box; the box of a single light may be flat or a
+  /// point.
   [[nodiscard]] double cost(double least_area) const {
     return bounds.power * (half_area(bounds.low, bounds.high) + least_area);
   }
@@ -122,7 +123,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
-  // Splits at the cheapest bucket boundary; without one, or below kDeepest, in halves.
+  // Splits at the cheapest bucket boundary; in halves if there is none, or below kDeepest.
   std::size_t middle = begin + (end - begin) / 2;
   if (extent[axis] > 0 && depth < kDeepest) {
     const double scale = kBuckets / extent[axis];

@@ -1,7 +1,7 @@
 #pragma once
 /// Selects one of many lights (A. Conty Estevez and C. Kulla, Importance sampling of many lights
-/// with adaptive tree splitting, 2018): a tree of boxes and cones, traversed from the root to one
-/// light with probabilities in proportion to upper bounds of each child's contribution.
+/// with adaptive tree splitting, 2018). A tree of boxes and cones is traversed from the root to one
+/// light; the probability of each child is proportional to an upper bound of its contribution.
 
 #include "render/lights/light_node.hpp"
 
@@ -47,7 +47,8 @@ struct LightBounds {
 /// Immutable; may be used by any number of threads.
 class LightTree {
  public:
-  /// The bounds of each light, at least one, in their order; each power is above 0.
+  /// Takes the bounds of each light, at least one; each power is above 0. The lights keep their
+  /// order.
   explicit LightTree(const std::vector<LightBounds>& lights);
 
   /// The nodes; the first is the root.
@@ -61,7 +62,8 @@ class LightTree {
              std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth);
 
   std::vector<LightNode> nodes_;
-  /// For each light, one bit per step down from the root, lowest bit first; 1 is the second child.
+  /// The path from the root to each light: one bit per level, lowest bit first; 1 is the second
+  /// child.
   std::vector<std::uint64_t> trails_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-/// The light of a picture: emitters and environment, and which of them a point should sample.
+/// The lighting of a picture: emitters and environment, and the selection of lights to sample at a
+/// point.
 
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/kernel.hpp"
@@ -22,9 +23,9 @@ class Lighting {
   Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen);
 
   /// Samples a light for each of `count` points: `choices.choice` selects the light, `u` the
-  /// position on it. A sample without light means that the selected light is not sampled: a uniform
-  /// environment is left to BSDF sampling. The other members of `choices` and `triangles` are
-  /// working memory of the kernels.
+  /// position on it. The sample has no light if a uniform environment is selected, because that is
+  /// left to BSDF sampling. The other members of `choices` and `triangles` are working memory of
+  /// the kernels.
   void sample(const ShadingKernels& kernels, int count, LightChoices<kShadingLanes>& choices,
               TriangleLights<kShadingLanes>& triangles,
               std::span<LightSample, kShadingLanes> samples) const;
@@ -34,7 +35,7 @@ class Lighting {
     return emitters_.has_near() || emitters_.has_far() || samples_environment();
   }
 
-  /// Whether paths can hit light: the environment or emissive surfaces.
+  /// Whether paths can hit light, from the environment or emissive surfaces.
   [[nodiscard]] bool may_surround() const { return environment_ || emitters_.has_surfaces(); }
 
   /// Whether the environment is visible to camera rays.
@@ -48,9 +49,9 @@ class Lighting {
   [[nodiscard]] EnvironmentLight::Lookup environment(const LightSampleContext& context,
                                                      const Vec3& wi) const;
 
-  /// The pdf with which sample() returns a point of an emissive surface, for a path that arrives
-  /// there from the context after `distance`; `cosine` is between the path and the surface's
-  /// normal.
+  /// The pdf with which sample() returns a point of an emissive surface that a path from the
+  /// context hits after `distance`. `cosine` is that of the angle between the path and the
+  /// surface's normal.
   [[nodiscard]] float emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
                                   float cosine) const;
 

@@ -13,7 +13,7 @@ namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kWhole = 1U << 24U;
-/// The minimum probability of a row, and of a cell in a row, relative to the mean. With 65537 of
+/// The minimum probability of a row, and of a cell in its row, relative to the mean. With 65537 of
 /// them it is still above 2^-24.
 constexpr double kFloor = 1.0 / 128;
 
@@ -35,19 +35,19 @@ void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
   const std::size_t count = bounds.size() - 1;
   std::size_t i = 0;
   for (std::size_t g = 0; g < count; ++g) {
-    // The least number that uses entry g.
+    // The least number that entry g is used for.
     const std::size_t least = (g * kWhole + count - 1) / count;
     while (bounds[i + 1] <= least) ++i;
     guide[g] = static_cast<Index>(i);
   }
 }
 
-/// The number of 24 bits that u selects.
+/// The 24-bit number that u selects.
 std::uint32_t number_of(float u) {
   return std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
 }
 
-/// The entry of a guide of `count` entries for a number.
+/// The index of the guide's entry for a number; the guide has `count` entries.
 std::size_t entry_of(std::uint32_t number, std::uint32_t count) {
   return std::uint64_t{number} * count >> 24U;
 }
@@ -76,7 +76,7 @@ MapDistribution::MapDistribution(const RadianceMap& map)
   for (std::uint32_t line = 0; line <= height_; ++line) {
     const auto sine = [&](double y) { return static_cast<float>(sin_radians(step * y)); };
     rows_[line].sines = {sine(line - 0.5), sine(height_ - line - 0.5)};
-    // Makes weights proportional to solid angle there, as in other rows.
+    // Makes the weights of polar rows proportional to solid angle, as in other rows.
     if (is_polar(line)) rows_[line].sines.fill(static_cast<float>(2 * half * half / step));
   }
   find_mean();
@@ -93,7 +93,8 @@ void MapDistribution::find_mean() {
       for (const Vec3& pixel : std::span(map_.pixels).subspan(std::size_t{line} * width_, width_))
         below += luminance(DVec3(pixel));
     }
-    // Integrals of the sine over the line, and over its part that is weighted by the lower pixels.
+    // Integrals of the sine over the row of cells, and over its part that is weighted by the lower
+    // pixels.
     const double top = step * std::max(line - 0.5, 0.0);
     const double bottom = step * std::min(line + 0.5, double{1} * height_);
     const double all = cos_radians(top) - cos_radians(bottom);
@@ -102,7 +103,7 @@ void MapDistribution::find_mean() {
     sum += lower * below + (all - lower) * above;
   }
   mean_luminance_ = sum / (2 * width_);
-  // Smaller means count as 0, because their inverse exceeds float.
+  // Treats smaller means as 0, because their inverse exceeds the range of float.
   scale_ = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
 }
 
@@ -166,7 +167,7 @@ template <class Index>
 MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index start,
                                              std::uint32_t number) {
   std::uint32_t i = start;
-  // Mostly at most two steps: taken without branches, which would be unpredictable.
+  // Mostly takes at most two steps. They have no branches, because branches would be unpredictable.
   i += std::uint32_t{bounds[i + 1] <= number};
   i += std::uint32_t{bounds[i + 1] <= number};
   while (bounds[i + 1] <= number) ++i;
@@ -175,8 +176,8 @@ MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index 
   return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
 }
 
-// In steps that each prefetch what the next one reads: the tables and the map are larger than the
-// first caches.
+// Works in steps, each of which prefetches the data of the next: the tables and the map don't fit
+// into the first caches.
 void MapDistribution::sample(std::span<const Vec2> u, std::span<Point> points) const {
   std::array<Found, kMostSamples> lines, columns;
   std::array<const std::uint16_t*, kMostSamples> guides;

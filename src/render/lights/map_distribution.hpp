@@ -15,15 +15,15 @@
 
 namespace microtrace {
 
-/// A position between the centers of four pixels of a map. These cells wrap around: column 0 is
-/// between the last pixel's center and the first one's. Lines 0 and `height` are the half cells at
-/// the poles.
+/// A position in the cell between the centers of four pixels of a map. Cells wrap around: column 0
+/// is between the centers of the last and the first pixel. Lines 0 and `height` are the half cells
+/// at the poles.
 struct MapPlace {
   std::uint32_t column = 0, line = 0;  ///< less than the map's width; at most its height
   float x = 0, y = 0;                  ///< in the cell, in [0, 1]; to the right and down
 };
 
-/// The first pixels of the rows above and below the middle of a cell.
+/// The first pixels of the rows at the upper and lower corners of a cell.
 [[nodiscard]] inline std::array<const Vec3*, 2> rows_of(const RadianceMap& map,
                                                         std::uint32_t line) {
   const std::uint32_t above = line > 0 ? line - 1 : 0, below = std::min(line, map.height - 1);
@@ -68,16 +68,16 @@ class MapDistribution {
     float axis_range = 0;  ///< distance of the direction from the y axis
     float pdf = 0;         ///< per steradian
   };
-  /// Each of u in [0, 1)^2; at most kMostSamples. Faster for several: while one waits for memory,
-  /// the others go on.
+  /// Takes up to kMostSamples of u, each in [0, 1)^2. Several are faster than one at a time,
+  /// because their memory accesses overlap.
   static constexpr std::size_t kMostSamples = 16;
   void sample(std::span<const Vec2> u, std::span<Point> points) const;
 
-  /// The pdf of a direction, per steradian; the corners are those of the place's cell.
+  /// The pdf of a direction, per steradian. `corners` are those of the cell that contains it.
   [[nodiscard]] float pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
                           float axis_range) const;
 
-  /// The means over all directions of the map's luminance, and of its sampled part.
+  /// The means over all directions of the map's luminance, and of the part that is sampled.
   [[nodiscard]] double mean_luminance() const { return mean_luminance_; }
   [[nodiscard]] double sampled_luminance() const { return sampled_luminance_; }
 
@@ -86,8 +86,8 @@ class MapDistribution {
   struct Row {
     std::array<float, 2> sines;  ///< sines of the angles to the axis at the upper and lower corners
     float floor;                 ///< minimum weight
-    float pdf;  ///< pdf of a cell per 2^-24 of its probability in the row: by longitude and
-                ///< angle to the axis, at poles by solid angle
+    float pdf;  ///< pdf of a cell per 2^-24 of its probability in the row: by longitude and angle
+                ///< to the axis; at the poles by solid angle
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
   /// The weight per solid angle.
@@ -108,14 +108,14 @@ class MapDistribution {
   /// A selected row or column.
   struct Found {
     std::uint32_t index;
-    std::uint32_t count;  ///< of numbers in the cell
+    std::uint32_t count;  ///< numbers that select the cell
     float place;          ///< position in the cell, in (0, 1)
   };
   template <class Index>
   static Found find(const std::uint32_t* bounds, Index start, std::uint32_t number);
   [[nodiscard]] Point point_in(const Found& line, const Found& column) const;
   void find_mean();
-  /// The mean weights of the rows' cells, without minima.
+  /// The mean weights of the cells of each row, without minimum probabilities.
   std::vector<double> make_columns();
   void make_rows(std::vector<double> weights);
 
@@ -123,7 +123,7 @@ class MapDistribution {
   std::uint32_t width_, height_;
   float turns_per_row_;  ///< revolutions of the angle to the axis
   float polar_h_;        ///< (1 - cos(theta)) / 2 at the end of a polar cell
-  float scale_ = 0;      ///< scales the mean luminance to 1
+  float scale_ = 0;      ///< scales luminance to a mean of 1
   std::vector<Row> rows_;
   std::vector<std::uint32_t> row_bounds_;  ///< cumulative, number of rows + 1, from 0 to 2^24
   std::vector<std::uint32_t> row_guide_;   ///< start of the search in row_bounds_

@@ -73,7 +73,7 @@ std::optional<LightBounds> bounds(const PointLight& light) {
   return bounds_at(light.position, light.color, light.intensity, {.cos_o = -1});
 }
 std::optional<LightBounds> bounds(const SpotLight& light) {
-  // Ignores the falloff toward the cone's edge, where the light may be selected too often.
+  // Ignores the falloff toward the cone's edge; the light may be selected too often there.
   return bounds_at(light.position, light.color, light.intensity,
                    {.axis = Vec3(light.direction),
                     .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F});

@@ -18,7 +18,7 @@ enum class Wall { top, side, front, back };
 /// A rectangular area light on a wall of the cube [-1, 1]^3 around the scene, with soft edges.
 struct Lamp {
   Wall wall;
-  double x, y;  ///< center; on side walls x points to the front, on top y does
+  double x, y;  ///< center; x points to the front on side walls, y does on the top
   double half_width, half_height;
   double radiance;
 };
@@ -31,7 +31,8 @@ constexpr std::array<Lamp, 4> kLamps = {{{Wall::top, 0, 0.25, 0.5, 0.4, 3.2},
                                          {Wall::front, 0.5, 0.4, 0.27, 0.45, 2.3},
                                          {Wall::back, 0, 0.45, 0.7, 0.2, 2.5}}};
 
-/// 1 inside the rectangle at a distance from the edge above the softness, 0 outside.
+/// 1 inside the rectangle, 0 outside, with a soft edge; `distance` is from the center, `half` the
+/// half width.
 double inside(double distance, double half) {
   constexpr double kSoftness = 0.2;
   const double t = std::clamp((half - std::abs(distance)) / kSoftness, 0.0, 1.0);
@@ -44,7 +45,7 @@ double radiance(double x, double y, double z) {
   x /= reach;
   y /= reach;
   z /= reach;
-  // The walls get brighter from the floor up.
+  // The walls get brighter from the floor to the top.
   const double height = 0.5 + 0.5 * y;
   double sum = 0.28 + 0.22 * height;
   for (const Lamp& lamp : kLamps) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What is behind a PreparedScene.
+/// The implementation of PreparedScene.
 
 #include "base/lazy.hpp"
 #include "base/memory_account.hpp"
@@ -21,10 +21,10 @@
 
 namespace microtrace {
 
-/// All parts are made on first use.
+/// Makes each part on first use. Any number of threads may use it.
 class PreparedScene::Content {
  public:
-  /// The account has the memory of the scene, if that is to be counted.
+  /// Counts memory in `account`, which already includes the scene if its memory is counted.
   Content(std::shared_ptr<const Scene> scene, BvhOptions options,
           std::shared_ptr<SharedTables> tables, MemoryAccount account);
 
@@ -33,29 +33,29 @@ class PreparedScene::Content {
   [[nodiscard]] const Surfaces& surfaces() const;
   [[nodiscard]] const Shading& shading() const;
   [[nodiscard]] const Emitters& emitters() const;
-  /// With that environment, if there is one, in place of the scene's. A scene with neither lights
-  /// nor an environment gets the studio.
+  /// The lights of the scene, with `in_place` instead of its environment if there is one. A scene
+  /// with neither lights nor an environment gets the studio.
   [[nodiscard]] Lighting lighting(const std::optional<Environment>& in_place) const;
   [[nodiscard]] const std::shared_ptr<SharedTables>& tables() const { return tables_; }
 
-  /// The same scene and the camera next to the origin, for integrators that are random; nothing if
-  /// they are near it already, or would have to be rounded.
+  /// The scene and the camera, translated to near the origin for Monte Carlo integrators. Nothing
+  /// if they are near it already, or if the translation would round a coordinate.
   struct Recentered {
     std::shared_ptr<const Content> content;
     Camera camera;
   };
   [[nodiscard]] std::optional<Recentered> recentered(const Camera& camera) const;
 
-  /// The scene with its points and lines widened for a camera.
+  /// The scene with its points and line segments widened to one pixel of a camera.
   [[nodiscard]] std::shared_ptr<const Content> widened(const Camera& camera, ImageSize size) const;
 
  private:
-  /// A T of those arguments, its memory on this scene's account.
+  /// Makes a T from these arguments; its memory counts on this scene's account.
   template <class T, class... Arguments>
   [[nodiscard]] std::unique_ptr<T> make(Arguments&&... arguments) const;
 
   std::shared_ptr<const Scene> scene_;
-  mutable std::shared_ptr<const BvhTree> previous_;  // until bvh_ is made
+  mutable std::shared_ptr<const BvhTree> previous_;  // released when bvh_ is made
   BvhOptions options_;
   std::shared_ptr<SharedTables> tables_;
   mutable std::mutex memory_mutex_;
@@ -64,14 +64,14 @@ class PreparedScene::Content {
   Lazy<Surfaces> surfaces_;
   Lazy<Shading> shading_;
   Lazy<Emitters> emitters_;
-  Lazy<std::optional<PointBounds>> bounds_;  // nothing: not all shapes can be moved
-  // The last one that was asked for: cameras of one scene are mostly near each other.
+  Lazy<std::optional<PointBounds>> bounds_;  // nothing: some shapes can't be translated
+  // The last translation requested: the cameras of one scene mostly have the same one.
   mutable std::mutex moved_mutex_;
   mutable DVec3 moved_by_{0};
   mutable std::shared_ptr<const Content> moved_;
 };
 
-/// A scene that the caller keeps alive and unchanged.
+/// A pointer to a scene that the caller keeps alive and unchanged.
 [[nodiscard]] inline std::shared_ptr<const Scene> borrowed(const Scene& scene) {
   return {std::shared_ptr<void>(), &scene};
 }

@@ -71,7 +71,7 @@ bool PreparedScene::occluded(const Ray& ray) const {
 
 namespace {
 
-/// f(rays in the scene's coordinates).
+/// Calls f with the rays in the scene's coordinates.
 template <class F>
 void with_rays_in_scene(const PreparedScene& scene, std::span<const Ray> rays, const F& f) {
   if (scene.scene().origin == DVec3(0)) return f(rays);

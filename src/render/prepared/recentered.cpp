@@ -7,8 +7,8 @@
 namespace microtrace {
 namespace {
 
-/// f(point) for each point by which the shape's place is given, of whatever constness; whether
-/// those are all that the place is given by.
+/// Calls f(point) for each point that defines the shape's position. Returns whether these points
+/// define it completely.
 template <class AnyShape, class F>
 bool for_each_point(AnyShape& shape, const F& f) {
   using Kind = std::remove_const_t<AnyShape>;

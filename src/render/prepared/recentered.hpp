@@ -1,5 +1,5 @@
 #pragma once
-/// Moves scenes that are far from the origin next to it.
+/// Translates scenes that are far from the origin to near it.
 
 #include "scene/translation_to_origin.hpp"
 
@@ -10,19 +10,19 @@
 
 namespace microtrace {
 
-/// Paths bounce at points of float32, which lie far apart where coordinates are large. So a scene
-/// of which camera and shapes together are small beside their distance from the origin is moved
-/// next to it, along each axis by a number that leaves every coordinate exact: the same scene with
-/// more room between its points.
+/// Paths bounce at float32 points, which are far apart where coordinates are large. A scene whose
+/// camera and shapes are small relative to their distance from the origin is therefore translated
+/// to near the origin. The offset along each axis keeps every coordinate exact, so only the spacing
+/// of float32 points changes.
 
-/// Bounds of all points that place the shapes; nothing if a shape (a quadric) is not placed by
-/// points.
+/// Bounds of all points that define the positions of shapes. Nothing if a shape (a quadric) isn't
+/// defined by points.
 [[nodiscard]] std::optional<PointBounds> bounds_of_points(const Scene& scene);
 
-/// From there to the origin; zero for scenes that are near it or large.
+/// The offset from the scene to the origin; zero for scenes that are near the origin or large.
 [[nodiscard]] DVec3 translation_to_origin(const PointBounds& points, const Camera& camera);
 
-/// The scene moved, shapes and lights; nothing if a point of a shape would be rounded.
+/// The scene with shapes and lights translated; nothing if a point of a shape would be rounded.
 [[nodiscard]] std::optional<Scene> moved(const Scene& scene, const DVec3& by);
 
 [[nodiscard]] Camera moved(const Camera& camera, const DVec3& by);

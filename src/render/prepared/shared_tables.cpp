@@ -21,7 +21,7 @@ TextureMap SharedTables::texture_map(const std::shared_ptr<const Image>& image,
   const std::scoped_lock lock(mutex_);
   std::shared_ptr<TexturePyramid>& pyramid = pyramids_[{image.get(), encoding}];
   if (!pyramid) pyramid = std::make_shared<TexturePyramid>(image, encoding);
-  return {pyramid, sampler};  // makes the mip maps if the sampler needs them
+  return {pyramid, sampler};  // makes mip maps if the sampler needs them
 }
 
 std::shared_ptr<const BvhTree> SharedTables::tree() const {

@@ -1,6 +1,6 @@
 #pragma once
-/// Mip maps and sampling tables, shared by scenes with the same images and environment maps; and a
-/// scene's tree, to be fitted to the next scene.
+/// Tables shared by scenes with the same images and environment maps: mip maps and sampling tables.
+/// Also keeps the tree of one scene, which is refitted to the next.
 
 #include "render/lights/environment_light.hpp"
 #include "render/textures/texture_map.hpp"
@@ -21,13 +21,13 @@ namespace microtrace {
 class SharedTables {
  public:
   SharedTables() = default;
-  /// Keeps of another's tables those of images that the scene shows, and the environment's.
+  /// Keeps those tables of `previous` that the scene's images and environment need.
   SharedTables(const SharedTables& previous, const Scene& scene);
 
   [[nodiscard]] TextureMap texture_map(const std::shared_ptr<const Image>& image,
                                        const Sampler& sampler, ColorEncoding encoding);
 
-  /// Null before it was set.
+  /// Null until it is set.
   [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
   void set_tree(std::shared_ptr<const BvhTree> tree);
 
@@ -38,7 +38,7 @@ class SharedTables {
   mutable std::mutex mutex_;
   std::map<std::pair<const Image*, ColorEncoding>, std::shared_ptr<TexturePyramid>> pyramids_;
   std::shared_ptr<const BvhTree> tree_;
-  std::shared_ptr<const MapTables> environment_;  // of the map that was asked for last
+  std::shared_ptr<const MapTables> environment_;  // of the last map requested
 };
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
-// Preloaded: no more than MOST_THREADS threads besides the first may be started before they are
-// joined, whether they have ended or not.
+// Preloaded library: makes thread creation fail if more than MOST_THREADS threads besides the first
+// were started and not joined, even if they have ended.
 
 #include <atomic>
 #include <cerrno>

@@ -1,5 +1,5 @@
-// Preloaded: before main, sets the rounding mode ROUNDING (a number of fesetround), flushing of
-// subnormals, and float precision for long double.
+// Preloaded library: before main, sets the rounding mode ROUNDING (an argument of fesetround), the
+// flushing of subnormals, and float precision for long double.
 
 #include <cfenv>
 #include <cstdint>

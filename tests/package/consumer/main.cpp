@@ -1,5 +1,5 @@
-// A program that uses the installed library: all public headers, a scene in memory, the requested
-// pictures, and an integrator that casts shadow rays.
+// Uses the installed library: all public headers, a scene in memory, the requested pictures, and an
+// integrator that casts shadow rays.
 #include <microtrace/microtrace.hpp>
 
 #include <cstdio>
@@ -30,7 +30,7 @@ class LitNormals final : public Integrator {
   }
 };
 
-/// The color of the middle of a picture of 9 x 9 pixels.
+/// The color of the central pixel of a picture of 9 x 9 pixels.
 Vec3 middle_of(const Film& film) {
   return film.row(4)[4];
 }

@@ -1,6 +1,6 @@
-// Inputs for which nearly all roundings of a filter have the same direction: with its error bound
-// halved, the filter would give a wrong certain answer. They were found by search; mutations.py
-// verifies that each bound has one.
+// Inputs for which nearly all roundings of a filter have the same sign. If its error bound were
+// halved, the filter would return a certain but wrong result. The inputs were found by search;
+// mutations.py verifies that each bound has one.
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/box_clearance.hpp"
@@ -57,7 +57,7 @@ void expect_holds(const FilterResult& filtered, const exact::Root& t) {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kEverywhere{.t_min = -kInfinity, .t_max = kInfinity};
 
-// Certain answers must be right, and bounds must hold.
+// Certain results must be right, and bounds must hold.
 template <class S>
 void check(const S& shape, const Vec3& o, const Vec3& d) {
   const Ray ray{.o = o, .t_min = 0, .d = d};
@@ -224,7 +224,7 @@ TEST(Bounds, AreaSeenAlongAnAxis) {
                             -0x1.19946ap+0F,  -0x1.5ffd4ep-51F, 0x1.5ffe1ap-51F};  // a, b, p
   expect_holds(area_along(2, vec3(v, 0), vec3(v, 3), DVec3(vec3(v, 6)), DVec3(0)),
                area(vector(v, 0), vector(v, 3), vector(v, 6)));
-  // At the corner of a box.
+  // p is at the corner of a box.
   const Approximate beside = area_along(2, {0, 0, 0}, {1, -2, 0}, {3, 5, 0}, DVec3(0.5));
   const Vec3 zero(0), b(1, -2, 0), p(3.5F, 5.5F, 0);
   expect_holds(beside, area(exact::vector(zero), exact::vector(b), exact::vector(p)));
@@ -236,7 +236,7 @@ TEST(Bounds, Ball) {
   const exact::Vector m = vector(v, 4) - vector(v, 0);
   const exact::Dyadic r(v[3]);
   expect_holds(ball_value(vec3(v, 0), v[3], DVec3(vec3(v, 4)), DVec3(0)), dot(m, m) - r * r);
-  // 1 away from (3, 4, 5) on each axis, and from the center itself.
+  // The box is 1 away from (3, 4, 5) on each axis; then the box around the center itself.
   expect_holds(ball_value(Vec3(0), 1, {3, 4, 5}, DVec3(1)), exact::Dyadic(16.0F + 25 + 36 - 1));
   expect_holds(ball_value(Vec3(0), 1, {0, 0, 0}, DVec3(1)), exact::Dyadic(3.0F - 1));
 }

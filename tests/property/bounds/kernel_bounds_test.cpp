@@ -1,6 +1,6 @@
 // As bounds_test.cpp, for the kernels of every instruction set: a tree of one triangle, queried by
-// every function. Different inputs are the worst with and without fused operations, so each bound
-// has some for both.
+// every function. The worst inputs differ with and without fused operations, so each bound has
+// inputs for both.
 
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -135,7 +135,7 @@ class OneTriangle {
       expect_right({tile.best_lo[i], tile.best_hi[i], tile.best_id[i]});
   }
 
-  // As many rays as traverse the tree in packets.
+  // Casts rays from different origins, enough that they traverse the tree in packets.
   void in_a_stream(const Kernels& kernels) const {
     const auto stream = std::make_unique<KernelStream>();
     const StreamFallback slow{
@@ -243,7 +243,7 @@ TEST(KernelBounds, ParameterOfAHit) {
 }
 
 TEST(KernelBounds, RoundedParameter) {
-  // Plane and ray; in the last case a packet's bound of the slope equals the ray's.
+  // A plane and a ray; in the last case a packet's bound of the slope equals the ray's.
   constexpr std::array<Numbers, 3> cases = {{
       {-0x1.1c343ep+1F, -0x1.6p-26F, 0x1.040022p+1F, -0x1.d2a5acp+0F, 0x1.000004p+1F,
        0x1.000002p+1F, 0x1.80007p-51F, -0x1.6a4a92p-47F, 0x1.4006f4p-50F, 0x1.3ffc6ap-50F,

@@ -21,13 +21,13 @@ from pathlib import Path
 TESTS = Path(__file__).resolve().parent
 SOURCE = TESTS.parents[2]
 
-# How faults are read and put into a copy.
+# Imports the parser of mutations, and the function that applies one to a copy.
 spec = importlib.util.spec_from_file_location("golden_mutations", SOURCE / "tests/golden/mutations.py")
 faults = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(faults)
 
 PROGRAM = "tests/property/bounds/bounds_test"
-# What each part of the source is compiled into, beside the library.
+# The tests that each part of the source is compiled into, in addition to the library.
 PARTS = {
     "accel/filters/": ["tests/property/bounds/bounds_test.cpp"],
     "accel/filters/roundings.hpp": ["tests/property/bounds/bounds_test.cpp", "src/accel/kernels/portable.cpp"],
@@ -55,13 +55,13 @@ class Build:
         running = []
         for name in PARTS[part]:
             if name not in self.commands:
-                continue  # of another processor
+                continue  # for another processor
             target = self.copy / (name.replace("/", "_") + ".o")
             command = re.sub(r" -o (\S+\.o) ", f" -o {target} ", self.commands[name])
             running.append(subprocess.Popen(shlex.split(command.replace(str(SOURCE / "src"), str(self.copy / "src"))),
                                             cwd=self.build))
             built = re.search(r" -o (\S+\.o) ", self.commands[name])[1]
-            # In the place of the test's object; before the library, whose own is not taken then.
+            # Links the object instead of the test's own. It comes before the library, whose object is then not linked.
             link = link.replace(f" {built} ", f" {target} ") if f" {built} " in link else link.replace(
                 " -o ", f" {target} -o ", 1)
         if any([process.wait() for process in running]):

@@ -8,8 +8,7 @@ namespace microtrace::build {
 namespace {
 
 // The number of references per task while all threads work on one set, and the size of sets that
-// one thread builds alone. Both are constants, so that the tree does not depend on the number of
-// threads.
+// one thread builds alone. Constants keep the tree independent of the number of threads.
 constexpr std::size_t kChunkSize = std::size_t{1} << 13U;
 constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 
@@ -35,8 +34,7 @@ struct CentroidBoxes {
   }
 };
 
-// Moves references to one of two positions without a branch, because the branch would be
-// unpredictable.
+// Moves each reference to one of two positions without a branch, which would be unpredictable.
 CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mapping,
                         const Split& split, Reference* left, Reference* right) {
   const float infinity = std::numeric_limits<float>::infinity();
@@ -113,7 +111,7 @@ class Builder {
     return set;
   }
 
-  // Creates the nodes of the two halves, with only the data of the split filled in.
+  // Creates the nodes of the two halves and sets the data that the split provides.
   static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
     BinaryNode* pair = set.node->children = arena.allocate_pair();
     pair[0].box = split.left;
@@ -130,7 +128,7 @@ class Builder {
     return {half, other};
   }
 
-  // Splits by count alone: if no plane separates centroids, or near the depth limit.
+  // Splits into halves by count, if no plane separates the centroids or the depth limit is near.
   Halves halve(const Set& set, NodeArena& arena) {
     Split split;
     split.left_load.count = set.node->count / 2;

@@ -1,5 +1,5 @@
 #pragma once
-/// The binary tree, before it is collapsed to wide nodes.
+/// The binary tree that is later collapsed to wide nodes.
 
 #include "accel/build/references/reference.hpp"
 #include "accel/build/worker_pool.hpp"
@@ -11,8 +11,9 @@ namespace microtrace::build {
 
 /// The optimal collapse of a node and its subtree; see collapse.hpp.
 struct CollapsePlan {
-  std::array<float, 8> cost{};            ///< [i - 1]: cost as at most i subtrees
-  std::array<std::uint8_t, 9> to_left{};  ///< [i]: left ones of i subtrees; 0: as for i - 1
+  std::array<float, 8> cost{};            ///< [i - 1]: cost if collapsed to at most i subtrees
+  std::array<std::uint8_t, 9> to_left{};  ///< [i]: number of the i subtrees that are in the left
+                                          ///< child; 0: as for i - 1
   bool is_leaf = true;
 };
 

@@ -3,8 +3,8 @@
 namespace microtrace::build {
 namespace {
 
-// Expected number of blocks of a set that will be split further: not every split is at a multiple
-// of eight.
+// The expected number of blocks of a set that will be split further: splits are often not at a
+// multiple of eight.
 float expected_blocks(const Load& load) {
   return static_cast<float>(blocks(load.weight)) + 0.1F * static_cast<float>(load.weight);
 }
@@ -15,7 +15,7 @@ BinMapping::BinMapping(const Box& centroids, int bins)
     : origin_(centroids.lo), last_(static_cast<float>(bins - 1)), bins_(bins) {
   for (int k = 0; k < 3; ++k) {
     const float extent = centroids.hi[k] - centroids.lo[k];
-    // For smaller extents the reciprocal would overflow.
+    // Below this extent the reciprocal would overflow.
     if (extent > 0x1p-120F) scale_[k] = static_cast<float>(bins) * 0.9999F / extent;
   }
 }

@@ -12,7 +12,7 @@ namespace microtrace::build {
 
 inline constexpr int kMaxBins = 32;
 
-/// A quarter of the sum of a box's corners: stays finite, and orders boxes like their centroids.
+/// A quarter of the sum of a box's corners. It stays finite, and orders boxes like their centroids.
 [[nodiscard]] inline Float4 centroid(const Box& b) {
   return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
 }
@@ -27,7 +27,7 @@ class BinMapping {
     const Float4 slot = min((centroid(r.box) - origin_) * scale_, splat(last_));
     return __builtin_convertvector(slot, Int4);
   }
-  /// Whether all references are in one bin along every axis.
+  /// Whether all references are in the same bin along every axis.
   [[nodiscard]] bool is_degenerate() const {
     return scale_[0] == 0 && scale_[1] == 0 && scale_[2] == 0;
   }

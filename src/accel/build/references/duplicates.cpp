@@ -14,7 +14,8 @@ using build::Reference;
 
 using Corner = std::array<std::uint32_t, 3>;
 
-/// The vertices in ascending order; if only two differ, the lesser one twice.
+/// The vertices in ascending order. If two of them are equal, the lesser of the two distinct ones
+/// comes twice.
 using Corners = std::array<Corner, 3>;
 
 Corners corners_of(const Triangle& t) {
@@ -32,7 +33,7 @@ Corners corners_of(const Triangle& t) {
 /// in hash coding with allowable errors, 1970, with one bit per hash.
 class BloomFilter {
  public:
-  /// With this many hashes, at most one of sixteen other hashes is reported wrongly.
+  /// Sized so that at most one of sixteen hashes outside the set is reported wrongly.
   explicit BloomFilter(std::size_t hashes)
       : shift_(std::max(0, std::countl_zero(16 * hashes | 64) - 32)),
         words_((~std::uint32_t{0} >> shift_) / 64 + 1, 0) {}
@@ -51,8 +52,8 @@ class BloomFilter {
   PageVector<std::uint64_t> words_;
 };
 
-/// The indices of hashes that occur more than once, ascending, and a few others. Nearly all hashes
-/// are unique, so sorting all of them would take much longer.
+/// The ascending indices of hashes that occur more than once, and of a few others. Nearly all
+/// hashes are unique, so sorting all of them would take much longer.
 std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
   BloomFilter once(hashes.size());
   std::vector<std::uint32_t> again;

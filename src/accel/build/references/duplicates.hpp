@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles that are the same set of points. In the tree one of them represents all. Otherwise a
+/// Finds triangles that are the same set of points. Only one of them is in the tree. Otherwise a
 /// ray through a mesh with a thousand coincident copies would hit a thousand triangles at the same
 /// t, and exact arithmetic would have to decide every tie.
 
@@ -17,8 +17,8 @@ class Duplicates {
  public:
   Duplicates() = default;
 
-  /// Removes triangles with the vertices of another, in any order, from the bounded references: the
-  /// least id of each such group remains.
+  /// Removes triangles that have the same vertices as another, in any order, from the bounded
+  /// references. The triangle with the least id of each group remains.
   Duplicates(build::References& references, const Primitives& primitives);
 
   /// The least id above `after` in the group that a primitive of the tree represents.
@@ -33,7 +33,7 @@ class Duplicates {
   [[nodiscard]] bool empty() const { return ids_.empty(); }
   [[nodiscard]] std::size_t memory() const;  ///< bytes
 
-  /// Whether the same primitives represent the same others.
+  /// Whether the same primitives represent the same duplicates.
   [[nodiscard]] bool operator==(const Duplicates& other) const {
     return representatives_ == other.representatives_;
   }
@@ -47,9 +47,9 @@ class Duplicates {
     std::size_t first, end;  // positions in ids_, where ids ascend
   };
 
-  std::vector<PrimitiveId> ids_;              // grouped
+  std::vector<PrimitiveId> ids_;              // in groups
   std::vector<Group> groups_;                 // ascending
-  std::vector<PrimitiveId> representatives_;  // for all primitives up to the last duplicate
+  std::vector<PrimitiveId> representatives_;  // [id], for all primitives up to the last duplicate
 };
 
 }  // namespace microtrace

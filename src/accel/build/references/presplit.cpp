@@ -14,18 +14,18 @@ namespace {
 
 constexpr double kMostExtra = 0.3;
 
-// Constants found by experiment; they affect costs, never results.
+// The constants were found by experiment; they affect costs, never results.
 //
 // A triangle is split if the useless area of its box is more than this many times the whole box's
-// area divided by the number of primitives. A triangle at this limit is split (rounded down) 1.5
-// times, others in proportion to the fourth root of the ratio. The paper uses the cube root; the
+// area divided by the number of primitives. A triangle at this limit is split 1.5 times (rounded
+// down), others in proportion to the fourth root of the ratio. The paper uses the cube root; the
 // fourth root is slightly better and doesn't depend on the C library.
 constexpr float kManyShares = 8;
 constexpr float kCutsAtLeast = 1.5F;
 
-// The useless area is the area above 2.5 times the triangle's three projections. However finely an
-// oblique triangle is split, the areas of its pieces' boxes sum to about twice its projections, and
-// an axis-aligned triangle has that area without splits.
+// The useless area is the part of the box's area above 2.5 times the triangle's three projections.
+// However finely an oblique triangle is split, the areas of its pieces' boxes sum to about twice
+// its projections; an axis-aligned triangle has that area without splits.
 constexpr float kUseful = 2.5F;
 
 float fourth_root(float x) {
@@ -57,7 +57,7 @@ class Grid {
     return std::min({level(b, 0), level(b, 1), level(b, 2)});
   }
 
-  // This plane, or the middle of the box if the plane would cut off too little.
+  // The plane itself, or the middle of the box if the plane would cut off too little.
   [[nodiscard]] float plane(const Box& b, int axis) const {
     const float middle = b.lo[axis] * 0.5F + b.hi[axis] * 0.5F;
     const int at = level(b, axis);
@@ -92,7 +92,7 @@ class Splitter {
   }
 
   void split_all() {
-    if (!(least_ > 0)) return;  // all in one point
+    if (!(least_ > 0)) return;  // all triangles are points
     for (std::size_t i = 0; i < references_.size(); ++i) consider(i);
     if (candidates_.empty()) return;
     const float most = kCutsAtLeast / fourth_root(least_), scale = within_budget(most);
@@ -144,7 +144,7 @@ class Splitter {
     return low;
   }
 
-  // Splits `times` times; the larger part gets more of the remaining splits.
+  // Makes `times` splits; the larger part gets more of the remaining splits.
   void split(const Triangle& t, std::size_t slot, std::size_t times) {
     if (times == 0) return;
     const Reference whole = references_[slot];

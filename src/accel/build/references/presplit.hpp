@@ -1,7 +1,7 @@
 #pragma once
-/// Large or oblique triangles have boxes that are mostly empty. Before the build such a triangle is
-/// replaced by several references to it, each with the box of a piece: T. Karras, T. Aila, Fast
-/// parallel construction of high-quality bounding volume hierarchies, 2013, section 6.
+/// Splits large or oblique triangles before the build, because their boxes are mostly empty. Such a
+/// triangle is replaced by several references to it, each with the box of a piece: T. Karras, T.
+/// Aila, Fast parallel construction of high-quality bounding volume hierarchies, 2013, section 6.
 
 #include "accel/build/references/reference.hpp"
 
@@ -14,8 +14,8 @@ namespace microtrace::build {
 /// the triangle.
 void presplit(PageVector<Reference>& references, const Primitives& primitives);
 
-/// The two parts of a triangle within a box on either side of an axis-aligned plane. Each box
-/// contains every real point of its part.
+/// Cuts the part of a triangle within a box by an axis-aligned plane. Each returned box contains
+/// every real point of the triangle on its side of the plane.
 [[nodiscard]] std::array<Box, 2> cut(const Triangle& triangle, const Box& box, int axis,
                                      float plane);
 

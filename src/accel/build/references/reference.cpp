@@ -10,8 +10,8 @@
 namespace microtrace::build {
 namespace {
 
-// The maximum weight, in eighths of a block, that leaf references can address, including room for
-// split triangles.
+// The maximum total weight, in eighths of a block, that leaf references can address, including room
+// for split triangles.
 constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
 
 // Hash of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
@@ -23,7 +23,7 @@ std::uint64_t hash_of(const Vec3& p) {
   return hash ^ hash >> 31U;
 }
 
-// Hash of the set of vertices, independent of their order.
+// A hash of the set of vertices, independent of their order.
 std::uint32_t hash_of(const Triangle& t) {
   std::uint64_t sum = hash_of(t.a);
   if (t.b != t.a) sum += hash_of(t.b);

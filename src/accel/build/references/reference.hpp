@@ -8,8 +8,8 @@
 
 namespace microtrace::build {
 
-/// Weights are counted in eighths of a block: one for a triangle, eight for any other primitive,
-/// which is tested alone.
+/// Weights are counted in eighths of a block: one for a triangle, and eight for any other
+/// primitive, because these are tested one by one.
 inline constexpr std::uint32_t kTriangleWeight = 1;
 inline constexpr std::uint32_t kOtherWeight = 8;
 
@@ -46,12 +46,12 @@ struct References {
   return (differs[0] | differs[1] | differs[2]) == 0;
 }
 
-/// Sorts a scene's primitives into bounded and unbounded ones, and drops those without points.
-/// Throws Error (limit) if there are more than a tree can address.
+/// Divides a scene's primitives into bounded and unbounded ones, and drops empty ones. Throws Error
+/// (limit) if there are more than a tree can address.
 [[nodiscard]] References gather(const Primitives& primitives);
 
-/// Gives triangles whose vertices are equal the weight of other primitives: in float32 a ray never
-/// certainly misses them, so they need boxes of their own.
+/// Gives triangles with three equal vertices the weight of other primitives. A float32 test can
+/// never exclude a hit with such a triangle, so each needs a box of its own.
 void set_points_apart(PageVector<Reference>& references);
 
 }  // namespace microtrace::build

@@ -17,7 +17,7 @@ bool all_finite(const Vec3& v) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A float32 below the real number that x approximates.
+// The largest float32 that is certainly below the real number that x approximates.
 float rounded_down(double x) {
   if (x < -double{std::numeric_limits<float>::max()}) return -kInfinity;
   if (x > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::max();
@@ -25,7 +25,7 @@ float rounded_down(double x) {
   return double{f} < x ? f : std::nextafter(f, -kInfinity);
 }
 
-// center +- reach, where the error of reach is a few units of roundoff.
+// The box center +- extent, where the error of the extent is a few units of roundoff.
 Box extended(const Vec3& center, const DVec3& reach) {
   Box box;
   for (int k = 0; k < 3; ++k) {

@@ -19,7 +19,7 @@ namespace microtrace::build {
 [[nodiscard]] Box box_of(const Sphere& sphere);
 [[nodiscard]] Box box_of(const Disc& disc);
 
-/// A box that contains a point whose error is at most 2^-50 of `size`, an upper bound of its
+/// A box around a point with an error of at most 2^-50 times `size`, an upper bound of the
 /// coordinates.
 [[nodiscard]] Box around(const DVec3& point, const DVec3& size);
 

@@ -90,7 +90,8 @@ class Writer {
     return parent.count > kJobSize && child.count <= kJobSize;
   }
 
-  // In the order in which write_node visits them. Returns the size of all nodes outside jobs.
+  // Collects the jobs in the order in which write_node visits them. Returns the size of all nodes
+  // outside jobs.
   Places collect_jobs(const BinaryNode& node) {
     if (node.count <= kJobSize) return size_below(node);
     Places size;
@@ -114,7 +115,7 @@ class Writer {
     tree_.others.resize(size.others);
   }
 
-  // `next`: the first unused positions.
+  // `next` has the first unused positions.
   void write_node(const BinaryNode& node, std::size_t slot, Places& next) {
     const WideChildren children(node);
     std::array<std::size_t, kWidth> slots{};

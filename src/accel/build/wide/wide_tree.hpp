@@ -1,5 +1,5 @@
 #pragma once
-/// Reading and writing the parts of a Tree.
+/// Functions to read and write the nodes and blocks of a Tree.
 
 #include "accel/build/float4.hpp"
 #include "accel/build/tree.hpp"
@@ -23,12 +23,12 @@ void set_box(WideNode& node, std::size_t i, const Box& box);
 [[nodiscard]] Box union_of_children(const WideNode& node);
 [[nodiscard]] Bounds bounds_of(const Box& box);
 
-/// 0 (a node), child_ref::kTriangles or child_ref::kOthers.
+/// The kind of a child: 0 (a node), child_ref::kTriangles or child_ref::kOthers.
 [[nodiscard]] inline ChildRef kind_of(ChildRef ref) {
   return ref & child_ref::kKind;
 }
 
-/// The entries of a leaf, in the array for its kind.
+/// The range of a leaf's entries, in the array for its kind.
 struct LeafEntries {
   std::size_t begin, end;
 };
@@ -43,7 +43,7 @@ struct LeafEntries {
 /// Stores a triangle in a slot of a block. Slots are filled in order.
 void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& triangle);
 [[nodiscard]] inline bool is_used(const TriangleBlock& block, std::size_t slot) {
-  return block.a_x[slot] == block.a_x[slot];  // else NaN
+  return block.a_x[slot] == block.a_x[slot];  // unused slots have NaN
 }
 
 /// Whether two blocks have the same bits for the vertices of all triangles.

@@ -4,16 +4,16 @@
 namespace microtrace {
 namespace {
 
-/// spacing() of floats that are stored as float64.
+/// Computes spacing() for floats that are stored as float64.
 template <int N>
 inline Double<N> spacings(const Double<N>& x) {
-  // A float's exponent is that of the double; 2^-149 is the least.
+  // A float32 has the exponent of the same number in float64; the least is 2^-149.
   using Bits = DoubleMask<N>;
   const Bits exponent = (Bits)x >> 52 & 0x7ff, least = Bits{} + (1 + 1023 - 127);
   return (Double<N>)(((exponent < least ? least : exponent) - 23) << 52);
 }
 
-/// As TrianglePlaneFilter and rounded_point(), for N hits starting at i.
+/// Computes N hits starting at i, as TrianglePlaneFilter and rounded_point() do.
 template <int N>
 inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   using D = Double<N>;
@@ -59,7 +59,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
         (1 + 16 * kRounding);
     const D in_plane_error = n_size > 0 ? w_error + 4 * kRounding * magnitude(in_plane) + kUnderflow
                                         : D{} + __builtin_inf();
-    // A bound from the plane may be NaN, which leaves the other bound.
+    // A bound from the plane may be NaN; `greater` and `lesser` then return the other bound.
     const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
             above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
     const D least = __builtin_convertvector(__builtin_convertvector(below, Float<N>), D),
@@ -72,7 +72,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
     axis = gain > largest ? D{} + k : axis;
     largest = greater(gain, largest);
   }
-  // Otherwise exact arithmetic chooses the axis (TriangleSurface::gradient).
+  // If the error is larger, exact arithmetic chooses the axis (TriangleSurface::gradient).
   is_sure &= error <= 0x1p-9 * largest;
   for (int k = 0; k < 3; ++k) narrowed<N>(p.v[k], lanes.p[k] + i);
   store3<N>(normal.value, lanes.n, i);

@@ -4,10 +4,10 @@
 namespace microtrace {
 namespace {
 
-/// neighbor() for N floats.
+/// Computes neighbor() for N floats.
 template <int N>
 inline Float<N> neighbors(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
-  using Bits = Unsigned<N>;  // -0 and NaN, in unused lanes, wrap around
+  using Bits = Unsigned<N>;  // -0 and NaN occur only in unused lanes, where integers wrap around
   const Bits bits = (Bits)x, one = Bits{} + 1;
   const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
   const Bits from_zero = up != 0 ? one : one | 0x80000000U;
@@ -30,18 +30,19 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
   Mask open = filterable<N>(direction) & (to_front | to_back), is_sure{};
   for (int step = 0; step <= kFlatSteps; ++step) {
     const auto from_a = q - a;
-    // certain_side()
+    // as certain_side()
     const D value = dot<N>(from_a, normal.value);
     const D permanent = dot<N>(magnitudes<N>(from_a), normal.permanent);
     const D error = kHeightRoundings * kRounding * permanent + kUnderflow;
     const Mask in_front = value > error, behind = value < -error;
     const Mask is_there = (to_front & in_front) | (to_back & behind);
     is_sure |= open & is_there;
-    // All terms are zero: on the plane, which is common on floors and walls.
+    // If all terms are zero, the point is on the plane, which is common on floors and walls.
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);
-    const D moved = __builtin_convertvector(neighbors<N>(x, up_floats), D) + D{};  // no -0
+    const D moved =
+        __builtin_convertvector(neighbors<N>(x, up_floats), D) + D{};  // replaces -0 by 0
     for (int k = 0; k < 3; ++k) q.v[k] = (open & (axis == k)) ? moved : q.v[k];
   }
   for (int k = 0; k < 3; ++k) narrowed<N>(q.v[k], lanes.origin[k] + i);

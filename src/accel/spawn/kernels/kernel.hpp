@@ -1,6 +1,7 @@
 #pragma once
-/// Origins of rays that leave triangles, many at a time in float64: the first steps of
-/// spawn_among(), where float64 is certain. Plain data only; see simd/vectors.hpp for the reason.
+/// Types of the kernels that compute origins of rays that leave triangles, many at a time in
+/// float64: the first steps of spawn_among(), where float64 is certain. Plain data only; see
+/// simd/vectors.hpp for the reason.
 
 #include <cstdint>
 
