@@ -5,7 +5,8 @@
 
 namespace microtrace {
 
-/// A value made on first use. Any number of threads may ask for it; one of them makes it.
+/// A value that is made when it is first needed. Any number of threads may call get(); one of them
+/// makes the value.
 template <class T>
 class Lazy {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-/// What the opaque handles of the C API hold, and how its functions fail.
+/// The contents of the C API's opaque handles, and the error handling of its functions.
 
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
@@ -26,7 +26,7 @@ namespace microtrace::capi {
 /// Sets the message of mt_last_error() from the exception that is being handled.
 mt_status failed() noexcept;
 
-/// Runs f, which throws what the library throws.
+/// Runs f, which throws the library's exceptions, and returns the status.
 template <class F>
 mt_status guarded(const F& f) noexcept {
   try {
@@ -37,12 +37,13 @@ mt_status guarded(const F& f) noexcept {
   }
 }
 
-/// Throws Error (usage) unless the argument is there.
+/// Throws Error (usage) if the argument is null.
 inline void require(const void* argument, const char* name) {
   if (argument == nullptr) throw Error(ErrorKind::usage, "", std::string(name) + " is NULL");
 }
 
-/// The options with defaults where the caller's header had no such member; null: all defaults.
+/// The options, with defaults for the members that the caller's version of the header lacks; null:
+/// all defaults.
 template <class Options>
 [[nodiscard]] Options complete(const Options* options, void (*init)(Options*)) {
   Options result;

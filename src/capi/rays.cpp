@@ -17,7 +17,7 @@
 namespace microtrace::capi {
 namespace {
 
-/// Rays that a thread takes at a time.
+/// The number of rays that a thread takes at a time.
 constexpr std::size_t kBlock = 8192;
 
 Ray ray_of(const mt_ray& ray) {
@@ -31,7 +31,7 @@ mt_hit hit_of(const std::optional<Hit>& hit) {
   return {.primitive = hit->id, .t = hit->t};
 }
 
-/// f(first, last) for blocks that cover [0, count), on several threads.
+/// Calls f(first, last) for blocks that cover [0, count), on several threads.
 template <class F>
 void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   SharedRange blocks(count, kBlock);
@@ -63,7 +63,7 @@ mt_status for_rays(const mt_scene* scene, const mt_ray* rays, std::size_t count,
   });
 }
 
-/// f(scene, i) for each ray.
+/// Calls f(scene, i) for each ray.
 template <class F>
 mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                        std::uint32_t threads, const void* results, const F& f) {
@@ -73,7 +73,7 @@ mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t co
   return for_rays(scene, rays, count, threads, results, answer);
 }
 
-/// f(scene, rays, first) for batches of rays.
+/// Calls f(scene, rays, first) for batches of rays.
 template <class F>
 mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                          std::uint32_t threads, const void* results, const F& f) {
@@ -86,7 +86,7 @@ mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t 
   return for_rays(scene, rays, count, threads, results, answer);
 }
 
-/// The caller's hit, which must be one of that ray.
+/// Converts the caller's hit, which must be a hit of this ray.
 Hit known_hit(const PreparedScene& scene, const mt_hit& hit) {
   if (hit.primitive < scene.bvh().primitives().count()) return {.id = hit.primitive, .t = hit.t};
   throw Error(

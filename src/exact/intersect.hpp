@@ -1,7 +1,7 @@
 #pragma once
 /// The first hit of a ray with a shape, decided by arbitrary-width numbers: slow, scalar, and
-/// always right. Filters decide nearly all hits; for triangles, triangle_hit.hpp answers nearly
-/// always without it.
+/// always right. Filters decide nearly all hits; most other hits of triangles are decided by
+/// triangle_hit.hpp without this code.
 
 #include "exact/numbers/root.hpp"
 

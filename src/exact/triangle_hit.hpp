@@ -41,7 +41,7 @@ class TriangleHit {
 
  private:
   [[nodiscard]] const GridHit<3>& wide();
-  /// The answer of the first grid that can represent the query.
+  /// The result of the first grid that can represent the query.
   template <class Ask>
   [[nodiscard]] auto on_grid(const Ask& ask);
   [[nodiscard]] const std::optional<Root>& dyadic();
@@ -68,7 +68,7 @@ class TrianglePlane {
 
  private:
   [[nodiscard]] const GridPlane<3>& wide();
-  /// The answer of the first grid that can represent the query.
+  /// The result of the first grid that can represent the query.
   template <class Ask>
   [[nodiscard]] auto on_grid(const Ask& ask);
 

@@ -61,7 +61,9 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
   // The points where the rays of the neighboring samples meet the plane of the surface (H. Igehy,
   // Tracing ray differentials, 1999).
   const RayDifferential step = world.camera.differential(ray);
-  const double sample_width = 1 / std::sqrt(static_cast<double>(world.samples));  // in pixels
+  const double sample_width =
+      1 / std::sqrt(static_cast<double>(world.samples));  // distance of samples in
+                                                          // pixels
   const DVec3 d(ray.d);
   const double t = glm::dot(at.p - DVec3(ray.o), d) / glm::dot(d, d);
   const double slant = glm::dot(d, at.n);

@@ -75,7 +75,7 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   const auto wanted = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count));
   if (threads.run) {
     threads.run(wanted, [&] {
-      const FloatEnvironment environment;  // start_threads() does it for its own
+      const FloatEnvironment environment;  // start_threads() sets it for its own threads
       work();
     });
   } else {

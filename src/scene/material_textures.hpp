@@ -30,11 +30,12 @@ enum class MaterialTexture {
   diffuse_transmission,
   diffuse_transmission_color,
   specular_glossiness,
-  count,  ///< of them
+  count,  ///< number of textures
 };
 
-/// Whether path tracing reads the texture. It finds occlusion by itself, of a thickness only
-/// whether there is any matters, and unlit surfaces have no other color than their own.
+/// Whether path tracing reads the texture. Occlusion textures are unused because path tracing
+/// computes occlusion, thickness textures because only a thickness of 0 is distinguished. Unlit
+/// surfaces use only their own color.
 [[nodiscard]] inline bool affects_light(const Material& material, MaterialTexture texture) {
   using enum MaterialTexture;
   if (material.unlit) return texture == base_color || texture == emissive;

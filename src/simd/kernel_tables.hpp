@@ -11,19 +11,19 @@ namespace microtrace {
 template <class Table>
 struct KernelTables {
   const Table* portable;
-  const Table* avx2;  ///< null on processors of another architecture, like the next
+  const Table* avx2;  ///< null on processors of another architecture, as is the next member
   const Table* avx512;
 
   [[nodiscard]] const Table* of(InstructionSet set) const {
     return set == InstructionSet::avx512 ? avx512 : set == InstructionSet::avx2 ? avx2 : portable;
   }
-  /// Those that this processor supports, fastest first.
+  /// The tables that this processor supports, fastest first.
   [[nodiscard]] std::vector<const Table*> available() const {
     std::vector<const Table*> result;
     for (const InstructionSet set : available_instruction_sets()) result.push_back(of(set));
     return result;
   }
-  /// That of best_instruction_set().
+  /// The table for best_instruction_set().
   [[nodiscard]] const Table& best() const { return *of(best_instruction_set()); }
 };
 

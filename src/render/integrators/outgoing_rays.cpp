@@ -6,7 +6,7 @@ std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
                                         std::span<Ray> rays, std::span<PathState> paths) {
   bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
                     std::span(origins_).first(spawn_count_));
-  // Without an origin the ray is dropped: there is no float32 point between two walls.
+  // Drops rays without an origin: there is no float32 point between two walls.
   for (const Shadow& shadow : std::span(shadows_).first(shadow_count_)) {
     if (const auto& origin = origins_[shadow.spawn])
       shadow_rays.add(*origin, shadow.light, shadow.color, shadow.slot);

@@ -32,7 +32,7 @@ float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, c
   float transmittance = 1;
   while (hit && hit->id != target) {
     const ShadingPoint point = shading.point(ray, *hit);
-    // What the ray hits from the front, the light hits from behind.
+    // A front that the ray hits is hit from behind by the light.
     if (!(passes_backs && Shading::lets_light_in(point)))
       transmittance *= 1 - shading.coverage(point, false);
     if (transmittance == 0) return 0;

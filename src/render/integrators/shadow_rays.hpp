@@ -31,7 +31,7 @@ class ShadowRays {
                       std::span<Vec3> colors);
 
  private:
-  /// Rays that end at an emissive triangle, or rays without such an end.
+  /// A group of rays that all end at an emissive surface, or that all have no such end.
   struct Group {
     std::size_t count = 0;
     std::array<Ray, kRandomBatch> rays;
@@ -47,7 +47,7 @@ class ShadowRays {
                                    Group& group, std::span<Vec3> colors);
 
   Group free_, aimed_;
-  Group met_;  ///< rays without a target that hit a surface which may transmit light
+  Group met_;  ///< rays without a target that hit a surface that may transmit light
 };
 
 }  // namespace microtrace

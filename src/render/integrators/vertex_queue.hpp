@@ -35,7 +35,7 @@ class VertexQueue {
   VertexQueue(const bsdf::Features& features, const ShadingKernels& kernels)
       : features_(features), kernels_(kernels) {}
 
-  /// Without light sampling, no light of another scene may be left over.
+  /// Clears light samples of the last scene if this one samples no lights.
   void begin(const Lighting& lighting);
 
   /// The vertex's ray and path must remain valid until the bounce is finished.
@@ -47,7 +47,7 @@ class VertexQueue {
   void finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing);
 
  private:
-  /// What the next vertex of a path needs.
+  /// The data that the next vertex of a path needs.
   struct PendingVertex {
     const Ray* ray;
     Hit hit;

@@ -42,14 +42,14 @@ class Wave {
                            std::uint32_t layer) const;
   /// The next hit of path i behind `hit`; updates the point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
-  /// The source of light that arrives through the backs of surfaces that path i's ray hits.
+  /// The source of light that arrives from behind through the surfaces that path i's ray hits.
   struct Behind {
     bool is_open = false;      ///< the environment
     std::optional<Hit> hit{};  ///< an emissive surface
     ShadingPoint point{};      ///< its shading point
   };
-  /// Nothing if no light arrives. The ray hits the front of a one-sided surface, the layer with
-  /// number `layer`.
+  /// Looks for light from behind, if the ray hits the front of a one-sided surface, its layer with
+  /// number `layer`. The result is empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
   /// Advances path i, whose ray hits `point`, if anything.

@@ -17,7 +17,7 @@
 namespace microtrace {
 namespace {
 
-/// The sums to go on from; new ones if there are none.
+/// Initializes the sums if there are none yet; otherwise checks that they belong to this picture.
 void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
              const Vec3& background) {
   if (sums.pixels.empty()) {

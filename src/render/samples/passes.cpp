@@ -25,7 +25,7 @@ void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleR
   }
 }
 
-/// Tiles that take no more samples.
+/// The tiles that take no more samples.
 class Stops {
  public:
   Stops(const SampleSums& sums, double target)

@@ -36,7 +36,7 @@ UnitPair<N> unit_pair(const Float<N>& u) {
   return {is_second_half ? -cosine : cosine, is_second_half ? -sine : sine};
 }
 
-/// Around +z, with the pdf cos(theta) / pi.
+/// A direction around +z with the pdf cos(theta) / pi.
 template <int N = 1>
 Floats3<N> cosine_hemisphere(const Floats2<N>& u) {
   const auto [cosine, sine] = unit_pair<N>(u.x);

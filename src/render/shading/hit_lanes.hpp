@@ -34,7 +34,7 @@ void put_hit(HitArrays<width>& lanes, int lane, const Ray& ray, const Hit& hit, 
   put_attributes(lanes, lane, mesh, corners);
 }
 
-/// Sets what interpolate() computes; at.mesh must be set.
+/// Sets the attributes that interpolate() computes; at.mesh must be set.
 template <int width>
 void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.n = got(lanes.n, lane);
@@ -44,8 +44,8 @@ void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
 }
 
-/// Sets all that find_points() computes; at.mesh and at.corners must be set. Edge-on and without
-/// area, which is rare, the point needs the careful computation.
+/// Sets all members that find_points() computes; at.mesh and at.corners must be set. Triangles that
+/// are edge-on or have no area are rare; interact() computes their points.
 template <int width>
 void get_point(const HitArrays<width>& lanes, int lane, const Primitives& primitives,
                const Ray& ray, const Hit& hit, SurfacePoint& at) {

@@ -40,7 +40,7 @@ struct TextureSlot {
 
 /// A material with its textures.
 struct TexturedMaterial {
-  /// Those that most materials have.
+  /// The textures that most materials have.
   static constexpr std::array kFrequent = {MaterialTexture::base_color,
                                            MaterialTexture::metallic_roughness,
                                            MaterialTexture::normal, MaterialTexture::emissive};

@@ -38,7 +38,7 @@ struct SurfacePoint {
   [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
 };
 
-/// The point of any shape, from the careful computation.
+/// The point of any shape, rounded from the result of interact().
 [[nodiscard]] SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit);
 
 /// `hit` must be a hit of `ray`. `mesh` is null if the primitive is not a mesh triangle, else

@@ -82,7 +82,7 @@ class Grouping {
       std::uint32_t& first = first_corner[vertex(corner)];
       if (first == kNone) first = static_cast<std::uint32_t>(place);
     }
-    // A triangle with equal vertices takes the tangents of other triangles there.
+    // A triangle with equal vertices takes the tangents of other triangles at these vertices.
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       for (std::size_t k = 0; k < 3 && !is_set[i]; ++k) {
         const std::uint32_t v = vertex_of_[mesh_.triangles[i][k]];

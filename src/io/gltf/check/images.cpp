@@ -13,7 +13,7 @@ void check_uri(const Asset& asset, const Element& at) {
   if (is_data_uri(uri)) {
     if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
   } else if (const RelativePath path = relative_path(uri);
-             !path.refusal.empty() && !path.leads_out) {  // read_resource decides about these
+             !path.refusal.empty() && !path.leads_out) {  // read_resource reports these
     asset.fail(at, path.refusal);
   }
 }

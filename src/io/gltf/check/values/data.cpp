@@ -41,7 +41,7 @@ Bounds bounds_of(const Elements& elements) {
   return result;
 }
 
-/// Tests the exponents.
+/// True if no exponent is that of infinity or NaN.
 bool all_finite(const Elements& elements) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   const std::size_t components = elements.components();
