@@ -67,26 +67,26 @@ void check(const RenderOptions& options) {
            std::to_string(options.samples));
   }
   if (options.samples > 1 && options.integrator != nullptr && options.integrator->is_data())
-    refuse("this integrator's picture is of numbers that are never mixed: one sample per pixel");
+    refuse("this integrator returns data, which can't be averaged: set samples to 1");
   const bool is_random = options.integrator != nullptr && options.integrator->is_random();
   if (options.passes) {
-    if (!is_random)
-      refuse("this integrator's answers are not random: its picture is not made in passes");
+    if (!is_random) refuse("passes require a Monte Carlo integrator");
     const SampleRange part = options.passes->part.value_or(SampleRange{0, options.samples});
     if (options.passes->part && options.passes->target_error > 0)
-      refuse("where the error settles the number of samples none can be a part of them");
+      refuse("passes.part can't be combined with passes.target_error");
     if (part.first >= part.last || part.last > options.samples)
-      refuse("the part must hold samples of the picture, 0 to " + std::to_string(options.samples));
+      refuse("passes.part must be a nonempty range of the picture's samples, 0 to " +
+             std::to_string(options.samples));
   }
   const auto require_once = [&](auto aovs) {
     std::ranges::sort(aovs);
     if (const auto twice = std::ranges::adjacent_find(aovs); twice != aovs.end())
-      refuse("asks for the channels of " + std::string(name_of(*twice)) + " twice");
+      refuse("an output is requested twice: " + std::string(name_of(*twice)));
   };
   require_once(options.aovs);
   require_once(options.sampled_aovs);
   if (!options.sampled_aovs.empty() && !is_random) {
-    refuse("this integrator's answers are not random: there are no channels of " +
+    refuse("this output requires a Monte Carlo integrator: " +
            std::string(name_of(options.sampled_aovs.front())));
   }
 }

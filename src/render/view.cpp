@@ -13,7 +13,7 @@ PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop) {
       crop->y1 <= size.height)
     return *crop;
   throw Error(ErrorKind::usage, "",
-              "the crop must hold pixels of the picture: 0 <= x0 < x1 <= " +
+              "the crop must be a nonempty part of the picture: 0 <= x0 < x1 <= " +
                   std::to_string(size.width) + ", 0 <= y0 < y1 <= " + std::to_string(size.height));
 }
 

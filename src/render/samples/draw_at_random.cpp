@@ -32,7 +32,7 @@ void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
     }
   }
   if (sums.window != drawing.window || sums.background != background)
-    throw Error(ErrorKind::usage, "", "the samples to go on from are another picture's");
+    throw Error(ErrorKind::usage, "", "passes.sums belong to another picture");
 }
 
 }  // namespace
