@@ -33,7 +33,7 @@ Vec3 Locator::direction(const Vec3& p, std::uint64_t attempt) const {
   bool is_negative = false;
   float least = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const float below = p[k] - tree_.bounds.lo[k], above = tree_.bounds.hi[k] - p[k];
+    const float below = p[k] - target_.tree.bounds.lo[k], above = target_.tree.bounds.hi[k] - p[k];
     if (below < least) axis = k, is_negative = true, least = below;
     if (above < least) axis = k, is_negative = false, least = above;
   }
@@ -69,32 +69,32 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
       }
     }
     const exact::Crossing crossing = exact::crossing(triangle, p, d);
-    if (crossing == exact::Crossing::none || !selection_.least(tree_.duplicates, id)) return;
+    if (crossing == exact::Crossing::none || !selection_.least(target_.tree.duplicates, id)) return;
     if (crossing == exact::Crossing::proper) crossed_.push_back(id);
     is_on_boundary = crossing == exact::Crossing::origin;
     is_grazing |= crossing == exact::Crossing::grazing;
   };
   const Ray ray{.o = p, .t_min = 0, .d = d};
-  RaySearch(tree_, ray)
-      .for_each(
-          [&](const TriangleBlock& block, unsigned lanes) {
-            poll();
-            for (; lanes != 0; lanes &= lanes - 1) {
-              const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-              test(block.id[lane], triangle_in(block, lane));
-            }
-          },
-          [&](PrimitiveId id) {
-            poll();
-            if (const auto triangle = primitives_.triangle(id)) test(id, *triangle);
-          });
+  for_each_candidate(
+      target_, ray,
+      [&](const TriangleBlock& block, unsigned lanes) {
+        poll();
+        for (; lanes != 0; lanes &= lanes - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+          test(block.id[lane], triangle_in(block, lane));
+        }
+      },
+      [&](PrimitiveId id) {
+        poll();
+        if (const auto triangle = target_.primitives.triangle(id)) test(id, *triangle);
+      });
   if (is_on_boundary) return Location::boundary;
   if (is_grazing) return std::nullopt;
   // A triangle that was split among leaves is found several times.
   std::ranges::sort(crossed_);
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   std::uint64_t count = 0;
-  for (const PrimitiveId id : crossed_) count += selection_.count(tree_.duplicates, id);
+  for (const PrimitiveId id : crossed_) count += selection_.count(target_.tree.duplicates, id);
   return count % 2 == 1 ? Location::inside : Location::outside;
 }
 

@@ -1,11 +1,10 @@
 #pragma once
 /// The location of a point relative to closed surfaces, by the parity of crossings.
 
-#include "accel/bvh_tree.hpp"
 #include "queries/runs.hpp"
 #include "queries/selection.hpp"
+#include "queries/tree_target.hpp"
 
-#include <microtrace/primitives.hpp>
 #include <microtrace/queries.hpp>
 
 #include <cstdint>
@@ -16,9 +15,7 @@ namespace microtrace {
 
 class Locator {
  public:
-  /// All must outlive this object.
-  Locator(const Primitives& primitives, const Tree& tree, Selection selection)
-      : primitives_(primitives), tree_(tree), selection_(selection) {}
+  Locator(const TreeTarget& target, Selection selection) : target_(target), selection_(selection) {}
 
   /// p is in scene coordinates.
   [[nodiscard]] Location locate(const Vec3& p, Poll& poll);
@@ -28,8 +25,7 @@ class Locator {
   [[nodiscard]] std::optional<Location> locate_along(const Vec3& p, const Vec3& d, Poll& poll);
   [[nodiscard]] Vec3 direction(const Vec3& p, std::uint64_t attempt) const;
 
-  const Primitives& primitives_;
-  const Tree& tree_;
+  TreeTarget target_;
   Selection selection_;
   std::vector<PrimitiveId> crossed_;  // triangles of the tree
 };

@@ -1,13 +1,12 @@
 #pragma once
 /// The nearest triangle to a point, by branch and bound over the tree.
 
-#include "accel/build/tree.hpp"
 #include "exact/nearest.hpp"
 #include "queries/runs.hpp"
 #include "queries/selection.hpp"
+#include "queries/tree_target.hpp"
 #include "queries/triangle_distance.hpp"
 
-#include <microtrace/primitives.hpp>
 #include <microtrace/queries.hpp>
 
 #include <limits>
@@ -17,9 +16,8 @@ namespace microtrace {
 
 class NearestSearch {
  public:
-  /// All must outlive this object.
-  NearestSearch(const Primitives& primitives, const Tree& tree, Selection selection)
-      : primitives_(primitives), tree_(tree), selection_(selection) {}
+  NearestSearch(const TreeTarget& target, Selection selection)
+      : target_(target), selection_(selection) {}
 
   /// p is in scene coordinates, and so is the result.
   [[nodiscard]] std::optional<NearestPoint> nearest(const Vec3& p, Poll& poll);
@@ -38,8 +36,7 @@ class NearestSearch {
   /// their distances overlap.
   [[nodiscard]] bool precedes(const Candidate& candidate, const Vec3& p);
 
-  const Primitives& primitives_;
-  const Tree& tree_;
+  TreeTarget target_;
   Selection selection_;
   std::optional<Candidate> best_;             // the nearest so far
   std::optional<exact::Nearest> exact_best_;  // its exact distance, computed when first needed

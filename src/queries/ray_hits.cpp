@@ -5,6 +5,7 @@
 #include "exact/intersect.hpp"
 #include "float_environment.hpp"
 #include "queries/duplicates.hpp"
+#include "queries/kernels/dispatch.hpp"
 #include "queries/ray_search.hpp"
 #include "queries/runs.hpp"
 
@@ -28,8 +29,8 @@ struct BoundedHit {
 /// All hits of one ray at a time.
 class HitFinder {
  public:
-  explicit HitFinder(const PreparedScene& scene)
-      : scene_(scene), shared_(scene.bvh().tree()), tree_(shared_->tree) {}
+  HitFinder(const PreparedScene& scene, const QueryKernels& kernels)
+      : scene_(scene), shared_(scene.bvh().tree()), kernels_(kernels) {}
 
   [[nodiscard]] std::uint32_t count(const Ray& ray, Poll& poll) {
     find(ray, poll);
@@ -93,21 +94,21 @@ class HitFinder {
           found_.push_back({.id = id, .lo = bounds->lo, .hi = bounds->hi});
       }
     };
-    RaySearch(tree_, ray_)
-        .for_each(
-            [&](const TriangleBlock& block, unsigned lanes) {
-              poll();
-              for (; lanes != 0; lanes &= lanes - 1) {
-                const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-                FilterResult filtered{.certainty = Certainty::unsure};
-                if (filterable) filtered = seen_from(ray_.o, triangle_in(block, lane))(d, range);
-                add(block.id[lane], filtered);
-              }
-            },
-            [&](PrimitiveId id) {
-              poll();
-              add(id, resolver.filtered(id));
-            });
+    for_each_candidate(
+        {.primitives = primitives_, .tree = tree_, .kernels = kernels_}, ray_,
+        [&](const TriangleBlock& block, unsigned lanes) {
+          poll();
+          for (; lanes != 0; lanes &= lanes - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+            FilterResult filtered{.certainty = Certainty::unsure};
+            if (filterable) filtered = seen_from(ray_.o, triangle_in(block, lane))(d, range);
+            add(block.id[lane], filtered);
+          }
+        },
+        [&](PrimitiveId id) {
+          poll();
+          add(id, resolver.filtered(id));
+        });
     // A triangle that was split among leaves is found several times.
     std::ranges::sort(found_, {}, &BoundedHit::id);
     const auto is_same = [](const BoundedHit& a, const BoundedHit& b) { return a.id == b.id; };
@@ -116,7 +117,8 @@ class HitFinder {
 
   const PreparedScene& scene_;
   std::shared_ptr<const BvhTree> shared_;
-  const Tree& tree_;
+  const QueryKernels& kernels_;
+  const Tree& tree_ = shared_->tree;
   const Primitives& primitives_ = scene_.bvh().primitives();
   Ray ray_;  // in scene coordinates
   std::vector<BoundedHit> found_;
@@ -130,13 +132,14 @@ constexpr std::uint64_t kRaysOfRun = 64;
 RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
                       const QueryOptions& options) {
   const FloatEnvironment environment;
+  const QueryKernels& kernels = kQueryKernels.best();
   return limiting_memory([&] {
     RayHits result;
     std::vector<std::vector<Hit>> hits_of_run((rays.size() + kRaysOfRun - 1) / kRaysOfRun);
     result.offsets.resize(rays.size() + 1);
     for_each_run(rays.size(), kRaysOfRun, options,
                  [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                   HitFinder finder(scene);
+                   HitFinder finder(scene, kernels);
                    std::vector<Hit>& hits = hits_of_run[first / kRaysOfRun];
                    for (std::uint64_t i = first; i < last; ++i) {
                      const std::size_t before = hits.size();
@@ -158,10 +161,11 @@ void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
                      std::span<std::uint32_t> counts, const QueryOptions& options) {
   assert(rays.size() == counts.size());
   const FloatEnvironment environment;
+  const QueryKernels& kernels = kQueryKernels.best();
   limiting_memory([&] {
     for_each_run(rays.size(), kRaysOfRun, options,
                  [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                   HitFinder finder(scene);
+                   HitFinder finder(scene, kernels);
                    for (std::uint64_t i = first; i < last; ++i)
                      counts[i] = finder.count(rays[i], poll);
                  });

@@ -1,6 +1,7 @@
 #include "accel/bvh_tree.hpp"
 #include "base/lazy.hpp"
 #include "float_environment.hpp"
+#include "queries/kernels/dispatch.hpp"
 #include "queries/locator.hpp"
 #include "queries/nearest_search.hpp"
 #include "queries/open_edges.hpp"
@@ -51,8 +52,8 @@ struct Solid::Impl {
     limiting_memory([&] {
       for_each_run(count, kPointsOfRun, options,
                    [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                     Locator locator(primitives, shared->tree, selection);
-                     NearestSearch search(primitives, shared->tree, selection);
+                     Locator locator(target, selection);
+                     NearestSearch search(target, selection);
                      for (std::uint64_t i = first; i < last; ++i) {
                        poll();
                        f(i, locator, search, poll);
@@ -64,6 +65,8 @@ struct Solid::Impl {
   PreparedScene scene;
   const Primitives& primitives = scene.bvh().primitives();
   std::shared_ptr<const BvhTree> shared = scene.bvh().tree();
+  TreeTarget target{
+      .primitives = primitives, .tree = shared->tree, .kernels = kQueryKernels.best()};
   Selection selection;
   Lazy<std::vector<OpenEdge>> edges;
 };

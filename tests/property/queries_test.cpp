@@ -3,19 +3,22 @@
 #include "exact/crossing.hpp"
 #include "exact/intersect.hpp"
 #include "exact/nearest.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/adversarial_scenes.hpp"
 #include "support/closed_bodies.hpp"
 #include "support/effort.hpp"
+#include "support/generated_meshes.hpp"
 #include "support/solid_cases.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/queries.hpp>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -96,6 +99,48 @@ TEST(AllHits, OfNoRays) {
   EXPECT_EQ(intersect_all(scene, {}).rays(), 0U);
   const Ray ray;
   EXPECT_TRUE(intersect_all(scene, std::span(&ray, 1)).of(0).empty());
+}
+
+// Every kernel against the hits and locations above, which only the best one gave.
+TEST(Queries, HaveTheSameResultsWithAllInstructionSets) {
+  Random random(65);
+  Scene scene = random_scene(random);
+  scene.objects.push_back({.name = "", .shape = generated::turned(generated::hall(3000))});
+  const PreparedScene prepared(std::move(scene));
+  std::vector<Ray> rays;
+  std::vector<Vec3> points;
+  for (int i = 0; i < 2000; ++i) {
+    rays.push_back(random_ray(random, prepared.scene(), origin(random, prepared.scene())));
+    points.push_back(rays.back().o + random.in_cube(1));
+  }
+  struct Results {
+    RayHits hits;
+    std::vector<Location> locations;
+    std::vector<std::optional<NearestPoint>> nearest;
+  };
+  std::optional<Results> expected;
+  for (const InstructionSet isa : available_instruction_sets()) {
+    setenv("MICROTRACE_ISA", std::string(name_of(isa)).c_str(), 1);
+    Results results{.hits = intersect_all(prepared, rays),
+                    .locations = std::vector<Location>(points.size()),
+                    .nearest = std::vector<std::optional<NearestPoint>>(points.size())};
+    const Solid solid(prepared);
+    solid.locate(points, results.locations);
+    solid.nearest_points(points, results.nearest);
+    unsetenv("MICROTRACE_ISA");
+    if (!expected) expected = results;
+    EXPECT_EQ(results.hits.offsets, expected->hits.offsets);
+    EXPECT_EQ(results.locations, expected->locations);
+    for (std::size_t i = 0; i < expected->hits.hits.size(); ++i) {
+      ASSERT_EQ(results.hits.hits[i].id, expected->hits.hits[i].id);
+      ASSERT_EQ(results.hits.hits[i].t, expected->hits.hits[i].t);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      ASSERT_EQ(results.nearest[i]->id, expected->nearest[i]->id);
+      ASSERT_EQ(results.nearest[i]->distance, expected->nearest[i]->distance);
+      ASSERT_EQ(results.nearest[i]->p, expected->nearest[i]->p);
+    }
+  }
 }
 
 // ---- Points

@@ -1,0 +1,142 @@
+#pragma once
+/// The functions of QueryKernels for N lanes of float64.
+
+#include "accel/filters/roundings.hpp"
+#include "queries/kernels/kernel.hpp"
+#include "simd/vectors.hpp"
+
+namespace microtrace {
+namespace {
+
+/// The lanes in which a <= b; false for NaN.
+template <int N>
+inline unsigned lanes_at_most(const Double<N>& a, const Double<N>& b) {
+#if defined(__AVX512VL__)
+  if constexpr (N == 8) return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+#elif defined(__AVX2__)
+  if constexpr (N == 4)
+    return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ)));
+#endif
+#if defined(__x86_64__)
+  if constexpr (N == 2) return static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(a, b)));
+#endif
+  unsigned lanes = 0;
+  for (int i = 0; i < N; ++i) lanes |= static_cast<unsigned>(a[i] <= b[i]) << i;
+  return lanes;
+}
+
+template <int N>
+inline Double<N> all_doubles(double x) {
+  return x - Double<N>{};
+}
+
+/// A distance (plane - o) / d has three roundings, and no result under- or overflows. A box is met
+/// if the greatest entry is at most the least exit; the entry is not negative, so enlarging the
+/// exit by 16 units is enough for the roundings of both.
+template <int N>
+unsigned entered(const WideNode& node, const LineInterval& ray) {
+  const float *const lo = node.lo_x, *const hi = node.hi_x;  // the arrays of the axes follow
+  unsigned lanes = 0;
+  for (int i = 0; i < kWidth; i += N) {
+    Double<N> enter = all_doubles<N>(ray.t_min), leave = all_doubles<N>(ray.t_max);
+    unsigned within = (1U << N) - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Double<N> from_lo = widened<N>(lo + kWidth * axis + i) - ray.o[axis];
+      const Double<N> from_hi = widened<N>(hi + kWidth * axis + i) - ray.o[axis];
+      const double d = ray.d[axis];
+      if (d == 0) {
+        within &= lanes_at_most<N>(from_lo, Double<N>{}) & lanes_at_most<N>(Double<N>{}, from_hi);
+        continue;
+      }
+      const double inverse = 1 / d;
+      enter = greater((d < 0 ? from_hi : from_lo) * inverse, enter);
+      leave = lesser((d < 0 ? from_lo : from_hi) * inverse, leave);
+    }
+    within &= lanes_at_most<N>(enter, leave * (1 + 16 * kRoundoff));
+    lanes |= within << i;
+  }
+  return lanes;
+}
+
+/// With A, B, C from the origin to the vertices, two of d.(B x C), d.(C x A), d.(A x B) with
+/// opposite signs are a miss. Each has six terms of at most |d_k| m^2, where m is the largest
+/// |component| of A, B, C. A term has seven roundings: two of its factors, two products, the
+/// difference, two sums. The bound allows eight, which covers its own roundings.
+template <int N>
+unsigned passed(const TriangleBlock& block, const LineInterval& ray) {
+  using V = Double<N>;
+  const float *const a = block.a_x, *const b = block.b_x, *const c = block.c_x;
+  const double d_sum = magnitude(ray.d[0]) + magnitude(ray.d[1]) + magnitude(ray.d[2]);
+  unsigned lanes = 0;
+  for (int i = 0; i < kWidth; i += N) {
+    V p[3], q[3], r[3], size{};
+    for (int axis = 0; axis < 3; ++axis) {
+      p[axis] = widened<N>(a + kWidth * axis + i) - ray.o[axis];
+      q[axis] = widened<N>(b + kWidth * axis + i) - ray.o[axis];
+      r[axis] = widened<N>(c + kWidth * axis + i) - ray.o[axis];
+      size = greater(magnitude(p[axis]), size);
+      size = greater(magnitude(q[axis]), size);
+      size = greater(magnitude(r[axis]), size);
+    }
+    const auto volume = [&ray](const V(&x)[3], const V(&y)[3]) {
+      return ray.d[0] * (x[1] * y[2] - x[2] * y[1]) + ray.d[1] * (x[2] * y[0] - x[0] * y[2]) +
+             ray.d[2] * (x[0] * y[1] - x[1] * y[0]);
+    };
+    const V u = volume(q, r), v = volume(r, p), w = volume(p, q);
+    const V error = 2 * 8 * kRoundoff * d_sum * (size * size);
+    const V greatest = greater(greater(u, v), w), least = lesser(lesser(u, v), w);
+    const unsigned is_used = lanes_at_most<N>(p[0], p[0]);  // not NaN
+    lanes |= (is_used & (lanes_at_most<N>(greatest, error) | lanes_at_most<N>(-error, least))) << i;
+  }
+  return lanes;
+}
+
+template <int N>
+void box_distances(const WideNode& node, const double* p, double* squared) {
+  const float *const lo = node.lo_x, *const hi = node.hi_x;
+  for (int i = 0; i < kWidth; i += N) {
+    Double<N> sum{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Double<N> below = widened<N>(lo + kWidth * axis + i) - p[axis];
+      const Double<N> above = p[axis] - widened<N>(hi + kWidth * axis + i);
+      const Double<N> gap = greater(greater(below, above), Double<N>{});
+      sum += gap * gap;
+    }
+    __builtin_memcpy(squared + i, &sum, sizeof sum);
+  }
+}
+
+/// The larger of two bounds: the distance of the bounding box, which is good near the triangle; and
+/// for G = A + B + C, with A, B, C from p to the vertices, the least of A.G / |G|, B.G / |G|, C.G /
+/// |G|, which is good far away. A.G has three terms of at most 3 m^2, where m is the largest
+/// |component| of A, B, C, with six roundings.
+template <int N>
+void triangle_distances(const TriangleBlock& block, const double* p, double* squared) {
+  using V = Double<N>;
+  const float *const a = block.a_x, *const b = block.b_x, *const c = block.c_x;
+  for (int i = 0; i < kWidth; i += N) {
+    V sum{}, size{}, from_a{}, from_b{}, from_c{}, squared_g{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const V x = widened<N>(a + kWidth * axis + i) - p[axis];
+      const V y = widened<N>(b + kWidth * axis + i) - p[axis];
+      const V z = widened<N>(c + kWidth * axis + i) - p[axis];
+      const V least = lesser(x, lesser(y, z)), greatest = greater(x, greater(y, z));
+      const V gap = greater(greater(least, -greatest), V{});
+      sum += gap * gap;
+      size = greater(size, greater(-least, greatest));
+      const V g = x + y + z;
+      from_a += x * g;
+      from_b += y * g;
+      from_c += z * g;
+      squared_g += g * g;
+    }
+    const V from = lesser(from_a, lesser(from_b, from_c)) - 3 * 3 * 8 * kRoundoff * size * size;
+    // If G is 0, so is `from` at most.
+    const V bound = from > V{} ? from * from / squared_g : V{};
+    const V result = greater(bound, sum);
+    __builtin_memcpy(squared + i, &result, sizeof result);
+  }
+}
+
+}  // namespace
+}  // namespace microtrace
