@@ -1,0 +1,56 @@
+"""Checks and conversions of array arguments."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[Any]
+
+
+def as_numbers(values: Any, what: str, width: int) -> Array:
+    """An array of shape (..., width) of float32 or float64, in native byte order.
+
+    Neither copies nor converts float32 and float64 arrays. Throws ValueError for another width and
+    TypeError for anything but real numbers.
+    """
+    array: Array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise TypeError(f"{what} must contain real numbers, not {array.dtype}")
+    if array.ndim == 0 or array.shape[-1] != width:
+        raise ValueError(f"{what} must have shape (..., {width}), not {array.shape}")
+    if array.dtype.kind == "f" and array.dtype.itemsize in (4, 8):
+        return array.astype(array.dtype.newbyteorder("="), copy=False)
+    return array.astype(np.float64)
+
+
+def as_rows(values: Any, what: str, width: int) -> Array:
+    """The same for shape (n, width), with strides that C++ code can read."""
+    array = as_numbers(values, what, width)
+    if array.ndim != 2:
+        raise ValueError(f"{what} must have shape (n, {width}), not {array.shape}")
+    return readable(array)
+
+
+def as_indices(values: Any, what: str, width: int) -> Array:
+    """An array of shape (n, width) of 32-bit or 64-bit integers."""
+    array: Array = np.asarray(values)
+    if array.size == 0 and array.ndim < 2:
+        array = np.zeros((0, width), np.uint32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{what} must contain integers, not {array.dtype}")
+    if array.ndim != 2 or array.shape[1] != width:
+        raise ValueError(f"{what} must have shape (n, {width}), not {array.shape}")
+    if array.dtype.itemsize < 4:
+        array = array.astype(np.uint32 if array.dtype.kind == "u" else np.int32)
+    if array.dtype.kind == "i" and array.size and int(array.min()) < 0:
+        raise ValueError(f"{what} must not be negative; found {int(array.min())}")
+    return readable(array.astype(array.dtype.newbyteorder("="), copy=False))
+
+
+def readable(array: Array) -> Array:
+    """The array, or a copy if its numbers are not aligned or its strides not whole numbers."""
+    is_plain = array.flags.aligned and all(s % array.itemsize == 0 for s in array.strides)
+    return array if is_plain else np.ascontiguousarray(array)

@@ -1,0 +1,87 @@
+"""Errors and warnings, with the texts of the program."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """A message about a position in a file; unknown members are empty or 0."""
+
+    file: str  #: as the user named it
+    line: int  #: from 1
+    column: int  #: in bytes, from 1
+    pointer: str  #: JSON pointer (RFC 6901)
+    message: str  #: the problem and the remedy
+    text: str  #: all of this, with the source line
+
+
+class Error(Exception):
+    """The base class of microtrace's exceptions."""
+
+    diagnostic: Diagnostic
+
+
+class SceneError(Error, ValueError):
+    """A scene violates its format or its rules."""
+
+
+class UsageError(Error, ValueError):
+    """An argument is invalid."""
+
+
+class UnsupportedError(Error, ValueError):
+    """A scene requires an unsupported feature."""
+
+
+class FileError(Error, OSError):
+    """A file can't be read or written."""
+
+
+class LimitError(Error, MemoryError):
+    """Memory or another documented limit is exceeded."""
+
+
+class CanceledError(Error):
+    """A callback asked to stop."""
+
+
+class SceneWarning(UserWarning):
+    """An oddity of a scene file, an ignored feature or a repaired violation."""
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(diagnostic.text)
+        self.diagnostic = diagnostic
+
+
+#: By the program's exit code for the same failure.
+_CLASSES: dict[int, type[Error]] = {
+    2: UsageError,
+    3: SceneError,
+    4: UnsupportedError,
+    5: FileError,
+    6: LimitError,
+    7: CanceledError,
+}
+
+
+def error_of(code: int, diagnostic: Diagnostic) -> Error:
+    """The exception for an exit code of the program."""
+    error = _CLASSES.get(code, Error)(diagnostic.text)
+    error.diagnostic = diagnostic
+    return error
+
+
+def warn(diagnostics: Iterable[Diagnostic]) -> None:
+    """Warns at the line outside of this package that called it."""
+    package = str(Path(__file__).parent)
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
+        level, frame = level + 1, frame.f_back
+    for diagnostic in diagnostics:
+        warnings.warn(SceneWarning(diagnostic), stacklevel=level)

@@ -1,0 +1,61 @@
+"""Lights with the units of KHR_lights_punctual, and environments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, pi
+from typing import Literal
+
+from .images import RadianceMap
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(eq=False)
+class DirectionalLight:
+    """Parallel light from infinitely far away."""
+
+    direction: Vector = (0.0, 0.0, -1.0)  #: in which the light travels; any length
+    color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
+    intensity: float = 1.0  #: illuminance of a facing surface, lux
+    name: str = ""
+
+
+@dataclass(eq=False)
+class PointLight:
+    """Light from a point in all directions."""
+
+    position: Vector = (0.0, 0.0, 0.0)  #: world space
+    color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
+    intensity: float = 1.0  #: candela
+    range: float = inf  #: distance at which it may be cut off
+    name: str = ""
+
+
+@dataclass(eq=False)
+class SpotLight:
+    """Light from a point in a cone: full intensity within the inner angle, none beyond the outer."""
+
+    position: Vector = (0.0, 0.0, 0.0)  #: world space
+    direction: Vector = (0.0, 0.0, -1.0)  #: of the cone's axis; any length
+    color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
+    intensity: float = 1.0  #: along the axis, candela
+    range: float = inf  #: distance at which it may be cut off
+    inner_cone_angle: float = 0.0  #: from the axis, radians
+    outer_cone_angle: float = pi / 4  #: from the axis, radians, at most pi / 2
+    name: str = ""
+
+
+Light = DirectionalLight | PointLight | SpotLight
+
+
+@dataclass(eq=False)
+class Environment:
+    """Light from all directions, in path-traced pictures."""
+
+    #: The built-in studio, uniform radiance (linear Rec. 709), or a latitude-longitude map.
+    content: Literal["studio"] | Vector | RadianceMap = (1.0, 1.0, 1.0)
+    rotation: float = 0.0  #: about +y, radians, counterclockwise as seen from above
+    intensity: float = 1.0  #: multiplies the content
+    #: Whether pictures show it where camera rays hit nothing, instead of Scene.background.
+    is_background: bool = False

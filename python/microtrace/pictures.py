@@ -1,0 +1,295 @@
+"""Rendering of pictures and data into arrays."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from .cameras import Camera, PerspectiveCamera, Vector
+from .lights import Environment
+from .prepared import PreparedScene
+from .scene import Scene
+
+Array = npt.NDArray[Any]
+Quantity = Literal[
+    "color",
+    "depth",
+    "distance",
+    "position",
+    "normal",
+    "face_normal",
+    "uv",
+    "barycentric",
+    "albedo",
+    "object",
+    "primitive",
+    "material",
+    "variance",
+    "samples",
+    "denoise_albedo",
+    "denoise_normal",
+]
+ToneMap = Literal["none", "khronos-pbr-neutral", "aces", "agx"]
+
+#: The numbers per pixel of each quantity, and whether they are integers.
+_QUANTITIES: dict[str, tuple[int, bool]] = {
+    name: (width, is_integer) for name, width, is_integer in _core.quantities
+}
+
+
+class Picture(Mapping[str, Array]):
+    """Rendered arrays by name, also as attributes: `picture["depth"] is picture.depth`.
+
+    Arrays of one picture have shape (height, width) or (height, width, channels), from the upper
+    left; those of several pictures have the number of the camera before that.
+
+    color: float32, linear Rec. 709; with alpha if it was transparent, then premultiplied.
+    depth, distance: float32; infinite where nothing is visible. All others are 0 there.
+    position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: 2. Normals face the
+        viewer.
+    object, primitive, material: uint32, counted from 1: index + 1 in Scene.objects, in the mesh's
+        faces, in Scene.materials.
+    variance, samples: float32, of the mean displayed luminance, and the number of samples.
+    denoise_albedo, denoise_normal: float32, 3 channels, means over the samples.
+    """
+
+    def __init__(self, arrays: dict[str, Array], exposure: float, tone_map: str) -> None:
+        self._arrays = arrays
+        self._exposure = exposure
+        self._tone_map = tone_map
+
+    def __getitem__(self, name: str) -> Array:
+        try:
+            return self._arrays[name]
+        except KeyError:
+            known = name == "color" or name in _QUANTITIES
+            hint = f"add {name!r} to aovs" if known else f"known are {', '.join(self._arrays)}"
+            raise KeyError(f"{name!r} was not rendered; {hint}") from None
+
+    def __getattr__(self, name: str) -> Array:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except KeyError as error:
+            raise AttributeError(error.args[0]) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    def __repr__(self) -> str:
+        arrays = ", ".join(f"{name} {array.shape}" for name, array in self.items())
+        return f"Picture({arrays})"
+
+    def tonemap(self, exposure: float | None = None, tone_map: ToneMap | None = None) -> Array:
+        """The colors as 8-bit sRGB: the numbers that the program writes into a PNG.
+
+        Args:
+            exposure: in stops, multiplies by 2^exposure; default: 0.
+            tone_map: default: khronos-pbr-neutral for path-traced pictures, else none.
+
+        Returns:
+            uint8 of color's shape. With alpha, colors are not premultiplied.
+        """
+        color = self["color"]
+        result = np.empty(color.shape, np.uint8)
+        settings = self._display(exposure, tone_map)
+        for index in np.ndindex(color.shape[:-3]):
+            _core.encode(color[index], *settings, result[index])
+        return result
+
+    def save(
+        self,
+        path: str | PathLike[str],
+        exposure: float | None = None,
+        tone_map: ToneMap | None = None,
+    ) -> None:
+        """Writes one picture: .png, .ppm or .exr. The file appears whole or not at all.
+
+        .exr stores color with all other arrays as channels, in the program's layout; other formats
+        store the color alone.
+
+        Raises:
+            ValueError: the picture is a stack.
+            FileError: the file can't be written.
+        """
+        if self["color"].ndim != 3:
+            raise ValueError("save one picture of the stack, such as picture.one(0)")
+        is_exr = Path(path).suffix.lower() == ".exr"
+        rest = {k: v for k, v in self.items() if k != "color"} if is_exr else {}
+        _core.save(self["color"], *self._display(exposure, tone_map), rest, path)
+
+    def one(self, index: int) -> Picture:
+        """A picture of a stack, by the camera's index. Arrays are shared."""
+        return Picture({k: v[index] for k, v in self.items()}, self._exposure, self._tone_map)
+
+    def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
+        return (
+            self._exposure if exposure is None else exposure,
+            self._tone_map if tone_map is None else tone_map,
+        )
+
+    def _repr_png_(self) -> bytes | None:
+        """For Jupyter."""
+        if "color" not in self or self["color"].ndim != 3:
+            return None
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "picture.png"
+            self.save(path)
+            return path.read_bytes()
+
+
+def frame(
+    scene: Scene | PreparedScene,
+    azimuth: float = 30.0,
+    elevation: float = 25.0,
+    *,
+    vertical_fov_degrees: float = 45.0,
+    size: tuple[int, int] | None = None,
+) -> PerspectiveCamera:
+    """A camera that shows the whole scene, for pictures of this size.
+
+    Args:
+        scene: its bounded shapes are framed.
+        azimuth: degrees about +y: 0 looks from +z, 90 from +x.
+        elevation: degrees above horizontal, in [-90, 90].
+        vertical_fov_degrees: in (0, 180).
+        size: width and height; default: the scene's.
+    """
+    prepared = _prepared(scene)
+    camera: PerspectiveCamera = _core.frame(
+        prepared._core, azimuth, elevation, vertical_fov_degrees, size or prepared._core.size
+    )
+    return camera
+
+
+def render(
+    scene: Scene | PreparedScene,
+    camera: Camera | Sequence[Camera] | None = None,
+    size: tuple[int, int] | None = None,
+    *,
+    spp: int | None = None,
+    aovs: Iterable[Quantity] = ("color",),
+    integrator: Literal["path", "flat"] | None = None,
+    environment: Environment | None = None,
+    background: Vector | None = None,
+    transparent: bool = False,
+    filter: Literal["box", "blackman-harris"] = "box",
+    seed: int = 0,
+    max_depth: int = 32,
+    threads: int = 0,
+    progress: Callable[[float], bool | None] | bool = False,
+) -> Picture:
+    """Renders pictures: the bytes of the program with the same options.
+
+    Args:
+        scene: prepare it once to render many pictures.
+        camera: one camera or several; default: the scene's first, or one that frames the scene.
+        size: width and height in pixels; default: the scene's.
+        spp: samples per pixel; default: 64 for path tracing, else 1.
+        aovs: the arrays to render; see Picture. Without color, variance, samples and the denoise
+            arrays no light is computed, which takes milliseconds.
+        integrator: "path" for light or "flat" for base colors; default: the scene's.
+        environment: replaces the scene's.
+        background: replaces the scene's, linear Rec. 709.
+        transparent: omits the background and gives color alpha.
+        filter: the pixel filter.
+        seed: another seed gives other noise.
+        max_depth: maximum path length: 2 adds direct light.
+        threads: 0: all processors. Has no effect on the arrays.
+        progress: called with the share that is done, in (0, 1]; returning False cancels. True: a
+            bar by tqdm, if that is installed.
+
+    Raises:
+        ValueError: an argument is invalid.
+        CanceledError: progress returned False.
+        LimitError: memory runs out.
+    """
+    prepared = _prepared(scene)
+    size = size or prepared._core.size
+    names = _checked(aovs)
+    if camera is None:
+        cameras: list[Camera] = [prepared._core.default_camera(size)]
+        is_stack = False
+    else:
+        is_stack = isinstance(camera, Sequence)
+        cameras = list(camera) if isinstance(camera, Sequence) else [camera]
+    width, height = size
+    arrays: dict[str, Array] = {}
+    for name in names:
+        channels, is_integer = (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
+        shape = (len(cameras), height, width, channels)
+        arrays[name] = np.empty(shape, np.uint32 if is_integer else np.float32)
+    arguments = {
+        "size": size,
+        "spp": spp,
+        "integrator": integrator,
+        "environment": environment,
+        "background": background,
+        "filter": filter,
+        "seed": seed,
+        "max_depth": max_depth,
+        "threads": threads,
+    }
+    display = (0.0, "none")
+    with _shown(progress, len(cameras)) as show:
+        for k, each in enumerate(cameras):
+            outputs = {name: array[k] for name, array in arrays.items()}
+            share = None if show is None else (lambda x, k=k: show((k + x) / len(cameras)))
+            *display, _ = _core.render(
+                prepared._core, each, outputs, {**arguments, "progress": share}
+            )
+    for name, array in arrays.items():
+        if array.shape[-1] == 1:
+            array = array[..., 0]
+        arrays[name] = array if is_stack else array[0]
+    return Picture(arrays, *display)
+
+
+def _prepared(scene: Scene | PreparedScene) -> PreparedScene:
+    return scene if isinstance(scene, PreparedScene) else scene.prepare()
+
+
+def _checked(aovs: Iterable[str]) -> list[str]:
+    names = [aovs] if isinstance(aovs, str) else list(dict.fromkeys(aovs))
+    for name in names:
+        if name != "color" and name not in _QUANTITIES:
+            raise ValueError(f"unknown AOV {name!r}; use color, {', '.join(_QUANTITIES)}")
+    if not names:
+        raise ValueError("aovs must name at least one array")
+    return names
+
+
+class _shown:
+    """The progress function as a context; None for none."""
+
+    def __init__(self, progress: Callable[[float], bool | None] | bool, pictures: int) -> None:
+        self._function = progress if callable(progress) else None
+        self._bar: Any = None
+        if progress is True:
+            try:
+                from tqdm.auto import tqdm
+            except ImportError:
+                return
+            self._bar = tqdm(total=pictures, unit="picture")
+            self._function = self._advance
+
+    def _advance(self, share: float) -> None:
+        self._bar.update(share * self._bar.total - self._bar.n)
+
+    def __enter__(self) -> Callable[[float], bool | None] | None:
+        return self._function
+
+    def __exit__(self, *exception: object) -> None:
+        if self._bar is not None:
+            self._bar.close()

@@ -1,0 +1,280 @@
+"""Scenes: plain data that can be edited, pickled and prepared."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from os import PathLike
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import as_indices, as_numbers, as_rows
+from .cameras import Camera, Vector
+from .errors import warn
+from .lights import Environment, Light
+from .materials import Material
+from .prepared import PreparedScene
+from .shapes import Disc, Mesh, Object, Plane, Quadric, Sphere
+
+
+@dataclass(eq=False)
+class Scene:
+    """Shapes, materials, lights and cameras.
+
+    Everything is plain data in world space: change it as you like, then call prepare(). Coordinates
+    of shapes and cameras are relative to `origin`; it is (0, 0, 0) unless a file's geometry is far
+    from zero.
+    """
+
+    objects: list[Object] = field(default_factory=list)
+    #: Numbered as in the picture's material ids. Others that objects use are added after these.
+    materials: list[Material] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
+    cameras: list[Camera] = field(default_factory=list)
+    environment: Environment | None = None  #: None: a studio if there are no lights either
+    background: Vector | None = None  #: linear Rec. 709; None: gray 0.6 for path tracing, or black
+    size: tuple[int, int] = (640, 480)  #: width and height of pictures, pixels
+    origin: Vector = (0.0, 0.0, 0.0)  #: position of (0, 0, 0) in world space
+    epsilon: float = 0.0  #: camera rays only hit beyond this t
+    #: Whether pictures are path traced by default; scenes from JSON files are flat.
+    integrator: Literal["path", "flat"] = "path"
+
+    def add_mesh(
+        self,
+        vertices: npt.ArrayLike,
+        faces: npt.ArrayLike,
+        normals: npt.ArrayLike | None = None,
+        uv: npt.ArrayLike | None = None,
+        colors: npt.ArrayLike | None = None,
+        material: Material | None = None,
+        transform: npt.ArrayLike | None = None,
+        name: str = "",
+    ) -> Object:
+        """Adds triangles and returns their object.
+
+        Args:
+            vertices: (V, 3) real numbers. Stored as float32; float64 is rounded once.
+            faces: (F, 3) integers in [0, V), counterclockwise as seen from the front.
+            normals: (V, 3), unit length.
+            uv: (V, 2); (0, 0) is the first pixel of a texture's image, v points down.
+            colors: (V, 3) or (V, 4), linear Rec. 709 in [0, 1], or 8-bit sRGB integers.
+            material: default: Material().
+            transform: (4, 4), world from mesh, applied in float64 and rounded once; a mirrored mesh
+                is turned so that its front stays outside.
+            name: any text.
+
+        Raises:
+            ValueError: an array has a wrong shape, or an index is negative.
+            TypeError: an array has a wrong type of numbers.
+        """
+        mesh = Mesh(
+            vertices=as_rows(vertices, "vertices", 3),
+            faces=as_indices(faces, "faces", 3),
+            normals=None if normals is None else as_rows(normals, "normals", 3),
+            uv=() if uv is None else (as_rows(uv, "uv", 2),),
+            colors=None if colors is None else linear_colors(colors),
+        )
+        if transform is not None:
+            _transform(mesh, np.asarray(transform))
+        return self._add(mesh, material, name)
+
+    def add_sphere(
+        self,
+        center: Vector = (0.0, 0.0, 0.0),
+        radius: float = 1.0,
+        material: Material | None = None,
+        name: str = "",
+    ) -> Object:
+        """Adds a sphere and returns its object."""
+        return self._add(Sphere(center, radius), material, name)
+
+    def add_plane(
+        self, point: Vector, normal: Vector, material: Material | None = None, name: str = ""
+    ) -> Object:
+        """Adds an infinite plane and returns its object."""
+        return self._add(Plane(point, normal), material, name)
+
+    def add_disc(
+        self,
+        center: Vector,
+        normal: Vector,
+        radius: float,
+        material: Material | None = None,
+        name: str = "",
+    ) -> Object:
+        """Adds a disc and returns its object."""
+        return self._add(Disc(center, normal, radius), material, name)
+
+    def add_quadric(
+        self, coefficients: Sequence[float], material: Material | None = None, name: str = ""
+    ) -> Object:
+        """Adds a quadric by its ten coefficients (see Quadric) and returns its object."""
+        return self._add(Quadric(coefficients), material, name)
+
+    def prepare(
+        self,
+        previous: PreparedScene | None = None,
+        *,
+        threads: int = 0,
+        fast_build: bool = False,
+    ) -> PreparedScene:
+        """Builds what rays and pictures need.
+
+        Args:
+            previous: the same scene with other lights, cameras, materials or vertex positions; its
+                tree and tables are reused as far as they fit. Hits and pictures don't depend on it.
+            threads: for the build; 0: all processors.
+            fast_build: builds the tree faster; rays take longer.
+
+        Raises:
+            SceneError: an index is out of range, arrays of a mesh differ in length, or a number is
+                not finite.
+            LimitError: memory or primitive numbers run out.
+        """
+        return PreparedScene(self, previous, threads=threads, fast_build=fast_build)
+
+    def copy(self) -> Scene:
+        """A copy that shares only arrays, images and maps."""
+        memo: dict[int, Any] = {}
+        for shared in self._shared():
+            memo[id(shared)] = shared
+        return copy.deepcopy(self, memo)
+
+    def _shared(self) -> list[Any]:
+        result: list[Any] = []
+        for item in self.objects:
+            if isinstance(item.shape, Mesh):
+                mesh = item.shape
+                result += [mesh.vertices, mesh.faces, mesh.normals, mesh.tangents, *mesh.uv]
+                result += [mesh.colors, mesh.segments]
+        return [array for array in result if array is not None]
+
+    def _add(self, shape: Any, material: Material | None, name: str) -> Object:
+        result = Object(shape, material, name)
+        self.objects.append(result)
+        return result
+
+
+def _rotated(columns: Any, vectors: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    """Sums in fixed order without BLAS, whose bits depend on the processor."""
+    x, y, z = (vectors[:, k : k + 1].astype(np.float64) for k in range(3))
+    return np.asarray(x * columns[0] + y * columns[1] + z * columns[2])
+
+
+def _transform(mesh: Mesh, matrix: npt.NDArray[Any]) -> None:
+    if matrix.shape != (4, 4) or matrix.dtype.kind not in "fiu":
+        raise ValueError(f"transform must be a 4 x 4 matrix of real numbers, not {matrix.shape}")
+    m = matrix.astype(np.float64)
+    if not np.array_equal(m[3], (0, 0, 0, 1)):
+        raise ValueError("transform must be affine: its last row must be 0, 0, 0, 1")
+    a, b, c = m[:3, 0], m[:3, 1], m[:3, 2]
+    mesh.vertices = _rotated((a, b, c), np.asarray(mesh.vertices)) + m[:3, 3]
+    cofactors = (_cross(b, c), _cross(c, a), _cross(a, b))
+    is_mirrored = float((a * cofactors[0]).sum()) < 0
+    if mesh.normals is not None:
+        normals = _rotated(cofactors, np.asarray(mesh.normals)) * (-1 if is_mirrored else 1)
+        squares = normals[:, 0] ** 2 + normals[:, 1] ** 2 + normals[:, 2] ** 2
+        lengths = np.sqrt(squares)[:, None]
+        mesh.normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    if is_mirrored:
+        mesh.faces = np.ascontiguousarray(np.asarray(mesh.faces)[:, [0, 2, 1]])
+
+
+def _cross(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    return np.array(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    )
+
+
+def linear_colors(colors: Any) -> npt.NDArray[Any]:
+    """(n, 4) linear colors, from (n, 3) or (n, 4) linear numbers or 8-bit sRGB integers."""
+    array = np.asarray(colors)
+    if array.ndim != 2 or array.shape[1] not in (3, 4):
+        raise ValueError(f"colors must have shape (n, 3) or (n, 4), not {array.shape}")
+    if array.dtype == np.uint8:
+        table = np.array([_core.linear_from_srgb(k / 255) for k in range(256)], np.float32)
+        result = np.concatenate([table[array[:, :3]], array[:, 3:] / np.float32(255)], axis=1)
+    else:
+        result = as_numbers(array, "colors", array.shape[1])
+    if result.shape[1] == 3:
+        result = np.concatenate([result, np.ones((len(result), 1), result.dtype)], axis=1)
+    return result
+
+
+def scene_of(source: Any) -> Scene:
+    """A scene from a trimesh.Trimesh, a trimesh.Scene, or any object with `vertices` and `faces`.
+
+    Vertex normals that trimesh only computed are left out, so that faces stay flat. Reads the
+    attributes `vertices`, `faces`, `visual` (vertex colors, texture coordinates, a PBR material),
+    `graph` and `geometry`; does not import trimesh.
+    """
+    from ._from_trimesh import scene_from
+
+    return scene_from(source)
+
+
+def load(
+    path: str | PathLike[str],
+    *,
+    detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
+    variant: str = "",
+    time: float | None = None,
+    animation: str = "",
+    allowed_folders: Sequence[str | PathLike[str]] = (),
+) -> Scene:
+    """Reads a scene: glTF 2.0 (.gltf, .glb) or microtrace JSON (.json).
+
+    Args:
+        path: the file.
+        detail: the attributes to load. "shape": for rays and all AOVs but albedo; decodes only
+            images whose alpha affects visibility. "color": for flat pictures. "all": for light.
+        variant: material variant of a glTF asset, by name or index.
+        time: animation time in seconds; None: the stored pose.
+        animation: by name, by index or "all"; "": the first.
+        allowed_folders: further folders from which a glTF asset may load buffers and images.
+
+    Warns:
+        SceneWarning: oddities, ignored features and repaired violations, one by one.
+
+    Raises:
+        SceneError: the file violates its format.
+        UnsupportedError: the file requires an unsupported feature.
+        FileError: the file can't be read.
+    """
+    return SceneFile(
+        path,
+        detail=detail,
+        variant=variant,
+        animation=animation,
+        allowed_folders=allowed_folders,
+    ).at(time)
+
+
+class SceneFile:
+    """A scene file that is read once and can be posed at many times. Arguments as load()."""
+
+    def __init__(
+        self,
+        path: str | PathLike[str],
+        *,
+        detail: Literal["shape", "color", "shape_and_color", "all"] = "all",
+        variant: str = "",
+        animation: str = "",
+        allowed_folders: Sequence[str | PathLike[str]] = (),
+    ) -> None:
+        self._file = _core.SceneFile(
+            path, detail, variant, animation, [str(folder) for folder in allowed_folders]
+        )
+
+    def at(self, time: float | None) -> Scene:
+        """The scene at a time in seconds, clamped to the animation's range; None: the stored pose.
+
+        Warns and raises as load().
+        """
+        fields, diagnostics = self._file.at(time)
+        warn(diagnostics)
+        return Scene(**fields)

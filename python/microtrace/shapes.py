@@ -1,0 +1,81 @@
+"""Shapes in world space. Numbers are stored as float32, rounded once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .materials import Material
+
+Vector = tuple[float, float, float]
+FloatArray = npt.NDArray[np.floating[Any]]
+
+
+@dataclass(eq=False)
+class Mesh:
+    """Indexed triangles. Arrays are read when the scene is prepared, not before."""
+
+    vertices: npt.ArrayLike  #: (V, 3), world space
+    faces: npt.ArrayLike  #: (F, 3) integers, counterclockwise as seen from the front
+    normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None: flat
+    tangents: npt.ArrayLike | None = None  #: (V, 4): unit length, handedness 1 or -1
+    uv: Sequence[npt.ArrayLike] = ()  #: sets of (V, 2); (0, 0) is an image's first pixel
+    colors: npt.ArrayLike | None = None  #: (V, 4), linear Rec. 709 and alpha
+    segments: npt.ArrayLike | None = None  #: (S, 2) integers: lines, drawn one pixel wide
+
+
+@dataclass(eq=False)
+class Sphere:
+    """The points at distance `radius` from `center`."""
+
+    center: Vector = (0.0, 0.0, 0.0)
+    radius: float = 1.0
+
+
+@dataclass(eq=False)
+class Plane:
+    """The infinite plane through `point`."""
+
+    point: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 1.0, 0.0)  #: any length
+
+
+@dataclass(eq=False)
+class Disc:
+    """The part of a plane within `radius` of `center`."""
+
+    center: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 1.0, 0.0)  #: any length
+    radius: float = 1.0
+
+
+@dataclass(eq=False)
+class Triangle:
+    """A single triangle."""
+
+    a: Vector
+    b: Vector
+    c: Vector
+
+
+@dataclass(eq=False)
+class Quadric:
+    """a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0."""
+
+    coefficients: Sequence[float] = field(default=(0.0,) * 10)  #: a to j
+
+
+Shape = Mesh | Sphere | Plane | Disc | Triangle | Quadric
+
+
+@dataclass(eq=False)
+class Object:
+    """A shape with one material."""
+
+    shape: Shape
+    material: Material | None = None  #: None: Material()
+    name: str = ""

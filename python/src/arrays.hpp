@@ -1,0 +1,68 @@
+#pragma once
+/// Arrays of meshes, shared between scenes in C++ and NumPy.
+
+#include "common.hpp"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+
+namespace microtrace::python {
+
+/// The owner of exported memory that begins here, while it exists; nothing for other memory.
+std::shared_ptr<const void> owner_of(const void* data);
+/// Makes owner_of(data) return the owner.
+void remember_owner(const void* data, const std::shared_ptr<const void>& owner);
+
+/// A read-only array of NumPy that shares the values. Empty arrays give None.
+template <class T>
+nb::object to_python(const Array<T>& values) {
+  using Number = typename Array<T>::Number;
+  if (values.empty()) return nb::none();
+  auto shared = std::make_shared<Array<T>>(values);
+  shared->share();
+  const T* data = shared->data();
+  remember_owner(data, shared);
+  const nb::capsule keeper(new std::shared_ptr<const void>(shared), [](void* p) noexcept {
+    delete static_cast<std::shared_ptr<const void>*>(p);
+  });
+  return nb::cast(nb::ndarray<nb::numpy, const Number>(
+      data, {shared->size(), sizeof(T) / sizeof(Number)}, keeper));
+}
+
+/// Rows of numbers of type Source. Values are copied, because Python code may change them at any
+/// time, unless they are those of an array that to_python() made.
+template <class T, class Source>
+Array<T> copied(const AnyArray& rows) {
+  constexpr std::size_t width = sizeof(T) / sizeof(typename Array<T>::Number);
+  const auto* data = static_cast<const Source*>(rows.data());
+  if (std::shared_ptr<const void> owner = owner_of(data);
+      owner != nullptr && rows.stride(1) == 1 && sizeof(Source) * width == sizeof(T))
+    return Array<T>::strided(data, rows.shape(0), rows.stride(0) * sizeof(Source), owner);
+  std::vector<std::array<Source, width>> values(rows.shape(0));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (std::size_t k = 0; k < width; ++k)
+      values[i][k] = data[static_cast<std::int64_t>(i) * rows.stride(0) +
+                          static_cast<std::int64_t>(k) * rows.stride(1)];
+  Array<T> result = Array<T>::strided(values.empty() ? nullptr : values[0].data(), values.size());
+  static_cast<void>(result.edit());  // owns its values from now on
+  return result;
+}
+
+/// Throws Error for indices that 32 bits can't hold.
+template <class T>
+Array<T> to_array(const AnyArray& rows) {
+  if constexpr (std::is_floating_point_v<typename Array<T>::Number>) {
+    if (rows.dtype() == nb::dtype<float>()) return copied<T, float>(rows);
+    return copied<T, double>(rows);
+  } else {
+    if (rows.dtype() == nb::dtype<std::uint32_t>()) return copied<T, std::uint32_t>(rows);
+    if (rows.dtype() == nb::dtype<std::int32_t>()) return copied<T, std::int32_t>(rows);
+    if (rows.dtype() == nb::dtype<std::uint64_t>()) return copied<T, std::uint64_t>(rows);
+    return copied<T, std::int64_t>(rows);
+  }
+}
+
+}  // namespace microtrace::python

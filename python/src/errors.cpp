@@ -1,0 +1,28 @@
+#include "common.hpp"
+
+#include <exception>
+
+namespace microtrace::python {
+
+nb::object member(const char* module, const char* name) {
+  return nb::module_::import_((std::string("microtrace.") + module).c_str()).attr(name);
+}
+
+nb::object to_python(const Diagnostic& diagnostic) {
+  return member("errors", "Diagnostic")(diagnostic.file, diagnostic.line, diagnostic.column,
+                                        diagnostic.pointer, diagnostic.message, diagnostic.text());
+}
+
+void bind_errors(nb::module_& /*module*/) {
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void* /*payload*/) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      const nb::object exception = member("errors", "error_of")(static_cast<int>(error.kind()),
+                                                                to_python(error.diagnostic()));
+      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception.ptr())), exception.ptr());
+    }
+  });
+}
+
+}  // namespace microtrace::python

@@ -1,0 +1,98 @@
+/// Images and radiance maps: immutable, shared with prepared scenes.
+
+#include "images.hpp"
+
+#include "scene/math/srgb.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/vector.h>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+template <class T>
+std::vector<T> values_of(const AnyArray& pixels) {
+  const auto* data = static_cast<const T*>(pixels.data());
+  return std::vector<T>(data, data + pixels.size());
+}
+
+/// pixels: C-contiguous, (height, width, channels).
+std::shared_ptr<const Image> make_image(const AnyArray& pixels, std::string name) {
+  auto image = std::make_shared<Image>();
+  image->name = std::move(name);
+  image->height = static_cast<std::uint32_t>(pixels.shape(0));
+  image->width = static_cast<std::uint32_t>(pixels.shape(1));
+  image->channels = static_cast<std::uint32_t>(pixels.shape(2));
+  if (pixels.dtype() == nb::dtype<std::uint8_t>())
+    image->samples = values_of<std::uint8_t>(pixels);
+  else
+    image->samples = values_of<std::uint16_t>(pixels);
+  return image;
+}
+
+/// pixels: C-contiguous float32, (height, width, 3).
+std::shared_ptr<const RadianceMap> make_map(const AnyArray& pixels) {
+  auto map = std::make_shared<RadianceMap>();
+  map->height = static_cast<std::uint32_t>(pixels.shape(0));
+  map->width = static_cast<std::uint32_t>(pixels.shape(1));
+  map->pixels.resize(std::size_t{map->height} * map->width);
+  std::memcpy(map->pixels.data(), pixels.data(), map->pixels.size() * sizeof(Vec3));
+  for (Vec3& pixel : map->pixels) {
+    for (glm::length_t i = 0; i < 3; ++i)
+      if (!(pixel[i] >= 0) || pixel[i] > kMaxRadiance)
+        throw Error(ErrorKind::invalid_scene, "RadianceMap", "pixels must be in [0, 1e9]");
+  }
+  return map;
+}
+
+template <class Owner, class T>
+nb::object view(const Owner& owner, const T* data, std::initializer_list<std::size_t> shape) {
+  auto* keeper = new Owner(owner);
+  const nb::capsule capsule(keeper, [](void* p) noexcept { delete static_cast<Owner*>(p); });
+  return nb::cast(nb::ndarray<nb::numpy, const T>(data, shape, capsule));
+}
+
+nb::object pixels_of(const SharedImage& shared) {
+  const auto& image = shared.image;
+  return std::visit(
+      [&](const auto& samples) {
+        return view(image, samples.data(), {image->height, image->width, image->channels});
+      },
+      image->samples);
+}
+
+nb::object pixels_of_map(const SharedMap& shared) {
+  return view(shared.map, &shared.map->pixels.data()->x,
+              {shared.map->height, shared.map->width, std::size_t{3}});
+}
+
+}  // namespace
+
+void bind_images(nb::module_& module) {
+  nb::class_<SharedImage>(module, "ImageData")
+      .def("__init__",
+           [](SharedImage* self, const AnyArray& pixels, std::string name) {
+             new (self) SharedImage{make_image(pixels, std::move(name))};
+           })
+      .def_prop_ro("name", [](const SharedImage& self) { return self.image->name; })
+      .def_prop_ro("pixels", pixels_of);
+  nb::class_<SharedMap>(module, "MapData")
+      .def("__init__",
+           [](SharedMap* self, const AnyArray& pixels) { new (self) SharedMap{make_map(pixels)}; })
+      .def_prop_ro("pixels", pixels_of_map);
+  module.def("load_map", [](const std::filesystem::path& path) {
+    LoadedRadianceMap loaded = [&] {
+      const nb::gil_scoped_release release;
+      return load_radiance_map(path);
+    }();
+    nb::list warnings;
+    for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
+    return nb::make_tuple(SharedMap{std::move(loaded.map)}, warnings);
+  });
+}
+
+}  // namespace microtrace::python

@@ -1,0 +1,296 @@
+/// Rendering into arrays of NumPy, and saving.
+
+#include "common.hpp"
+#include "io/image/eight_bits.hpp"
+#include "prepared.hpp"
+#include "scene_reader.hpp"
+#include "scene_writer.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <mutex>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+/// A writable array of shape (height, width, channels), C-contiguous.
+template <class T>
+using Pixels = nb::ndarray<T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+/// Where a channel of the film goes.
+struct Target {
+  std::string channel;  ///< Channel::name
+  void* first;          ///< its value for the first pixel
+  std::size_t step;     ///< from pixel to pixel, in values
+};
+
+/// The name of the AOV, its channels and whether they are integers, for each picture by name.
+struct Quantity {
+  const char* name;
+  const char* aov;
+  const char* channels;  ///< separated by blanks
+};
+constexpr std::array kQuantities = {
+    Quantity{"depth", "depth", "Z"},
+    Quantity{"distance", "distance", "T"},
+    Quantity{"position", "position", "X Y Z"},
+    Quantity{"normal", "normal", "X Y Z"},
+    Quantity{"face_normal", "face_normal", "X Y Z"},
+    Quantity{"uv", "uv", "U V"},
+    Quantity{"barycentric", "barycentric", "X Y Z"},
+    Quantity{"albedo", "albedo", "R G B"},
+    Quantity{"object", "id", "instance"},
+    Quantity{"primitive", "id", "primitive"},
+    Quantity{"material", "id", "material"},
+    Quantity{"variance", "variance", "Y"},
+    Quantity{"samples", "samples", "N"},
+    Quantity{"denoise_albedo", "denoise_albedo", "R G B"},
+    Quantity{"denoise_normal", "denoise_normal", "X Y Z"},
+};
+
+void copy_channel(const Film& film, const Target& target) {
+  const auto channel = std::ranges::find(film.channels, target.channel, &Channel::name);
+  std::visit(
+      [&]<class T>(const std::vector<T>& values) {
+        T* to = static_cast<T*>(target.first);
+        for (const T& value : values) *to = value, to += target.step;
+      },
+      channel->values);
+}
+
+template <class E>
+void add_once(std::vector<E>& to, E item) {
+  if (std::ranges::find(to, item) == to.end()) to.push_back(item);
+}
+
+/// Adds the AOVs of `outputs` to the options.
+std::vector<Target> targets_of(const nb::dict& outputs, RenderOptions& options) {
+  std::vector<Target> result;
+  for (const Quantity& quantity : kQuantities) {
+    if (!outputs.contains(quantity.name)) continue;
+    if (const auto aov = aov_named(quantity.aov))
+      add_once(options.aovs, *aov);
+    else
+      add_once(options.sampled_aovs, sampled_aov_named(quantity.aov).value());
+    const auto pixels = nb::cast<nb::ndarray<nb::c_contig>>(outputs[quantity.name]);
+    auto* first = static_cast<std::uint32_t*>(pixels.data());  // or float: both have 4 bytes
+    const std::string channels = quantity.channels;
+    const auto count = static_cast<std::size_t>(1 + std::ranges::count(channels, ' '));
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t end = std::min(channels.find(' ', begin), channels.size());
+      result.push_back(
+          {.channel = std::string(quantity.aov) + "." + channels.substr(begin, end - begin),
+           .first = first + k,
+           .step = count});
+      begin = end + 1;
+    }
+  }
+  return result;
+}
+
+void copy_colors(const Film& film, const Pixels<float>& to) {
+  const std::size_t channels = to.shape(2);
+  float* out = to.data();
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    const auto colors = film.row(y);
+    for (std::size_t x = 0; x < colors.size(); ++x, out += channels) {
+      out[0] = colors[x].x, out[1] = colors[x].y, out[2] = colors[x].z;
+      if (channels == 4) out[3] = film.alpha_row(y)[x];
+    }
+  }
+}
+
+IntegratorOptions integrator_of(const std::string& name, const nb::dict& arguments) {
+  if (name == "flat") return FlatOptions{};
+  if (name != "path") throw nb::value_error("integrator must be \"path\" or \"flat\"");
+  PathOptions options;
+  options.max_depth = nb::cast<std::uint32_t>(arguments["max_depth"]);
+  return options;
+}
+
+PixelFilter filter_named(const std::string& name) {
+  if (name == "box") return PixelFilter::box;
+  if (name == "blackman-harris") return PixelFilter::blackman_harris;
+  throw nb::value_error("filter must be \"box\" or \"blackman-harris\"");
+}
+
+/// Calls a function of Python with the share that is done; False cancels.
+class Progress {
+ public:
+  Progress(nb::object function, const std::function<bool()>& cancel)
+      : function_(std::move(function)), cancel_(cancel) {}
+
+  bool operator()(double share) {
+    if (cancel_()) return false;
+    if (!function_.is_valid() || function_.is_none()) return true;
+    const nb::gil_scoped_acquire acquire;
+    try {
+      const nb::object result = function_(share);
+      return result.is_none() || nb::cast<bool>(result);
+    } catch (nb::python_error&) {
+      failure_ = std::current_exception();
+      return false;
+    }
+  }
+
+  /// Throws what the function threw.
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  nb::object function_;
+  const std::function<bool()>& cancel_;
+  std::exception_ptr failure_;
+};
+
+/// Fills outputs["color"], (height, width, 3 or 4) float32 if it is there, and the other arrays.
+/// Returns exposure and tone map for the display of the colors.
+nb::object render_into(const Prepared& self, const nb::object& camera_object,
+                       const nb::dict& outputs, const nb::dict& arguments) {
+  const Camera camera = camera_from_python(camera_object);
+  const auto [width, height] = nb::cast<std::array<std::uint32_t, 2>>(arguments["size"]);
+  const ImageSize size{.width = width, .height = height};
+  const bool has_color = outputs.contains("color");
+  nb::object name = arguments["integrator"];
+  if (name.is_none()) name = nb::cast(self.is_flat ? "flat" : "path");
+  const IntegratorOptions integrator_options =
+      integrator_of(nb::cast<std::string>(name), arguments);
+  const bool is_path = std::holds_alternative<PathOptions>(integrator_options);
+  const nb::object samples = arguments["spp"], background = arguments["background"];
+  const std::unique_ptr<Integrator> integrator = make_integrator(integrator_options);
+  RenderOptions options{
+      .threads = nb::cast<unsigned>(arguments["threads"]),
+      .integrator = integrator.get(),
+      .samples = samples.is_none() ? default_samples(integrator_options)
+                                   : nb::cast<std::uint32_t>(samples),
+      .filter = filter_named(nb::cast<std::string>(arguments["filter"])),
+      .seed = nb::cast<std::uint32_t>(arguments["seed"]),
+      .environment = environment_from_python(arguments["environment"]),
+      .transparent = has_color && nb::cast<Pixels<float>>(outputs["color"]).shape(2) == 4,
+  };
+  if (!background.is_none()) {
+    const auto c = nb::cast<std::array<double, 3>>(background);
+    options.background = Vec3(DVec3(c[0], c[1], c[2]));
+  } else if (!self.has_background) {
+    options.background = default_background(SceneFormat::gltf, integrator_options);
+  }
+  const std::vector<Target> targets = targets_of(outputs, options);
+  const bool needs_samples = has_color || !options.sampled_aovs.empty();
+  if (!needs_samples) options.samples = 1;
+  FlatIntegrator nothing;
+  if (!needs_samples) options.integrator = &nothing;
+  std::optional<Film> film;
+  const nb::object function = arguments["progress"];
+  std::exception_ptr failure;
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    Progress progress(function, cancel);
+    options.progress = std::ref(progress);
+    try {
+      film = render(self.scene, camera, size, options);
+    } catch (const Error&) {
+      progress.rethrow();
+      throw;
+    }
+  });
+  for (const Target& target : targets) copy_channel(*film, target);
+  if (has_color) copy_colors(*film, nb::cast<Pixels<float>>(outputs["color"]));
+  return nb::make_tuple(film->display.exposure, std::string(name_of(film->display.tone_map)),
+                        is_path);
+}
+
+/// A film of these arrays, (height, width, 3 or 4), with colors displayed by exposure and tone map.
+Film film_of(const Pixels<const float>& color, double exposure, const std::string& tone_map,
+             const nb::dict& channels) {
+  const auto map = tone_map_named(tone_map);
+  if (!map) {
+    std::string names;
+    for (const ToneMap each : kToneMaps) names.append(" ").append(name_of(each));
+    throw nb::value_error(("unknown tone map " + tone_map + "; use one of" + names).c_str());
+  }
+  const std::size_t count = color.shape(2);
+  Film film({.width = static_cast<std::uint32_t>(color.shape(1)),
+             .height = static_cast<std::uint32_t>(color.shape(0))},
+            count == 4 ? Film::Alpha::premultiplied : Film::Alpha::none);
+  const float* from = color.data();
+  for (std::uint32_t y = 0; y < film.size().height; ++y) {
+    for (std::uint32_t x = 0; x < film.size().width; ++x, from += count) {
+      film.at(x, y) = {from[0], from[1], from[2]};
+      if (count == 4) film.alpha_at(x, y) = from[3];
+    }
+  }
+  film.display.exposure = exposure;
+  film.display.tone_map = *map;
+  for (const Quantity& quantity : kQuantities) {
+    if (!channels.contains(quantity.name)) continue;
+    const auto pixels = nb::cast<nb::ndarray<nb::ro, nb::c_contig>>(channels[quantity.name]);
+    const std::string names = quantity.channels;
+    const std::size_t pixel_count = color.shape(0) * color.shape(1);
+    const std::size_t step = pixel_count > 0 ? pixels.size() / pixel_count : 1;
+    std::size_t begin = 0;
+    for (std::size_t k = 0; k < step; ++k) {
+      const std::size_t end = std::min(names.find(' ', begin), names.size());
+      const auto add = [&]<class T>(const T* first) {
+        std::vector<T> values(pixel_count);
+        for (std::size_t i = 0; i < pixel_count; ++i) values[i] = first[i * step + k];
+        film.channels.push_back(
+            {.name = std::string(quantity.aov) + "." + names.substr(begin, end - begin),
+             .values = std::move(values)});
+      };
+      if (pixels.dtype() == nb::dtype<float>())
+        add(static_cast<const float*>(pixels.data()));
+      else
+        add(static_cast<const std::uint32_t*>(pixels.data()));
+      begin = end + 1;
+    }
+  }
+  return film;
+}
+
+void save(const Pixels<const float>& color, double exposure, const std::string& tone_map,
+          const nb::dict& channels, const std::filesystem::path& path) {
+  const Film film = film_of(color, exposure, tone_map, channels);
+  const nb::gil_scoped_release release;
+  save_image(film, path);
+}
+
+void encode(const Pixels<const float>& color, double exposure, const std::string& tone_map,
+            const Pixels<std::uint8_t>& to) {
+  const Film film = film_of(color, exposure, tone_map, nb::dict());
+  const nb::gil_scoped_release release;
+  for (std::uint32_t y = 0; y < film.size().height; ++y)
+    io::encode_row(film, y, to.data() + std::size_t{y} * to.shape(1) * to.shape(2));
+}
+
+nb::object frame_scene(const Prepared& self, double azimuth, double elevation, double fov,
+                       std::array<std::uint32_t, 2> size) {
+  const View view{.azimuth = azimuth, .elevation = elevation, .vertical_fov = fov};
+  return camera_to_python(frame(self.scene.scene(), view, {.width = size[0], .height = size[1]}),
+                          "");
+}
+
+}  // namespace
+
+void bind_pictures(nb::module_& module) {
+  nb::list names;
+  for (const Quantity& quantity : kQuantities) {
+    const std::string channels = quantity.channels;
+    names.append(nb::make_tuple(quantity.name, 1 + std::ranges::count(channels, ' '),
+                                std::string(quantity.aov) == "id"));
+  }
+  module.attr("quantities") = nb::tuple(names);
+  module.def("render", &render_into);
+  module.def("save", &save);
+  module.def("encode", &encode);
+  module.def("frame", &frame_scene);
+}
+
+}  // namespace microtrace::python

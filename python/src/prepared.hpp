@@ -1,0 +1,13 @@
+#pragma once
+#include "common.hpp"
+
+namespace microtrace::python {
+
+/// What microtrace.PreparedScene holds.
+struct Prepared {
+  PreparedScene scene;
+  bool is_flat = false;         ///< pictures are flat by default
+  bool has_background = false;  ///< Scene.background is not None
+};
+
+}  // namespace microtrace::python

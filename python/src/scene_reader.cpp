@@ -1,0 +1,324 @@
+/// From the dataclasses of Python to a Scene.
+
+#include "scene_reader.hpp"
+
+#include "arrays.hpp"
+#include "fields.hpp"
+#include "images.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <string>
+#include <unordered_map>
+
+#include <glm/geometric.hpp>
+
+namespace microtrace::python {
+namespace {
+
+template <class Enum, std::size_t n>
+Enum named(const std::string& name, const std::array<const char*, n>& names, const char* what) {
+  std::string all;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (name == names[i]) return static_cast<Enum>(i);
+    all += (i > 0 ? ", " : "") + std::string(names[i]);
+  }
+  throw nb::value_error((std::string(what) + " must be one of " + all + ", not " + name).c_str());
+}
+
+/// Adds `item` to `places` unless it is there; returns its place.
+class Places {
+ public:
+  /// Calls add() if the object is new, which appends it to its list.
+  template <class F>
+  std::uint32_t of(const nb::handle& item, const F& add) {
+    const auto next = static_cast<std::uint32_t>(places_.size());
+    const auto [at, is_new] = places_.try_emplace(item.ptr(), next);
+    if (is_new) {
+      kept_.push_back(nb::borrow(item));  // another object must not get its address
+      add();
+    }
+    return at->second;
+  }
+
+ private:
+  std::unordered_map<PyObject*, std::uint32_t> places_;
+  std::vector<nb::object> kept_;
+};
+
+class Reader {
+ public:
+  explicit Reader(const nb::handle& source) : source_(source) {}
+
+  Scene operator()() {
+    read(source_.attr("origin"), scene_.origin);
+    read(source_.attr("epsilon"), scene_.epsilon);
+    if (const nb::object background = source_.attr("background"); !background.is_none())
+      read(background, scene_.background);
+    const auto [width, height] = cast<std::array<std::uint32_t, 2>>(source_.attr("size"), "size");
+    scene_.size = {.width = width, .height = height};
+    for (const nb::handle material : source_.attr("materials")) place_of_material(material);
+    for (const nb::handle object : source_.attr("objects")) add_object(object);
+    for (const nb::handle light : source_.attr("lights")) add_light(light);
+    for (const nb::handle camera : source_.attr("cameras"))
+      scene_.cameras.push_back({.name = text(camera, "name"), .camera = camera_of(camera)});
+    scene_.environment = environment_of(source_.attr("environment"));
+    return std::move(scene_);
+  }
+
+ private:
+  template <class T>
+  static T cast(const nb::handle& value, const char* what) {
+    T result{};
+    if (!nb::try_cast(value, result))
+      throw nb::type_error(
+          (std::string(what) + " has a wrong type: " + nb::repr(value).c_str()).c_str());
+    return result;
+  }
+  static std::string text(const nb::handle& object, const char* name) {
+    return cast<std::string>(object.attr(name), name);
+  }
+
+  // One overload for each type of member.
+  void read(const nb::handle& value, std::string& to) { to = cast<std::string>(value, field_); }
+  void read(const nb::handle& value, bool& to) { to = cast<bool>(value, field_); }
+  void read(const nb::handle& value, double& to) { to = cast<double>(value, field_); }
+  void read(const nb::handle& value, float& to) {
+    to = static_cast<float>(cast<double>(value, field_));
+  }
+  template <glm::length_t n, class Number>
+  void read(const nb::handle& value, glm::vec<n, Number>& to) {
+    std::size_t size = 0;
+    for (const nb::handle item : value) {
+      if (size < static_cast<std::size_t>(n))
+        to[static_cast<glm::length_t>(size)] = static_cast<Number>(cast<double>(item, field_));
+      ++size;
+    }
+    if (size != static_cast<std::size_t>(n))
+      throw nb::value_error((std::string(field_) + " must have " + std::to_string(n) +
+                             " numbers, not " + std::to_string(size))
+                                .c_str());
+  }
+  void read(const nb::handle& value, AlphaMode& to) {
+    to = named<AlphaMode>(cast<std::string>(value, field_), std::array{"opaque", "mask", "blend"},
+                          field_);
+  }
+  void read(const nb::handle& value, std::optional<double>& to) {
+    if (!value.is_none()) to = cast<double>(value, field_);
+  }
+  void read(const nb::handle& value, std::optional<TextureUse>& to) {
+    if (!value.is_none()) to = texture_use_of(value);
+  }
+  template <class T>
+  void read(const nb::handle& value, std::optional<T>& to) {
+    if (!value.is_none()) read_fields(value, to.emplace());
+  }
+
+  template <class T>
+  void read_fields(const nb::handle& object, T& to) {
+    for_each_field(to, [&](const char* name, auto& member) {
+      field_ = name;
+      read(object.attr(name), member);
+    });
+  }
+  template <class T>
+  T fields_of(const nb::handle& object) {
+    T result{};
+    read_fields(object, result);
+    return result;
+  }
+
+  static bool is(const nb::handle& object, const char* module, const char* name) {
+    return nb::isinstance(object, member(module, name));
+  }
+  template <class T>
+  static bool is(const nb::handle& object) {
+    return is(object, Class<T>::kModule, Class<T>::kName);
+  }
+
+  std::uint32_t place_of_material(const nb::handle& material) {
+    return materials_.of(material, [&] {
+      if (!is<Material>(material)) wrong("a material", material);
+      scene_.materials.push_back(fields_of<Material>(material));
+    });
+  }
+
+  TextureUse texture_use_of(const nb::handle& value) {
+    TextureUse result;
+    if (!is(value, "materials", "TextureUse")) {
+      result.texture = place_of_texture(value);
+      return result;
+    }
+    result.texture = place_of_texture(value.attr("texture"));
+    result.uv_set = cast<std::uint32_t>(value.attr("uv_set"), "uv_set");
+    const auto rows = cast<std::array<std::array<double, 3>, 2>>(value.attr("texture_from_uv"),
+                                                                 "texture_from_uv");
+    for (glm::length_t row = 0; row < 2; ++row)
+      for (glm::length_t column = 0; column < 3; ++column)
+        result.texture_from_uv[column][row] = static_cast<float>(
+            rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+    return result;
+  }
+
+  /// `value` is a Texture, an Image, or pixels.
+  std::uint32_t place_of_texture(const nb::handle& value) {
+    return textures_.of(value, [&] {
+      Texture texture;
+      if (is(value, "materials", "Texture")) {
+        static constexpr std::array kWraps{"repeat", "mirrored_repeat", "clamp_to_edge"};
+        static constexpr std::array kFilters{"nearest", "linear"};
+        static constexpr std::array kMips{"none", "nearest", "linear"};
+        texture.name = text(value, "name");
+        texture.sampler = {
+            .wrap_s = named<Wrap>(text(value, "wrap_s"), kWraps, "wrap_s"),
+            .wrap_t = named<Wrap>(text(value, "wrap_t"), kWraps, "wrap_t"),
+            .magnification = named<Filter>(text(value, "magnification"), kFilters, "magnification"),
+            .minification = named<Filter>(text(value, "minification"), kFilters, "minification"),
+            .mip = named<MipFilter>(text(value, "mip"), kMips, "mip")};
+        if (const nb::object image = value.attr("image"); !image.is_none())
+          texture.image = place_of_image(image);
+      } else {
+        texture.image = place_of_image(value);
+      }
+      scene_.textures.push_back(std::move(texture));
+    });
+  }
+
+  std::uint32_t place_of_image(const nb::handle& value) {
+    return images_.of(value, [&] {
+      const nb::object make = member("images", "Image");
+      const nb::object image = nb::isinstance(value, make) ? nb::borrow(value) : make(value);
+      scene_.images.push_back(nb::cast<const SharedImage&>(image.attr("_data")).image);
+    });
+  }
+
+  template <class T>
+  static void read_rows(const nb::handle& mesh, const char* name, Array<T>& to) {
+    const nb::object values = mesh.attr(name);
+    if (!values.is_none()) to = rows_of<T>(values, name);
+  }
+  template <class T>
+  static Array<T> rows_of(const nb::handle& values, const char* name) {
+    using Number = typename Array<T>::Number;
+    const char* check = std::is_floating_point_v<Number> ? "as_rows" : "as_indices";
+    const nb::object rows = member("_arrays", check)(values, name, sizeof(T) / sizeof(Number));
+    return to_array<T>(nb::cast<AnyArray>(rows));
+  }
+
+  Mesh mesh_of(const nb::handle& mesh) {
+    Mesh result;
+    read_rows(mesh, "vertices", result.positions);
+    read_rows(mesh, "faces", result.triangles);
+    read_rows(mesh, "normals", result.normals);
+    read_rows(mesh, "tangents", result.tangents);
+    read_rows(mesh, "colors", result.colors);
+    read_rows(mesh, "segments", result.segments);
+    for (const nb::handle set : mesh.attr("uv"))
+      result.uv_sets.push_back(set.is_none() ? Array<Vec2>() : rows_of<Vec2>(set, "uv"));
+    return result;
+  }
+
+  Shape shape_of(const nb::handle& shape) {
+    if (is(shape, "shapes", "Mesh")) return mesh_of(shape);
+    if (is<Sphere>(shape)) return fields_of<Sphere>(shape);
+    if (is<Plane>(shape)) return fields_of<Plane>(shape);
+    if (is<Disc>(shape)) return fields_of<Disc>(shape);
+    if (is<Triangle>(shape)) return fields_of<Triangle>(shape);
+    if (!is(shape, "shapes", "Quadric")) wrong("a shape", shape);
+    const auto c = cast<std::array<double, 10>>(
+        nb::list(nb::borrow<nb::object>(shape.attr("coefficients"))), "coefficients");
+    const auto f = [&](std::size_t i) { return static_cast<float>(c[i]); };
+    return Quadric{f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7), f(8), f(9)};
+  }
+
+  void add_object(const nb::handle& object) {
+    Object result{.name = text(object, "name"), .shape = shape_of(object.attr("shape"))};
+    if (const nb::object material = object.attr("material"); !material.is_none())
+      result.material = place_of_material(material);
+    scene_.objects.push_back(std::move(result));
+  }
+
+  void add_light(const nb::handle& light) {
+    const auto add = [&](auto made) {
+      if constexpr (requires { made.direction; }) made.direction = unit(made.direction);
+      scene_.lights.push_back({.name = text(light, "name"), .light = made});
+    };
+    if (is<DirectionalLight>(light)) return add(fields_of<DirectionalLight>(light));
+    if (is<PointLight>(light)) return add(fields_of<PointLight>(light));
+    if (is<SpotLight>(light)) return add(fields_of<SpotLight>(light));
+    wrong("a light", light);
+  }
+
+  static DVec3 unit(const DVec3& v) {
+    const double length = glm::length(v);
+    if (!(length > 0 && length <= std::numeric_limits<double>::max()))
+      throw nb::value_error("a light's direction must be finite and not zero");
+    return v / length;
+  }
+
+  [[noreturn]] static void wrong(const char* what, const nb::handle& object) {
+    throw nb::type_error(
+        (std::string("expected ") + what + ", not " + nb::repr(object.type()).c_str()).c_str());
+  }
+
+  template <class T>
+  Camera posed(const nb::handle& camera) {
+    auto result = fields_of<T>(camera);
+    read_fields(camera, result.pose);
+    if constexpr (requires { result.depth; }) read_fields(camera, result.depth);
+    return result;
+  }
+
+  friend Camera microtrace::python::camera_from_python(const nb::handle& camera);
+  Camera camera_of(const nb::handle& camera) {
+    if (is<PerspectiveCamera>(camera)) return posed<PerspectiveCamera>(camera);
+    if (is<OrthographicCamera>(camera)) return posed<OrthographicCamera>(camera);
+    if (is<EnvironmentCamera>(camera)) return posed<EnvironmentCamera>(camera);
+    wrong("a camera", camera);
+  }
+
+  friend std::optional<Environment> microtrace::python::environment_from_python(
+      const nb::handle& environment);
+  std::optional<Environment> environment_of(const nb::handle& environment) {
+    if (environment.is_none()) return std::nullopt;
+    Environment result;
+    result.rotation = cast<double>(environment.attr("rotation"), "rotation");
+    result.intensity = cast<float>(environment.attr("intensity"), "intensity");
+    result.is_background = cast<bool>(environment.attr("is_background"), "is_background");
+    const nb::object content = environment.attr("content");
+    if (is(content, "images", "RadianceMap")) {
+      result.content = nb::cast<const SharedMap&>(content.attr("_data")).map;
+    } else if (nb::isinstance<nb::str>(content)) {
+      if (nb::cast<std::string>(content) != "studio")
+        throw nb::value_error("content must be \"studio\", a color or a RadianceMap");
+      result.content = Studio{};
+    } else {
+      Vec3 radiance;
+      field_ = "content";
+      read(content, radiance);
+      result.content = radiance;
+    }
+    return result;
+  }
+
+  nb::handle source_;
+  Scene scene_;
+  Places materials_, textures_, images_;
+  const char* field_ = "";  // for messages
+};
+
+}  // namespace
+
+Scene scene_from_python(const nb::handle& scene) {
+  return Reader(scene)();
+}
+
+Camera camera_from_python(const nb::handle& camera) {
+  return Reader(camera).camera_of(camera);
+}
+
+std::optional<Environment> environment_from_python(const nb::handle& environment) {
+  return Reader(environment).environment_of(environment);
+}
+
+}  // namespace microtrace::python

@@ -1,0 +1,16 @@
+#pragma once
+#include "common.hpp"
+
+#include <optional>
+
+namespace microtrace::python {
+
+/// From microtrace.Scene. Throws TypeError, ValueError and Error.
+Scene scene_from_python(const nb::handle& scene);
+
+Camera camera_from_python(const nb::handle& camera);
+
+/// None gives nothing.
+std::optional<Environment> environment_from_python(const nb::handle& environment);
+
+}  // namespace microtrace::python

@@ -1,0 +1,93 @@
+/// Loading and preparing scenes.
+
+#include "common.hpp"
+#include "prepared.hpp"
+#include "scene/math/srgb.hpp"
+#include "scene_reader.hpp"
+#include "scene_writer.hpp"
+
+#include <array>
+#include <memory>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+SurfaceDetail detail_named(const std::string& name) {
+  if (name == "shape") return SurfaceDetail::shape;
+  if (name == "color") return SurfaceDetail::color;
+  if (name == "shape_and_color") return SurfaceDetail::shape_and_color;
+  if (name == "all") return SurfaceDetail::all;
+  throw nb::value_error("detail must be one of shape, color, shape_and_color, all");
+}
+
+std::unique_ptr<SceneFile> open(const std::filesystem::path& path, const std::string& detail,
+                                std::string variant, std::string animation,
+                                std::vector<std::filesystem::path> allowed_folders) {
+  LoadOptions options{.detail = detail_named(detail),
+                      .variant = std::move(variant),
+                      .animation = std::move(animation),
+                      .allowed_folders = std::move(allowed_folders)};
+  const nb::gil_scoped_release release;
+  return std::make_unique<SceneFile>(path, std::move(options));
+}
+
+nb::tuple at(SceneFile& file, std::optional<double> time) {
+  LoadedScene loaded = [&] {
+    const nb::gil_scoped_release release;
+    return file.at(time);
+  }();
+  nb::list warnings;
+  for (const Diagnostic& warning : loaded.warnings) warnings.append(to_python(warning));
+  const bool is_json = loaded.format == SceneFormat::json;
+  return nb::make_tuple(scene_to_python(loaded.scene, is_json, is_json), warnings);
+}
+
+void prepare(Prepared* self, const nb::object& source, const nb::object& previous, unsigned threads,
+             bool fast_build) {
+  const auto integrator = nb::cast<std::string>(source.attr("integrator"));
+  if (integrator != "path" && integrator != "flat")
+    throw nb::value_error("integrator must be \"path\" or \"flat\"");
+  const bool has_background = !source.attr("background").is_none();
+  Scene scene = scene_from_python(source);
+  PrepareOptions options{.fast_build = fast_build, .threads = threads};
+  if (!previous.is_none()) options.tables = nb::cast<const Prepared&>(previous).scene.tables();
+  const nb::gil_scoped_release release;
+  validate(scene);
+  new (self) Prepared{PreparedScene(std::move(scene), std::move(options)), integrator == "flat",
+                      has_background};
+}
+
+}  // namespace
+
+void bind_scenes(nb::module_& module) {
+  module.def("linear_from_srgb", &linear_from_srgb);
+  nb::class_<SceneFile>(module, "SceneFile")
+      .def(nb::new_(&open))
+      .def("at", &at, nb::arg("time").none());
+  nb::class_<Prepared>(module, "Prepared")
+      .def("__init__", &prepare, nb::arg("scene"), nb::arg("previous").none(), nb::arg("threads"),
+           nb::arg("fast_build"))
+      .def_prop_ro("size",
+                   [](const Prepared& self) {
+                     const ImageSize size = self.scene.scene().size;
+                     return nb::make_tuple(size.width, size.height);
+                   })
+      .def("default_camera",
+           [](const Prepared& self, std::array<std::uint32_t, 2> size) {
+             return camera_to_python(
+                 default_camera(self.scene.scene(), {.width = size[0], .height = size[1]}), "");
+           })
+      .def("scene", [](const Prepared& self) {
+        return scene_to_python(self.scene.scene(), self.is_flat, self.has_background);
+      });
+}
+
+}  // namespace microtrace::python

@@ -1,0 +1,103 @@
+#include "base/shared_range.hpp"
+#include "base/start_threads.hpp"
+#include "common.hpp"
+#include "float_environment.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace microtrace::python {
+namespace {
+
+/// Between two checks for signals.
+constexpr std::chrono::milliseconds kPatience{50};
+
+/// Items that a thread takes at a time.
+constexpr std::size_t kBlock = 4096;
+
+/// Whether this thread is the one that runs Python's signal handlers.
+bool is_main_thread() {
+  const nb::object threading = nb::module_::import_("threading");
+  return threading.attr("current_thread")().is(threading.attr("main_thread")());
+}
+
+}  // namespace
+
+void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
+  std::atomic<bool> is_canceled = false;
+  const std::function<bool()> cancel = [&] { return is_canceled.load(); };
+  if (!is_main_thread()) {
+    const nb::gil_scoped_release release;
+    f(cancel);
+    return;
+  }
+  std::mutex mutex;
+  std::condition_variable ended;
+  bool is_done = false;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      f(cancel);
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex);
+    is_done = true;
+    ended.notify_one();
+  };
+  bool is_interrupted = false;
+  {
+    const nb::gil_scoped_release release;
+    const auto threads = start_threads(1, work);
+    if (threads.empty()) work();
+    std::unique_lock lock(mutex);
+    while (!ended.wait_for(lock, kPatience, [&] { return is_done; })) {
+      lock.unlock();
+      if (!is_interrupted) {
+        const nb::gil_scoped_acquire acquire;
+        is_interrupted = PyErr_CheckSignals() != 0;
+        if (is_interrupted) is_canceled = true;
+      }
+      lock.lock();
+    }
+  }
+  if (is_interrupted) throw nb::python_error();
+  if (failure) std::rethrow_exception(failure);
+}
+
+void for_each_block(std::size_t count, unsigned threads,
+                    const std::function<void(std::size_t, std::size_t)>& f) {
+  SharedRange blocks(count, kBlock);
+  const auto work = [&] {
+    const FloatEnvironment environment;
+    blocks.take(f);
+  };
+  if (count <= kBlock) {
+    const nb::gil_scoped_release release;
+    work();
+  } else {
+    run_interruptible([&](const std::function<bool()>& cancel) {
+      const std::size_t blocks_in_all = (count + kBlock - 1) / kBlock;
+      const std::size_t wanted =
+          std::min<std::size_t>(threads != 0 ? threads : default_threads(), blocks_in_all);
+      const auto cancelable = [&] {
+        const FloatEnvironment environment;
+        blocks.take([&](std::size_t first, std::size_t last) {
+          if (cancel()) return blocks.end();
+          f(first, last);
+        });
+      };
+      const auto started =
+          start_threads(wanted > 1 ? static_cast<unsigned>(wanted - 1) : 0, cancelable);
+      cancelable();
+    });
+  }
+  blocks.rethrow();
+}
+
+}  // namespace microtrace::python
