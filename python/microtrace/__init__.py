@@ -36,6 +36,6 @@ from .materials import (
     Volume,
 )
 from .pictures import Picture, frame, render
-from .prepared import Hits, PreparedScene
+from .prepared import AllHits, ClosestPoints, Hits, OpenMeshWarning, PreparedScene
 from .scene import Scene, SceneFile, load, scene_of
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Shape, Sphere, Triangle

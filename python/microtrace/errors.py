@@ -77,11 +77,16 @@ def error_of(code: int, diagnostic: Diagnostic) -> Error:
     return error
 
 
-def warn(diagnostics: Iterable[Diagnostic]) -> None:
+def warn_caller(warning: Warning) -> None:
     """Warns at the line outside of this package that called it."""
     package = str(Path(__file__).parent)
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
         level, frame = level + 1, frame.f_back
+    warnings.warn(warning, stacklevel=level)
+
+
+def warn(diagnostics: Iterable[Diagnostic]) -> None:
+    """Warns of each."""
     for diagnostic in diagnostics:
-        warnings.warn(SceneWarning(diagnostic), stacklevel=level)
+        warn_caller(SceneWarning(diagnostic))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_numbers, readable
+from .errors import warn_caller
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -61,7 +62,35 @@ class Hits:
         return np.asarray(np.isfinite(self.t))
 
 
-HIT_FIELDS: tuple[str, ...] = tuple(f.name for f in fields(Hits))
+@dataclass(eq=False)
+class AllHits(Hits):
+    """All hits of rays, one after the other. Those of ray i are [offsets[i] : offsets[i + 1]]."""
+
+    offsets: Array = field(default_factory=lambda: np.zeros(1, np.int64))  #: int64, (rays + 1)
+    ray: Array = field(default_factory=lambda: np.zeros(0, np.int64))  #: int64, the ray of each hit
+
+
+@dataclass(eq=False)
+class ClosestPoints:
+    """Nearest points of surfaces, in arrays of the points' leading shape."""
+
+    position: Array  #: (..., 3) float64, world space; NaN if there is none
+    distance: Array  #: float64; infinite if there is none
+    object: Array  #: int32, index into Scene.objects; -1 if there is none
+    primitive: Array  #: int32, face of the mesh
+    barycentrics: Array  #: (..., 3) float64, weights of the triangle's corners
+    sign: Array | None = None  #: int8: -1 inside, 0 on the surface, 1 outside
+
+    @property
+    def signed_distance(self) -> Array:
+        """float64, negative inside."""
+        if self.sign is None:
+            raise ValueError("ask for it by closest_point(..., signed=True)")
+        return np.asarray(np.where(self.sign < 0, -self.distance, self.distance))
+
+
+class OpenMeshWarning(UserWarning):
+    """Triangles don't enclose a solid, so that inside and outside depend on the ray."""
 
 
 class PreparedScene:
@@ -85,6 +114,7 @@ class PreparedScene:
         self._core = _core.Prepared(
             scene, None if previous is None else previous._core, threads, fast_build
         )
+        self._solids: dict[int | None, _core.Solid] = {}
 
     @property
     def scene(self) -> Scene:
@@ -130,16 +160,8 @@ class PreparedScene:
             ValueError: a wrong shape, or an unknown field.
             TypeError: not real numbers.
         """
-        wanted = list(fields)
-        for name in wanted:
-            if name not in _WIDTHS:
-                raise ValueError(f"unknown field {name!r}; use some of {', '.join(_WIDTHS)}")
         flat, shape, low, high = _rays(rays, t_min, t_max)
-        outputs: dict[str, Array] = {}
-        for name in wanted:
-            width = _WIDTHS[name]
-            size = (len(flat), width) if width else (len(flat),)
-            outputs[name] = np.empty(size, _TYPES.get(name, np.float32))
+        outputs = _outputs(fields, len(flat))
         self._core.intersect(flat, low, high, outputs, threads)
         return Hits(**{k: v.reshape(shape + v.shape[1:]) for k, v in outputs.items()})
 
@@ -156,6 +178,146 @@ class PreparedScene:
         result = np.empty(len(flat), np.bool_)
         self._core.occluded(flat, low, high, result, threads)
         return result.reshape(shape)
+
+    def intersect_all(
+        self,
+        rays: npt.ArrayLike,
+        *,
+        t_min: npt.ArrayLike | None = None,
+        t_max: npt.ArrayLike | None = None,
+        fields: Iterable[HitField] = ("t", "object", "primitive"),
+        threads: int = 0,
+    ) -> AllHits:
+        """All hits of each ray in exact order: by t, then by object and face.
+
+        Each primitive counts once: a ray through an edge hits both of its triangles, a ray through
+        a sphere hits it once. Arguments as intersect(); the leading shape is flattened.
+        """
+        flat, _, low, high = _rays(rays, t_min, t_max)
+        found = self._core.intersect_all(flat, low, high, threads)
+        outputs = _outputs(fields, len(found))
+        offsets = np.empty(len(flat) + 1, np.int64)
+        owners = np.empty(len(found), np.int64)
+        self._core.fill_all(found, flat, outputs, offsets, owners, threads)
+        return AllHits(**outputs, offsets=offsets, ray=owners)
+
+    def count_crossings(
+        self,
+        rays: npt.ArrayLike,
+        *,
+        t_min: npt.ArrayLike | None = None,
+        t_max: npt.ArrayLike | None = None,
+        threads: int = 0,
+    ) -> npt.NDArray[np.uint32]:
+        """The number of hits of each ray that intersect_all() finds. Arguments as intersect()."""
+        flat, shape, low, high = _rays(rays, t_min, t_max)
+        result = np.empty(len(flat), np.uint32)
+        self._core.count_crossings(flat, low, high, result, threads)
+        return result.reshape(shape)
+
+    def is_closed(self, object: int | None = None) -> bool:
+        """Whether each edge belongs to an even number of triangles. Equal positions are one vertex.
+
+        Args:
+            object: index into Scene.objects; None: all triangles of the scene together.
+        """
+        return self._solid(object).is_closed()
+
+    def open_edges(self, object: int | None = None) -> npt.NDArray[np.float64]:
+        """The ends of edges that belong to an odd number of triangles, (n, 2, 3), world space."""
+        return np.array(self._solid(object).open_edges(), np.float64).reshape(-1, 2, 3)
+
+    def locate(
+        self, points: npt.ArrayLike, *, object: int | None = None, threads: int = 0
+    ) -> npt.NDArray[np.int8]:
+        """Whether points are inside (1), on the surface (0) or outside (-1) of closed meshes.
+
+        A point is inside if a ray from it crosses an odd number of triangles. The ray avoids all
+        edges and vertices, decided exactly, so that the answer is never wrong for closed meshes.
+
+        Args:
+            points: (..., 3) real numbers, world space; float64 is rounded to float32. Points that
+                are not finite are outside.
+            object: index into Scene.objects; None: all triangles of the scene together.
+            threads: 0: all processors.
+
+        Warns:
+            OpenMeshWarning: a mesh is not closed.
+        """
+        if not self._solid(object).is_closed():
+            warn_caller(OpenMeshWarning("the triangles are not closed; see open_edges()"))
+        return self._locate(points, object, threads)
+
+    def _locate(
+        self, points: npt.ArrayLike, object: int | None, threads: int
+    ) -> npt.NDArray[np.int8]:
+        flat, shape = _points(points)
+        result = np.empty(len(flat), np.int8)
+        self._solid(object).locate(flat, result, threads)
+        return result.reshape(shape)
+
+    def contains(
+        self, points: npt.ArrayLike, *, object: int | None = None, threads: int = 0
+    ) -> npt.NDArray[np.bool_]:
+        """Whether points are inside of closed meshes or on them. Arguments as locate()."""
+        return np.asarray(self.locate(points, object=object, threads=threads) >= 0)
+
+    def closest_point(
+        self,
+        points: npt.ArrayLike,
+        *,
+        signed: bool = False,
+        object: int | None = None,
+        threads: int = 0,
+    ) -> ClosestPoints:
+        """The nearest point of the triangles to each point; of several triangles the first.
+
+        Args:
+            points: (..., 3) real numbers, world space; float64 is rounded to float32.
+            signed: whether to find the sign of the distance, as locate() does.
+            object: index into Scene.objects; None: all triangles of the scene together.
+            threads: 0: all processors.
+        """
+        flat, shape = _points(points)
+        count = len(flat)
+        position, barycentrics = np.empty((count, 3)), np.empty((count, 3))
+        distance = np.empty(count)
+        owner, face = np.empty(count, np.int32), np.empty(count, np.int32)
+        solid = self._solid(object)
+        solid.nearest(flat, position, distance, owner, face, barycentrics, threads)
+        sign: Array | None = None
+        if signed:
+            sign = -self.locate(flat, object=object, threads=threads).reshape(shape)
+        return ClosestPoints(
+            position.reshape(*shape, 3),
+            distance.reshape(shape),
+            owner.reshape(shape),
+            face.reshape(shape),
+            barycentrics.reshape(*shape, 3),
+            sign,
+        )
+
+    def _solid(self, object: int | None) -> _core.Solid:
+        if object not in self._solids:
+            self._solids[object] = _core.Solid(self._core, object)
+        return self._solids[object]
+
+
+def _outputs(fields: Iterable[str], count: int) -> dict[str, Array]:
+    result: dict[str, Array] = {}
+    for name in fields:
+        if name not in _WIDTHS:
+            raise ValueError(f"unknown field {name!r}; use some of {', '.join(_WIDTHS)}")
+        width = _WIDTHS[name]
+        size = (count, width) if width else (count,)
+        result[name] = np.empty(size, _TYPES.get(name, np.float32))
+    return result
+
+
+def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:
+    """Points as (n, 3) and their leading shape."""
+    array = as_numbers(points, "points", 3)
+    return np.ascontiguousarray(array, np.float32).reshape(-1, 3), array.shape[:-1]
 
 
 def _rays(

@@ -1,18 +1,32 @@
-"""The command `microtrace`: replaces this process with the program of the package microtrace.
+"""The command `microtrace`: runs the program, which is part of the package's library.
 
 A package of its own, so that the command does not import NumPy.
 """
 
+import ctypes
 import os
+import signal
 import sys
+from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.util import find_spec
 from pathlib import Path
 
 
+def _library() -> Path:
+    package = find_spec("microtrace")
+    for folder in (package.submodule_search_locations or []) if package else []:
+        for suffix in EXTENSION_SUFFIXES:
+            path = Path(folder) / f"_core{suffix}"
+            if path.exists():
+                return path
+    sys.exit("microtrace: the package microtrace is not installed completely")
+
+
 def main() -> None:
     """Runs the program with this process's arguments."""
-    package = find_spec("microtrace")
-    if package is None or package.origin is None:
-        sys.exit("microtrace: the package microtrace is not installed")
-    program = Path(package.origin).parent / "bin" / "microtrace"
-    os.execv(program, ["microtrace", *sys.argv[1:]])
+    for number in (signal.SIGINT, signal.SIGPIPE):
+        signal.signal(number, signal.SIG_DFL)  # the program has its own handlers
+    arguments = [b"microtrace", *(os.fsencode(a) for a in sys.argv[1:])]
+    program = ctypes.CDLL(str(_library())).microtrace_program
+    code = program(len(arguments), (ctypes.c_char_p * (len(arguments) + 1))(*arguments))
+    sys.exit(code)

@@ -35,5 +35,6 @@ void bind_images(nb::module_& module);
 void bind_scenes(nb::module_& module);
 void bind_rays(nb::module_& module);
 void bind_pictures(nb::module_& module);
+void bind_solids(nb::module_& module);
 
 }  // namespace microtrace::python

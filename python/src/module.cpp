@@ -13,4 +13,5 @@ NB_MODULE(_core, module) {
   bind_scenes(module);
   bind_rays(module);
   bind_pictures(module);
+  bind_solids(module);
 }

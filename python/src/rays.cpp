@@ -1,94 +1,17 @@
 /// Ray queries in bulk.
 
-#include "common.hpp"
-#include "prepared.hpp"
+#include "ray_arrays.hpp"
 
-#include <limits>
+#include <algorithm>
+#include <memory>
+#include <nanobind/stl/unique_ptr.h>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace microtrace::python {
 namespace {
-
-using FloatRow = nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-/// Rays as they come from Python.
-class Rays {
- public:
-  /// rays: (n, 6) float32 or float64; the ends of the intervals: (n) float32, or None.
-  Rays(const AnyArray& rays, const nb::object& t_min, const nb::object& t_max, const DVec3& origin)
-      : rays_(rays), is_double_(rays.dtype() == nb::dtype<double>()), origin_(origin) {
-    if (!t_min.is_none()) t_min_ = nb::cast<FloatRow>(t_min);
-    if (!t_max.is_none()) t_max_ = nb::cast<FloatRow>(t_max);
-  }
-
-  [[nodiscard]] std::size_t size() const { return rays_.shape(0); }
-
-  /// In scene coordinates.
-  void get(std::size_t first, std::size_t last, std::vector<Ray>& to) const {
-    to.resize(last - first);
-    if (is_double_)
-      gather<double>(first, to);
-    else
-      gather<float>(first, to);
-  }
-
- private:
-  template <class Number>
-  void gather(std::size_t first, std::vector<Ray>& to) const {
-    const std::int64_t row = rays_.stride(0), column = rays_.stride(1);
-    const auto* data =
-        static_cast<const Number*>(rays_.data()) + static_cast<std::int64_t>(first) * row;
-    for (std::size_t i = 0; i < to.size(); ++i, data += row) {
-      const DVec3 o(data[0], data[column], data[2 * column]);
-      Ray& ray = to[i];
-      ray = {.o = Vec3(o - origin_),
-             .d = Vec3(DVec3(data[3 * column], data[4 * column], data[5 * column]))};
-      if (t_min_.is_valid()) ray.t_min = t_min_.data()[first + i];
-      if (t_max_.is_valid()) ray.t_max = t_max_.data()[first + i];
-    }
-  }
-
-  AnyArray rays_;
-  bool is_double_;
-  DVec3 origin_;
-  FloatRow t_min_, t_max_;
-};
-
-template <class T>
-T* output(const nb::dict& outputs, const char* name) {
-  if (!outputs.contains(name)) return nullptr;
-  return nb::cast<nb::ndarray<T, nb::c_contig, nb::device::cpu>>(outputs[name]).data();
-}
-
-/// The arrays to fill; null: not asked for.
-struct Outputs {
-  explicit Outputs(const nb::dict& d)
-      : t(output<float>(d, "t")),
-        object(output<std::int32_t>(d, "object")),
-        primitive(output<std::int32_t>(d, "primitive")),
-        position(output<float>(d, "position")),
-        normal(output<float>(d, "normal")),
-        face_normal(output<float>(d, "face_normal")),
-        barycentrics(output<float>(d, "barycentrics")),
-        uv(output<float>(d, "uv")),
-        front(output<bool>(d, "front")) {}
-
-  [[nodiscard]] bool has_surface() const {
-    return position || normal || face_normal || barycentrics || uv || front;
-  }
-
-  float* t;
-  std::int32_t *object, *primitive;
-  float *position, *normal, *face_normal, *barycentrics, *uv;
-  bool* front;
-};
-
-void put(float* to, std::size_t i, const DVec3& v) {
-  if (to == nullptr) return;
-  for (glm::length_t k = 0; k < 3; ++k)
-    to[3 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
-}
 
 void intersect(const Prepared& self, const AnyArray& array, const nb::object& t_min,
                const nb::object& t_max, const nb::dict& outputs, unsigned threads) {
@@ -102,35 +25,7 @@ void intersect(const Prepared& self, const AnyArray& array, const nb::object& t_
     source.get(first, last, rays);
     std::vector<std::optional<Hit>> hits(rays.size());
     bvh.intersect(rays, hits);
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      const std::size_t i = first + k;
-      const std::optional<Hit>& hit = hits[k];
-      if (to.t) to.t[i] = hit ? hit->t : std::numeric_limits<float>::infinity();
-      if (to.object || to.primitive) {
-        const std::size_t object = hit ? primitives.object_index(hit->id) : 0;
-        if (to.object) to.object[i] = hit ? static_cast<std::int32_t>(object) : -1;
-        if (to.primitive)
-          to.primitive[i] =
-              hit ? static_cast<std::int32_t>(hit->id - primitives.first_id_of(object)) : -1;
-      }
-    }
-    if (!to.has_surface()) return;
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      const std::size_t i = first + k;
-      const SurfaceInteraction at =
-          hits[k] ? interact(primitives, rays[k], *hits[k])
-                  : SurfaceInteraction{.n = DVec3(0), .ns = DVec3(0), .front = false};
-      put(to.position, i, hits[k] ? at.p + origin : DVec3(0));
-      put(to.normal, i, at.ns);
-      put(to.face_normal, i, at.n);
-      put(to.barycentrics, i, at.triangle ? at.triangle->barycentrics : DVec3(0));
-      if (to.uv) {
-        const DVec2 uv = at.uv(0).value_or(DVec2(0));
-        to.uv[2 * i] = static_cast<float>(uv.x);
-        to.uv[2 * i + 1] = static_cast<float>(uv.y);
-      }
-      if (to.front) to.front[i] = at.front;
-    }
+    for (std::size_t k = 0; k < rays.size(); ++k) fill(to, first + k, primitives, rays[k], hits[k]);
   });
 }
 
@@ -146,6 +41,76 @@ void occluded(const Prepared& self, const AnyArray& array, const nb::object& t_m
   });
 }
 
+/// Hits of rays, taken piece by piece so that the rays are not copied as a whole.
+struct AllHits {
+  std::vector<std::uint64_t> offsets{0};
+  std::vector<Hit> hits;
+};
+
+/// Options for a query that Ctrl-C ends.
+QueryOptions cancelable(unsigned threads, const std::function<bool()>& cancel) {
+  return {.threads = threads, .progress = [&cancel](double) { return !cancel(); }};
+}
+
+/// f(rays, first, options) for pieces of the rays, in world space.
+template <class F>
+void for_each_piece(const Rays& source, unsigned threads, const F& f) {
+  constexpr std::size_t kPiece = 1 << 20;
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    std::vector<Ray> rays;
+    for (std::size_t first = 0; first < source.size(); first += kPiece) {
+      source.get(first, std::min(first + kPiece, source.size()), rays);
+      f(rays, first, cancelable(threads, cancel));
+    }
+  });
+}
+
+std::unique_ptr<AllHits> intersect_all(const Prepared& self, const AnyArray& array,
+                                       const nb::object& t_min, const nb::object& t_max,
+                                       unsigned threads) {
+  const Rays source(array, t_min, t_max, DVec3(0));
+  auto result = std::make_unique<AllHits>();
+  for_each_piece(source, threads, [&](const auto& rays, std::size_t, const QueryOptions& options) {
+    const RayHits found = intersect_all(self.scene, rays, options);
+    const std::uint64_t before = result->hits.size();
+    for (std::size_t i = 1; i < found.offsets.size(); ++i)
+      result->offsets.push_back(before + found.offsets[i]);
+    result->hits.insert(result->hits.end(), found.hits.begin(), found.hits.end());
+  });
+  return result;
+}
+
+void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
+              const nb::dict& outputs, const nb::ndarray<std::int64_t, nb::c_contig>& offsets,
+              const nb::ndarray<std::int64_t, nb::c_contig>& rays_of_hits, unsigned threads) {
+  const Primitives& primitives = self.scene.bvh().primitives();
+  const Rays source(array, nb::none(), nb::none(), self.scene.scene().origin);
+  const Outputs to(outputs);
+  std::copy(all.offsets.begin(), all.offsets.end(), offsets.data());
+  std::int64_t* owner = rays_of_hits.data();
+  for_each_block(source.size(), threads, [&](std::size_t first, std::size_t last) {
+    std::vector<Ray> rays;
+    source.get(first, last, rays);
+    for (std::size_t i = first; i < last; ++i) {
+      for (std::size_t k = all.offsets[i]; k < all.offsets[i + 1]; ++k) {
+        fill(to, k, primitives, rays[i - first], all.hits[k]);
+        owner[k] = static_cast<std::int64_t>(i);
+      }
+    }
+  });
+}
+
+void count_crossings(const Prepared& self, const AnyArray& array, const nb::object& t_min,
+                     const nb::object& t_max,
+                     const nb::ndarray<std::uint32_t, nb::c_contig>& counts, unsigned threads) {
+  const Rays source(array, t_min, t_max, DVec3(0));
+  std::uint32_t* to = counts.data();
+  for_each_piece(source, threads,
+                 [&](const auto& rays, std::size_t first, const QueryOptions& options) {
+                   count_crossings(self.scene, rays, std::span(to + first, rays.size()), options);
+                 });
+}
+
 }  // namespace
 
 void bind_rays(nb::module_& module) {
@@ -155,6 +120,14 @@ void bind_rays(nb::module_& module) {
            nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("threads"));
   type.def("occluded", &occluded, nb::arg("rays"), nb::arg("t_min").none(), nb::arg("t_max").none(),
            nb::arg("result"), nb::arg("threads"));
+  nb::class_<AllHits>(module, "AllHits").def("__len__", [](const AllHits& all) {
+    return all.hits.size();
+  });
+  type.def("intersect_all", &intersect_all, nb::arg("rays"), nb::arg("t_min").none(),
+           nb::arg("t_max").none(), nb::arg("threads"));
+  type.def("fill_all", &fill_all);
+  type.def("count_crossings", &count_crossings, nb::arg("rays"), nb::arg("t_min").none(),
+           nb::arg("t_max").none(), nb::arg("counts"), nb::arg("threads"));
 }
 
 }  // namespace microtrace::python

@@ -1,0 +1,109 @@
+"""Scenes from trimesh's objects, or any others with their attributes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from .materials import Material, Texture
+from .images import Image
+from .scene import Scene
+
+
+def scene_from(source: Any) -> Scene:
+    """See microtrace.scene_of."""
+    scene = Scene()
+    if isinstance(source, Scene):
+        return source
+    if hasattr(source, "graph") and hasattr(source, "geometry"):
+        for node in source.graph.nodes_geometry:
+            transform, name = source.graph[node]
+            _add(scene, source.geometry[name], str(node), transform)
+    elif hasattr(source, "vertices") and hasattr(source, "faces"):
+        _add(scene, source, "", None)
+    else:
+        raise TypeError(
+            f"expected a mesh with vertices and faces, or a trimesh.Scene, not {type(source)}"
+        )
+    return scene
+
+
+def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
+    if not hasattr(mesh, "faces"):
+        return  # paths and point clouds
+    visual = getattr(mesh, "visual", None)
+    uv = getattr(visual, "uv", None)
+    colors = None
+    if getattr(visual, "kind", None) in ("vertex", "face"):
+        colors = np.asarray(visual.vertex_colors, np.uint8)
+    scene.add_mesh(
+        np.asarray(mesh.vertices),
+        np.asarray(mesh.faces),
+        normals=_loaded_normals(mesh),
+        uv=None if uv is None else _downward(np.asarray(uv)),
+        colors=colors,
+        material=_material(getattr(visual, "material", None)) if uv is not None else None,
+        transform=transform,
+        name=name,
+    )
+
+
+def _loaded_normals(mesh: Any) -> Any:
+    """Normals that came with the mesh, not those that trimesh computes on demand."""
+    cache = getattr(mesh, "_cache", None)
+    if cache is None:
+        return getattr(mesh, "vertex_normals", None)
+    normals = cache.cache.get("vertex_normals") if hasattr(cache, "cache") else None
+    return None if normals is None or len(normals) != len(mesh.vertices) else normals
+
+
+def _downward(uv: Any) -> Any:
+    """trimesh's v points up, glTF's down."""
+    result = np.array(uv, np.float64)
+    result[:, 1] = 1 - result[:, 1]
+    return result
+
+
+def _material(source: Any) -> Material | None:
+    if source is None:
+        return None
+    if hasattr(source, "to_pbr"):  # SimpleMaterial
+        source = source.to_pbr()
+    result = Material(name=str(getattr(source, "name", None) or ""))
+    base = getattr(source, "baseColorFactor", None)
+    if base is not None:
+        factor = np.asarray(base)
+        if factor.dtype == np.uint8:
+            factor = factor / 255
+        numbers = [float(x) for x in factor] + [1.0] * (4 - len(factor))
+        result.base_color_factor = (numbers[0], numbers[1], numbers[2], numbers[3])
+    # Where a file gives no factor, glTF's default is 1.
+    metallic, roughness = (getattr(source, n, None) for n in ("metallicFactor", "roughnessFactor"))
+    result.metallic_factor = 1.0 if metallic is None else float(metallic)
+    result.roughness_factor = 1.0 if roughness is None else float(roughness)
+    emissive = getattr(source, "emissiveFactor", None)
+    if emissive is not None:
+        red, green, blue = (float(x) for x in emissive)
+        result.emissive_factor = (red, green, blue)
+    result.double_sided = bool(getattr(source, "doubleSided", False))
+    mode = getattr(source, "alphaMode", None)
+    if mode is not None:
+        result.alpha_mode = str(mode).lower()  # type: ignore[assignment]
+    cutoff = getattr(source, "alphaCutoff", None)
+    if cutoff is not None:
+        result.alpha_cutoff = float(cutoff)
+    result.base_color_texture = _texture(getattr(source, "baseColorTexture", None))
+    result.metallic_roughness_texture = _texture(getattr(source, "metallicRoughnessTexture", None))
+    result.normal_texture = _texture(getattr(source, "normalTexture", None))
+    result.emissive_texture = _texture(getattr(source, "emissiveTexture", None))
+    return result
+
+
+def _texture(picture: Any) -> Texture | None:
+    """From a Pillow image."""
+    if picture is None:
+        return None
+    if getattr(picture, "mode", "RGB") not in ("L", "LA", "RGB", "RGBA"):
+        picture = picture.convert("RGBA")
+    return Texture(image=Image(np.asarray(picture)))

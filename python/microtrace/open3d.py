@@ -1,0 +1,281 @@
+"""Open3D's RaycastingScene, answered exactly; does not need Open3D.
+
+Scripts work with `from microtrace.open3d import RaycastingScene`. Results are NumPy arrays that
+also have the methods numpy(), cpu() and isfinite() of Open3D's tensors.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .prepared import PreparedScene
+from .scene import Scene
+
+Array = npt.NDArray[Any]
+
+
+class Tensor(np.ndarray[Any, Any]):
+    """An array with some methods of open3d.core.Tensor."""
+
+    def __getitem__(self, index: Any) -> Any:
+        return np.asarray(super().__getitem__(index)).view(Tensor)
+
+    def numpy(self) -> Array:
+        """The same numbers as a NumPy array."""
+        return np.asarray(self)
+
+    def cpu(self) -> Tensor:
+        """This array."""
+        return self
+
+    def to(self, *_: Any, **__: Any) -> Tensor:
+        """This array: there is one device, and types stay."""
+        return self
+
+    def isfinite(self) -> Tensor:
+        """Whether each number is finite."""
+        return np.asarray(np.isfinite(self)).view(Tensor)
+
+
+class RaycastingScene:
+    """Rays are arrays of shape (..., 6), float32; ids are uint32, INVALID_ID for misses.
+
+    Hits are those of real arithmetic on the float32 numbers; of several at the same t the first
+    triangle added counts.
+    """
+
+    INVALID_ID = 0xFFFFFFFF
+
+    def __init__(self, nthreads: int = 0, device: Any = None) -> None:
+        self._threads = nthreads
+        self._scene = Scene()
+        self._prepared_scene: PreparedScene | None = None
+
+    def add_triangles(
+        self,
+        vertex_positions: Any = None,
+        triangle_indices: Any = None,
+        *,
+        vertices: Any = None,
+        triangles: Any = None,
+        mesh: Any = None,
+    ) -> int:
+        """Adds triangles and returns their geometry's id.
+
+        Args:
+            vertex_positions: (V, 3), or a mesh of Open3D.
+            triangle_indices: (F, 3).
+            vertices: another name of vertex_positions.
+            triangles: another name of triangle_indices.
+            mesh: a mesh of Open3D or trimesh.
+        """
+        positions = vertex_positions if vertices is None else vertices
+        indices = triangle_indices if triangles is None else triangles
+        if mesh is None and indices is None:
+            mesh = positions
+        if mesh is not None:
+            positions, indices = _arrays_of(mesh)
+        self._scene.add_mesh(_numbers(positions), _numbers(indices))
+        self._prepared_scene = None
+        return len(self._scene.objects) - 1
+
+    def cast_rays(self, rays: Any, nthreads: int = 0) -> dict[str, Tensor]:
+        """The nearest hit of each ray: t_hit, geometry_ids, primitive_ids, primitive_uvs (weights
+        of the second and third corner), primitive_normals (unit length, by the winding)."""
+        hits = self._prepared().intersect(
+            _numbers(rays),
+            fields=("t", "object", "primitive", "barycentrics", "face_normal"),
+            threads=nthreads or self._threads,
+        )
+        assert hits.barycentrics is not None and hits.face_normal is not None
+        return {
+            "t_hit": _tensor(hits.t),
+            "geometry_ids": _ids(hits.object),
+            "primitive_ids": _ids(hits.primitive),
+            "primitive_uvs": _tensor(np.ascontiguousarray(hits.barycentrics[..., 1:])),
+            "primitive_normals": _tensor(hits.face_normal),
+        }
+
+    def test_occlusions(
+        self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0
+    ) -> Tensor:
+        """Whether each ray hits anything at t in [tnear, tfar]."""
+        low = None if tnear <= 0 else np.float32(tnear)
+        return _tensor(
+            self._prepared().occluded(
+                _numbers(rays), t_min=low, t_max=tfar, threads=nthreads or self._threads
+            )
+        )
+
+    def count_intersections(self, rays: Any, nthreads: int = 0) -> Tensor:
+        """The number of hits of each ray, int32. Triangles at the same t count once."""
+        numbers = _numbers(rays)
+        found, is_new = self._all(numbers, nthreads, ("t",))
+        counts = np.bincount(found.ray[is_new], minlength=numbers[..., 0].size)
+        return _tensor(counts.astype(np.int32).reshape(numbers.shape[:-1]))
+
+    def list_intersections(self, rays: Any, nthreads: int = 0) -> dict[str, Tensor]:
+        """All hits, ray by ray, nearest first: ray_splits (rays + 1), ray_ids, t_hit,
+        geometry_ids, primitive_ids, primitive_uvs. Triangles at the same t count once."""
+        numbers = _numbers(rays)
+        fields = ("t", "object", "primitive", "barycentrics")
+        found, is_new = self._all(numbers, nthreads, fields)
+        assert found.t is not None and found.barycentrics is not None
+        ids = found.ray[is_new]
+        splits = np.zeros(numbers[..., 0].size + 1, np.int64)
+        np.cumsum(np.bincount(ids, minlength=len(splits) - 1), out=splits[1:])
+        return {
+            "ray_splits": _tensor(splits.astype(np.uint32)),
+            "ray_ids": _tensor(ids.astype(np.uint32)),
+            "t_hit": _tensor(found.t[is_new]),
+            "geometry_ids": _ids(found.object)[is_new],
+            "primitive_ids": _ids(found.primitive)[is_new],
+            "primitive_uvs": _tensor(np.ascontiguousarray(found.barycentrics[is_new][:, 1:])),
+        }
+
+    def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> dict[str, Tensor]:
+        """The nearest point to each: points, geometry_ids, primitive_ids, primitive_uvs,
+        primitive_normals."""
+        at = self._prepared().closest_point(
+            _numbers(query_points), threads=nthreads or self._threads
+        )
+        return {
+            "points": _tensor(at.position.astype(np.float32)),
+            "geometry_ids": _ids(at.object),
+            "primitive_ids": _ids(at.primitive),
+            "primitive_uvs": _tensor(at.barycentrics[..., 1:].astype(np.float32)),
+            "primitive_normals": _tensor(self._normals(at.object, at.primitive)),
+        }
+
+    def compute_distance(self, query_points: Any, nthreads: int = 0) -> Tensor:
+        """The distance of each point from the triangles, float32."""
+        at = self._prepared().closest_point(
+            _numbers(query_points), threads=nthreads or self._threads
+        )
+        return _tensor(at.distance.astype(np.float32))
+
+    def compute_signed_distance(
+        self, query_points: Any, nthreads: int = 0, nsamples: int = 1
+    ) -> Tensor:
+        """The same, negative inside. nsamples has no effect: one exact answer needs no vote."""
+        points, threads = _numbers(query_points), nthreads or self._threads
+        prepared = self._prepared()
+        distance = prepared.closest_point(points, threads=threads).distance
+        inside = prepared._locate(points, None, threads) > 0
+        return _tensor(np.where(inside, -distance, distance).astype(np.float32))
+
+    def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Tensor:
+        """1 for points inside of the triangles or on them, else 0, float32."""
+        sides = self._prepared()._locate(
+            _numbers(query_points), None, nthreads or self._threads
+        )
+        return _tensor((sides >= 0).astype(np.float32))
+
+    @staticmethod
+    def create_rays_pinhole(*args: Any, **kwargs: Any) -> Tensor:
+        """Rays of a pinhole camera, (height, width, 6) float32, through the pixels' centers.
+
+        Takes either intrinsic_matrix (3, 3), extrinsic_matrix (4, 4, camera from world, +z
+        forward, +y down), width_px, height_px; or fov_deg (horizontal), center, eye, up, width_px,
+        height_px. Directions have depth 1.
+        """
+        is_matrix = "intrinsic_matrix" in kwargs or (
+            bool(args) and np.ndim(_numbers(args[0])) == 2
+        )
+        return _rays_by_matrix(*args, **kwargs) if is_matrix else _rays_by_view(*args, **kwargs)
+
+    def _prepared(self) -> PreparedScene:
+        if self._prepared_scene is None:
+            self._prepared_scene = self._scene.prepare(threads=self._threads)
+        return self._prepared_scene
+
+    def _all(self, rays: Array, nthreads: int, fields: Any) -> tuple[Any, Array]:
+        """All hits, and which of them are the first of their ray at their t."""
+        found = self._prepared().intersect_all(
+            rays, fields=fields, threads=nthreads or self._threads
+        )
+        t = found.t
+        assert t is not None
+        is_new = np.ones(len(t), bool)
+        is_new[1:] = (found.ray[1:] != found.ray[:-1]) | (t[1:] != t[:-1])
+        return found, is_new
+
+    def _normals(self, objects: Array, faces: Array) -> npt.NDArray[np.float32]:
+        result = np.zeros((*objects.shape, 3), np.float32)
+        for k, item in enumerate(self._scene.objects):
+            at = objects == k
+            if not at.any():
+                continue
+            mesh: Any = item.shape
+            corners = np.asarray(mesh.vertices, np.float32)[np.asarray(mesh.faces)[faces[at]]]
+            corners = corners.astype(np.float64)
+            normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            lengths = np.sqrt((normals * normals).sum(1, keepdims=True))
+            result[at] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+        return result
+
+
+def _rays_by_matrix(
+    intrinsic_matrix: Any, extrinsic_matrix: Any, width_px: int, height_px: int
+) -> Tensor:
+    k = np.asarray(_numbers(intrinsic_matrix), np.float64)
+    t = np.asarray(_numbers(extrinsic_matrix), np.float64)
+    if k.shape != (3, 3) or t.shape != (4, 4):
+        raise ValueError(f"matrices must be 3 x 3 and 4 x 4, not {k.shape} and {t.shape}")
+    x, y = np.meshgrid(np.arange(width_px) + 0.5, np.arange(height_px) + 0.5)
+    y = (y - k[1, 2]) / k[1, 1]
+    x = (x - k[0, 2] - k[0, 1] * y) / k[0, 0]
+    rotation = t[:3, :3]
+    directions = x[..., None] * rotation[0] + y[..., None] * rotation[1] + rotation[2]
+    eye = -(rotation * t[:3, 3:]).sum(0)
+    return _rays_from(eye, directions)
+
+
+def _rays_by_view(
+    fov_deg: float, center: Any, eye: Any, up: Any, width_px: int, height_px: int
+) -> Tensor:
+    position = np.asarray(_numbers(eye), np.float64)
+    forward = np.asarray(_numbers(center), np.float64) - position
+    forward /= np.sqrt((forward * forward).sum())
+    # As in Open3D, rows of pixels run upward and columns to the left.
+    left = np.cross(np.asarray(_numbers(up), np.float64), forward)
+    left /= np.sqrt((left * left).sum())
+    upward = np.cross(forward, left)
+    focal = 0.5 * width_px / np.tan(0.5 * np.radians(fov_deg))
+    x, y = np.meshgrid(np.arange(width_px) + 0.5, np.arange(height_px) + 0.5)
+    x, y = (x - 0.5 * width_px) / focal, (y - 0.5 * height_px) / focal
+    return _rays_from(position, x[..., None] * left + y[..., None] * upward + forward)
+
+
+def _rays_from(eye: Array, directions: Array) -> Tensor:
+    result = np.empty((*directions.shape[:2], 6), np.float32)
+    result[..., :3] = eye
+    result[..., 3:] = directions
+    return result.view(Tensor)
+
+
+def _numbers(values: Any) -> Array:
+    """From arrays, lists and tensors of other libraries."""
+    if isinstance(values, np.ndarray):
+        return np.asarray(values)
+    return np.asarray(values.numpy() if hasattr(values, "numpy") else values)
+
+
+def _arrays_of(mesh: Any) -> tuple[Any, Any]:
+    """Vertices and triangles of open3d.t.geometry.TriangleMesh, its older kind, or trimesh."""
+    if hasattr(mesh, "vertex"):
+        return mesh.vertex.positions, mesh.triangle.indices
+    return mesh.vertices, mesh.faces if hasattr(mesh, "faces") else mesh.triangles
+
+
+def _tensor(array: Array | None) -> Tensor:
+    assert array is not None
+    return array.view(Tensor)
+
+
+def _ids(indices: Array | None) -> Tensor:
+    assert indices is not None
+    return indices.view(np.uint32).view(Tensor)  # -1 is INVALID_ID

@@ -1,0 +1,108 @@
+/// Points inside and outside of meshes, and nearest points.
+
+#include "common.hpp"
+#include "prepared.hpp"
+
+#include <memory>
+#include <nanobind/stl/optional.h>
+#include <optional>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+using Points = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+template <class T>
+using Output = nb::ndarray<T, nb::c_contig, nb::device::cpu>;
+
+std::span<const Vec3> span_of(const Points& points) {
+  return {reinterpret_cast<const Vec3*>(points.data()), points.shape(0)};
+}
+
+template <class F>
+void query(unsigned threads, const F& f) {
+  run_interruptible([&](const std::function<bool()>& cancel) {
+    f(QueryOptions{.threads = threads, .progress = [&cancel](double) { return !cancel(); }});
+  });
+}
+
+void locate(const Solid& self, const Points& points, const Output<std::int8_t>& sides,
+            unsigned threads) {
+  std::vector<Location> locations(points.shape(0));
+  query(threads,
+        [&](const QueryOptions& options) { self.locate(span_of(points), locations, options); });
+  std::int8_t* to = sides.data();
+  for (const Location location : locations)
+    *to++ = static_cast<std::int8_t>(location == Location::inside     ? 1
+                                     : location == Location::boundary ? 0
+                                                                      : -1);
+}
+
+/// The scene that a Solid belongs to, for the numbers of objects.
+struct SolidOf {
+  Solid solid;
+  PreparedScene scene;
+};
+
+void nearest(const SolidOf& self, const Points& points, const Output<double>& position,
+             const Output<double>& distance, const Output<std::int32_t>& object,
+             const Output<std::int32_t>& primitive, const Output<double>& barycentrics,
+             unsigned threads) {
+  std::vector<std::optional<NearestPoint>> found(points.shape(0));
+  query(threads, [&](const QueryOptions& options) {
+    self.solid.nearest_points(span_of(points), found, options);
+  });
+  const Primitives& primitives = self.scene.bvh().primitives();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const NearestPoint& at =
+        found[i].value_or(NearestPoint{.distance = std::numeric_limits<double>::infinity(),
+                                       .p = DVec3(std::numeric_limits<double>::quiet_NaN()),
+                                       .barycentrics = DVec3(0)});
+    const std::size_t owner = found[i] ? primitives.object_index(at.id) : 0;
+    distance.data()[i] = at.distance;
+    object.data()[i] = found[i] ? static_cast<std::int32_t>(owner) : -1;
+    primitive.data()[i] =
+        found[i] ? static_cast<std::int32_t>(at.id - primitives.first_id_of(owner)) : -1;
+    for (glm::length_t k = 0; k < 3; ++k) {
+      const std::size_t place = 3 * i + static_cast<std::size_t>(k);
+      position.data()[place] = at.p[k];
+      barycentrics.data()[place] = at.barycentrics[k];
+    }
+  }
+}
+
+nb::list open_edges(const SolidOf& self) {
+  const std::span<const OpenEdge> edges = [&] {
+    const nb::gil_scoped_release release;
+    return self.solid.open_edges();
+  }();
+  nb::list result;
+  for (const OpenEdge& edge : edges)
+    result.append(nb::make_tuple(nb::make_tuple(edge.a.x, edge.a.y, edge.a.z),
+                                 nb::make_tuple(edge.b.x, edge.b.y, edge.b.z)));
+  return result;
+}
+
+}  // namespace
+
+void bind_solids(nb::module_& module) {
+  nb::class_<SolidOf>(module, "Solid")
+      .def(
+          "__init__",
+          [](SolidOf* self, const Prepared& prepared, std::optional<std::size_t> object) {
+            new (self) SolidOf{Solid(prepared.scene, object), prepared.scene};
+          },
+          nb::arg("scene"), nb::arg("object").none())
+      .def("is_closed",
+           [](const SolidOf& self) {
+             const nb::gil_scoped_release release;
+             return self.solid.is_closed();
+           })
+      .def("open_edges", &open_edges)
+      .def("locate", [](const SolidOf& self, const Points& points, const Output<std::int8_t>& sides,
+                        unsigned threads) { locate(self.solid, points, sides, threads); })
+      .def("nearest", &nearest);
+}
+
+}  // namespace microtrace::python

@@ -1,0 +1,63 @@
+"""Paths of the test scenes and of the program."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+REPOSITORY = Path(__file__).parents[2]
+SCENES = REPOSITORY / "scenes"
+
+
+@pytest.fixture
+def program() -> str:
+    """The program of the same version: of the build if MICROTRACE_PROGRAM names it."""
+    found = os.environ.get("MICROTRACE_PROGRAM") or shutil.which("microtrace")
+    assert found, "install the package or set MICROTRACE_PROGRAM"
+    return found
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(1)
+
+
+def icosphere(levels: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices and faces of a subdivided icosahedron, closed and facing outward."""
+    g = (1 + 5**0.5) / 2
+    corners = [
+        (s, t, 0.0) for s in (-1.0, 1.0) for t in (-g, g)
+    ]
+    vertices = [np.roll(corner, k) for k in range(3) for corner in corners]
+    points = np.array(vertices) / np.sqrt(1 + g * g)
+    edge = 2 / np.sqrt(1 + g * g) + 1e-9
+    faces = []
+    for i in range(12):
+        for j in range(i + 1, 12):
+            for k in range(j + 1, 12):
+                a, b, c = points[[i, j, k]]
+                if max(np.linalg.norm(a - b), np.linalg.norm(b - c), np.linalg.norm(c - a)) < edge:
+                    outward = np.dot(np.cross(b - a, c - a), a) > 0
+                    faces.append((i, j, k) if outward else (i, k, j))
+    for _ in range(levels):
+        places: dict[tuple[int, int], int] = {}
+        new_points = list(points)
+
+        def middle(i: int, j: int) -> int:
+            key = (min(i, j), max(i, j))
+            if key not in places:
+                p = new_points[i] + new_points[j]
+                places[key] = len(new_points)
+                new_points.append(p / np.linalg.norm(p))
+            return places[key]
+
+        new_faces = []
+        for i, j, k in faces:
+            a, b, c = middle(i, j), middle(j, k), middle(k, i)
+            new_faces += [(i, a, c), (a, j, b), (c, b, k), (a, b, c)]
+        points, faces = np.array(new_points), new_faces
+    return np.asarray(points), np.asarray(faces)

@@ -1,0 +1,246 @@
+"""Ray queries against exact fractions, and the handling of arrays."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+import microtrace as mt
+
+from conftest import icosphere
+
+
+def exact_hit(ray: np.ndarray, corners: np.ndarray) -> Fraction | None:
+    """t of the nearest point of a nondegenerate triangle, not seen edge on, in real arithmetic."""
+    o, d = ([Fraction(float(x)) for x in part] for part in (ray[:3], ray[3:]))
+    a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
+
+    def sub(u, v):
+        return [x - y for x, y in zip(u, v)]
+
+    def cross(u, v):
+        return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+    def dot(u, v):
+        return sum(x * y for x, y in zip(u, v))
+
+    n = cross(sub(b, a), sub(c, a))
+    slope = dot(n, d)
+    if slope == 0:
+        return None
+    t = dot(n, sub(a, o)) / slope
+    p = [x + t * y for x, y in zip(o, d)]
+    sides = [dot(n, cross(sub(v, u), sub(p, u))) for u, v in ((a, b), (b, c), (c, a))]
+    return t if t > 0 and min(sides) >= 0 else None
+
+
+small = st.integers(-3, 3).map(np.float32)
+
+
+@settings(max_examples=300, deadline=None)
+@given(arrays(np.float32, (6, 3, 3), elements=small), arrays(np.float32, (20, 6), elements=small))
+def test_nearest_hits_equal_fractions(triangles, rays):
+    vertices = triangles.reshape(-1, 3)
+    scene = mt.Scene()
+    scene.add_mesh(vertices, np.arange(len(vertices)).reshape(-1, 3))
+    hits = scene.prepare().intersect(rays, fields=("t", "primitive"))
+    corners = vertices.reshape(-1, 3, 3)
+    for i, ray in enumerate(rays):
+        found = [(exact_hit(ray, c), k) for k, c in enumerate(corners)]
+        certain = [f for f in found if f[0] is not None]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        if (normals @ ray[3:] == 0).any():
+            continue  # edge on or without area: the C++ tests decide these
+        if not certain or not ray[3:].any():
+            assert hits.primitive[i] == -1 and np.isinf(hits.t[i])
+        else:
+            t, k = min(certain)
+            assert hits.primitive[i] == k
+            assert hits.t[i] == np.float32(float(t))
+
+
+def test_no_ray_leaves_a_closed_mesh(rng):
+    vertices, faces = icosphere(3)
+    vertices = vertices.astype(np.float32)
+    scene = mt.Scene()
+    scene.add_mesh(vertices, faces)
+    prepared = scene.prepare()
+    targets = np.concatenate(
+        [vertices, (vertices[faces[:, 0]] + vertices[faces[:, 1]]) / 2]
+    )
+    o = rng.normal(size=(len(targets), 3)).astype(np.float32) * np.float32(0.1)
+    rays = np.concatenate([o, targets - o], axis=1)
+    assert prepared.intersect(rays).hit.all()
+    assert prepared.occluded(rays).all()
+    assert (prepared.count_crossings(rays) >= 1).all()
+
+
+@pytest.fixture(scope="module")
+def ball() -> mt.PreparedScene:
+    vertices, faces = icosphere(2)
+    scene = mt.Scene()
+    scene.add_mesh(vertices, faces, name="ball")
+    scene.add_sphere((0, 0, -5), 1, name="far")
+    return scene.prepare()
+
+
+def test_layouts_give_the_same_hits(ball, rng):
+    rays = rng.normal(size=(60, 6)).astype(np.float32)
+    expected = ball.intersect(rays)
+
+    wide = np.zeros((60, 14), np.float32)
+    wide[:, 1:13:2] = rays
+    odd = np.frombuffer(b"\0" + rays.tobytes(), np.uint8)[1:].view(np.float32).reshape(60, 6)
+    structured = np.zeros(60, [("pad", "u1"), ("ray", "f4", 6)])
+    structured["ray"] = rays
+    read_only = rays.copy()
+    read_only.flags.writeable = False
+    for other in (
+        wide[:, 1:13:2],
+        np.asfortranarray(rays),
+        rays[::-1][::-1],
+        odd,
+        structured["ray"],
+        read_only,
+        rays.astype(">f4"),
+        rays.astype(np.float64),
+        rays.tolist(),
+    ):
+        found = ball.intersect(other)
+        for name in ("t", "object", "primitive", "normal", "barycentrics"):
+            assert np.array_equal(getattr(found, name), getattr(expected, name)), name
+    shaped = ball.intersect(rays.reshape(3, 4, 5, 6))
+    assert shaped.t.shape == (3, 4, 5) and shaped.normal.shape == (3, 4, 5, 3)
+    assert np.array_equal(shaped.t.ravel(), expected.t)
+    assert ball.intersect(rays[0]).t.shape == ()
+    assert ball.intersect(np.zeros((0, 6))).t.shape == (0,)
+
+
+def test_float64_is_rounded_once():
+    scene = mt.Scene(origin=(1e8, 0, 0))
+    scene.add_sphere((0, 0, 0), 1)
+    prepared = scene.prepare()
+    # 1e8 + 0.25 is not a float32; relative to the origin it is.
+    hits = prepared.intersect([1e8 + 0.25, 0, 5, 0, 0, -1], fields=("t", "position"))
+    assert hits.t == np.float32(5 - (1 - 0.25**2) ** 0.5)
+    assert hits.position[0] == np.float32(1e8 + 0.25)
+
+
+def test_fields(ball):
+    hits = ball.intersect([[0.1, 0.2, 5, 0, 0, -2], [9, 9, 9, 1, 0, 0]], fields=mt.prepared._WIDTHS)
+    assert hits.front.tolist() == [True, False]
+    assert hits.object.tolist() == [0, -1]
+    vertices, faces = (np.asarray(x) for x in _mesh_of(ball))
+    corners = vertices[faces[hits.primitive[0]]]
+    assert np.allclose(hits.barycentrics[0] @ corners, hits.position[0], atol=1e-6)
+    assert np.allclose(hits.position[0], [0.1, 0.2, 5 - 2 * hits.t[0]], atol=1e-6)
+    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    assert np.allclose(hits.face_normal[0], normal / np.linalg.norm(normal), atol=1e-6)
+    assert hits.normal[1].tolist() == [0, 0, 0]
+    only = ball.intersect([[0.1, 0.2, 5, 0, 0, -1]], fields=["primitive"])
+    assert only.t is None and only.primitive == hits.primitive[0] and only.hit.all()
+
+
+def _mesh_of(prepared):
+    mesh = prepared.scene.objects[0].shape
+    return mesh.vertices, mesh.faces
+
+
+def test_intervals(ball):
+    ray = [0.1, 0.2, 5, 0, 0, -1]
+    all_hits = ball.intersect_all([ray])
+    first, second, third, fourth = all_hits.t
+    assert ball.intersect(ray, t_min=first).t == first
+    assert ball.intersect(ray, t_min=np.nextafter(first, np.float32(9))).t == second
+    assert ball.intersect([ray, ray], t_max=[first, 3]).hit.tolist() == [True, False]
+    assert ball.occluded([ray, ray], t_max=[first, 3]).tolist() == [True, False]
+    assert ball.count_crossings([ray, ray], t_min=[0, third]).tolist() == [4, 2]
+    assert np.all(np.diff(all_hits.t) >= 0)
+
+
+def test_all_hits_repeat_intersect(ball, rng):
+    rays = rng.normal(size=(200, 6))
+    found = ball.intersect_all(rays, fields=("t", "object", "primitive", "normal"))
+    counts = np.diff(found.offsets)
+    assert np.array_equal(counts, ball.count_crossings(rays))
+    assert np.array_equal(found.ray, np.repeat(np.arange(200), counts))
+    nearest = ball.intersect(rays)
+    has_hit = counts > 0
+    first = found.offsets[:-1][has_hit]
+    for name in ("t", "object", "primitive", "normal"):
+        assert np.array_equal(getattr(found, name)[first], getattr(nearest, name)[has_hit])
+
+
+@pytest.mark.parametrize(
+    "rays, error, text",
+    [
+        (np.zeros((4, 5)), ValueError, "(..., 6)"),
+        (np.float32(1), ValueError, "(..., 6)"),
+        (["a"] * 6, TypeError, "real numbers"),
+        (np.zeros((2, 6), complex), TypeError, "real numbers"),
+        (np.zeros((2, 6), bool), TypeError, "real numbers"),
+        (None, TypeError, "real numbers"),
+    ],
+)
+def test_wrong_rays(ball, rays, error, text):
+    for query in (ball.intersect, ball.occluded, ball.intersect_all, ball.count_crossings):
+        with pytest.raises(error) as raised:
+            query(rays)
+        assert text in str(raised.value)
+
+
+def test_wrong_arguments(ball):
+    with pytest.raises(ValueError, match="unknown field 'colour'"):
+        ball.intersect(np.zeros((1, 6)), fields=["colour"])
+    with pytest.raises(ValueError):
+        ball.intersect(np.zeros((2, 6)), t_max=[1, 2, 3])
+    with pytest.raises(TypeError):
+        ball.intersect(np.zeros((2, 6)), t_max="far")
+
+
+def test_numbers_that_are_not_finite(ball):
+    rays = np.array([[np.nan, 0, 0, 1, 0, 0], [0, 0, 0, np.inf, 0, 0], [0, 0, 0, 0, 0, 0]])
+    assert not ball.intersect(rays).hit.any()
+    assert not ball.occluded(rays).any()
+
+
+def test_threads_give_the_same(ball, rng):
+    rays = rng.normal(size=(20000, 6)).astype(np.float32)
+    expected = ball.intersect(rays, threads=1)
+    results: list[mt.Hits] = []
+    workers = [
+        threading.Thread(target=lambda: results.append(ball.intersect(rays, threads=3)))
+        for _ in range(4)
+    ]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert len(results) == 4
+    for hits in results:
+        assert np.array_equal(hits.t, expected.t)
+        assert np.array_equal(hits.normal, expected.normal)
+
+
+def test_interrupt(rng):
+    vertices, faces = icosphere(5)
+    scene = mt.Scene()
+    scene.add_mesh(vertices, faces)
+    prepared = scene.prepare()
+    rays = np.tile(rng.normal(size=(100_000, 6)).astype(np.float32), (100, 1))
+    timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+    start = time.monotonic()
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(1000):
+            prepared.intersect(rays, threads=1)
+    assert time.monotonic() - start < 30  # not to the end; typically 0.1 s after the signal

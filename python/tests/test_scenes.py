@@ -1,0 +1,305 @@
+"""Scenes as data: loading, editing, preparing, pickling."""
+
+from __future__ import annotations
+
+import dataclasses
+import gc
+import pickle
+import tracemalloc
+
+import numpy as np
+import pytest
+
+import microtrace as mt
+from microtrace import materials
+
+from conftest import SCENES, icosphere
+
+KNOT = SCENES / "gltf" / "knot.glb"
+MATERIALS = SCENES / "gltf" / "materials.glb"
+
+
+def test_defaults_are_those_of_the_library():
+    """Python's dataclasses repeat the defaults of C++."""
+    scene = mt.Scene(
+        materials=[
+            mt.Material(
+                specular=mt.Specular(),
+                transmission=mt.Transmission(),
+                volume=mt.Volume(),
+                clearcoat=mt.Clearcoat(),
+                sheen=mt.Sheen(),
+                anisotropy=mt.Anisotropy(),
+                iridescence=mt.Iridescence(),
+                diffuse_transmission=mt.DiffuseTransmission(),
+                specular_glossiness=mt.SpecularGlossiness(),
+            )
+        ]
+    )
+    (back,) = scene.prepare().scene.materials
+    given = dataclasses.asdict(scene.materials[0])
+
+    def rounded(value):
+        if isinstance(value, dict):
+            return {k: rounded(v) for k, v in value.items()}
+        if isinstance(value, tuple):
+            return tuple(rounded(v) for v in value)
+        return np.float32(value) if isinstance(value, float) else value
+
+    assert rounded(dataclasses.asdict(back)) == rounded(given)
+
+
+def test_every_field_survives():
+    """Each number of each material reaches the library and comes back."""
+    made = {}
+    number = 0.0
+    for name in materials.__dict__:
+        cls = getattr(materials, name)
+        if not dataclasses.is_dataclass(cls) or name in ("Texture", "TextureUse", "Material"):
+            continue
+        values = {}
+        for item in dataclasses.fields(cls):
+            if item.name.endswith("_texture"):
+                values[item.name] = mt.Image(np.full((1, 1, 3), int(number * 64) % 256, np.uint8))
+            elif isinstance(item.default, tuple):
+                values[item.name] = (number, number + 1 / 64, number + 2 / 64)
+            else:
+                values[item.name] = number + 1.5
+            number += 1 / 64
+        made[name] = cls(**values)
+    scene = mt.Scene(
+        materials=[
+            mt.Material(
+                **{_snake(name): value for name, value in made.items()}, alpha_mode="mask", unlit=True
+            )
+        ]
+    )
+    (back,) = scene.prepare().scene.materials
+    assert back.alpha_mode == "mask" and back.unlit
+    for name, value in made.items():
+        other = getattr(back, _snake(name))
+        for item in dataclasses.fields(value):
+            a, b = getattr(value, item.name), getattr(other, item.name)
+            if isinstance(a, mt.Image):
+                assert np.array_equal(a.pixels, b.texture.image.pixels)
+            else:
+                assert a == b, (name, item.name)
+
+
+def _snake(name: str) -> str:
+    return "".join(("_" if c.isupper() and k else "") + c.lower() for k, c in enumerate(name))
+
+
+def test_arrays_of_files_are_shared_and_read_only():
+    scene = mt.load(KNOT)
+    vertices = scene.objects[0].shape.vertices
+    with pytest.raises(ValueError, match="read-only"):
+        vertices[0] = 0
+    with pytest.raises(ValueError):
+        vertices.flags.writeable = True
+    again = scene.prepare().scene.objects[0].shape.vertices
+    assert np.shares_memory(vertices, again)
+    del scene
+    gc.collect()
+    assert np.isfinite(vertices).all()
+
+
+def test_own_arrays_are_copied():
+    """A change after prepare() has no effect, and can't crash."""
+    vertices, faces = icosphere(1)
+    faces = faces.astype(np.uint32)
+    vertices = vertices.astype(np.float32)
+    scene = mt.Scene()
+    scene.add_mesh(vertices, faces)
+    prepared = scene.prepare()
+    before = prepared.intersect([0, 0, 5, 0.01, 0.02, -1])
+    faces[:] = 10**9
+    vertices[:] = np.nan
+    after = prepared.intersect([0, 0, 5, 0.01, 0.02, -1])
+    assert before.t == after.t and np.array_equal(before.normal, after.normal)
+    with pytest.raises(mt.SceneError, match="/objects/0/shape/triangles"):
+        scene.prepare()
+
+
+def test_editing():
+    scene = mt.load(MATERIALS, detail="color")
+    target = next(o for o in scene.objects if o.material is not None)
+    target.material.base_color_factor = (1, 0, 0, 1)
+    target.material.base_color_texture = None
+    del scene.objects[1:]
+    scene.objects[0] = target
+    prepared = scene.prepare()
+    assert len(prepared.scene.objects) == 1
+    used = prepared.scene.objects[0].material
+    assert used.base_color_factor == (1, 0, 0, 1)
+
+
+def test_materials_are_numbered_in_order():
+    a, b, c = (mt.Material(name=n) for n in "abc")
+    scene = mt.Scene(materials=[b])
+    for material in (c, a, b, c):
+        scene.add_sphere(material=material)
+    prepared = scene.prepare()
+    assert [m.name for m in prepared.scene.materials] == ["b", "c", "a"]
+    assert prepared.scene.objects[0].material is prepared.scene.materials[1]
+
+
+def test_previous_gives_the_same():
+    vertices, faces = icosphere(3)
+    rays = np.random.default_rng(0).normal(size=(2000, 6))
+    previous = None
+    for k in range(4):
+        scene = mt.Scene()
+        scene.add_mesh(vertices * (1 + 0.05 * k), faces)
+        previous = scene.prepare(previous)
+        fresh = scene.prepare()
+        a, b = previous.intersect(rays), fresh.intersect(rays)
+        assert np.array_equal(a.t, b.t) and np.array_equal(a.primitive, b.primitive)
+
+
+def test_transform_of_meshes():
+    vertices, faces = icosphere(1)
+    mirror = np.diag([-2.0, 1, 1, 1])
+    mirror[:3, 3] = 10, 0, 0
+    scene = mt.Scene()
+    scene.add_mesh(vertices, faces, normals=vertices, transform=mirror)
+    prepared = scene.prepare()
+    hits = prepared.intersect(
+        [[10.1, 0.2, 5, 0, 0, -1]], fields=("face_normal", "normal", "front")
+    )
+    assert hits.front.all() and hits.face_normal[0, 2] > 0 and hits.normal[0, 2] > 0
+    assert np.allclose(np.linalg.norm(hits.normal, axis=1), 1, atol=1e-6)
+    with pytest.raises(ValueError, match="4 x 4"):
+        scene.add_mesh(vertices, faces, transform=np.eye(3))
+    with pytest.raises(ValueError, match="affine"):
+        scene.add_mesh(vertices, faces, transform=np.ones((4, 4)))
+
+
+def test_pickle():
+    scene = mt.load(KNOT)
+    rays = np.random.default_rng(0).normal(size=(500, 6))
+    prepared = scene.prepare()
+    expected = prepared.intersect(rays)
+    for copy in (pickle.loads(pickle.dumps(scene)).prepare(), pickle.loads(pickle.dumps(prepared))):
+        hits = copy.intersect(rays)
+        assert np.array_equal(hits.t, expected.t) and np.array_equal(hits.normal, expected.normal)
+    duplicate = scene.copy()
+    duplicate.objects[0].name = "other"
+    assert scene.objects[0].name != "other"
+
+
+def test_images():
+    pixels = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
+    image = mt.Image(pixels, "checker")
+    pixels[:] = 0
+    assert image.pixels[1, 3].tolist() == [21, 22, 23] and image.name == "checker"
+    assert mt.Image(np.zeros((2, 3), np.uint16)).pixels.shape == (2, 3, 1)
+    for wrong in (np.zeros((2, 3, 5), np.uint8), np.zeros(3, np.uint8), np.zeros((0, 1), np.uint8)):
+        with pytest.raises(ValueError):
+            mt.Image(wrong)
+    with pytest.raises(TypeError):
+        mt.Image(np.zeros((2, 3)))
+    with pytest.raises(mt.SceneError):
+        mt.RadianceMap(-np.ones((2, 4, 3)))
+    assert np.array_equal(pickle.loads(pickle.dumps(image)).pixels, image.pixels)
+
+
+def test_vertex_colors():
+    scene = mt.Scene()
+    triangle = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    scene.add_mesh(*triangle, colors=np.full((3, 3), 188, np.uint8))
+    colors = scene.prepare().scene.objects[0].shape.colors
+    assert np.allclose(colors[0], [0.5028865, 0.5028865, 0.5028865, 1])
+    scene.add_mesh(*triangle, colors=np.full((3, 4), 0.25))
+    assert scene.prepare().scene.objects[1].shape.colors[0].tolist() == [0.25] * 4
+
+
+def scene_with(**changes):
+    vertices, faces = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]
+    return mt.Scene(objects=[mt.Object(mt.Mesh(**{"vertices": vertices, "faces": faces, **changes}))])
+
+
+@pytest.mark.parametrize(
+    "scene, error, text",
+    [
+        (scene_with(faces=[[0, 1, 3]]), mt.SceneError, "/objects/0/shape/triangles"),
+        (scene_with(faces=[[0, 1, -1]]), ValueError, "must not be negative"),
+        (scene_with(faces=[[0, 1, 2**40]]), mt.SceneError, "32-bit"),
+        (scene_with(faces=[[0.0, 1, 2]]), TypeError, "integers"),
+        (scene_with(faces=[[0, 1]]), ValueError, "(n, 3)"),
+        (scene_with(vertices=[[0, 0]] * 3), ValueError, "(n, 3)"),
+        (scene_with(vertices=[["x", 0, 0]] * 3), TypeError, "real numbers"),
+        (scene_with(vertices=[[0, 0, np.nan]] * 3), mt.SceneError, "/objects/0/shape/positions"),
+        (scene_with(normals=[[0, 0, 1]]), mt.SceneError, "normals"),
+        (scene_with(uv=[[[0, 0]]]), mt.SceneError, "uv_sets"),
+        (mt.Scene(objects=[mt.Object(mt.Sphere(radius="big"))]), TypeError, "radius"),
+        (mt.Scene(objects=[mt.Object(3)]), TypeError, "expected a shape"),
+        (mt.Scene(objects=[mt.Object(mt.Quadric([1, 2]))]), TypeError, "coefficients"),
+        (mt.Scene(lights=[mt.DirectionalLight((0, 0, 0))]), ValueError, "not zero"),
+        (mt.Scene(lights=["sun"]), TypeError, "expected a light"),
+        (mt.Scene(cameras=["mine"]), TypeError, "expected a camera"),
+        (mt.Scene(materials=[mt.Material(alpha_mode="glass")]), ValueError, "opaque, mask, blend"),
+        (mt.Scene(environment=mt.Environment("sky")), ValueError, "studio"),
+        (mt.Scene(integrator="photon"), ValueError, "path"),
+        (mt.Scene(size=(10, -1)), TypeError, "size"),
+    ],
+)
+def test_wrong_scenes(scene, error, text):
+    with pytest.raises(error) as raised:
+        scene.prepare()
+    assert text in str(raised.value)
+
+
+def test_errors_of_files(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        mt.load(tmp_path / "missing.glb")
+    path = tmp_path / "scene.json"
+    path.write_text('{\n  "camera": 1\n}')
+    with pytest.raises(mt.SceneError) as raised:
+        mt.load(path)
+    error = raised.value
+    assert isinstance(error, ValueError) and error.diagnostic.line >= 1
+    assert str(path) in str(error) and error.diagnostic.pointer.startswith("/")
+
+
+def test_warnings_of_files(tmp_path):
+    path = tmp_path / "empty.gltf"
+    path.write_text('{"asset": {"version": "2.0"}, "extensionsUsed": ["EXT_unknown"]}')
+    with pytest.warns(mt.SceneWarning) as warned:
+        mt.load(path)
+    assert warned[0].filename == __file__
+    assert warned[0].message.diagnostic.file == str(path)
+
+
+def test_no_leaks():
+    vertices, faces = icosphere(1)
+    rays = np.zeros((10, 6))
+
+    def once():
+        scene = mt.Scene()
+        scene.add_mesh(vertices, faces, material=mt.Material(base_color_texture=IMAGE))
+        prepared = scene.prepare()
+        prepared.intersect(rays)
+        assert len(prepared.scene.objects) == 1
+
+    for _ in range(50):
+        once()
+    gc.collect()
+    tracemalloc.start()
+    resident = _resident()
+    before = tracemalloc.take_snapshot()
+    for _ in range(1000):
+        once()
+    gc.collect()
+    growth = sum(s.size_diff for s in tracemalloc.take_snapshot().compare_to(before, "filename"))
+    tracemalloc.stop()
+    assert growth < 200_000
+    assert _resident() - resident < 30 * 2**20
+
+
+IMAGE = mt.Image(np.zeros((64, 64, 3), np.uint8))
+
+
+def _resident() -> int:
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * 4096

@@ -1,0 +1,135 @@
+#include "cli/program.hpp"
+
+#include "base/printable.hpp"
+#include "cli/arguments.hpp"
+#include "cli/merge.hpp"
+#include "cli/options/completion.hpp"
+#include "cli/options/parse.hpp"
+#include "cli/pictures/camera.hpp"
+#include "cli/pictures/environment.hpp"
+#include "cli/pictures/output_paths.hpp"
+#include "cli/pictures/render_picture.hpp"
+#include "cli/pictures/sequence.hpp"
+#include "cli/report/statistics.hpp"
+#include "cli/report/validation_result.hpp"
+#include "cli/signals.hpp"
+#include "float_environment.hpp"
+
+#include <microtrace/digest.hpp>
+#include <microtrace/read_files.hpp>
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace microtrace {
+namespace {
+
+/// Reads the scene file, renders and writes its pictures. Returns the exit code.
+int render_pictures(cli::Arguments arguments) {
+  MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
+  cli::Stopwatch watch;
+  LoadTimes times;
+  arguments.load.memory = &memory;
+  arguments.load.times = &times;
+  arguments.load.detail = cli::surface_detail(arguments);
+  std::optional<ReadDigest> digest;
+  if (arguments.sampling.uses_files()) digest.emplace();
+  const ReadFiles inputs;
+  SceneFile file(arguments.scene, arguments.load);
+  cli::apply_defaults(arguments, file.format());
+
+  const cli::Sequence sequence(arguments);
+  const auto progress = cli::progress_of(arguments, sequence.count());
+  std::optional<PerspectiveCamera> framing;
+  if (!arguments.validate) {
+    cli::check_outputs(arguments, sequence);
+    framing = cli::frame_all(file, sequence, arguments);
+  }
+  cli::Warnings log(arguments);
+  std::optional<Environment> environment;
+  std::optional<cli::SampleFiles> samples;
+  cli::Tables tables;
+  for (std::uint32_t index = 0; index < sequence.count(); ++index) {
+    LoadedScene loaded = file.at(sequence.time(index));
+    Scene& scene = loaded.scene;
+    if (index == 0)
+      environment = cli::load_environment(arguments.environment, loaded.warnings, memory);
+    log.report(loaded.warnings);
+    cli::apply_environment(scene, environment, arguments.environment);
+    const ImageSize size = arguments.size.value_or(scene.size);
+    const Camera camera = framing ? cli::in_coordinates_of(scene, *framing)
+                                  : cli::choose_camera(scene, arguments.camera, size);
+    watch.loaded(std::exchange(times, {}));
+    if (arguments.validate) continue;
+
+    if (index == 0) {
+      cli::check_no_input_is_overwritten(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
+      if (digest) log.report(samples.emplace(arguments, digest->value()).warnings());
+      cli::check_paths(inputs, sequence);
+    }
+    const cli::PictureFiles files{.picture = sequence.picture(index),
+                                  .sidecar = sequence.sidecar(index),
+                                  .samples = samples ? &*samples : nullptr};
+    const auto report_progress = [&](double fraction) {
+      if (progress) progress((index + fraction) / sequence.count());
+    };
+    cli::render_picture(std::move(scene), camera, size, arguments, files, tables, watch, log,
+                        report_progress);
+  }
+  return arguments.validate ? log.print_result(arguments.scene) : 0;
+}
+
+/// Runs a command; prints its error.
+template <class Work>
+int exit_code_of(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return static_cast<int>(error.kind());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "error: out of memory\n");
+    return static_cast<int>(ErrorKind::limit);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
+    return static_cast<int>(ErrorKind::internal);
+  }
+}
+
+bool is_merge(int argc, char** argv) {
+  return argc > 1 && std::string_view(argv[1]) == "merge";
+}
+
+}  // namespace
+
+int cli::run_program(int argc, char** argv) {
+  const FloatEnvironment environment;
+  cli::handle_signals();
+  if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
+  if (is_merge(argc, argv)) {
+    const cli::Parsed merge = cli::parse_arguments(cli::Command::merge, argc - 1, argv + 1);
+    if (merge.exit_code) return *merge.exit_code;
+    return exit_code_of([&] {
+      cli::merge_samples(merge.arguments);
+      return 0;
+    });
+  }
+  const cli::Parsed parsed = cli::parse_arguments(cli::Command::render, argc, argv);
+  if (parsed.exit_code) return *parsed.exit_code;
+  if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
+  return exit_code_of([&] {
+    const cli::Arguments& arguments = parsed.arguments;
+    try {
+      return render_pictures(arguments);
+    } catch (const Error& error) {
+      if (arguments.validate) cli::print_refusal(arguments.scene, error.kind());
+      throw;
+    }
+  });
+}
+
+}  // namespace microtrace
