@@ -28,10 +28,12 @@ def as_numbers(values: Any, what: str, width: int) -> Array:
 
 def as_rows(values: Any, what: str, width: int) -> Array:
     """The same for shape (n, width), with strides that C++ code can read."""
-    array = as_numbers(values, what, width)
-    if array.ndim != 2:
-        raise ValueError(f"{what} must have shape (n, {width}), not {array.shape}")
-    return readable(array)
+    shape = np.shape(values)
+    if len(shape) == 1 and shape[0] == 0:
+        return np.zeros((0, width), np.float32)
+    if len(shape) != 2 or shape[1] != width:
+        raise ValueError(f"{what} must have shape (n, {width}), not {shape}")
+    return readable(as_numbers(values, what, width))
 
 
 def as_indices(values: Any, what: str, width: int) -> Array:

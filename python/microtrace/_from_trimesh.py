@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from .materials import Material, Texture
 from .images import Image
+from .materials import Material, Texture
 from .scene import Scene
 
 
@@ -32,7 +32,7 @@ def scene_from(source: Any) -> Scene:
 def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
     if not hasattr(mesh, "faces"):
         return  # paths and point clouds
-    visual = getattr(mesh, "visual", None)
+    visual: Any = getattr(mesh, "visual", None)
     uv = getattr(visual, "uv", None)
     colors = None
     if getattr(visual, "kind", None) in ("vertex", "face"):

@@ -43,6 +43,10 @@ class FileError(Error, OSError):
     """A file can't be read or written."""
 
 
+class MissingFileError(FileError, FileNotFoundError):
+    """There is no such file."""
+
+
 class LimitError(Error, MemoryError):
     """Memory or another documented limit is exceeded."""
 
@@ -72,7 +76,10 @@ _CLASSES: dict[int, type[Error]] = {
 
 def error_of(code: int, diagnostic: Diagnostic) -> Error:
     """The exception for an exit code of the program."""
-    error = _CLASSES.get(code, Error)(diagnostic.text)
+    kind = _CLASSES.get(code, Error)
+    if kind is FileError and not Path(diagnostic.file).exists():
+        kind = MissingFileError
+    error = kind(diagnostic.text)
     error.diagnostic = diagnostic
     return error
 

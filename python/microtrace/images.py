@@ -31,7 +31,9 @@ class Image:
             raise ValueError(
                 f"pixels must have shape (height, width, 1 to 4) and not be empty: {array.shape}"
             )
-        self._data = _core.ImageData(np.ascontiguousarray(array, array.dtype.newbyteorder("=")), name)
+        self._data = _core.ImageData(
+            np.ascontiguousarray(array, array.dtype.newbyteorder("=")), name
+        )
 
     @property
     def pixels(self) -> npt.NDArray[Any]:

@@ -169,9 +169,7 @@ class RaycastingScene:
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Tensor:
         """1 for points inside of the triangles or on them, else 0, float32."""
-        sides = self._prepared()._locate(
-            _numbers(query_points), None, nthreads or self._threads
-        )
+        sides = self._prepared()._locate(_numbers(query_points), None, nthreads or self._threads)
         return _tensor((sides >= 0).astype(np.float32))
 
     @staticmethod
@@ -182,9 +180,7 @@ class RaycastingScene:
         forward, +y down), width_px, height_px; or fov_deg (horizontal), center, eye, up, width_px,
         height_px. Directions have depth 1.
         """
-        is_matrix = "intrinsic_matrix" in kwargs or (
-            bool(args) and np.ndim(_numbers(args[0])) == 2
-        )
+        is_matrix = "intrinsic_matrix" in kwargs or (bool(args) and np.ndim(_numbers(args[0])) == 2)
         return _rays_by_matrix(*args, **kwargs) if is_matrix else _rays_by_view(*args, **kwargs)
 
     def _prepared(self) -> PreparedScene:

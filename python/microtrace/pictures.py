@@ -227,7 +227,9 @@ def render(
     width, height = size
     arrays: dict[str, Array] = {}
     for name in names:
-        channels, is_integer = (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
+        channels, is_integer = (
+            (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
+        )
         shape = (len(cameras), height, width, channels)
         arrays[name] = np.empty(shape, np.uint32 if is_integer else np.float32)
     arguments = {
@@ -246,9 +248,7 @@ def render(
         for k, each in enumerate(cameras):
             outputs = {name: array[k] for name, array in arrays.items()}
             share = None if show is None else (lambda x, k=k: show((k + x) / len(cameras)))
-            *display, _ = _core.render(
-                prepared._core, each, outputs, {**arguments, "progress": share}
-            )
+            display = _core.render(prepared._core, each, outputs, {**arguments, "progress": share})
     for name, array in arrays.items():
         if array.shape[-1] == 1:
             array = array[..., 0]
@@ -278,7 +278,7 @@ class _shown:
         self._bar: Any = None
         if progress is True:
             try:
-                from tqdm.auto import tqdm
+                from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
             except ImportError:
                 return
             self._bar = tqdm(total=pictures, unit="picture")

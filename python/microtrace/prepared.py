@@ -111,7 +111,7 @@ class PreparedScene:
         fast_build: bool = False,
     ) -> None:
         """See Scene.prepare()."""
-        self._core = _core.Prepared(
+        self._core: _core.Prepared = _core.Prepared(
             scene, None if previous is None else previous._core, threads, fast_build
         )
         self._solids: dict[int | None, _core.Solid] = {}

@@ -24,35 +24,46 @@ namespace {
 template <class T>
 using Pixels = nb::ndarray<T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
-/// Where a channel of the film goes.
-struct Target {
-  std::string channel;  ///< Channel::name
-  void* first;          ///< its value for the first pixel
-  std::size_t step;     ///< from pixel to pixel, in values
-};
-
-/// The name of the AOV, its channels and whether they are integers, for each picture by name.
+/// An array by its name in Python, with its AOV and the channels that it contains.
 struct Quantity {
   const char* name;
   const char* aov;
-  const char* channels;  ///< separated by blanks
+  const char* channels;  ///< a letter each, or the name of one
+  std::size_t id_channel = 0;
+
+  [[nodiscard]] bool is_id() const { return std::string_view(aov) == "id"; }
+  /// As in Channel::name.
+  [[nodiscard]] std::vector<std::string> channel_names() const {
+    const std::string before = std::string(aov) + ".";
+    if (is_id()) return {before + channels};
+    std::vector<std::string> result;
+    for (const char* letter = channels; *letter != 0; ++letter) result.push_back(before + *letter);
+    return result;
+  }
 };
 constexpr std::array kQuantities = {
     Quantity{"depth", "depth", "Z"},
     Quantity{"distance", "distance", "T"},
-    Quantity{"position", "position", "X Y Z"},
-    Quantity{"normal", "normal", "X Y Z"},
-    Quantity{"face_normal", "face_normal", "X Y Z"},
-    Quantity{"uv", "uv", "U V"},
-    Quantity{"barycentric", "barycentric", "X Y Z"},
-    Quantity{"albedo", "albedo", "R G B"},
+    Quantity{"position", "position", "XYZ"},
+    Quantity{"normal", "normal", "XYZ"},
+    Quantity{"face_normal", "face_normal", "XYZ"},
+    Quantity{"uv", "uv", "UV"},
+    Quantity{"barycentric", "barycentric", "XYZ"},
+    Quantity{"albedo", "albedo", "RGB"},
     Quantity{"object", "id", "instance"},
-    Quantity{"primitive", "id", "primitive"},
-    Quantity{"material", "id", "material"},
+    Quantity{"primitive", "id", "primitive", 1},
+    Quantity{"material", "id", "material", 2},
     Quantity{"variance", "variance", "Y"},
     Quantity{"samples", "samples", "N"},
-    Quantity{"denoise_albedo", "denoise_albedo", "R G B"},
-    Quantity{"denoise_normal", "denoise_normal", "X Y Z"},
+    Quantity{"denoise_albedo", "denoise_albedo", "RGB"},
+    Quantity{"denoise_normal", "denoise_normal", "XYZ"},
+};
+
+/// A channel of the film and where its values go.
+struct Target {
+  std::string channel;  ///< Channel::name
+  void* first;          ///< its value for the first pixel
+  std::size_t step;     ///< from pixel to pixel, in values
 };
 
 void copy_channel(const Film& film, const Target& target) {
@@ -65,36 +76,40 @@ void copy_channel(const Film& film, const Target& target) {
       channel->values);
 }
 
-template <class E>
-void add_once(std::vector<E>& to, E item) {
-  if (std::ranges::find(to, item) == to.end()) to.push_back(item);
-}
-
-/// Adds the AOVs of `outputs` to the options.
-std::vector<Target> targets_of(const nb::dict& outputs, RenderOptions& options) {
-  std::vector<Target> result;
-  for (const Quantity& quantity : kQuantities) {
-    if (!outputs.contains(quantity.name)) continue;
-    if (const auto aov = aov_named(quantity.aov))
-      add_once(options.aovs, *aov);
-    else
-      add_once(options.sampled_aovs, sampled_aov_named(quantity.aov).value());
-    const auto pixels = nb::cast<nb::ndarray<nb::c_contig>>(outputs[quantity.name]);
-    auto* first = static_cast<std::uint32_t*>(pixels.data());  // or float: both have 4 bytes
-    const std::string channels = quantity.channels;
-    const auto count = static_cast<std::size_t>(1 + std::ranges::count(channels, ' '));
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t end = std::min(channels.find(' ', begin), channels.size());
-      result.push_back(
-          {.channel = std::string(quantity.aov) + "." + channels.substr(begin, end - begin),
-           .first = first + k,
-           .step = count});
-      begin = end + 1;
+/// The arrays to fill besides the colors.
+struct Outputs {
+  explicit Outputs(const nb::dict& outputs) {
+    for (const Quantity& quantity : kQuantities) {
+      if (!outputs.contains(quantity.name)) continue;
+      const auto pixels = nb::cast<nb::ndarray<nb::c_contig>>(outputs[quantity.name]);
+      const std::vector<std::string> names = quantity.channel_names();
+      for (std::size_t k = 0; k < names.size(); ++k)
+        targets.push_back({.channel = names[k],
+                           .first = static_cast<float*>(pixels.data()) + k,  // 4 bytes each
+                           .step = names.size()});
+      if (const auto aov = aov_named(quantity.aov)) {
+        if (std::ranges::find(exact, *aov) == exact.end()) exact.push_back(*aov);
+        AovBuffer buffer{.aov = *aov,
+                         .row_stride = pixels.stride(0),
+                         .pixel_stride = static_cast<std::ptrdiff_t>(names.size())};
+        if (*aov == Aov::id) {
+          buffer.data = static_cast<std::uint32_t*>(pixels.data());
+          buffer.channel = quantity.id_channel;
+        } else {
+          buffer.data = static_cast<float*>(pixels.data());
+        }
+        buffers.push_back(buffer);
+      } else {
+        sampled.push_back(sampled_aov_named(quantity.aov).value());
+      }
     }
   }
-  return result;
-}
+
+  std::vector<Target> targets;
+  std::vector<Aov> exact;
+  std::vector<SampledAov> sampled;
+  std::vector<AovBuffer> buffers;  ///< of the exact ones
+};
 
 void copy_colors(const Film& film, const Pixels<float>& to) {
   const std::size_t channels = to.shape(2);
@@ -164,7 +179,6 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
   if (name.is_none()) name = nb::cast(self.is_flat ? "flat" : "path");
   const IntegratorOptions integrator_options =
       integrator_of(nb::cast<std::string>(name), arguments);
-  const bool is_path = std::holds_alternative<PathOptions>(integrator_options);
   const nb::object samples = arguments["spp"], background = arguments["background"];
   const std::unique_ptr<Integrator> integrator = make_integrator(integrator_options);
   RenderOptions options{
@@ -183,28 +197,31 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
   } else if (!self.has_background) {
     options.background = default_background(SceneFormat::gltf, integrator_options);
   }
-  const std::vector<Target> targets = targets_of(outputs, options);
-  const bool needs_samples = has_color || !options.sampled_aovs.empty();
-  if (!needs_samples) options.samples = 1;
-  FlatIntegrator nothing;
-  if (!needs_samples) options.integrator = &nothing;
+  const Outputs arrays(outputs);
+  const bool has_samples = has_color || !arrays.sampled.empty();
+  if (has_samples) {
+    options.aovs = arrays.exact;
+    options.sampled_aovs = arrays.sampled;
+  }
   std::optional<Film> film;
   const nb::object function = arguments["progress"];
-  std::exception_ptr failure;
   run_interruptible([&](const std::function<bool()>& cancel) {
     Progress progress(function, cancel);
     options.progress = std::ref(progress);
     try {
-      film = render(self.scene, camera, size, options);
+      if (has_samples)
+        film = render(self.scene, camera, size, options);
+      else
+        render_aovs(self.scene, camera, size, arrays.buffers, options);
     } catch (const Error&) {
       progress.rethrow();
       throw;
     }
   });
-  for (const Target& target : targets) copy_channel(*film, target);
+  if (!film) return nb::make_tuple(0.0, "none");
+  for (const Target& target : arrays.targets) copy_channel(*film, target);
   if (has_color) copy_colors(*film, nb::cast<Pixels<float>>(outputs["color"]));
-  return nb::make_tuple(film->display.exposure, std::string(name_of(film->display.tone_map)),
-                        is_path);
+  return nb::make_tuple(film->display.exposure, std::string(name_of(film->display.tone_map)));
 }
 
 /// A film of these arrays, (height, width, 3 or 4), with colors displayed by exposure and tone map.
@@ -229,28 +246,22 @@ Film film_of(const Pixels<const float>& color, double exposure, const std::strin
   }
   film.display.exposure = exposure;
   film.display.tone_map = *map;
+  const std::size_t pixel_count = color.shape(0) * color.shape(1);
   for (const Quantity& quantity : kQuantities) {
     if (!channels.contains(quantity.name)) continue;
     const auto pixels = nb::cast<nb::ndarray<nb::ro, nb::c_contig>>(channels[quantity.name]);
-    const std::string names = quantity.channels;
-    const std::size_t pixel_count = color.shape(0) * color.shape(1);
-    const std::size_t step = pixel_count > 0 ? pixels.size() / pixel_count : 1;
-    std::size_t begin = 0;
-    for (std::size_t k = 0; k < step; ++k) {
-      const std::size_t end = std::min(names.find(' ', begin), names.size());
-      const auto add = [&]<class T>(const T* first) {
+    const std::vector<std::string> names = quantity.channel_names();
+    const auto add = [&]<class T>(const T* first) {
+      for (std::size_t k = 0; k < names.size(); ++k) {
         std::vector<T> values(pixel_count);
-        for (std::size_t i = 0; i < pixel_count; ++i) values[i] = first[i * step + k];
-        film.channels.push_back(
-            {.name = std::string(quantity.aov) + "." + names.substr(begin, end - begin),
-             .values = std::move(values)});
-      };
-      if (pixels.dtype() == nb::dtype<float>())
-        add(static_cast<const float*>(pixels.data()));
-      else
-        add(static_cast<const std::uint32_t*>(pixels.data()));
-      begin = end + 1;
-    }
+        for (std::size_t i = 0; i < pixel_count; ++i) values[i] = first[i * names.size() + k];
+        film.channels.push_back({.name = names[k], .values = std::move(values)});
+      }
+    };
+    if (quantity.is_id())
+      add(static_cast<const std::uint32_t*>(pixels.data()));
+    else
+      add(static_cast<const float*>(pixels.data()));
   }
   return film;
 }
@@ -282,9 +293,7 @@ nb::object frame_scene(const Prepared& self, double azimuth, double elevation, d
 void bind_pictures(nb::module_& module) {
   nb::list names;
   for (const Quantity& quantity : kQuantities) {
-    const std::string channels = quantity.channels;
-    names.append(nb::make_tuple(quantity.name, 1 + std::ranges::count(channels, ' '),
-                                std::string(quantity.aov) == "id"));
+    names.append(nb::make_tuple(quantity.name, quantity.channel_names().size(), quantity.is_id()));
   }
   module.attr("quantities") = nb::tuple(names);
   module.def("render", &render_into);

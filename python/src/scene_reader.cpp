@@ -60,8 +60,10 @@ class Reader {
     for (const nb::handle material : source_.attr("materials")) place_of_material(material);
     for (const nb::handle object : source_.attr("objects")) add_object(object);
     for (const nb::handle light : source_.attr("lights")) add_light(light);
-    for (const nb::handle camera : source_.attr("cameras"))
-      scene_.cameras.push_back({.name = text(camera, "name"), .camera = camera_of(camera)});
+    for (const nb::handle camera : source_.attr("cameras")) {
+      const Camera made = camera_of(camera);
+      scene_.cameras.push_back({.name = text(camera, "name"), .camera = made});
+    }
     scene_.environment = environment_of(source_.attr("environment"));
     return std::move(scene_);
   }
@@ -232,6 +234,7 @@ class Reader {
   }
 
   void add_object(const nb::handle& object) {
+    if (!is(object, "shapes", "Object")) wrong("an Object", object);
     Object result{.name = text(object, "name"), .shape = shape_of(object.attr("shape"))};
     if (const nb::object material = object.attr("material"); !material.is_none())
       result.material = place_of_material(material);

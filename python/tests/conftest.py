@@ -29,9 +29,7 @@ def rng() -> np.random.Generator:
 def icosphere(levels: int) -> tuple[np.ndarray, np.ndarray]:
     """Vertices and faces of a subdivided icosahedron, closed and facing outward."""
     g = (1 + 5**0.5) / 2
-    corners = [
-        (s, t, 0.0) for s in (-1.0, 1.0) for t in (-g, g)
-    ]
+    corners = [(s, t, 0.0) for s in (-1.0, 1.0) for t in (-g, g)]
     vertices = [np.roll(corner, k) for k in range(3) for corner in corners]
     points = np.array(vertices) / np.sqrt(1 + g * g)
     edge = 2 / np.sqrt(1 + g * g) + 1e-9

@@ -8,11 +8,9 @@ import subprocess
 import threading
 import time
 
+import microtrace as mt
 import numpy as np
 import pytest
-
-import microtrace as mt
-
 from conftest import SCENES
 
 KNOT = SCENES / "gltf" / "knot.glb"
@@ -32,7 +30,11 @@ def run(program, *arguments):
         (KNOT, [], {}),
         (MATERIALS, ["--samples", 4, "--seed", 7], {"spp": 4, "seed": 7}),
         (MATERIALS, ["--integrator", "flat"], {"integrator": "flat"}),
-        (KNOT, ["--samples", 3, "--filter", "blackman-harris"], {"spp": 3, "filter": "blackman-harris"}),
+        (
+            KNOT,
+            ["--samples", 3, "--filter", "blackman-harris"],
+            {"spp": 3, "filter": "blackman-harris"},
+        ),
         (KNOT, ["--samples", 2, "--background", "transparent"], {"spp": 2, "transparent": True}),
         (KNOT, ["--samples", 2, "--max-depth", 2], {"spp": 2, "max_depth": 2}),
         (
@@ -121,7 +123,9 @@ def test_cameras():
     assert seen.any()
     distance = np.linalg.norm(near.position[seen] - np.array(eye), axis=1)
     assert np.allclose(distance, near.distance[seen], rtol=1e-5)
-    flat = mt.render(prepared, mt.OrthographicCamera(position=(0, 0, 10), height=8), SIZE, aovs="depth")
+    flat = mt.render(
+        prepared, mt.OrthographicCamera(position=(0, 0, 10), height=8), SIZE, aovs="depth"
+    )
     assert np.isfinite(flat.depth).any()
     around = mt.render(prepared, mt.EnvironmentCamera(position=(0, 0, 0.1)), SIZE, aovs="depth")
     assert np.isfinite(around.depth).any()

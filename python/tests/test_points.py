@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
+import microtrace as mt
 import numpy as np
 import pytest
-
-import microtrace as mt
-
 from conftest import icosphere
 
 

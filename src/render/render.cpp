@@ -1,6 +1,7 @@
 #include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "render/aovs/aov_painter.hpp"
+#include "render/clock.hpp"
 #include "render/lights/lighting.hpp"
 #include "render/prepared/content.hpp"
 #include "render/samples/draw_at_random.hpp"
@@ -14,7 +15,6 @@
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <new>
 #include <optional>
@@ -25,15 +25,9 @@
 namespace microtrace {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// Texture filters of Monte Carlo integrators assume this many samples per pixel, because the
 /// actual number is not known in advance.
 constexpr std::uint32_t kSamplesOfRandomTextures = 16;
-
-double seconds(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 /// 32-bit numbers per pixel of a film, including its channels.
 std::uint64_t numbers_of_pixel(const RenderOptions& options) {

@@ -16,14 +16,14 @@ BRITISH = re.compile(r"\b\w*(?:colour|grey|normalis|behaviour|neighbour|centre\b
 
 
 def faults():
-    for path in sorted(path for folder in ("include", "src") for path in (ROOT / folder).rglob("*.?pp")):
+    for path in sorted(path for folder in ("include", "src", "python") for path in (ROOT / folder).rglob("*.?pp")):
         text, place = path.read_text(), path.relative_to(ROOT).as_posix()
         for match in CONSTANT.finditer(text):
             is_local = match[0].startswith("  ") and "static" not in match[1]
             if not is_local and not re.match(r"k[A-Z]|is_|has_", match[2]) and match[2] not in MEMBERS:
                 line = text.count("\n", 0, match.start()) + 1
                 yield f"{place}:{line}: the constant {match[2]} is not kCamelCase"
-    for path in sorted(path for pattern in ("include/**/*.?pp", "src/**/*.?pp", "tests/**/*.?pp", "docs/*.md", "*.md") for path in ROOT.glob(pattern)):
+    for path in sorted(path for pattern in ("include/**/*.?pp", "src/**/*.?pp", "python/src/*.?pp", "python/**/*.py", "tests/**/*.?pp", "docs/*.md", "*.md") for path in ROOT.glob(pattern)):
         for number, line in enumerate(path.read_text().splitlines(), 1):
             for match in BRITISH.finditer(line):
                 if f'"{match[0]}' not in line and f'\\"{match[0]}' not in line:

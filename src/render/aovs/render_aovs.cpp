@@ -1,6 +1,7 @@
 #include "base/memory_account.hpp"
 #include "float_environment.hpp"
 #include "render/aovs/aov_painter.hpp"
+#include "render/clock.hpp"
 #include "render/tiles.hpp"
 #include "render/view.hpp"
 
@@ -8,18 +9,11 @@
 #include <microtrace/render_aovs.hpp>
 #include <microtrace/threads.hpp>
 
-#include <chrono>
 #include <string>
 #include <variant>
 
 namespace microtrace {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds(Clock::time_point from, Clock::time_point to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 void check(const AovBuffer& buffer) {
   const auto refuse = [&](const std::string& message) {
