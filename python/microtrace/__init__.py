@@ -2,10 +2,14 @@
 
 from ._core import version as __version__
 from .cameras import (
+    CalibratedCamera,
     Camera,
     EnvironmentCamera,
+    FisheyeDistortion,
     OrthographicCamera,
     PerspectiveCamera,
+    RationalDistortion,
+    cameras,
     look_at,
 )
 from .errors import (

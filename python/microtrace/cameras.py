@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf, radians
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
 
 Vector = tuple[float, float, float]
 
@@ -43,7 +47,49 @@ class EnvironmentCamera(_Posed):
     """A latitude-longitude map of all directions, with the viewing direction in the middle."""
 
 
-Camera = PerspectiveCamera | OrthographicCamera | EnvironmentCamera
+@dataclass(eq=False)
+class RationalDistortion:
+    """OpenCV's model of lenses with radial and tangential distortion."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    p1: float = 0.0
+    p2: float = 0.0
+    k3: float = 0.0
+    k4: float = 0.0
+    k5: float = 0.0
+    k6: float = 0.0
+
+
+@dataclass(eq=False)
+class FisheyeDistortion:
+    """OpenCV's model of fisheye lenses."""
+
+    k1: float = 0.0
+    k2: float = 0.0
+    k3: float = 0.0
+    k4: float = 0.0
+
+
+@dataclass(eq=False, kw_only=True)
+class CalibratedCamera(_Posed):
+    """A camera with the parameters of OpenCV's calibration; cameras() makes it from matrices.
+
+    A picture of another size than `image_size` shows the same view. Pixels where the distortion is
+    not invertible have no rays: nothing is visible there, and color is black.
+    """
+
+    image_size: tuple[int, int] = (640, 480)  #: width and height of the calibration images
+    fx: float = 640.0  #: focal lengths, pixels
+    fy: float = 640.0
+    cx: float = 319.5  #: principal point in pixels, whose centers have integer coordinates
+    cy: float = 239.5
+    distortion: RationalDistortion | FisheyeDistortion = field(default_factory=RationalDistortion)
+    near: float = 0.0  #: depth, or distance from a fisheye camera, from which surfaces are visible
+    far: float = inf  #: the same, up to which surfaces are visible
+
+
+Camera = PerspectiveCamera | OrthographicCamera | EnvironmentCamera | CalibratedCamera
 
 
 def look_at(
@@ -54,3 +100,115 @@ def look_at(
     return PerspectiveCamera(
         position=eye, direction=(x, y, z), up=up, vertical_fov=radians(vertical_fov_degrees)
     )
+
+
+def cameras(
+    K: npt.ArrayLike,
+    T: npt.ArrayLike,
+    size: tuple[int, int],
+    *,
+    convention: Literal["opencv", "opengl"],
+    distortion: npt.ArrayLike = (),
+    fisheye: npt.ArrayLike | None = None,
+) -> list[CalibratedCamera]:
+    """Cameras from matrices of intrinsic and extrinsic parameters.
+
+    Args:
+        K: (3, 3) or (N, 3, 3): fx and fy on the diagonal, cx and cy in the last column, in pixels;
+            no skew.
+        T: (4, 4) or (N, 4, 4), rigid.
+        size: width and height of the images that K belongs to.
+        convention: "opencv": T is camera from world; the camera looks along +z, +y is down; pixel
+            centers have integer coordinates. "opengl": T is world from camera; the camera looks
+            along -z, +y is up; pixel centers are at halves. Both count pixels from the upper left.
+        distortion: k1, k2, p1, p2 and, if known, k3, k4, k5, k6, as cv2.calibrateCamera returns
+            them.
+        fisheye: k1 to k4 of cv2.fisheye, instead of distortion.
+
+    Raises:
+        ValueError: a matrix has a wrong shape, K has skew, T is not rigid, or a coefficient has no
+            counterpart.
+    """
+    if convention not in ("opencv", "opengl"):
+        raise ValueError(f'convention must be "opencv" or "opengl", not {convention!r}')
+    intrinsic = _matrices(K, 3, "K")
+    extrinsic = _matrices(T, 4, "T")
+    count = max(len(intrinsic), len(extrinsic))
+    if len(intrinsic) not in (1, count) or len(extrinsic) not in (1, count):
+        raise ValueError(f"K and T must have the same length: {len(intrinsic)}, {len(extrinsic)}")
+    model = _distortion(np.asarray(distortion, np.float64).ravel(), fisheye)
+    return [
+        _calibrated(
+            intrinsic[k % len(intrinsic)], extrinsic[k % len(extrinsic)], size, convention, model
+        )
+        for k in range(count)
+    ]
+
+
+def _matrices(values: npt.ArrayLike, width: int, name: str) -> npt.NDArray[np.float64]:
+    array = np.asarray(values, np.float64)
+    if array.ndim not in (2, 3) or array.shape[-2:] != (width, width):
+        raise ValueError(
+            f"{name} must have shape ({width}, {width}) or (N, {width}, {width}), not {array.shape}"
+        )
+    return array.reshape(-1, width, width)
+
+
+def _distortion(
+    rational: npt.NDArray[np.float64], fisheye: npt.ArrayLike | None
+) -> RationalDistortion | FisheyeDistortion:
+    if fisheye is not None:
+        numbers = np.asarray(fisheye, np.float64).ravel()
+        if rational.any():
+            raise ValueError("give either distortion or fisheye")
+        if len(numbers) != 4:
+            raise ValueError(f"fisheye must have 4 coefficients, not {len(numbers)}")
+        return FisheyeDistortion(*map(float, numbers))
+    if len(rational) not in (0, 4, 5, 8, 12, 14):
+        raise ValueError(f"distortion must have 4, 5 or 8 coefficients, not {len(rational)}")
+    if rational[8:].any():
+        raise ValueError("thin prisms and tilted sensors (coefficients 9 to 14) are not supported")
+    return RationalDistortion(*map(float, rational[:8]))
+
+
+def _calibrated(
+    k: npt.NDArray[np.float64],
+    t: npt.NDArray[np.float64],
+    size: tuple[int, int],
+    convention: str,
+    distortion: RationalDistortion | FisheyeDistortion,
+) -> CalibratedCamera:
+    if k[0, 1] != 0 or k[1, 0] != 0 or not np.array_equal(k[2], (0, 0, 1)):
+        raise ValueError("K must have the rows (fx, 0, cx), (0, fy, cy), (0, 0, 1)")
+    rotation, shift = t[:3, :3], t[:3, 3]
+    gram = (rotation[:, :, None] * rotation[:, None, :]).sum(0)
+    is_rotation = np.allclose(gram, np.eye(3), atol=1e-4) and _volume(rotation) > 0
+    if not is_rotation or not np.array_equal(t[3], (0, 0, 0, 1)):
+        raise ValueError("T must be a rotation and a translation, with the last row 0, 0, 0, 1")
+    if convention == "opencv":
+        position = -(rotation * shift[:, None]).sum(0)
+        direction, up, center = rotation[2], -rotation[1], 0.0
+    else:
+        position, direction, up, center = shift, -rotation[:, 2], rotation[:, 1], 0.5
+    return CalibratedCamera(
+        position=_vector(position),
+        direction=_vector(direction),
+        up=_vector(up),
+        image_size=size,
+        fx=float(k[0, 0]),
+        fy=float(k[1, 1]),
+        cx=float(k[0, 2]) - center,
+        cy=float(k[1, 2]) - center,
+        distortion=distortion,
+    )
+
+
+def _volume(m: npt.NDArray[np.float64]) -> float:
+    a, b, c = m
+    cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return float(cross[0] * c[0] + cross[1] * c[1] + cross[2] * c[2])
+
+
+def _vector(values: npt.NDArray[Any]) -> Vector:
+    x, y, z = map(float, values)
+    return (x, y, z)

@@ -17,7 +17,8 @@ class Image:
 
     Args:
         pixels: (height, width) or (height, width, channels) of uint8 or uint16, copied; the maximum
-            means 1. 1 channel: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha, not premultiplied.
+            means 1. 1 channel: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha. Colors are not
+            premultiplied.
         name: any text.
     """
 

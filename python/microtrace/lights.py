@@ -34,7 +34,7 @@ class PointLight:
 
 @dataclass(eq=False)
 class SpotLight:
-    """Light from a point in a cone: full intensity within the inner angle, none beyond the outer."""
+    """Light from a point in a cone, full within the inner angle and none beyond the outer."""
 
     position: Vector = (0.0, 0.0, 0.0)  #: world space
     direction: Vector = (0.0, 0.0, -1.0)  #: of the cone's axis; any length

@@ -105,7 +105,7 @@ class RayMeshIntersector:
         return self._prepared().occluded(self._rays(ray_origins, ray_directions))
 
     def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether points are inside of the mesh or on it, (n,) bool; never wrong if it is closed."""
+        """Whether points are in the mesh or on it, (n,) bool; never wrong if it is closed."""
         array = np.asarray(points, np.float64)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ValueError("points must be (n,3)")

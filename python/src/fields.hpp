@@ -242,6 +242,36 @@ struct Class<EnvironmentCamera> {
   static constexpr auto kFields = std::tuple();
 };
 
+template <>
+struct Class<RationalDistortion> {
+  static constexpr const char* kModule = "cameras";
+  static constexpr const char* kName = "RationalDistortion";
+  static constexpr auto kFields =
+      std::tuple(Field{"k1", &RationalDistortion::k1}, Field{"k2", &RationalDistortion::k2},
+                 Field{"p1", &RationalDistortion::p1}, Field{"p2", &RationalDistortion::p2},
+                 Field{"k3", &RationalDistortion::k3}, Field{"k4", &RationalDistortion::k4},
+                 Field{"k5", &RationalDistortion::k5}, Field{"k6", &RationalDistortion::k6});
+};
+
+template <>
+struct Class<FisheyeDistortion> {
+  static constexpr const char* kModule = "cameras";
+  static constexpr const char* kName = "FisheyeDistortion";
+  static constexpr auto kFields =
+      std::tuple(Field{"k1", &FisheyeDistortion::k1}, Field{"k2", &FisheyeDistortion::k2},
+                 Field{"k3", &FisheyeDistortion::k3}, Field{"k4", &FisheyeDistortion::k4});
+};
+
+template <>
+struct Class<CalibratedCamera> {
+  static constexpr const char* kModule = "cameras";
+  static constexpr const char* kName = "CalibratedCamera";
+  static constexpr auto kFields = std::tuple(
+      Field{"image_size", &CalibratedCamera::image}, Field{"fx", &CalibratedCamera::fx},
+      Field{"fy", &CalibratedCamera::fy}, Field{"cx", &CalibratedCamera::cx},
+      Field{"cy", &CalibratedCamera::cy}, Field{"distortion", &CalibratedCamera::distortion});
+};
+
 /// Calls f(name, member) for all fields of a struct.
 template <class T, class F>
 void for_each_field(T& value, const F& f) {

@@ -55,8 +55,8 @@ class Reader {
     read(source_.attr("epsilon"), scene_.epsilon);
     if (const nb::object background = source_.attr("background"); !background.is_none())
       read(background, scene_.background);
-    const auto [width, height] = cast<std::array<std::uint32_t, 2>>(source_.attr("size"), "size");
-    scene_.size = {.width = width, .height = height};
+    field_ = "size";
+    read(source_.attr("size"), scene_.size);
     for (const nb::handle material : source_.attr("materials")) place_of_material(material);
     for (const nb::handle object : source_.attr("objects")) add_object(object);
     for (const nb::handle light : source_.attr("lights")) add_light(light);
@@ -104,6 +104,18 @@ class Reader {
   void read(const nb::handle& value, AlphaMode& to) {
     to = named<AlphaMode>(cast<std::string>(value, field_), std::array{"opaque", "mask", "blend"},
                           field_);
+  }
+  void read(const nb::handle& value, ImageSize& to) {
+    const auto [width, height] = cast<std::array<std::uint32_t, 2>>(value, field_);
+    to = {.width = width, .height = height};
+  }
+  void read(const nb::handle& value, Distortion& to) {
+    if (is<FisheyeDistortion>(value))
+      to = fields_of<FisheyeDistortion>(value);
+    else if (is<RationalDistortion>(value))
+      to = fields_of<RationalDistortion>(value);
+    else
+      wrong("a distortion", value);
   }
   void read(const nb::handle& value, std::optional<double>& to) {
     if (!value.is_none()) to = cast<double>(value, field_);
@@ -276,6 +288,7 @@ class Reader {
   Camera camera_of(const nb::handle& camera) {
     if (is<PerspectiveCamera>(camera)) return posed<PerspectiveCamera>(camera);
     if (is<OrthographicCamera>(camera)) return posed<OrthographicCamera>(camera);
+    if (is<CalibratedCamera>(camera)) return posed<CalibratedCamera>(camera);
     if (is<EnvironmentCamera>(camera)) return posed<EnvironmentCamera>(camera);
     wrong("a camera", camera);
   }

@@ -40,7 +40,7 @@ class Writer {
     result["cameras"] = cameras;
     result["environment"] = environment();
     result["background"] = has_background ? value(scene_.background) : nb::none();
-    result["size"] = nb::make_tuple(scene_.size.width, scene_.size.height);
+    result["size"] = value(scene_.size);
     result["origin"] = value(scene_.origin);
     result["epsilon"] = scene_.epsilon;
     result["integrator"] = is_flat ? "flat" : "path";
@@ -61,6 +61,10 @@ class Writer {
   nb::object value(AlphaMode v) {
     static constexpr std::array kNames{"opaque", "mask", "blend"};
     return nb::cast(kNames[static_cast<std::size_t>(v)]);
+  }
+  nb::object value(const ImageSize& v) { return nb::make_tuple(v.width, v.height); }
+  nb::object value(const Distortion& v) {
+    return std::visit([&](const auto& each) { return object_of(each); }, v);
   }
   nb::object value(const std::optional<double>& v) { return v ? nb::cast(*v) : nb::none(); }
   nb::object value(const std::optional<TextureUse>& v) { return v ? use_of(*v) : nb::none(); }

@@ -167,3 +167,90 @@ def test_interrupt():
     with pytest.raises(KeyboardInterrupt):
         mt.render(prepared, size=(1920, 1080), spp=4096)
     assert time.monotonic() - start < 30  # not to the end, which takes hours
+
+
+def looks_alike(a: mt.Picture, b: mt.Picture) -> bool:
+    """Whether all but a few pixels at outlines show the same primitive at the same depth."""
+    same = (a.primitive == b.primitive) & np.isclose(a.depth, b.depth, rtol=1e-5, equal_nan=True)
+    return bool((a.primitive > 0).any()) and same.mean() > 0.99
+
+
+def test_matrices_of_cameras():
+    prepared = mt.load(KNOT).prepare()
+    eye, (width, height) = np.array([4.0, 3, 10]), SIZE
+    reference = mt.look_at(tuple(eye), (0, 0, 0), vertical_fov_degrees=40)
+    f = height / 2 / np.tan(np.radians(20))
+    back = eye / np.linalg.norm(eye)
+    right = np.cross([0, 1, 0], back)
+    right /= np.linalg.norm(right)
+    pose = np.eye(4)
+    pose[:3] = np.column_stack([right, np.cross(back, right), back, eye])
+    opengl = mt.cameras(
+        [[f, 0, width / 2], [0, f, height / 2], [0, 0, 1]], pose, SIZE, convention="opengl"
+    )
+    k = [[f, 0, width / 2 - 0.5], [0, f, height / 2 - 0.5], [0, 0, 1]]
+    camera_from_world = np.linalg.inv(pose @ np.diag([1.0, -1, -1, 1]))
+    stack = np.stack([camera_from_world] * 2)
+    opencv = mt.cameras(k, stack, SIZE, convention="opencv", distortion=np.zeros(5))
+    names = ["depth", "primitive"]
+    expected = mt.render(prepared, reference, SIZE, aovs=names)
+    assert looks_alike(mt.render(prepared, opengl[0], SIZE, aovs=names), expected)
+    pictures = mt.render(prepared, opencv, SIZE, aovs=names)
+    assert pictures.depth.shape == (2, height, width)
+    assert looks_alike(pictures.one(1), expected)
+    # Twice the size shows the same view.
+    twice = mt.render(prepared, opencv[0], (2 * width, 2 * height), aovs=names)
+    assert abs((twice.primitive > 0).mean() - (expected.primitive > 0).mean()) < 0.01
+
+
+@pytest.mark.parametrize("fisheye", [False, True])
+def test_distortion_projects_back(fisheye):
+    """Visible points land on their own pixels by OpenCV's formulas."""
+    prepared = mt.load(KNOT).prepare()
+    width, height = SIZE
+    k = np.array([[60.0, 0, 31], [0, 58, 24], [0, 0, 1]])
+    t = np.diag([1.0, -1, -1, 1])
+    t[2, 3] = 9
+    if fisheye:
+        k1, k2, k3, k4 = numbers = (0.1, -0.05, 0.02, -0.01)
+        (camera,) = mt.cameras(k, t, SIZE, convention="opencv", fisheye=numbers)
+    else:
+        k1, k2, p1, p2, k3 = numbers = (-0.2, 0.05, 0.01, -0.02, 0.01)
+        (camera,) = mt.cameras(k, t, SIZE, convention="opencv", distortion=numbers)
+    picture = mt.render(prepared, camera, SIZE, aovs=["position", "depth"])
+    seen = np.isfinite(picture.depth)
+    assert seen.sum() > 100
+    x, y, z = (picture.position[seen].astype(np.float64) @ t[:3, :3].T + t[:3, 3]).T
+    x, y = x / z, y / z
+    r = np.sqrt(x * x + y * y)
+    if fisheye:
+        a = np.arctan(r)
+        scale = a * (1 + k1 * a**2 + k2 * a**4 + k3 * a**6 + k4 * a**8) / r
+        u, v = x * scale, y * scale
+    else:
+        radial = 1 + k1 * r**2 + k2 * r**4 + k3 * r**6
+        u = x * radial + 2 * p1 * x * y + p2 * (r**2 + 2 * x * x)
+        v = y * radial + p1 * (r**2 + 2 * y * y) + 2 * p2 * x * y
+    rows, columns = np.nonzero(seen)
+    assert np.allclose(u * k[0, 0] + k[0, 2], columns, atol=1e-3)
+    assert np.allclose(v * k[1, 1] + k[1, 2], rows, atol=1e-3)
+
+
+def test_wrong_matrices():
+    k, t = np.eye(3), np.eye(4)
+    skewed = k.copy()
+    skewed[0, 1] = 1
+    for arguments, text in [
+        ((np.eye(4), t, SIZE), "K must have shape"),
+        ((k, np.eye(3), SIZE), "T must have shape"),
+        ((skewed, t, SIZE), "K must have the rows"),
+        ((k, 2 * t, SIZE), "rotation"),
+        ((k, np.diag([1.0, 1, -1, 1]), SIZE), "rotation"),
+        ((np.stack([k] * 2), np.stack([t] * 3), SIZE), "same length"),
+    ]:
+        with pytest.raises(ValueError, match=text):
+            mt.cameras(*arguments, convention="opencv")
+    with pytest.raises(ValueError, match="coefficients"):
+        mt.cameras(k, t, SIZE, convention="opencv", distortion=[1, 2, 3])
+    with pytest.raises(ValueError, match="convention"):
+        mt.cameras(k, t, SIZE, convention="blender")
