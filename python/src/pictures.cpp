@@ -1,7 +1,7 @@
 /// Rendering into arrays of NumPy, and saving.
 
 #include "common.hpp"
-#include "io/image/eight_bits.hpp"
+#include "io/image/encode/eight_bits.hpp"
 #include "prepared.hpp"
 #include "scene_reader.hpp"
 #include "scene_writer.hpp"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import shutil
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +15,10 @@ SCENES = REPOSITORY / "scenes"
 
 @pytest.fixture
 def program() -> str:
-    """The program of the same version: of the build if MICROTRACE_PROGRAM names it."""
-    found = os.environ.get("MICROTRACE_PROGRAM") or shutil.which("microtrace")
-    assert found, "install the package or set MICROTRACE_PROGRAM"
+    """The program of the same version, which pip installs beside Python."""
+    installed = Path(sys.executable).parent / "microtrace"
+    found = os.environ.get("MICROTRACE_PROGRAM") or str(installed)
+    assert Path(found).exists(), "install the package or set MICROTRACE_PROGRAM"
     return found
 
 
