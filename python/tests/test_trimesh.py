@@ -1,0 +1,143 @@
+"""The ray engine for trimesh, beside trimesh's own."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import subprocess
+import sys
+
+import microtrace as mt
+import numpy as np
+import pytest
+import trimesh
+import trimesh.ray.ray_triangle
+from microtrace.trimesh import RayMeshIntersector
+
+
+@pytest.fixture
+def rays(rng):
+    origins = rng.normal(size=(400, 3)) * 3
+    return origins, rng.uniform(-0.5, 0.5, size=(400, 3)) - origins
+
+
+def engines(mesh):
+    return RayMeshIntersector(mesh), trimesh.ray.ray_triangle.RayMeshIntersector(mesh)
+
+
+@pytest.mark.parametrize("shift", [0, 1000.1])
+def test_same_as_trimesh(rays, shift):
+    mesh = trimesh.creation.icosphere(subdivisions=2)
+    mesh.apply_translation([shift, -shift, shift])
+    origins, directions = rays[0] + [shift, -shift, shift], rays[1]
+    ours, theirs = engines(mesh)
+    assert np.array_equal(
+        ours.intersects_any(origins, directions), theirs.intersects_any(origins, directions)
+    )
+    assert np.array_equal(
+        ours.intersects_first(origins, directions), theirs.intersects_first(origins, directions)
+    )
+    a, b = (set(zip(*e.intersects_id(origins, directions))) for e in (ours, theirs))
+    assert a == b and len(a) > 400
+    points, index_ray, index_tri = ours.intersects_location(origins, directions)
+    their_points, their_ray, their_tri = theirs.intersects_location(origins, directions)
+    assert len(points) == len(their_points)
+    order, their_order = np.lexsort((index_tri, index_ray)), np.lexsort((their_tri, their_ray))
+    assert np.allclose(points[order], their_points[their_order], rtol=0, atol=1e-9)
+    # Ray by ray, nearest first.
+    assert (np.diff(index_ray) >= 0).all()
+    distance = np.linalg.norm(points - origins[index_ray], axis=1)
+    same_ray = np.diff(index_ray) == 0
+    assert (np.diff(distance)[same_ray] > 0).all()
+    tri, ray, near = ours.intersects_id(
+        origins, directions, multiple_hits=False, return_locations=True
+    )
+    assert len(np.unique(ray)) == len(ray) and len(near) == len(tri)
+    assert np.array_equal(ours.intersects_first(origins, directions)[ray], tri)
+
+
+def test_corners_and_edges_count_once():
+    mesh = trimesh.creation.box()
+    engine = RayMeshIntersector(mesh)
+    targets = np.concatenate([mesh.vertices, mesh.vertices[mesh.edges_unique].mean(axis=1)])
+    origins = np.zeros_like(targets)
+    assert engine.intersects_any(origins, targets).all()
+    _, index_ray, _ = engine.intersects_location(origins, targets)
+    assert (np.bincount(index_ray, minlength=len(targets)) == 1).all()
+    index_tri, _ = engine.intersects_id(origins, targets)
+    assert len(index_tri) > len(targets)  # all triangles that share them
+    few, ray = engine.intersects_id(origins, targets, max_hits=1)
+    assert len(few) == len(targets) and np.array_equal(ray, np.arange(len(targets)))
+
+
+def test_contains():
+    mesh = trimesh.creation.icosphere(subdivisions=3)
+    mesh.ray = RayMeshIntersector(mesh)
+    assert mesh.contains(mesh.vertices * 0.99).all()
+    assert not mesh.contains(mesh.vertices * 1.01).any()
+    assert mesh.ray.contains_points(mesh.vertices).all()
+    assert mesh.contains([mesh.center_mass]).all()
+    # trimesh's own users of the engine.
+    depth = trimesh.proximity.signed_distance(mesh, [[0, 0, 0.5], [0, 0, 2]])
+    assert depth[0] > 0 > depth[1]
+    assert (trimesh.proximity.thickness(mesh, mesh.triangles_center[:20], method="ray") > 1).all()
+    with pytest.raises(ValueError, match=r"\(n,3\)"):
+        mesh.ray.contains_points([[1, 2]])
+
+
+def test_nothing_and_wrong_input():
+    engine = RayMeshIntersector(trimesh.creation.box())
+    empty = np.zeros((0, 3))
+    assert [len(x) for x in engine.intersects_id(empty, empty, return_locations=True)] == [0, 0, 0]
+    assert engine.intersects_location(empty, empty)[0].shape == (0, 3)
+    assert engine.intersects_first([[9, 9, 9]], [[0, 0, 1]]).tolist() == [-1]
+    assert engine.intersects_first([[9, 9, 9]], [[0, 0, 0]]).tolist() == [-1]
+    with pytest.raises(ValueError, match="same|both"):
+        engine.intersects_any([[0, 0, 0]], [[0, 0, 1]] * 2)
+
+
+def test_changes_and_copies():
+    mesh = trimesh.creation.box()
+    mesh.ray = RayMeshIntersector(mesh)
+    assert mesh.ray.intersects_any([[0.9, 0, 5]], [[0, 0, -1]]).tolist() == [False]
+    mesh.apply_scale(2)
+    assert mesh.ray.intersects_any([[0.9, 0, 5]], [[0, 0, -1]]).tolist() == [True]
+    for other in (
+        copy.deepcopy(mesh.ray),
+        copy.copy(mesh.ray),
+        pickle.loads(pickle.dumps(mesh.ray)),
+    ):
+        assert other.intersects_any([[0.9, 0, 5]], [[0, 0, -1]]).all()
+
+
+def test_install():
+    """In another process, because it changes trimesh."""
+    code = """
+import microtrace.trimesh, trimesh
+microtrace.trimesh.install()
+mesh = trimesh.creation.box()
+assert isinstance(mesh.ray, microtrace.trimesh.RayMeshIntersector)
+assert mesh.contains([[0, 0, 0]]).all()
+"""
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_scenes():
+    scene = trimesh.Scene()
+    move = np.eye(4)
+    move[:3, 3] = 5, 0, 0
+    ball = trimesh.creation.icosphere()
+    ball.visual.vertex_colors = np.tile([255, 0, 0, 255], (len(ball.vertices), 1))
+    scene.add_geometry(trimesh.creation.box(), node_name="box")
+    scene.add_geometry(ball, node_name="ball", transform=move)
+    ours = mt.scene_of(scene)
+    assert [item.name for item in ours.objects] == ["box", "ball"]
+    prepared = ours.prepare()
+    assert prepared.intersect([5, 0, 9, 0, 0, -1], fields=("t", "object")).object == 1
+    picture = mt.render(
+        prepared, mt.look_at((5, 0, 9), (5, 0, 0)), (9, 9), aovs=["albedo", "object"]
+    )
+    assert picture.albedo[4, 4].tolist() == [1, 0, 0]
+    assert mt.scene_of(trimesh.creation.box()).prepare().is_closed()
+    with pytest.raises(TypeError, match="vertices and faces"):
+        mt.scene_of("mesh")
