@@ -19,6 +19,24 @@ SOURCE = Path(sys.argv[2]).resolve()
 ALL = "depth,distance,position,normal,face_normal,uv,barycentric,albedo,id"
 
 
+def distorted(camera, x, y, z):
+    """The pixel of a point right of, below and before the camera by the formulas of OpenCV's documentation, with sums over
+    powers."""
+    k = camera["distortion"]
+    if k["type"] == "fisheye":
+        across = math.hypot(x, y)
+        angle = math.atan2(across, z)
+        theta = angle + sum(k[f"k{i}"] * angle ** (2 * i + 1) for i in range(1, 5))
+        u, v = x * theta / across, y * theta / across
+    else:
+        a, b = x / z, y / z
+        r2 = a * a + b * b
+        factor = (1 + sum(k[f"k{i}"] * r2 ** i for i in range(1, 4))) / (1 + sum(k[f"k{i + 3}"] * r2 ** i for i in range(1, 4)))
+        u = a * factor + 2 * k["p1"] * a * b + k["p2"] * (r2 + 2 * a * a)
+        v = b * factor + k["p1"] * (r2 + 2 * b * b) + 2 * k["p2"] * a * b
+    return camera["fx"] * u + camera["cx"], camera["fy"] * v + camera["cy"]
+
+
 def transformed(rows, point):
     return [sum(r[k] * point[k] for k in range(3)) + r[3] for r in rows[:3]]
 
@@ -106,13 +124,17 @@ class Sidecar(ProgramTest):
             if camera["type"] == "perspective":
                 self.assertAlmostEqual(distance, math.sqrt(cx * cx + cy * cy + cz * cz), delta=size)
                 u, v = camera["cx"] - camera["fx"] * cx / cz, camera["cy"] + camera["fy"] * cy / cz
+            elif camera["type"] == "calibrated":
+                self.assertAlmostEqual(distance, math.sqrt(cx * cx + cy * cy + cz * cz), delta=size)
+                u, v = distorted(camera, cx, -cy, -cz)
             else:
                 self.assertAlmostEqual(distance, -cz, delta=size)
                 u = camera["cx"] + camera["pixels_per_unit"] * cx
                 v = camera["cy"] - camera["pixels_per_unit"] * cy
             self.assertAlmostEqual(u, x + 0.5, delta=1e-3)
             self.assertAlmostEqual(v, y + 0.5, delta=1e-3)
-            self.assertGreaterEqual(depth, camera["near"])
+            is_fisheye = camera.get("distortion", {}).get("type") == "fisheye"
+            self.assertGreaterEqual(distance if is_fisheye else depth, camera["near"])
             self.assertTrue(camera["far"] is None or depth <= camera["far"])
         self.assertGreater(checked, 50)
 
@@ -121,6 +143,29 @@ class Sidecar(ProgramTest):
                       "mesh.json", "gltf/cube.glb", "gltf/knot.glb"):
             with self.subTest(scene):
                 self.draw(scene)
+
+    def test_calibrated_cameras(self):
+        scene = json.loads((SOURCE / "scenes/calibrated.json").read_text())
+        for index, written in enumerate(scene["cameras"]):
+            with self.subTest(written["name"]):
+                sidecar, picture = self.draw("calibrated.json", "-c", written["name"])
+                camera, image = sidecar["camera"], written["image"]
+                # A picture of 60 x 45 is the resized image; OpenCV's pixel centers are integers.
+                self.assertAlmostEqual(camera["fx"], written["fx"] * 60 / image["width"], places=12)
+                self.assertAlmostEqual(camera["fy"], written["fy"] * 45 / image["height"], places=12)
+                self.assertAlmostEqual(camera["cx"], (written["cx"] + 0.5) * 60 / image["width"], places=12)
+                self.assertAlmostEqual(camera["cy"], (written["cy"] + 0.5) * 45 / image["height"], places=12)
+                for name, value in camera["distortion"].items():
+                    self.assertEqual(value, written["distortion"].get(name, 0))
+                if index == 1:  # in the axes of OpenCV
+                    for r in range(3):
+                        for c in range(4):
+                            sign = 1 if r == 0 else -1
+                            self.assertAlmostEqual(camera["camera_from_world"][r][c] * sign, written["extrinsic"][r][c], places=12)
+                if index == 2:  # the picture shows what is behind the camera, and has no rays in its corners
+                    depths = picture.channels["depth.Z"]
+                    self.assertLess(min(min(row) for row in depths), -5)
+                    self.assertTrue(all(math.isinf(depths[y][x]) for y in (0, 44) for x in (0, 59)))
 
     def test_views_and_crops(self):
         self.draw("gltf/cube.glb", "--view", "-33,71")

@@ -1,13 +1,17 @@
+#include <microtrace/aov.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <mutex>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -79,6 +83,59 @@ TEST(Render, StopsIfProgressReturnsFalse) {
     }
     // The callback is not called again after it cancels.
     EXPECT_EQ(calls, 3);
+  }
+}
+
+TEST(Render, PixelsWithoutRaysAreBlackOrTransparent) {
+  // A fisheye camera in a white sphere, in the light of an environment: the image circle has a
+  // radius of 10 pi pixels.
+  Scene scene;
+  scene.background = Vec3(0.5F);
+  scene.environment = Environment{.content = Vec3(0.25F), .is_background = true};
+  scene.objects.push_back({.name = "", .shape = Sphere{{0, 0, 0}, 3}, .material = 0});
+  scene.materials.push_back({.emissive = Vec3(1)});
+  const ImageSize size{.width = 100, .height = 80};
+  const Camera camera = CalibratedCamera{
+      .image = size, .fx = 10, .fy = 10, .cx = 49.5, .cy = 39.5, .distortion = FisheyeDistortion{}};
+  const auto distance_to_circle = [](double x, double y) {
+    return std::hypot(x + 0.5 - 50, y + 0.5 - 40) - 10 * std::numbers::pi;
+  };
+  const PathIntegrator path(PathOptions{});
+  const AovIntegrator depth(Aov::distance);
+  for (const bool has_surface : {true, false}) {
+    if (!has_surface) scene.objects.clear();
+    for (const bool transparent : {false, true}) {
+      const RenderOptions options{
+          .threads = 1, .aovs = {Aov::depth, Aov::id}, .transparent = transparent};
+      RenderOptions path_options = options;
+      path_options.integrator = &path;
+      Film flat = render(scene, camera, size, options);
+      Film lit = render(scene, camera, size, path_options);
+      Film numbers = render(scene, camera, size,
+                            {.threads = 1, .integrator = &depth, .transparent = transparent});
+      const auto& depths = std::get<std::vector<float>>(flat.channels.at(0).values);
+      const auto& ids = std::get<std::vector<std::uint32_t>>(flat.channels.at(1).values);
+      for (std::uint32_t y = 0; y < size.height; ++y) {
+        for (std::uint32_t x = 0; x < size.width; ++x) {
+          const double distance = distance_to_circle(x, y);
+          const bool outside = distance > 0;
+          const bool shows = !outside && has_surface;
+          const std::size_t i = std::size_t{y} * size.width + x;
+          EXPECT_EQ(std::isinf(depths[i]), !shows) << x << " " << y;
+          EXPECT_EQ(ids[i], shows ? 1 : 0);
+          EXPECT_EQ(std::isinf(numbers.at(x, y).x), !shows);
+          EXPECT_EQ(flat.at(x, y) == Vec3(0), outside || (transparent && !has_surface));
+          if (transparent) {
+            EXPECT_EQ(flat.alpha_at(x, y), shows ? 1 : 0);
+          }
+          if (std::abs(distance) < 1) continue;  // path tracing has random positions in the pixel
+          EXPECT_EQ(lit.at(x, y) == Vec3(0), outside) << x << " " << y;
+          if (transparent) {
+            EXPECT_EQ(lit.alpha_at(x, y), outside ? 0 : 1);
+          }
+        }
+      }
+    }
   }
 }
 

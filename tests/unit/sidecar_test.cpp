@@ -120,5 +120,34 @@ TEST(Sidecar, CamerasByHand) {
   EXPECT_FALSE(parallel.contains("fx"));
 }
 
+TEST(Sidecar, CalibratedCameras) {
+  const Film film({.width = 100, .height = 50});
+  CalibratedCamera camera{.image = {.width = 200, .height = 50},
+                          .fx = 300,
+                          .fy = 301,
+                          .cx = 99.25,
+                          .cy = 24,
+                          .distortion = RationalDistortion{1, 2, 3, 4, 5, 6, 7, 8}};
+  json c = json::parse(describe_picture(Scene{}, camera, film, ""))["camera"];
+  EXPECT_EQ(c["type"], "calibrated");
+  EXPECT_EQ(c["fx"], 150);
+  EXPECT_EQ(c["fy"], 301);
+  EXPECT_EQ(c["cx"], 49.875);  // (99.25 + 1/2) / 2
+  EXPECT_EQ(c["cy"], 24.5);
+  EXPECT_EQ(c["distortion"], json({{"type", "rational"},
+                                   {"k1", 1},
+                                   {"k2", 2},
+                                   {"p1", 3},
+                                   {"p2", 4},
+                                   {"k3", 5},
+                                   {"k4", 6},
+                                   {"k5", 7},
+                                   {"k6", 8}}));
+  camera.distortion = FisheyeDistortion{0.1, 0.2, 0.3, 0.4};
+  c = json::parse(describe_picture(Scene{}, camera, film, ""))["camera"];
+  EXPECT_EQ(c["distortion"],
+            json({{"type", "fisheye"}, {"k1", 0.1}, {"k2", 0.2}, {"k3", 0.3}, {"k4", 0.4}}));
+}
+
 }  // namespace
 }  // namespace microtrace

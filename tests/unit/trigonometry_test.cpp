@@ -59,6 +59,21 @@ TEST(Trigonometry, ArctangentStaysWithinFourUnitsInTheLastPlace) {
   EXPECT_EQ(atan_radians(-HUGE_VAL), -std::numbers::pi / 2);
 }
 
+TEST(Trigonometry, AnglesOfVectorsAreInAllQuadrants) {
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 100000; ++i) {
+    const double x = normal(random), y = normal(random);
+    ASSERT_NEAR(atan2_radians(y, x), std::atan2(y, x), 1e-15) << y << " " << x;
+  }
+  constexpr double kPi = std::numbers::pi;
+  EXPECT_EQ(atan2_radians(0, 0), 0);
+  EXPECT_EQ(atan2_radians(0, 2), 0);
+  EXPECT_EQ(atan2_radians(0, -2), kPi);
+  EXPECT_EQ(atan2_radians(3, 0), kPi / 2);
+  EXPECT_EQ(atan2_radians(-3, -0.0), -kPi / 2);
+}
+
 TEST(Trigonometry, HalfAngles) {
   EXPECT_NEAR(sin_degrees(30), 0.5, 1e-16);
   EXPECT_NEAR(tan_radians(radians_from_degrees(45)), 1, 2e-16);
