@@ -52,15 +52,18 @@ class HitFinder {
       const auto order = exactly.order(a.id, b.id);
       return order < 0 || (order == 0 && a.id < b.id);
     });
-    const HitResolver resolver(primitives_, ray_);
+    const auto rounded_t = [&](const BoundedHit& hit) {
+      const auto below = static_cast<float>(hit.lo), above = static_cast<float>(hit.hi);
+      return below == above ? below : exactly.t(hit.id);
+    };
     if (tree_.duplicates.empty()) {
-      for (const BoundedHit& hit : found_) hits.push_back(resolver.hit(hit.id));
+      for (const BoundedHit& hit : found_) hits.push_back({.id = hit.id, .t = rounded_t(hit)});
       return;
     }
     // The ids of duplicates interleave with those of other primitives at the same t.
     for (std::size_t i = 0; i < found_.size();) {
       const std::size_t first = hits.size();
-      const float t = resolver.hit(found_[i].id).t;
+      const float t = rounded_t(found_[i]);
       std::size_t end = i;
       do {
         for_each_duplicate(tree_.duplicates, found_[end].id,
