@@ -28,12 +28,12 @@ std::uint64_t scrambled(std::uint64_t x) {
 /// Along the axis of the shortest way out of the tree's bounds, where there is least to cross, and
 /// slightly turned, by other random numbers in each attempt, because many meshes have edges
 /// parallel to the axes.
-Vec3 Locator::direction(const Vec3& p, std::uint64_t attempt) const {
+Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attempt) {
   int axis = 0;
   bool is_negative = false;
   float least = std::numeric_limits<float>::infinity();
   for (int k = 0; k < 3; ++k) {
-    const float below = p[k] - target_.tree.bounds.lo[k], above = target_.tree.bounds.hi[k] - p[k];
+    const float below = p[k] - bounds.lo[k], above = bounds.hi[k] - p[k];
     if (below < least) axis = k, is_negative = true, least = below;
     if (above < least) axis = k, is_negative = false, least = above;
   }
@@ -101,7 +101,9 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
 Location Locator::locate(const Vec3& p, Poll& poll) {
   if (!exact::is_finite(p)) return Location::outside;
   for (std::uint64_t attempt = 0;; ++attempt) {
-    if (const auto location = locate_along(p, direction(p, attempt), poll)) return *location;
+    if (const auto location =
+            locate_along(p, crossing_direction(target_.tree.bounds, p, attempt), poll))
+      return *location;
   }
 }
 

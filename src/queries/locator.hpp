@@ -13,6 +13,9 @@
 
 namespace microtrace {
 
+/// The direction of the ray that decides the location of p in an attempt, the first of which is 0.
+[[nodiscard]] Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attempt);
+
 class Locator {
  public:
   Locator(const TreeTarget& target, Selection selection) : target_(target), selection_(selection) {}
@@ -23,7 +26,6 @@ class Locator {
  private:
   /// Nothing if a ray in this direction can't decide.
   [[nodiscard]] std::optional<Location> locate_along(const Vec3& p, const Vec3& d, Poll& poll);
-  [[nodiscard]] Vec3 direction(const Vec3& p, std::uint64_t attempt) const;
 
   TreeTarget target_;
   Selection selection_;

@@ -3,6 +3,7 @@
 #include "exact/crossing.hpp"
 #include "exact/intersect.hpp"
 #include "exact/nearest.hpp"
+#include "queries/locator.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/adversarial_scenes.hpp"
 #include "support/closed_bodies.hpp"
@@ -191,6 +192,31 @@ TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
   }
   EXPECT_GT(inside, 1000U);
   EXPECT_GT(boundary, 1000U);
+}
+
+// The first ray from the origin passes exactly through a vertex, and through the middle of an edge.
+TEST(Solid, TriesAnotherRayAtEdgesAndVertices) {
+  // The tree of a few triangles has no bounds.
+  const Vec3 d = crossing_direction(Bounds(), Vec3(0), 0);
+  const Mesh octahedron{
+      .positions = {d, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}, -d},
+      .triangles = {
+          {0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}, {5, 2, 1}, {5, 3, 2}, {5, 4, 3}, {5, 1, 4}}};
+  const Mesh tetrahedron{
+      .positions = {{d.x, 2 * d.y, d.z}, {d.x, 0, d.z}, -d + Vec3(0, 0, 3), -d - Vec3(0, 0, 3)},
+      .triangles = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}}};
+  Random random(66);
+  for (const Mesh& mesh : {octahedron, tetrahedron}) {
+    bool is_grazing = false;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      is_grazing |= exact::crossing(triangle_of(mesh, i), Vec3(0), d) == exact::Crossing::grazing;
+    EXPECT_TRUE(is_grazing);
+    const Vec3 p(0);
+    Location location = Location::outside;
+    Solid{PreparedScene(scene_of(mesh))}.locate(std::span(&p, 1), std::span(&location, 1));
+    EXPECT_EQ(location, location_by_definition(mesh, p, random));
+    EXPECT_EQ(location, Location::inside);
+  }
 }
 
 TEST(Solid, FindsTheNearestOfAllTriangles) {
