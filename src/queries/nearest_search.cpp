@@ -18,7 +18,7 @@ namespace {
 /// Relative errors of results that float64 may have.
 constexpr double kDistanceError = 0x1p-40, kPositionError = 0x1p-42;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
 
 /// One number for each lane of a node or a block.
 using Distances = std::array<double, kWidth>;
@@ -82,7 +82,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       target_.kernels.box_distances(node, &point.x, distances.data());
       const std::size_t first = size;
       for (std::size_t i = 0; i < kWidth; ++i) {
-        if (!(distances[i] <= limit_) || distances[i] == kInfinity) continue;
+        if (!(distances[i] <= limit_) || distances[i] == kInfinitelyFar) continue;
         // The nearest is on top.
         std::size_t k = size++;
         for (; k > first && stack[k - 1].squared_distance < distances[i]; --k)
@@ -114,7 +114,7 @@ std::optional<NearestPoint> NearestSearch::nearest(const Vec3& p, Poll& poll) {
   if (!exact::is_finite(p)) return std::nullopt;
   best_.reset();
   exact_best_.reset();
-  limit_ = kInfinity;
+  limit_ = kInfinitelyFar;
   for (const PrimitiveId id : target_.tree.unbounded) {
     poll();
     if (const auto triangle = target_.primitives.triangle(id)) consider(id, *triangle, p);

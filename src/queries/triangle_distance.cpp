@@ -13,8 +13,6 @@
 namespace microtrace {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double largest(const DVec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -62,7 +60,7 @@ bool is_negative(double x, double error) {
 /// Sets feature, weights, is_certain and position_error.
 void find_nearest(const Regions& r, TriangleDistance& result) {
   result.is_certain = false;
-  result.position_error = kInfinity;
+  result.position_error = std::numeric_limits<double>::infinity();
   // The point is nearest to vertex i if it is before it along the edge that starts there, and
   // beyond it along the edge that ends there.
   for (std::size_t i = 0; i < 3; ++i) {
