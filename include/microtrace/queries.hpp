@@ -23,7 +23,7 @@ struct QueryOptions {
   unsigned threads = 0;  ///< 0: default_threads()
   /// See RenderOptions::run_threads.
   std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
-  /// Called some 50 times per second by each working thread, the caller's included, with the
+  /// Called about 50 times per second by each working thread, including the caller's, with the
   /// fraction of the rays or points that are done, in [0, 1]; by one thread at a time. If it
   /// returns false, the query stops at once and throws Error (canceled); its results are then
   /// unspecified.
@@ -41,8 +41,8 @@ struct RayHits {
   }
 };
 
-/// All hits of each ray in the order (t, PrimitiveId), the same as those that
-/// PreparedScene::intersect and then repeated PreparedScene::next return, but faster. Each
+/// All hits of each ray in the order (t, PrimitiveId). They equal the results of
+/// PreparedScene::intersect and repeated calls of PreparedScene::next, but are found faster. Each
 /// primitive counts once. Throws Error: limit if memory runs out; canceled.
 [[nodiscard]] MICROTRACE_EXPORT RayHits intersect_all(const PreparedScene& scene,
                                                       std::span<const Ray> rays,
@@ -60,30 +60,32 @@ enum class Location : std::uint8_t { outside, boundary, inside };
 
 /// The point of a solid's surface that is nearest to a given point.
 struct NearestPoint {
-  PrimitiveId id = 0;           ///< the nearest triangle; of several the one with the lowest number
+  PrimitiveId id = 0;           ///< the nearest triangle; if several are equally near, the one with
+                                ///< the lowest number
   double distance = 0;          ///< 0 only if the given point is on the surface
   DVec3 p{0};                   ///< position, world space
   DVec3 barycentrics{1, 0, 0};  ///< weights of the triangle's vertices: none negative, their sum 1
                                 ///< up to rounding
 };
 
-/// An edge of an odd number of triangles.
+/// An edge that belongs to an odd number of triangles.
 struct OpenEdge {
-  PrimitiveId triangle = 0;  ///< the lowest number of these triangles
+  PrimitiveId triangle = 0;  ///< the triangle with the lowest number among them
   std::uint32_t side = 0;    ///< of this triangle; 0: from a to b, 1: from b to c, 2: from c to a
   std::uint32_t count = 1;   ///< number of triangles with the edge
   DVec3 a{0}, b{0};          ///< ends, world space
 };
 
-/// The triangles of a scene, both meshes' and single ones, as the surface of a solid. Other shapes
-/// don't count.
+/// The triangles of a scene, in meshes or alone, as the surface of a solid. Other shapes are
+/// ignored.
 ///
-/// A point is on the boundary if it is in a triangle, a closed set; else it is inside if a ray from
-/// it crosses an odd number of triangles. The ray avoids all edges and vertices. This is decided
-/// for the real numbers that the float32 numbers of the scene and the point represent, so it is
-/// never wrong for a closed surface, in which each edge belongs to an even number of triangles.
-/// Vertices at equal positions are one vertex here, as glTF duplicates vertices at seams; triangles
-/// may be oriented in any way, intersect, or coincide. docs/exactness.md has the definitions.
+/// A point is on the boundary if it is in a triangle, which is a closed set. Otherwise it is inside
+/// if a ray from it that avoids all edges and vertices crosses an odd number of triangles. This is
+/// decided for the real numbers that the float32 numbers of the scene and the point represent. It
+/// is therefore never wrong for a closed surface, in which each edge belongs to an even number of
+/// triangles. Vertices at equal positions are one vertex here, as glTF duplicates vertices at
+/// seams; triangles may be oriented in any way, intersect, or coincide. docs/exactness.md has the
+/// definitions.
 ///
 /// Points are in world space. If Scene::origin is not zero, they are translated in float64 and
 /// rounded to float32 once, as PreparedScene does with the origins of rays.
@@ -110,11 +112,11 @@ class MICROTRACE_EXPORT Solid {
   void locate(std::span<const Vec3> points, std::span<Location> locations,
               const QueryOptions& options = {}) const;
 
-  /// nearest[i] is the point of the surface that is nearest to points[i]; nothing if that is not
-  /// finite or there are no triangles. Both spans have the same size. The triangle is the nearest
-  /// over the real numbers. The distance has a relative error of at most 2^-38; the position, which
-  /// is a point of the triangle, an error of at most 2^-40 times the largest magnitude of the
-  /// differences between the coordinates of the point and the triangle's vertices, plus the
+  /// nearest[i] is the point of the surface that is nearest to points[i]; nothing if points[i] is
+  /// not finite or there are no triangles. Both spans have the same size. The triangle is the
+  /// nearest over the real numbers. The distance has a relative error of at most 2^-38. The
+  /// position is a point of the triangle. Its error is at most 2^-40 times the largest magnitude of
+  /// the differences between the coordinates of the point and the triangle's vertices, plus the
   /// rounding of its coordinates to float64. Bits are the same on every machine. Throws Error
   /// (canceled).
   void nearest_points(std::span<const Vec3> points, std::span<std::optional<NearestPoint>> nearest,

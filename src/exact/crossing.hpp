@@ -1,5 +1,5 @@
 #pragma once
-/// How rays from a point cross triangles, for the parity of crossings.
+/// Classifies how a ray from a point crosses a triangle, to count crossings.
 
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
@@ -7,13 +7,13 @@
 namespace microtrace::exact {
 
 enum class Crossing {
-  none,     ///< no common point
-  proper,   ///< in one point, which is on no edge
-  grazing,  ///< at an edge or a vertex, or within the triangle's plane
+  none,     ///< the ray and the triangle have no common point
+  proper,   ///< the ray crosses at one point that is on no edge
+  grazing,  ///< the ray meets an edge or a vertex, or runs within the triangle's plane
   origin,   ///< the ray's origin is in the triangle
 };
 
-/// How the ray o + t d, t >= 0, meets a triangle. All numbers must be finite and d not zero.
+/// Classifies the ray o + t d, t >= 0. All numbers must be finite, and d must not be zero.
 [[nodiscard]] Crossing crossing(const Triangle& triangle, const Vec3& o, const Vec3& d);
 
 }  // namespace microtrace::exact

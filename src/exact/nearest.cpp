@@ -69,7 +69,7 @@ Nearest nearest(const Triangle& triangle, const Vec3& p) {
 double distance(const Nearest& nearest) {
   const auto& [p, r] = nearest.squared_distance;
   if (p.sign() == 0) return 0;
-  // An even power of two comes out of the root, so that squares may exceed the range of float64.
+  // Takes an even power of two out of the root, so that squares may exceed the range of float64.
   const Leading x = p.leading(), y = r.leading();
   const int exponent = x.exponent - y.exponent, odd = exponent & 1;
   return std::ldexp(std::sqrt(std::ldexp(x.mantissa / y.mantissa, odd)), (exponent - odd) / 2);

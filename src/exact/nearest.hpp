@@ -15,7 +15,8 @@ namespace microtrace::exact {
 struct Nearest {
   std::array<Dyadic, 3> weights;   ///< of the triangle's vertices, not negative
   Dyadic total;                    ///< sum of the weights, positive
-  Ratio<Dyadic> squared_distance;  ///< of degree 6 at most, over degree 4 at most
+  Ratio<Dyadic> squared_distance;  ///< a form of degree 6 at most, divided by one of degree 4 at
+                                   ///< most
 };
 
 /// All numbers must be finite. A triangle is the convex hull of its vertices, which may be equal.
@@ -26,10 +27,11 @@ struct Nearest {
   return compare(x.squared_distance, y.squared_distance);
 }
 
-/// Rounded to float64 with a relative error of at most 2^-48; 0 only if it is 0.
+/// The distance rounded to float64, with a relative error of at most 2^-48. It is 0 only if the
+/// exact distance is 0.
 [[nodiscard]] double distance(const Nearest& nearest);
 
-/// The weights divided by their sum, each with that error.
+/// The weights divided by their sum, each with the same error bound.
 [[nodiscard]] DVec3 barycentrics(const Nearest& nearest);
 
 }  // namespace microtrace::exact

@@ -11,13 +11,13 @@
 
 namespace microtrace {
 
-/// Lets a thread report progress, and stop.
+/// Lets a thread report progress, and stops it when the query is canceled.
 class Poll {
  public:
   /// report() throws if the thread must stop.
   explicit Poll(const std::function<void()>& report) : report_(report) {}
 
-  /// To be called after some microseconds of work. Throws Error (canceled).
+  /// Must be called after every few microseconds of work. Throws Error (canceled).
   void operator()() {
     if (++calls_ % kCallsPerLook == 0) look();
   }
@@ -33,7 +33,7 @@ class Poll {
   Clock::time_point last_ = Clock::now();
 };
 
-/// f(), but Error (limit) in place of std::bad_alloc.
+/// Calls f() and converts std::bad_alloc to Error (limit).
 template <class F>
 auto limiting_memory(const F& f) {
   try {

@@ -17,9 +17,9 @@ double largest(const DVec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The triangle relative to the point, and bounds of the errors of the numbers that tell in which
-/// region the point is. u is the unit roundoff; the bounds allow more roundings than there are, for
-/// second-order terms and their own roundings.
+/// The triangle relative to the point, with error bounds of the numbers that determine the region
+/// of the point. u is the unit roundoff; the bounds allow more roundings than there are, which
+/// covers second-order terms and the roundings of the bounds.
 class Regions {
  public:
   Regions(const Triangle& t, const Vec3& p)
@@ -74,8 +74,8 @@ void find_nearest(const Regions& r, TriangleDistance& result) {
     result.position_error = 0;
     return;
   }
-  // It is nearest to an edge if it is outside of it and between its ends. Of several edges, which
-  // only roundings cause, any will do.
+  // The point is nearest to an edge if it is outside of the edge and between its ends. If roundings
+  // make this true for several edges, any of them is accurate enough.
   for (std::size_t i = 0; i < 3; ++i) {
     if (!(r.side[i] <= 0 && r.from_start[i] >= 0 && r.from_end[i] >= 0)) continue;
     const std::size_t j = (i + 1) % 3;
@@ -95,11 +95,11 @@ void find_nearest(const Regions& r, TriangleDistance& result) {
   }
   const double total = r.side[0] + r.side[1] + r.side[2];
   result.feature = Feature::face;
-  if (!(total > 0)) {  // a triangle without area
+  if (!(total > 0)) {  // the triangle has no area
     result.weights = DVec3(1, 0, 0);
     return;
   }
-  // The side of an edge is the weight of the opposite vertex.
+  // The weight of a vertex is the side of the opposite edge.
   const double b = std::clamp(r.side[2] / total, 0.0, 1.0);
   const double c = std::clamp(r.side[0] / total, 0.0, 1 - b);
   result.weights = DVec3(1 - b - c, b, c);

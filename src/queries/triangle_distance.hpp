@@ -8,16 +8,17 @@
 
 namespace microtrace {
 
-/// Where the nearest point of a triangle is.
+/// The part of a triangle on which the nearest point lies.
 enum class Feature : std::uint8_t { a, b, c, ab, bc, ca, face };
 
 struct TriangleDistance {
   double lo, hi;    ///< bounds of the exact distance
-  DVec3 weights;    ///< barycentric coordinates of a point of the triangle: the nearest, about
+  DVec3 weights;    ///< barycentric coordinates of a point of the triangle that is approximately
+                    ///< the nearest
   Feature feature;  ///< of the nearest point
   bool is_certain;  ///< whether `feature` is known to be right
-  double position_error;  ///< if so, the distance of that point from the nearest, at most, without
-                          ///< the rounding of its coordinates
+  double position_error;  ///< if so, the maximum distance between this point and the nearest one,
+                          ///< without the rounding of its coordinates
   double size;            ///< the largest |component| of the vertices relative to p
 };
 

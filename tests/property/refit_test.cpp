@@ -161,7 +161,7 @@ std::vector<Ray> rays_in(const Scene& scene, Random& random, std::size_t count) 
     const Vec3 a = point(), b = point(), c = 0.5F * a + 0.5F * point();
     const Vec3 from = rays.size() % 2 == 0 ? a + 3.0F * (a - b) : c;
     rays.push_back({.o = from, .d = b - from});
-    if (rays.size() % 3 == 0)  // a packet's common origin
+    if (rays.size() % 3 == 0)  // some rays have a common origin, as in a packet
       for (int i = 0; i < 9; ++i) rays.push_back({.o = from, .d = point() - from});
   }
   return rays;

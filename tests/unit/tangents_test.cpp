@@ -137,8 +137,8 @@ TEST(Tangents, WeightTrianglesByAngle) {
                                                     .normals = mesh.normals,
                                                     .uv = mesh.uv_sets[0],
                                                     .triangles = mesh.triangles});
-  // d p / d u of the second: p(0, -1) = (0, 1), p(-1, -2) = (-1, 1), so p = (u, ...): solve.
-  // Columns: u e + v f with -f = (0, 1) and -e - 2 f = (-1, 1): e = (1, 1), f = (0, -1).
+  // The columns e and f of d p / d (u, v) of the second triangle satisfy -f = (0, 1) and -e - 2 f =
+  // (-1, 1): e = (1, 1), f = (0, -1).
   const double half = std::sqrt(0.5);
   const DVec3 sum = (kPi / 2) * DVec3(1, 0, 0) + (kPi / 4) * DVec3(half, half, 0);
   expect_near(shared[0], Vec4(Vec3(sum / std::sqrt(glm::dot(sum, sum))), 1));

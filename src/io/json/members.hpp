@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Duplicate keys of an object, by the byte offsets of the keys.
+/// The duplicate keys of an object, by their byte offsets.
 struct RepeatedMembers {
   std::vector<std::size_t> outdone{};  ///< keys that are repeated later; ascending
   std::size_t first = 0;               ///< the first key that repeats an earlier one

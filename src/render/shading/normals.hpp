@@ -19,7 +19,8 @@ Tangent<N> tangent_along(const Floats3<N>& sum, const Float<N>& handedness, cons
   return {along / square_root<N>(square), square > 0 ? handedness : Float<N>{}};
 }
 
-/// The normal for a texel of a normal texture whose x and y are scaled; without tangents n.
+/// The normal for a texel of a normal texture; the texel's x and y are already scaled. Returns n if
+/// there is no tangent.
 template <int N>
 Floats3<N> mapped_normal(const Floats3<N>& n, const Tangent<N>& tangent, const Floats3<N>& texel,
                          const Float<N>& scale) {

@@ -19,7 +19,7 @@ double length_of(const DVec2& v) {
 }  // namespace
 
 FisheyeLens::FisheyeLens(const FisheyeDistortion& k) : k_(k) {
-  // The angles up to which the derivative, a polynomial in the square, is positive.
+  // The derivative, a polynomial in the square of the angle, is positive up to this angle.
   const double square = least_positive_root({1, 3 * k.k1, 5 * k.k2, 7 * k.k3, 9 * k.k4});
   max_angle_ = std::min(std::sqrt(square), std::numbers::pi);
   max_distorted_ = distorted(max_angle_);

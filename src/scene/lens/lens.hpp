@@ -18,8 +18,8 @@ class Lens {
  public:
   explicit Lens(const Distortion& distortion);
 
-  /// The direction that appears at an image point, nothing if there is none. Rational: of depth 1;
-  /// fisheye: of unit length.
+  /// The direction that appears at an image point; nothing if there is none. It has depth 1 for
+  /// rational lenses, and unit length for fisheye lenses.
   [[nodiscard]] std::optional<DVec3> direction(const DVec2& image) const {
     return std::visit([&](const auto& lens) { return lens.direction(image); }, lens_);
   }
@@ -29,8 +29,8 @@ class Lens {
     return std::visit([&](const auto& lens) { return lens.image(direction); }, lens_);
   }
 
-  /// The derivatives of the unit direction d with respect to its image point. They are finite
-  /// where the distortion can't be inverted, too.
+  /// The derivatives of the unit direction d with respect to its image point. They are finite even
+  /// where the distortion can't be inverted.
   [[nodiscard]] LensDifferential differential(const DVec3& d) const {
     return std::visit([&](const auto& lens) { return lens.differential(d); }, lens_);
   }

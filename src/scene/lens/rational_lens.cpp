@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// Undistorted points farther than this from the axis, within a millionth of a radian of the
-/// perpendicular directions, have no ray, so that nothing overflows.
+/// Undistorted points farther than this from the axis have no ray, so that nothing overflows. Their
+/// directions are within a millionth of a radian of perpendicular to the axis.
 constexpr double kMaxRadius = 1e6;
 
 /// A polynomial's coefficients, the constant first.
@@ -81,7 +81,7 @@ RationalLens::Jacobian RationalLens::jacobian(const DVec2& u) const {
 }
 
 DVec2 RationalLens::Jacobian::solve(const DVec2& w) const {
-  // At least this, so that rounding at the edge of the invertible disk gives finite numbers.
+  // A minimum keeps numbers finite if rounding puts the point at the edge of the invertible disk.
   constexpr double kLeast = 1e-9;
   return DVec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) / std::max(determinant(), kLeast);
 }
@@ -93,8 +93,8 @@ std::optional<DVec3> RationalLens::direction(const DVec2& image) const {
     if (!(length <= max_distorted_)) return std::nullopt;
     return DVec3(image * (undistorted_radius(length) / length), 1);
   }
-  // The solution in the disk is unique, so any start that leads to one will do. The first is the
-  // fastest.
+  // The solution in the disk is unique, so every start that converges gives it. The first start is
+  // the fastest.
   const double clamped = std::min(1.0, max_radius_ / length);
   std::optional<DVec2> u = undistorted(image, image * clamped);
   if (!u) u = undistorted(image, image * (undistorted_radius(length) / length));
