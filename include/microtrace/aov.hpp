@@ -18,10 +18,10 @@ namespace microtrace {
 /// vectors are in world space. Without a surface all values are 0, except depth and distance, which
 /// are infinite.
 ///
-/// To add one: a value here and in kAovs, its channels and its value in src/render/aovs/aov.cpp,
-/// its colors in 8-bit pictures in src/render/integrators/aov.cpp, its help text in
-/// src/cli/options/picture_options.cpp, a line in both tables of docs/outputs.md, a test in
-/// tests/unit/aov_test.cpp.
+/// To add one: a value here and in kAovs, its channels in src/render/aovs/aov.cpp, its value in
+/// src/render/aovs/sights.cpp, its colors in 8-bit pictures in src/render/integrators/aov.cpp, its
+/// help text in src/cli/options/picture_options.cpp, a line in both tables of docs/outputs.md, a
+/// test in tests/unit/aov_test.cpp.
 enum class Aov {
   depth,        ///< Z: along the viewing direction from the camera; environment camera: distance
   distance,     ///< T: from the camera's position; for an orthographic camera, from its plane

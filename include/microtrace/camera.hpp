@@ -16,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 
 namespace microtrace {
@@ -145,6 +146,9 @@ class MICROTRACE_EXPORT RayGenerator {
   /// Where a calibrated camera has no ray, the result has t_max = -1, so that it hits nothing.
   [[nodiscard]] Ray operator()(double x, double y) const;
 
+  /// The rays through the centers of consecutive pixels in a row, (x, y) first; faster.
+  void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const;
+
   /// The pixel coordinates at which a point appears, inside the picture or not: the inverse of
   /// operator(), without regard to the depth range. Nothing for points that no ray reaches, such as
   /// those behind a perspective camera.
@@ -153,6 +157,9 @@ class MICROTRACE_EXPORT RayGenerator {
   /// The depth of a point along the viewing direction, negative behind the camera; for an
   /// environment camera its distance.
   [[nodiscard]] double depth(const DVec3& point) const;
+  /// Those of the points (x[i], y[i], z[i]), rounded. All spans have the same size.
+  void depths(std::span<const double> x, std::span<const double> y, std::span<const double> z,
+              std::span<float> depths) const;
 
   [[nodiscard]] CameraModel model() const;
 
@@ -162,6 +169,9 @@ class MICROTRACE_EXPORT RayGenerator {
 
  private:
   friend class SegmentWidener;  // computes the inverse, from points to pixels
+
+  [[nodiscard]] MICROTRACE_HIDDEN Ray ray_at(double x, double y) const;
+  [[nodiscard]] MICROTRACE_HIDDEN double depth_at(const DVec3& point) const;
 
   // Perspective: the origin, and d ~ corner + x right + y down. Orthographic: the origin in the
   // same form, and a constant d. Environment and distorted: the frame, right, down and forward.

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 namespace microtrace {
 
@@ -25,6 +27,12 @@ class CameraRays {
     Ray ray = camera_(x, y);
     ray.t_min = std::max(ray.t_min, t_min_);
     return ray;
+  }
+
+  /// The rays through the centers of consecutive pixels in a row.
+  void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const {
+    camera_.centers(x, y, rays);
+    for (Ray& ray : rays) ray.t_min = std::max(ray.t_min, t_min_);
   }
 
  private:

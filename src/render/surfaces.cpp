@@ -12,8 +12,9 @@
 
 namespace microtrace {
 
-Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, SharedTables& tables)
-    : scene_(scene), primitives_(primitives), colors_(scene.textures.size()) {
+Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, const SurfaceFinder& finder,
+                   SharedTables& tables)
+    : scene_(scene), primitives_(primitives), finder_(finder), colors_(scene.textures.size()) {
   entries_.reserve(scene.objects.size());
   for (const Object& object : scene.objects) {
     const Material& material = material_of(scene, object);
@@ -21,9 +22,13 @@ Surfaces::Surfaces(const Scene& scene, const Primitives& primitives, SharedTable
     if (material.base_color_texture) {
       make_map(material.base_color_texture->texture, tables);
     }
-    Entry entry{.color = Vec3(material.base_color), .kind = Kind::plain};
-    if (material.alpha_mode != AlphaMode::opaque || material.base_color_texture ||
-        (mesh != nullptr && !mesh->colors.empty())) {
+    const bool is_opaque = material.alpha_mode == AlphaMode::opaque;
+    Entry entry{.color = Vec3(material.base_color),
+                .kind = Kind::plain,
+                .visibility = !is_opaque              ? Visibility::varies
+                              : material.double_sided ? Visibility::always
+                                                      : Visibility::in_front};
+    if (!is_opaque || material.base_color_texture || (mesh != nullptr && !mesh->colors.empty())) {
       entry.kind = Kind::various;
     } else if (!material.double_sided) {
       entry.kind = Kind::one_sided;

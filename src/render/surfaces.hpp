@@ -18,14 +18,28 @@
 namespace microtrace {
 
 class SharedTables;
+class SurfaceFinder;
 struct SurfaceInteraction;
 struct World;
+
+/// From where World::first_visible returns the hits of an object.
+enum class Visibility : std::uint8_t {
+  always,
+  in_front,  ///< if the ray arrives at the front
+  varies,    ///< depends on the point
+};
 
 /// Immutable; any number of threads may use it.
 class Surfaces {
  public:
   /// The arguments must outlive this object.
-  Surfaces(const Scene& scene, const Primitives& primitives, SharedTables& tables);
+  Surfaces(const Scene& scene, const Primitives& primitives, const SurfaceFinder& finder,
+           SharedTables& tables);
+
+  [[nodiscard]] const SurfaceFinder& finder() const { return finder_; }
+  [[nodiscard]] Visibility visibility(std::size_t object) const {
+    return entries_[object].visibility;
+  }
 
   /// See World::base_color.
   [[nodiscard]] Vec4 base_color(const World& world, const Ray& ray, const Hit& hit) const;
@@ -52,6 +66,7 @@ class Surfaces {
   struct Entry {
     Vec3 color;
     Kind kind;
+    Visibility visibility;
   };
 
   void make_map(std::uint32_t index, SharedTables& tables);
@@ -61,6 +76,7 @@ class Surfaces {
 
   const Scene& scene_;
   const Primitives& primitives_;
+  const SurfaceFinder& finder_;
   std::vector<Entry> entries_;                     // by object
   std::vector<std::optional<TextureMap>> colors_;  // by texture; nothing: white, or not needed
 };

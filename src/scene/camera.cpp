@@ -1,4 +1,6 @@
 #include "float_environment.hpp"
+#include "scene/kernels/dispatch.hpp"
+#include "scene/kernels/perspective.hpp"
 #include "scene/lens/lens.hpp"
 #include "scene/math/trigonometry.hpp"
 
@@ -108,20 +110,20 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
   std::visit(set, camera);
 }
 
-Ray RayGenerator::operator()(double x, double y) const {
-  const FloatEnvironment environment;
+Ray RayGenerator::ray_at(double x, double y) const {
   Ray ray;
   // `toward` is the direction, scaled to depth 1 or, for depth ranges of distances, to length 1.
   const auto set_direction = [&](const DVec3& toward) {
-    const double length = std::sqrt(glm::dot(toward, toward));
+    const LaneRays<1> lane = rays_toward<1>(toward, depth_.near, depth_.far);
+    // One by one, because copying a value that was just written in parts is slow.
     ray.o = Vec3(position_);
-    ray.d = Vec3(toward * (1 / length));
-    ray.t_min = at_least_above_zero(depth_.near * length);
-    ray.t_max = static_cast<float>(depth_.far * length);
+    ray.t_min = lane.t_min;
+    ray.d = lane.d;
+    ray.t_max = lane.t_max;
   };
   switch (kind_) {
     case Kind::perspective:
-      set_direction(corner_ + right_ * x + down_ * y);
+      set_direction(toward_pixel<1>(corner_, right_, down_, x, y));
       break;
     case Kind::orthographic:
       ray.o = Vec3(corner_ + right_ * x + down_ * y);
@@ -147,6 +149,27 @@ Ray RayGenerator::operator()(double x, double y) const {
       break;
   }
   return ray;
+}
+
+Ray RayGenerator::operator()(double x, double y) const {
+  const FloatEnvironment environment;
+  return ray_at(x, y);
+}
+
+void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const {
+  const FloatEnvironment environment;
+  if (kind_ == Kind::perspective) {
+    static const SceneKernels& kernels = kSceneKernels.best();
+    const PerspectiveRays camera{.corner = corner_,
+                                 .right = right_,
+                                 .down = down_,
+                                 .origin = Vec3(position_),
+                                 .near = depth_.near,
+                                 .far = depth_.far};
+    kernels.perspective_rays(camera, x + 0.5, y + 0.5, rays.data(), rays.size());
+    return;
+  }
+  for (Ray& ray : rays) ray = ray_at(x++ + 0.5, y + 0.5);
 }
 
 std::optional<DVec2> RayGenerator::project(const DVec3& point) const {
@@ -176,10 +199,21 @@ std::optional<DVec2> RayGenerator::project(const DVec3& point) const {
   return std::nullopt;
 }
 
-double RayGenerator::depth(const DVec3& point) const {
-  const FloatEnvironment environment;
+double RayGenerator::depth_at(const DVec3& point) const {
   const DVec3 way = point - position_;
   return kind_ == Kind::environment ? std::sqrt(glm::dot(way, way)) : glm::dot(way, forward_);
+}
+
+double RayGenerator::depth(const DVec3& point) const {
+  const FloatEnvironment environment;
+  return depth_at(point);
+}
+
+void RayGenerator::depths(std::span<const double> x, std::span<const double> y,
+                          std::span<const double> z, std::span<float> depths) const {
+  const FloatEnvironment environment;
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    depths[i] = static_cast<float>(depth_at({x[i], y[i], z[i]}));
 }
 
 CameraModel RayGenerator::model() const {

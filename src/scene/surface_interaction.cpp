@@ -1,3 +1,5 @@
+#include "scene/kernels/triangle.hpp"
+
 #include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
@@ -9,11 +11,10 @@
 namespace microtrace {
 namespace {
 
-/// The unit vector of v, or `otherwise` if v is zero. These squares can't overflow for float32
-/// input.
-DVec3 direction_of(const DVec3& v, const DVec3& otherwise) {
-  const double square = glm::dot(v, v);
-  return square > 0 && std::isfinite(square) ? v / std::sqrt(square) : otherwise;
+/// The unit vector of v, or `otherwise` if v is zero.
+DVec3 direction_or(const DVec3& v, const DVec3& otherwise) {
+  const auto direction = direction_of<1>(v);
+  return direction.exists ? direction.v : otherwise;
 }
 
 /// Barycentric weights of the point of the segment a b that is nearest to p.
@@ -23,13 +24,13 @@ DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
   return {1 - s, s};
 }
 
-/// Normal of the front side, with twice the area as length.
-DVec3 area_vector(const Triangle& s) {
-  return glm::cross(DVec3(s.b) - DVec3(s.a), DVec3(s.c) - DVec3(s.a));
+TriangleCorners<1> corners_of(const Triangle& s) {
+  return {DVec3(s.a), DVec3(s.b), DVec3(s.c)};
 }
 
 /// For triangles without area or seen exactly edge-on: the nearest point on the longest edge.
-DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) {
+DVec3 barycentrics_on_edge(const TriangleCorners<1>& t, const DVec3& p) {
+  const std::array corners{t.a, t.b, t.c};
   std::size_t longest = 0;
   double greatest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -43,20 +44,6 @@ DVec3 barycentrics_on_edge(const std::array<DVec3, 3>& corners, const DVec3& p) 
   result[static_cast<glm::length_t>(longest)] = weights.x;
   result[static_cast<glm::length_t>(other)] = weights.y;
   return result;
-}
-
-/// A vertex's weight is the volume spanned by the ray and the opposite edge.
-DVec3 barycentrics_of(const std::array<DVec3, 3>& corners, const Ray& ray, const Hit& hit) {
-  const DVec3 o(ray.o), d(ray.d);
-  const DVec3 a = corners[0] - o, b = corners[1] - o, c = corners[2] - o;
-  const DVec3 volumes(glm::dot(d, glm::cross(c, b)), glm::dot(d, glm::cross(a, c)),
-                      glm::dot(d, glm::cross(b, a)));
-  const double sum = volumes.x + volumes.y + volumes.z;
-  // The hit is inside the triangle, but rounding can give slightly negative weights.
-  const DVec3 weights = glm::max(volumes / sum, DVec3(0));
-  const double total = weights.x + weights.y + weights.z;
-  if (total > 0 && std::isfinite(total)) return weights / total;
-  return barycentrics_on_edge(corners, o + static_cast<double>(hit.t) * d);
 }
 
 /// The root of a t^2 + 2 b t + c near t, which is its float32 value: Newton's method, while it
@@ -82,7 +69,7 @@ class Interaction {
     const double r = s.radius;
     const double t = polished_root(glm::dot(d_, d_), glm::dot(from_center, d_),
                                    glm::dot(from_center, from_center) - r * r, hit_.t);
-    const DVec3 n = direction_of(from_center + t * d_, facing());
+    const DVec3 n = direction_or(from_center + t * d_, facing());
     return at(center + r * n, n);
   }
 
@@ -95,14 +82,16 @@ class Interaction {
     const DVec3 half = half_gradient(q, o_, 1);
     const double c = glm::dot(o_, half_gradient(q, o_, 2)) + double{q.j};
     const DVec3 p = o_ + polished_root(a, glm::dot(d_, half), c, hit_.t) * d_;
-    return at(p, direction_of(half_gradient(q, p, 1), facing()));
+    return at(p, direction_or(half_gradient(q, p, 1), facing()));
   }
 
   SurfaceInteraction operator()(const Triangle& s) const {
-    const std::array<DVec3, 3> corners{DVec3(s.a), DVec3(s.b), DVec3(s.c)};
-    const DVec3 w = barycentrics_of(corners, ray_, hit_);
-    SurfaceInteraction result = at(w.x * corners[0] + w.y * corners[1] + w.z * corners[2],
-                                   direction_of(area_vector(s), facing()));
+    const TriangleCorners<1> t = corners_of(s);
+    const auto inside = barycentrics_of<1>(t, o_, d_);
+    const DVec3 w =
+        inside.exists ? inside.v : barycentrics_on_edge(t, o_ + static_cast<double>(hit_.t) * d_);
+    SurfaceInteraction result =
+        at(weighted(w, t.a, t.b, t.c), direction_or(area_vector<1>(t), facing()));
     result.front = shows_front(s, ray_.d);
     result.triangle = TrianglePoint{.barycentrics = w, .mesh = nullptr, .corners = {}};
     const auto* mesh = std::get_if<Mesh>(&primitives_.scene().objects[result.object].shape);
@@ -111,10 +100,8 @@ class Interaction {
     result.triangle->mesh = mesh;
     result.triangle->corners = vertices;
     if (!mesh->normals.empty()) {
-      const DVec3 sum = w.x * DVec3(mesh->normals[vertices[0]]) +
-                        w.y * DVec3(mesh->normals[vertices[1]]) +
-                        w.z * DVec3(mesh->normals[vertices[2]]);
-      result.ns = direction_of(sum, result.n);
+      const auto normal = [&](std::size_t i) { return DVec3(mesh->normals[vertices[i]]); };
+      result.ns = direction_or(weighted(w, normal(0), normal(1), normal(2)), result.n);
     }
     return result;
   }
@@ -122,7 +109,7 @@ class Interaction {
   SurfaceInteraction operator()(const Mesh&) const { return {}; }  // never called
 
  private:
-  [[nodiscard]] DVec3 facing() const { return direction_of(-d_, DVec3(0, 0, 1)); }
+  [[nodiscard]] DVec3 facing() const { return direction_or(-d_, DVec3(0, 0, 1)); }
 
   [[nodiscard]] SurfaceInteraction at(const DVec3& p, const DVec3& n) const {
     const std::size_t object = primitives_.object_index(hit_.id);
@@ -138,7 +125,7 @@ class Interaction {
     const double t = glm::dot(point - o_, normal) / glm::dot(d_, normal);
     const double t_hit = hit_.t;
     const bool sure = std::abs(t - t_hit) <= 0x1p-22 * t_hit;
-    return at(o_ + (sure ? t : t_hit) * d_, direction_of(normal, facing()));
+    return at(o_ + (sure ? t : t_hit) * d_, direction_or(normal, facing()));
   }
 
   /// Half the gradient at v, with the linear part multiplied by `weight`. With weight 2, its
@@ -160,9 +147,8 @@ class Interaction {
 template <typename Result, typename Value>
 std::optional<Result> interpolate(const TrianglePoint& at, const Array<Value>& values) {
   if (values.empty()) return std::nullopt;
-  return at.barycentrics.x * Result(values[at.corners[0]]) +
-         at.barycentrics.y * Result(values[at.corners[1]]) +
-         at.barycentrics.z * Result(values[at.corners[2]]);
+  const auto value = [&](std::size_t i) { return Result(values[at.corners[i]]); };
+  return weighted(at.barycentrics, value(0), value(1), value(2));
 }
 
 }  // namespace
@@ -196,7 +182,7 @@ DVec4 SurfaceInteraction::color() const {
 }
 
 bool shows_front(const Triangle& triangle, const Vec3& d) {
-  return !(glm::dot(DVec3(d), area_vector(triangle)) > 0);
+  return !(glm::dot(DVec3(d), area_vector<1>(corners_of(triangle))) > 0);
 }
 
 SurfaceInteraction interact(const Primitives& primitives, const Ray& ray, const Hit& hit) {

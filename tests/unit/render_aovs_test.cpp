@@ -131,7 +131,14 @@ std::vector<Camera> cameras() {
   return {PerspectiveCamera{},
           PerspectiveCamera{.pose = turned, .depth = {.near = 1.5, .far = 4.5}},
           OrthographicCamera{.pose = {.position = {0, 0, 0.5}}, .height = 3},
-          EnvironmentCamera{.pose = turned}};
+          EnvironmentCamera{.pose = turned},
+          CalibratedCamera{.pose = turned,
+                           .image = {.width = 64, .height = 48},
+                           .fx = 20,
+                           .fy = 22,
+                           .cx = 30,
+                           .cy = 25,
+                           .distortion = RationalDistortion{.k1 = -0.3}}};
 }
 
 /// The quantities as floats or bits of integers, pixel by pixel, computed ray by ray.

@@ -1,12 +1,11 @@
 #include "render/aovs/aov_painter.hpp"
 
-#include "render/aovs/aov_value.hpp"
 #include "render/tiles.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -34,47 +33,75 @@ std::vector<AovBuffer> add_channels(std::span<const Aov> aovs, Film& film) {
 
 AovPainter::AovPainter(const World& world, std::span<const AovBuffer> buffers,
                        const PixelRect& window)
-    : world_(world), rays_(world.camera, world.scene), buffers_(buffers), window_(window) {}
+    : world_(world), rays_(world.camera, world.scene), buffers_(buffers), window_(window) {
+  for (const AovBuffer& buffer : buffers) aovs_.add(buffer.aov);
+}
 
-void AovPainter::set(std::ptrdiff_t x, std::ptrdiff_t y, const Ray& ray,
-                     const std::optional<Hit>& hit) const {
-  std::optional<Sight> sight;
-  if (hit && std::ranges::any_of(buffers_, [](const auto& b) { return b.aov != Aov::id; })) {
-    sight.emplace(Sight{.world = world_,
-                        .ray = ray,
-                        .hit = *hit,
-                        .at = interact(world_.bvh.primitives(), ray, *hit)});
-  }
-  for (const AovBuffer& buffer : buffers_) {
-    const auto store = [&](const auto& values) {
-      using Number = typename std::remove_cvref_t<decltype(values)>::value_type;
-      Number* to = std::get<Number*>(buffer.data) + y * buffer.row_stride + x * buffer.pixel_stride;
-      if (buffer.channel) {
-        *to = values[*buffer.channel];
-        return;
-      }
-      for (std::size_t c = 0; c < channels_of(buffer.aov).size(); ++c)
-        to[static_cast<std::ptrdiff_t>(c) * buffer.channel_stride] = values[c];
-    };
-    if (buffer.aov == Aov::id)
-      store(ids_of(world_, hit));
-    else
-      store(sight ? value_of(buffer.aov, *sight) : value_of_nothing(buffer.aov));
+namespace {
+
+/// Stores channels of a tile, row by row. `width` is that of the tile, most often a constant.
+template <std::size_t channels, class Number>
+void store(const Number* const (&values)[channels], const AovBuffer& buffer, Number* first,
+           auto width, std::uint32_t height) {
+  std::size_t from = 0;
+  for (std::uint32_t y = 0; y < height; ++y, first += buffer.row_stride) {
+    Number* to = first;
+    for (std::uint32_t x = 0; x < width; ++x, ++from, to += buffer.pixel_stride) {
+      for (std::size_t c = 0; c < channels; ++c)
+        to[static_cast<std::ptrdiff_t>(c) * buffer.channel_stride] = values[c][from];
+    }
   }
 }
 
+/// Stores a tile, in which (x, y) is the first pixel of the buffer.
+template <class Number>
+void store(const Sights::Values<Number>& values, const AovBuffer& buffer, std::ptrdiff_t x,
+           std::ptrdiff_t y, ImageSize tile) {
+  Number* const first =
+      std::get<Number*>(buffer.data) + y * buffer.row_stride + x * buffer.pixel_stride;
+  const auto store_channels = [&]<std::size_t channels>(const Number* const(&from)[channels]) {
+    if (tile.width == kTileEdge) {
+      constexpr std::integral_constant<std::uint32_t, kTileEdge> width;
+      store(from, buffer, first, width, tile.height);
+    } else {
+      store(from, buffer, first, tile.width, tile.height);
+    }
+  };
+  const Number *a = values[0].data(), *b = values[1].data(), *c = values[2].data();
+  if (buffer.channel)
+    store_channels({values[*buffer.channel].data()});
+  else if (const std::size_t count = channels_of(buffer.aov).size(); count == 1)
+    store_channels({a});
+  else if (count == 2)
+    store_channels({a, b});
+  else
+    store_channels({a, b, c});
+}
+
+}  // namespace
+
 void AovPainter::paint(const PixelRect& tile) const {
-  std::array<Ray, kMaxBatch> rays;
-  std::array<std::optional<Hit>, kMaxBatch> hits;
-  std::size_t count = 0;
-  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-    for (std::uint32_t x = tile.x0; x < tile.x1; ++x) rays[count++] = rays_(x + 0.5, y + 0.5);
+  const ImageSize size = tile.size();
+  std::array<Ray, kTilePixels> rays;
+  for (std::uint32_t y = 0; y < size.height; ++y) {
+    rays_.centers(tile.x0, tile.y0 + y,
+                  std::span(rays).subspan(std::size_t{y} * size.width, size.width));
   }
-  find_seen(world_, std::span(rays).first(count), std::span(hits).first(count));
-  count = 0;
-  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
-    for (std::uint32_t x = tile.x0; x < tile.x1; ++x, ++count)
-      set(std::ptrdiff_t{x - window_.x0}, std::ptrdiff_t{y - window_.y0}, rays[count], hits[count]);
+  const Sights sights(world_, std::span(rays).first(std::size_t{size.width} * size.height), aovs_);
+  Sights::Values<float> numbers;
+  Sights::Values<std::uint32_t> ids;
+  const AovBuffer* last = nullptr;  // that of the values; often the next has the same quantity
+  for (const AovBuffer& buffer : buffers_) {
+    const std::ptrdiff_t x = tile.x0 - window_.x0, y = tile.y0 - window_.y0;
+    const bool is_known = last != nullptr && last->aov == buffer.aov;
+    last = &buffer;
+    if (buffer.aov == Aov::id) {
+      if (!is_known) sights.ids(ids);
+      store(ids, buffer, x, y, size);
+    } else {
+      if (!is_known) sights.values_of(buffer.aov, numbers);
+      store(numbers, buffer, x, y, size);
+    }
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Renders AOVs tile by tile.
 
+#include "render/aovs/sights.hpp"
 #include "render/camera_rays.hpp"
 
 #include <microtrace/aov.hpp>
@@ -27,11 +28,10 @@ class AovPainter {
   void paint(const PixelRect& tile) const;
 
  private:
-  void set(std::ptrdiff_t x, std::ptrdiff_t y, const Ray& ray, const std::optional<Hit>& hit) const;
-
   const World& world_;
   CameraRays rays_;
   std::span<const AovBuffer> buffers_;
+  AovSet aovs_;
   const PixelRect& window_;
 };
 

@@ -1,11 +1,9 @@
 #include "render/aovs/sampled_aov_painter.hpp"
 
-#include "render/aovs/aov_value.hpp"
+#include "render/aovs/sights.hpp"
 #include "render/sampling/dimensions.hpp"
 #include "render/sampling/sobol.hpp"
 #include "render/tiles.hpp"
-
-#include <microtrace/surface_interaction.hpp>
 
 #include <algorithm>
 #include <span>
@@ -82,7 +80,6 @@ void SampledAovPainter::set(std::size_t pixel, const PixelSum& sum, const Vec3& 
 void SampledAovPainter::paint(const PixelRect& tile) const {
   if (!has(SampledAov::denoise_albedo) && !has(SampledAov::denoise_normal)) return;
   std::array<Ray, kTilePixels> rays;
-  std::array<std::optional<Hit>, kTilePixels> hits;
   std::array<DVec3, kTilePixels> albedos{}, normals{};
   const ImageSize size = tile.size();
   const std::size_t pixels = std::size_t{size.width} * size.height;
@@ -96,16 +93,13 @@ void SampledAovPainter::paint(const PixelRect& tile) const {
       const PixelOffset offset = filter_(uv.x, uv.y);
       rays[i] = ray_(x + offset.x, y + offset.y);
     }
-    find_seen(world_, std::span(rays).first(pixels), std::span(hits).first(pixels));
+    const Sights sights(world_, std::span(rays).first(pixels), {Aov::albedo, Aov::normal});
+    Sights::Values<float> albedo, normal;
+    sights.values_of(Aov::albedo, albedo);
+    sights.values_of(Aov::normal, normal);
     for (std::size_t i = 0; i < pixels; ++i) {
-      if (!hits[i]) continue;
-      const Sight sight{.world = world_,
-                        .ray = rays[i],
-                        .hit = *hits[i],
-                        .at = interact(world_.bvh.primitives(), rays[i], *hits[i])};
-      const auto albedo = value_of(Aov::albedo, sight), normal = value_of(Aov::normal, sight);
-      albedos[i] += DVec3(albedo[0], albedo[1], albedo[2]);
-      normals[i] += DVec3(normal[0], normal[1], normal[2]);
+      albedos[i] += DVec3(albedo[0][i], albedo[1][i], albedo[2][i]);
+      normals[i] += DVec3(normal[0][i], normal[1][i], normal[2][i]);
     }
   }
   for (std::size_t i = 0; i < pixels; ++i) {

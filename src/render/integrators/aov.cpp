@@ -1,5 +1,5 @@
 #include "float_environment.hpp"
-#include "render/aovs/aov_value.hpp"
+#include "render/aovs/sights.hpp"
 
 #include <microtrace/aov.hpp>
 
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
 #include <glm/common.hpp>
 
@@ -72,25 +71,22 @@ Display of_positions(const Film& film) {
 
 void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
                           std::span<const SampleId> /*ids*/, std::span<Sample> samples) const {
-  std::array<std::optional<Hit>, kMaxBatch> hits;
-  find_seen(world, rays, std::span(hits).first(rays.size()));
+  const Sights sights(world, rays, {aov_});
+  Sights::Values<float> v;
+  if (aov_ != Aov::id) sights.values_of(aov_, v);
+  Sights::Values<std::uint32_t> ids;
+  if (aov_ == Aov::id) sights.ids(ids);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const std::optional<Hit>& hit = hits[i];
-    std::array<float, 3> v{};
-    if (!hit) {
-      v = value_of_nothing(aov_);
-    } else if (aov_ == Aov::id) {
-      const Vec3 color = color_of_id(ids_of(world, hit)[0]);
-      v = {color.x, color.y, color.z};
-    } else {
-      v = value_of(aov_, {.world = world,
-                          .ray = rays[i],
-                          .hit = *hit,
-                          .at = interact(world.bvh.primitives(), rays[i], *hit)});
-    }
-    const bool is_number = channels_of(aov_).size() == 1;  // shown in gray
-    samples[i] = {.color = is_number ? Vec3(v[0]) : Vec3(v[0], v[1], v[2]),
-                  .alpha = hit ? 1.0F : 0.0F};
+    Vec3 color;
+    if (aov_ == Aov::id)
+      color = sights.is_seen(i) ? color_of_id(ids[0][i]) : Vec3(0);
+    else if (channels_of(aov_).size() == 1)
+      color = Vec3(v[0][i]);
+    else if (channels_of(aov_).size() == 2)
+      color = {v[0][i], v[1][i], 0};
+    else
+      color = {v[0][i], v[1][i], v[2][i]};
+    samples[i] = {.color = color, .alpha = sights.is_seen(i) ? 1.0F : 0.0F};
   }
 }
 

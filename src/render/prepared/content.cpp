@@ -31,9 +31,15 @@ const Bvh& PreparedScene::Content::bvh() const {
   });
 }
 
-const Surfaces& PreparedScene::Content::surfaces() const {
+const SurfaceFinder& PreparedScene::Content::surface_finder() const {
   const Primitives& primitives = bvh().primitives();
-  return surfaces_.get([&] { return make<Surfaces>(*scene_, primitives, *tables_); });
+  return surface_finder_.get([&] { return make<SurfaceFinder>(primitives); });
+}
+
+const Surfaces& PreparedScene::Content::surfaces() const {
+  const SurfaceFinder& finder = surface_finder();
+  return surfaces_.get(
+      [&] { return make<Surfaces>(*scene_, bvh().primitives(), finder, *tables_); });
 }
 
 const Shading& PreparedScene::Content::shading() const {

@@ -8,6 +8,7 @@
 #include "render/prepared/shared_tables.hpp"
 #include "render/shading/shading.hpp"
 #include "render/surfaces.hpp"
+#include "scene/surface/surface_finder.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -30,6 +31,7 @@ class PreparedScene::Content {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Bvh& bvh() const;
+  [[nodiscard]] const SurfaceFinder& surface_finder() const;
   [[nodiscard]] const Surfaces& surfaces() const;
   [[nodiscard]] const Shading& shading() const;
   [[nodiscard]] const Emitters& emitters() const;
@@ -61,6 +63,7 @@ class PreparedScene::Content {
   mutable std::mutex memory_mutex_;
   mutable MemoryAccount memory_;
   Lazy<Bvh> bvh_;
+  Lazy<SurfaceFinder> surface_finder_;
   Lazy<Surfaces> surfaces_;
   Lazy<Shading> shading_;
   Lazy<Emitters> emitters_;

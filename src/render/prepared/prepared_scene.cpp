@@ -5,6 +5,8 @@
 #include <microtrace/prepared_scene.hpp>
 #include <microtrace/threads.hpp>
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -100,17 +102,17 @@ SurfaceInteraction PreparedScene::surface(const Ray& ray, const Hit& hit) const 
 
 namespace {
 
-/// Stores component c of value i.
-template <class T>
-void store(const OutputArray<T>& array, std::size_t i, std::size_t c, auto value) {
-  if (array.data == nullptr) return;
-  array.data[static_cast<std::ptrdiff_t>(i) * array.stride +
-             static_cast<std::ptrdiff_t>(c) * array.component_stride] = static_cast<T>(value);
-}
-
-template <class T, glm::length_t n>
-void store_vector(const OutputArray<T>& array, std::size_t i, const glm::vec<n, double>& value) {
-  for (glm::length_t c = 0; c < n; ++c) store(array, i, static_cast<std::size_t>(c), value[c]);
+/// Stores N components of the values from `first` on: `none` for rays without hit, else
+/// value(component, i).
+template <std::size_t N, class T>
+void store(const OutputArray<T>& to, std::size_t first, std::span<const std::optional<Hit>> hits,
+           T none, const auto& value) {
+  if (to.data == nullptr) return;
+  T* at = to.data + static_cast<std::ptrdiff_t>(first) * to.stride;
+  for (std::size_t i = 0; i < hits.size(); ++i, at += to.stride) {
+    for (std::size_t c = 0; c < N; ++c)
+      at[static_cast<std::ptrdiff_t>(c) * to.component_stride] = hits[i] ? value(c, i) : none;
+  }
 }
 
 }  // namespace
@@ -118,18 +120,36 @@ void store_vector(const OutputArray<T>& array, std::size_t i, const glm::vec<n, 
 void PreparedScene::surfaces(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
                              const SurfaceBuffers& buffers) const {
   const FloatEnvironment environment;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    std::optional<SurfaceInteraction> at;
-    if (hits[i]) at = surface(rays[i], *hits[i]);
-    store_vector(buffers.p, i, at ? at->p : DVec3(0));
-    store_vector(buffers.n, i, at ? at->n : DVec3(0));
-    store_vector(buffers.ns, i, at ? at->ns : DVec3(0));
-    store_vector(buffers.barycentrics, i,
-                 at && at->triangle ? at->triangle->barycentrics : DVec3(0));
-    store_vector(buffers.uv, i, at ? at->uv(0).value_or(DVec2(0)) : DVec2(0));
-    store(buffers.front, i, 0, at && at->front);
-    store(buffers.object, i, 0, at ? at->object : SurfaceBuffers::kNone);
-    store(buffers.primitive, i, 0, at ? at->primitive : SurfaceBuffers::kNone);
+  const SurfaceFinder& finder = content().surface_finder();
+  const DVec3 origin = scene().origin;
+  const std::array offset{origin.x, origin.y, origin.z};
+  const SurfaceParts parts{.n = buffers.n.data != nullptr,
+                           .ns = buffers.ns.data != nullptr,
+                           .uv = buffers.uv.data != nullptr};
+  SurfaceBatch at;
+  for (std::size_t first = 0; first < rays.size(); first += kSurfaceLanes) {
+    const std::size_t count = std::min(kSurfaceLanes, rays.size() - first);
+    const auto own_hits = hits.subspan(first, count);
+    with_rays_in_scene(*this, rays.subspan(first, count), [&](std::span<const Ray> own_rays) {
+      finder.find(own_rays, own_hits, parts, at);
+    });
+    store<3>(buffers.p, first, own_hits, 0.0,
+             [&](std::size_t c, std::size_t i) { return at.p[c][i] + offset[c]; });
+    const auto store_floats = [&]<std::size_t N>(const OutputArray<float>& to,
+                                                 const SurfaceBatch::Values<float>(&values)[N]) {
+      store<N>(to, first, own_hits, 0.0F,
+               [&](std::size_t c, std::size_t i) { return values[c][i]; });
+    };
+    store_floats(buffers.n, at.n);
+    store_floats(buffers.ns, at.ns);
+    store_floats(buffers.barycentrics, at.barycentrics);
+    store_floats(buffers.uv, at.uv);
+    store<1>(buffers.front, first, own_hits, false,
+             [&](std::size_t, std::size_t i) { return at.side[i] > 0; });
+    store<1>(buffers.object, first, own_hits, SurfaceBuffers::kNone,
+             [&](std::size_t, std::size_t i) { return at.object[i]; });
+    store<1>(buffers.primitive, first, own_hits, SurfaceBuffers::kNone,
+             [&](std::size_t, std::size_t i) { return at.primitive[i]; });
   }
 }
 

@@ -1,0 +1,70 @@
+#pragma once
+/// The first visible surfaces of rays, and their exact quantities.
+
+#include "scene/kernels/kernel.hpp"
+
+#include <microtrace/aov.hpp>
+#include <microtrace/hit.hpp>
+#include <microtrace/integrator.hpp>
+#include <microtrace/ray.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace microtrace {
+
+/// Quantities to compute.
+class AovSet {
+ public:
+  AovSet() = default;
+  AovSet(std::initializer_list<Aov> aovs) {
+    for (const Aov aov : aovs) add(aov);
+  }
+
+  void add(Aov aov) { bits_ |= bit(aov); }
+  [[nodiscard]] bool has(Aov aov) const { return (bits_ & bit(aov)) != 0; }
+  /// Whether any quantity needs the surface, rather than the hit.
+  [[nodiscard]] bool needs_surfaces() const {
+    return (bits_ & ~(bit(Aov::id) | bit(Aov::albedo))) != 0;
+  }
+
+ private:
+  static unsigned bit(Aov aov) { return 1U << static_cast<unsigned>(aov); }
+  unsigned bits_ = 0;
+};
+
+/// The first visible surfaces, as defined by Aov, of up to kMaxBatch rays.
+class Sights {
+ public:
+  static constexpr std::size_t kSize = kMaxBatch;
+  template <class T>
+  using Values = std::array<std::array<T, kSize>, 3>;  ///< by channel and ray
+
+  /// The rays must outlive this object.
+  Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs);
+
+  /// False if the ray hits nothing that is visible.
+  [[nodiscard]] bool is_seen(std::size_t ray) const { return (seen_ >> ray & 1U) != 0; }
+
+  /// All quantities but id, which must be in the set.
+  void values_of(Aov aov, Values<float>& values) const;
+
+  /// The ids of instance, primitive and material.
+  void ids(Values<std::uint32_t>& values) const;
+
+ private:
+  [[nodiscard]] bool is_all_seen() const {
+    return seen_ == ~std::uint64_t{0} >> (kSize - rays_.size());
+  }
+
+  const World& world_;
+  std::span<const Ray> rays_;
+  std::uint64_t seen_ = 0;  // one bit per ray
+  std::array<std::optional<Hit>, kSize> hits_;
+  SurfaceBatch surfaces_;
+};
+
+}  // namespace microtrace

@@ -1,0 +1,67 @@
+#pragma once
+/// Input and output of the kernels for surfaces and camera rays. Plain data only: kernels must not
+/// share inline functions with other translation units.
+
+#include <microtrace/math.hpp>
+#include <microtrace/ray.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace microtrace {
+
+/// A mesh, or a single triangle.
+struct MeshArrays {
+  const Vec3* positions = nullptr;
+  const std::uint32_t* corners = nullptr;  ///< vertex indices, three per triangle
+  const Vec3* normals = nullptr;           ///< null: none
+  const Vec2* uv = nullptr;                ///< set 0; null: none
+};
+
+inline constexpr std::size_t kSurfaceLanes = 64;
+
+/// Surfaces at the hits of up to kSurfaceLanes rays: SurfaceInteraction, rounded once.
+struct alignas(64) SurfaceBatch {
+  template <class T>
+  using Values = T[kSurfaceLanes];
+
+  /// Lanes with triangles, one bit each. The other lanes hold undefined values.
+  std::uint64_t triangles;
+  Values<const MeshArrays*> mesh;  ///< of lanes with triangles
+  Values<std::uint32_t> object, primitive;
+  // ---- set by the kernel, for triangles:
+  Values<double> p[3];
+  Values<float> n[3], ns[3];  ///< of the front side
+  Values<float> side;         ///< 1: the ray arrives at the front side; -1: at the back
+  Values<float> barycentrics[3];
+  Values<float> uv[2];    ///< 0 if there are none
+  Values<float> is_sure;  ///< 0: the triangle has no area or is edge-on; values are undefined
+};
+
+/// What a kernel computes besides p, side and barycentrics.
+struct SurfaceParts {
+  bool n = false, ns = false, uv = false;
+};
+
+/// Rays of a perspective camera: d ~ corner + x right + y down.
+struct PerspectiveRays {
+  DVec3 corner, right, down;
+  Vec3 origin;
+  double near, far;  ///< depths
+};
+
+struct SceneKernels {
+  const char* name;
+  /// The surfaces of lanes with triangles, which are hit by these rays.
+  void (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
+  /// rays[i] is the ray through (x + i, y).
+  void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, Ray* rays,
+                           std::size_t count);
+};
+
+extern const SceneKernels kPortableScene;
+#if defined(__x86_64__)
+extern const SceneKernels kAvx2Scene, kAvx512Scene;
+#endif
+
+}  // namespace microtrace

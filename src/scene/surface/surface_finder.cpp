@@ -1,0 +1,96 @@
+#include "scene/surface/surface_finder.hpp"
+
+#include "scene/kernels/dispatch.hpp"
+
+#include <microtrace/surface_interaction.hpp>
+
+#include <array>
+#include <variant>
+
+namespace microtrace {
+namespace {
+
+MeshArrays arrays_of(const Mesh& mesh) {
+  if (mesh.triangles.empty()) return {};
+  const bool has_uv = !mesh.uv_sets.empty() && !mesh.uv_sets[0].empty();
+  return {.positions = mesh.positions.data(),
+          .corners = mesh.triangles.data()->data(),
+          .normals = mesh.normals.empty() ? nullptr : mesh.normals.data(),
+          .uv = has_uv ? mesh.uv_sets[0].data() : nullptr};
+}
+
+MeshArrays arrays_of(const Triangle& triangle) {
+  static constexpr std::array<std::uint32_t, 3> kCorners{0, 1, 2};
+  static_assert(sizeof(Triangle) == 3 * sizeof(Vec3));
+  return {.positions = &triangle.a, .corners = kCorners.data()};
+}
+
+MeshArrays arrays_of(const auto&) {
+  return {};
+}
+
+void set(SurfaceBatch& batch, std::size_t i, const SurfaceInteraction& at) {
+  for (glm::length_t axis = 0; axis < 3; ++axis) {
+    batch.p[axis][i] = at.p[axis];
+    batch.n[axis][i] = static_cast<float>(at.n[axis]);
+    batch.ns[axis][i] = static_cast<float>(at.ns[axis]);
+    batch.barycentrics[axis][i] =
+        at.triangle ? static_cast<float>(at.triangle->barycentrics[axis]) : 0;
+  }
+  batch.side[i] = at.front ? 1 : -1;
+  const DVec2 uv = at.uv(0).value_or(DVec2(0));
+  batch.uv[0][i] = static_cast<float>(uv.x);
+  batch.uv[1][i] = static_cast<float>(uv.y);
+}
+
+}  // namespace
+
+SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primitives) {
+  const std::vector<Object>& objects = primitives.scene().objects;
+  entries_.reserve(objects.size());
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    entries_.push_back(
+        {.mesh = std::visit([](const auto& shape) { return arrays_of(shape); }, objects[i].shape),
+         .first_id = primitives.first_id_of(i),
+         .count = static_cast<PrimitiveId>(primitive_count(objects[i].shape))});
+  }
+}
+
+void SurfaceFinder::find_ids(Hits hits, SurfaceBatch& batch) const {
+  const Entry* entry = nullptr;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i]) continue;
+    const PrimitiveId id = hits[i]->id;
+    // Most hits are in the same object as the one before.
+    if (entry == nullptr || id - entry->first_id >= entry->count)
+      entry = &entries_[primitives_.object_index(id)];
+    batch.object[i] = static_cast<std::uint32_t>(entry - entries_.data());
+    batch.primitive[i] = id - entry->first_id;
+  }
+}
+
+void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
+                         SurfaceBatch& batch, const SceneKernels& kernels) const {
+  find_ids(hits, batch);
+  batch.triangles = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i]) continue;
+    const MeshArrays& mesh = entries_[batch.object[i]].mesh;
+    batch.mesh[i] = &mesh;
+    if (mesh.positions != nullptr) batch.triangles |= std::uint64_t{1} << i;
+  }
+  if (batch.triangles != 0) kernels.find_surfaces(rays.data(), parts, batch);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (!hits[i]) continue;
+    const bool is_done = (batch.triangles >> i & 1U) != 0 && batch.is_sure[i] != 0;
+    if (!is_done) set(batch, i, interact(primitives_, rays[i], *hits[i]));
+  }
+}
+
+void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
+                         SurfaceBatch& batch) const {
+  static const SceneKernels& best = kSceneKernels.best();
+  find(rays, hits, parts, batch, best);
+}
+
+}  // namespace microtrace
