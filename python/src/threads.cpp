@@ -20,22 +20,11 @@ constexpr std::chrono::milliseconds kPatience{50};
 /// Items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
-/// Whether this thread is the one that runs Python's signal handlers.
-bool is_main_thread() {
-  const nb::object threading = nb::module_::import_("threading");
-  return threading.attr("current_thread")().is(threading.attr("main_thread")());
-}
-
 }  // namespace
 
 void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
   std::atomic<bool> is_canceled = false;
   const std::function<bool()> cancel = [&] { return is_canceled.load(); };
-  if (!is_main_thread()) {
-    const nb::gil_scoped_release release;
-    f(cancel);
-    return;
-  }
   std::mutex mutex;
   std::condition_variable ended;
   bool is_done = false;
@@ -73,28 +62,23 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
 void for_each_block(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t, std::size_t)>& f) {
   SharedRange blocks(count, kBlock);
-  const auto work = [&] {
+  const auto work = [&](const std::function<bool()>& cancel) {
     const FloatEnvironment environment;
-    blocks.take(f);
+    blocks.take([&](std::size_t first, std::size_t last) {
+      if (cancel()) return blocks.end();
+      f(first, last);
+    });
   };
-  if (count <= kBlock) {
+  const std::size_t block_count = (count + kBlock - 1) / kBlock;
+  if (block_count <= 1) {
     const nb::gil_scoped_release release;
-    work();
+    work([] { return false; });
   } else {
     run_interruptible([&](const std::function<bool()>& cancel) {
-      const std::size_t blocks_in_all = (count + kBlock - 1) / kBlock;
-      const std::size_t wanted =
-          std::min<std::size_t>(threads != 0 ? threads : default_threads(), blocks_in_all);
-      const auto cancelable = [&] {
-        const FloatEnvironment environment;
-        blocks.take([&](std::size_t first, std::size_t last) {
-          if (cancel()) return blocks.end();
-          f(first, last);
-        });
-      };
-      const auto started =
-          start_threads(wanted > 1 ? static_cast<unsigned>(wanted - 1) : 0, cancelable);
-      cancelable();
+      const std::size_t wanted = threads != 0 ? threads : default_threads();
+      const auto helpers = static_cast<unsigned>(std::min(wanted, block_count) - 1);
+      const auto started = start_threads(helpers, [&] { work(cancel); });
+      work(cancel);
     });
   }
   blocks.rethrow();
