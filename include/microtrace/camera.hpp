@@ -2,7 +2,7 @@
 /// Cameras: the origins and directions of a picture's rays.
 ///
 /// To add one: a struct here and in `Camera`, its rays in src/scene/camera.cpp, its rules in
-/// src/scene/validate.cpp, its reader in src/io/scene_json/camera.cpp, its name in
+/// src/scene/validate/validate.cpp, its reader in src/io/scene_json/camera.cpp, its name in
 /// src/io/sidecar/describe_picture.cpp, docs/scene.schema.json and docs/scene-format.md, golden
 /// rays in tests/unit/camera_test.cpp. A lens also needs random numbers: a parameter of
 /// RayGenerator, and a pair in src/render/sampling/dimensions.hpp that

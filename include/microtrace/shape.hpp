@@ -5,7 +5,7 @@
 /// To add one: a struct here and in `Shape`, its exact hit in src/exact, its filter in
 /// src/accel/filters, its boxes in src/accel/build, its ray origins in src/accel/spawn, its bounds
 /// in src/scene/support.hpp, its surface in src/scene/surface_interaction.cpp, its rules in
-/// src/scene/validate.cpp, its reader in src/io/scene_json/shape.cpp, its name in
+/// src/scene/validate/validate.cpp, its reader in src/io/scene_json/shape.cpp, its name in
 /// src/io/sidecar/describe_picture.cpp, docs/scene.schema.json and docs/scene-format.md, a scene
 /// in scenes, an oracle in tests/oracle.
 

@@ -12,7 +12,8 @@ namespace microtrace {
 /// - Indices of vertices, materials, textures and images are in range.
 /// - A mesh has as many normals, tangents, colors and texture coordinates as positions, or none.
 ///   Images have as many samples as their size requires. Environment maps are not null.
-/// - Numbers of shapes and cameras are finite and in the documented ranges.
+/// - Numbers of shapes, cameras, materials, lights and the environment are in the documented
+/// ranges.
 ///
 /// PreparedScene and render() always check the first two, which prevent undefined behavior. If the
 /// third is not checked, a shape with a number that is not finite is empty.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any
 
 import numpy as np
@@ -56,3 +57,36 @@ def readable(array: Array) -> Array:
     """The array, or a copy if its numbers are not aligned or its strides not whole numbers."""
     is_plain = array.flags.aligned and all(s % array.itemsize == 0 for s in array.strides)
     return array if is_plain else np.ascontiguousarray(array)
+
+
+def as_integer(value: Any, what: str, low: int, high: int) -> int:
+    """An integer in [low, high]. Throws TypeError or ValueError."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what} must be an integer, not {value!r}") from None
+    if not low <= number <= high:
+        raise ValueError(f"{what} must be from {low} to {high}, not {number}")
+    return number
+
+
+def as_size(value: Any) -> tuple[int, int]:
+    """Width and height in pixels."""
+    if len(value) != 2:
+        raise ValueError(f"size must be a width and a height, not {value!r}")
+    width, height = (as_integer(v, "size", 1, 65536) for v in value)
+    return width, height
+
+
+def as_threads(value: Any) -> int:
+    """A number of threads; 0: all processors."""
+    return as_integer(value, "threads", 0, 65536)
+
+
+def as_color(value: Any, what: str) -> tuple[float, float, float]:
+    """Three numbers."""
+    numbers = np.asarray(value, np.float64)
+    if numbers.shape != (3,) or not np.isfinite(numbers).all():
+        raise ValueError(f"{what} must have 3 finite numbers, not {value!r}")
+    red, green, blue = map(float, numbers)
+    return red, green, blue

@@ -9,18 +9,20 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from ._brief import Brief
+
 Vector = tuple[float, float, float]
 
 
-@dataclass(eq=False, kw_only=True)
-class _Posed:
+@dataclass(eq=False, repr=False, kw_only=True)
+class _Posed(Brief):
     position: Vector = (0.0, 0.0, 0.0)  #: world space
     direction: Vector = (0.0, 0.0, -1.0)  #: of view; any length
     up: Vector = (0.0, 1.0, 0.0)  #: need not be perpendicular to direction
     name: str = ""
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, repr=False, kw_only=True)
 class PerspectiveCamera(_Posed):
     """Perspective projection with square pixels."""
 
@@ -32,7 +34,7 @@ class PerspectiveCamera(_Posed):
     far: float = inf  #: depth up to which surfaces are visible
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, repr=False, kw_only=True)
 class OrthographicCamera(_Posed):
     """Orthographic projection with square pixels."""
 
@@ -42,13 +44,13 @@ class OrthographicCamera(_Posed):
     far: float = inf  #: depth up to which surfaces are visible
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, repr=False, kw_only=True)
 class EnvironmentCamera(_Posed):
     """A latitude-longitude map of all directions, with the viewing direction in the middle."""
 
 
-@dataclass(eq=False)
-class RationalDistortion:
+@dataclass(eq=False, repr=False)
+class RationalDistortion(Brief):
     """OpenCV's model of lenses with radial and tangential distortion."""
 
     k1: float = 0.0
@@ -61,8 +63,8 @@ class RationalDistortion:
     k6: float = 0.0
 
 
-@dataclass(eq=False)
-class FisheyeDistortion:
+@dataclass(eq=False, repr=False)
+class FisheyeDistortion(Brief):
     """OpenCV's model of fisheye lenses."""
 
     k1: float = 0.0
@@ -71,7 +73,7 @@ class FisheyeDistortion:
     k4: float = 0.0
 
 
-@dataclass(eq=False, kw_only=True)
+@dataclass(eq=False, repr=False, kw_only=True)
 class CalibratedCamera(_Posed):
     """A camera with the parameters of OpenCV's calibration; cameras() makes it from matrices.
 

@@ -6,13 +6,14 @@ from dataclasses import dataclass
 from math import inf, pi
 from typing import Literal
 
+from ._brief import Brief
 from .images import RadianceMap
 
 Vector = tuple[float, float, float]
 
 
-@dataclass(eq=False)
-class DirectionalLight:
+@dataclass(eq=False, repr=False)
+class DirectionalLight(Brief):
     """Parallel light from infinitely far away."""
 
     direction: Vector = (0.0, 0.0, -1.0)  #: in which the light travels; any length
@@ -21,8 +22,8 @@ class DirectionalLight:
     name: str = ""
 
 
-@dataclass(eq=False)
-class PointLight:
+@dataclass(eq=False, repr=False)
+class PointLight(Brief):
     """Light from a point in all directions."""
 
     position: Vector = (0.0, 0.0, 0.0)  #: world space
@@ -32,8 +33,8 @@ class PointLight:
     name: str = ""
 
 
-@dataclass(eq=False)
-class SpotLight:
+@dataclass(eq=False, repr=False)
+class SpotLight(Brief):
     """Light from a point in a cone, full within the inner angle and none beyond the outer."""
 
     position: Vector = (0.0, 0.0, 0.0)  #: world space
@@ -49,8 +50,8 @@ class SpotLight:
 Light = DirectionalLight | PointLight | SpotLight
 
 
-@dataclass(eq=False)
-class Environment:
+@dataclass(eq=False, repr=False)
+class Environment(Brief):
     """Light from all directions, in path-traced pictures."""
 
     #: The built-in studio, uniform radiance (linear Rec. 709), or a latitude-longitude map.

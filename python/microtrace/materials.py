@@ -13,6 +13,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from ._brief import Brief
 from .images import Image
 
 Color = tuple[float, float, float]
@@ -20,8 +21,8 @@ ColorAlpha = tuple[float, float, float, float]
 Wrap = Literal["repeat", "mirrored_repeat", "clamp_to_edge"]
 
 
-@dataclass(eq=False)
-class Texture:
+@dataclass(eq=False, repr=False)
+class Texture(Brief):
     """An image with its wrapping and filtering (section 3.8.4)."""
 
     image: Image | None = None  #: None: white
@@ -33,8 +34,8 @@ class Texture:
     mip: Literal["none", "nearest", "linear"] = "linear"  #: none: always the base level
 
 
-@dataclass(eq=False)
-class TextureUse:
+@dataclass(eq=False, repr=False)
+class TextureUse(Brief):
     """A texture as a material uses it."""
 
     texture: Texture = field(default_factory=Texture)
@@ -47,8 +48,8 @@ class TextureUse:
 AnyTexture = TextureUse | Texture | Image | npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
 
-@dataclass(eq=False)
-class Specular:
+@dataclass(eq=False, repr=False)
+class Specular(Brief):
     """Reflectance of a dielectric (KHR_materials_specular)."""
 
     specular_factor: float = 1.0  #: in [0, 1]
@@ -57,16 +58,16 @@ class Specular:
     specular_color_texture: AnyTexture | None = None  #: sRGB
 
 
-@dataclass(eq=False)
-class Transmission:
+@dataclass(eq=False, repr=False)
+class Transmission(Brief):
     """Transmission through the surface of a dielectric (KHR_materials_transmission)."""
 
     transmission_factor: float = 0.0  #: in [0, 1]
     transmission_texture: AnyTexture | None = None  #: linear; r: factor
 
 
-@dataclass(eq=False)
-class Volume:
+@dataclass(eq=False, repr=False)
+class Volume(Brief):
     """A medium inside the surface (KHR_materials_volume)."""
 
     thickness_factor: float = 0.0  #: 0: a thin wall
@@ -75,8 +76,8 @@ class Volume:
     attenuation_color: Color = (1.0, 1.0, 1.0)  #: each in [0, 1]
 
 
-@dataclass(eq=False)
-class Clearcoat:
+@dataclass(eq=False, repr=False)
+class Clearcoat(Brief):
     """A coat with index 1.5 over all other layers (KHR_materials_clearcoat)."""
 
     clearcoat_factor: float = 0.0  #: in [0, 1]
@@ -87,8 +88,8 @@ class Clearcoat:
     clearcoat_normal_scale: float = 1.0  #: of the texture's x and y
 
 
-@dataclass(eq=False)
-class Sheen:
+@dataclass(eq=False, repr=False)
+class Sheen(Brief):
     """Fibers over all layers except the coat (KHR_materials_sheen)."""
 
     sheen_color_factor: Color = (0.0, 0.0, 0.0)  #: each in [0, 1]
@@ -97,8 +98,8 @@ class Sheen:
     sheen_roughness_texture: AnyTexture | None = None  #: linear; alpha: roughness
 
 
-@dataclass(eq=False)
-class Anisotropy:
+@dataclass(eq=False, repr=False)
+class Anisotropy(Brief):
     """Elongated highlights (KHR_materials_anisotropy)."""
 
     anisotropy_strength: float = 0.0  #: in [0, 1]
@@ -106,8 +107,8 @@ class Anisotropy:
     anisotropy_texture: AnyTexture | None = None  #: linear; rg: direction, b: strength
 
 
-@dataclass(eq=False)
-class Iridescence:
+@dataclass(eq=False, repr=False)
+class Iridescence(Brief):
     """A thin film over the surface (KHR_materials_iridescence)."""
 
     iridescence_factor: float = 0.0  #: in [0, 1]
@@ -118,8 +119,8 @@ class Iridescence:
     iridescence_thickness_texture: AnyTexture | None = None  #: linear; g: minimum to maximum
 
 
-@dataclass(eq=False)
-class DiffuseTransmission:
+@dataclass(eq=False, repr=False)
+class DiffuseTransmission(Brief):
     """Diffuse transmission through the surface (KHR_materials_diffuse_transmission)."""
 
     diffuse_transmission_factor: float = 0.0  #: in [0, 1]
@@ -128,8 +129,8 @@ class DiffuseTransmission:
     diffuse_transmission_color_texture: AnyTexture | None = None  #: sRGB
 
 
-@dataclass(eq=False)
-class SpecularGlossiness:
+@dataclass(eq=False, repr=False)
+class SpecularGlossiness(Brief):
     """Replaces metallic and roughness; the base color is then the diffuse color
     (KHR_materials_pbrSpecularGlossiness, archived)."""
 
@@ -138,8 +139,8 @@ class SpecularGlossiness:
     specular_glossiness_texture: AnyTexture | None = None  #: rgb, sRGB; alpha: glossiness
 
 
-@dataclass(eq=False)
-class Material:
+@dataclass(eq=False, repr=False)
+class Material(Brief):
     """A surface. Factors are multiplied with textures. glTF's default for metallic_factor is 1;
     here it is 0, so that Material(base_color_factor=...) has that color in any light."""
 

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import as_color, as_integer, as_size, as_threads
 from .cameras import Camera, PerspectiveCamera, Vector
 from .lights import Environment
 from .prepared import PreparedScene
@@ -168,7 +169,11 @@ def frame(
     """
     prepared = _prepared(scene)
     camera: PerspectiveCamera = _core.frame(
-        prepared._core, azimuth, elevation, vertical_fov_degrees, size or prepared._core.size
+        prepared._core,
+        float(azimuth),
+        float(elevation),
+        float(vertical_fov_degrees),
+        prepared._core.size if size is None else as_size(size),
     )
     return camera
 
@@ -216,7 +221,7 @@ def render(
         LimitError: memory runs out.
     """
     prepared = _prepared(scene)
-    size = size or prepared._core.size
+    size = prepared._core.size if size is None else as_size(size)
     names = _checked(aovs)
     if camera is None:
         cameras: list[Camera] = [prepared._core.default_camera(size)]
@@ -234,14 +239,14 @@ def render(
         arrays[name] = np.empty(shape, np.uint32 if is_integer else np.float32)
     arguments = {
         "size": size,
-        "spp": spp,
+        "spp": None if spp is None else as_integer(spp, "spp", 1, 65536),
         "integrator": integrator,
         "environment": environment,
-        "background": background,
+        "background": None if background is None else as_color(background, "background"),
         "filter": filter,
-        "seed": seed,
-        "max_depth": max_depth,
-        "threads": threads,
+        "seed": as_integer(seed, "seed", 0, 2**32 - 1),
+        "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
+        "threads": as_threads(threads),
     }
     display = (0.0, "none")
     with _shown(progress, len(cameras)) as show:
@@ -257,7 +262,11 @@ def render(
 
 
 def _prepared(scene: Scene | PreparedScene) -> PreparedScene:
-    return scene if isinstance(scene, PreparedScene) else scene.prepare()
+    if isinstance(scene, PreparedScene):
+        return scene
+    if isinstance(scene, Scene):
+        return scene.prepare()
+    raise TypeError(f"expected a Scene or a PreparedScene, not {type(scene)}")
 
 
 def _checked(aovs: Iterable[str]) -> list[str]:

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_numbers, readable
+from ._arrays import as_numbers, as_threads, readable
+from ._brief import Brief
 from .errors import warn_caller
 
 if TYPE_CHECKING:
@@ -36,8 +37,8 @@ _WIDTHS = {
 _TYPES: dict[str, Any] = {"object": np.int32, "primitive": np.int32, "front": np.bool_}
 
 
-@dataclass(eq=False)
-class Hits:
+@dataclass(eq=False, repr=False)
+class Hits(Brief):
     """Hits of rays, in arrays of the rays' leading shape. None: not asked for."""
 
     t: Array | None = None  #: float32, in multiples of the direction; infinite for misses
@@ -62,7 +63,7 @@ class Hits:
         return np.asarray(np.isfinite(self.t))
 
 
-@dataclass(eq=False)
+@dataclass(eq=False, repr=False)
 class AllHits(Hits):
     """All hits of rays, one after the other. Those of ray i are [offsets[i] : offsets[i + 1]]."""
 
@@ -70,8 +71,8 @@ class AllHits(Hits):
     ray: Array = field(default_factory=lambda: np.zeros(0, np.int64))  #: int64, the ray of each hit
 
 
-@dataclass(eq=False)
-class ClosestPoints:
+@dataclass(eq=False, repr=False)
+class ClosestPoints(Brief):
     """Nearest points of surfaces, in arrays of the points' leading shape."""
 
     position: Array  #: (..., 3) float64, world space; NaN if there is none
@@ -112,7 +113,7 @@ class PreparedScene:
     ) -> None:
         """See Scene.prepare()."""
         self._core: _core.Prepared = _core.Prepared(
-            scene, None if previous is None else previous._core, threads, fast_build
+            scene, None if previous is None else previous._core, as_threads(threads), fast_build
         )
         self._solids: dict[int | None, _core.Solid] = {}
 
@@ -162,7 +163,7 @@ class PreparedScene:
         """
         flat, shape, low, high = _rays(rays, t_min, t_max)
         outputs = _outputs(fields, len(flat))
-        self._core.intersect(flat, low, high, outputs, threads)
+        self._core.intersect(flat, low, high, outputs, as_threads(threads))
         return Hits(**{k: v.reshape(shape + v.shape[1:]) for k, v in outputs.items()})
 
     def occluded(
@@ -176,7 +177,7 @@ class PreparedScene:
         """Whether each ray hits anything. Arguments as intersect(), but faster."""
         flat, shape, low, high = _rays(rays, t_min, t_max)
         result = np.empty(len(flat), np.bool_)
-        self._core.occluded(flat, low, high, result, threads)
+        self._core.occluded(flat, low, high, result, as_threads(threads))
         return result.reshape(shape)
 
     def intersect_all(
@@ -194,11 +195,11 @@ class PreparedScene:
         a sphere hits it once. Arguments as intersect(); the leading shape is flattened.
         """
         flat, _, low, high = _rays(rays, t_min, t_max)
-        found = self._core.intersect_all(flat, low, high, threads)
+        found = self._core.intersect_all(flat, low, high, as_threads(threads))
         outputs = _outputs(fields, len(found))
         offsets = np.empty(len(flat) + 1, np.int64)
         owners = np.empty(len(found), np.int64)
-        self._core.fill_all(found, flat, outputs, offsets, owners, threads)
+        self._core.fill_all(found, flat, outputs, offsets, owners, as_threads(threads))
         return AllHits(**outputs, offsets=offsets, ray=owners)
 
     def count_crossings(
@@ -212,7 +213,7 @@ class PreparedScene:
         """The number of hits of each ray that intersect_all() finds. Arguments as intersect()."""
         flat, shape, low, high = _rays(rays, t_min, t_max)
         result = np.empty(len(flat), np.uint32)
-        self._core.count_crossings(flat, low, high, result, threads)
+        self._core.count_crossings(flat, low, high, result, as_threads(threads))
         return result.reshape(shape)
 
     def is_closed(self, object: int | None = None) -> bool:
@@ -253,7 +254,7 @@ class PreparedScene:
     ) -> npt.NDArray[np.int8]:
         flat, shape = _points(points)
         result = np.empty(len(flat), np.int8)
-        self._solid(object).locate(flat, result, threads)
+        self._solid(object).locate(flat, result, as_threads(threads))
         return result.reshape(shape)
 
     def contains(
@@ -284,7 +285,7 @@ class PreparedScene:
         distance = np.empty(count)
         owner, face = np.empty(count, np.int32), np.empty(count, np.int32)
         solid = self._solid(object)
-        solid.nearest(flat, position, distance, owner, face, barycentrics, threads)
+        solid.nearest(flat, position, distance, owner, face, barycentrics, as_threads(threads))
         sign: Array | None = None
         if signed:
             sign = -self.locate(flat, object=object, threads=threads).reshape(shape)

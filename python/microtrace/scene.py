@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_indices, as_numbers, as_rows
+from ._brief import Brief
 from .cameras import Camera, Vector
 from .errors import warn
 from .lights import Environment, Light
@@ -21,8 +22,8 @@ from .prepared import PreparedScene
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Sphere
 
 
-@dataclass(eq=False)
-class Scene:
+@dataclass(eq=False, repr=False)
+class Scene(Brief):
     """Shapes, materials, lights and cameras.
 
     Everything is plain data in world space: change it as you like, then call prepare(). Coordinates

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ._brief import Brief
 from .materials import Material
 
 Vector = tuple[float, float, float]
 FloatArray = npt.NDArray[np.floating[Any]]
 
 
-@dataclass(eq=False)
-class Mesh:
+@dataclass(eq=False, repr=False)
+class Mesh(Brief):
     """Indexed triangles. Arrays are read when the scene is prepared, not before."""
 
     vertices: npt.ArrayLike  #: (V, 3), world space
@@ -28,24 +29,24 @@ class Mesh:
     segments: npt.ArrayLike | None = None  #: (S, 2) integers: lines, drawn one pixel wide
 
 
-@dataclass(eq=False)
-class Sphere:
+@dataclass(eq=False, repr=False)
+class Sphere(Brief):
     """The points at distance `radius` from `center`."""
 
     center: Vector = (0.0, 0.0, 0.0)
     radius: float = 1.0
 
 
-@dataclass(eq=False)
-class Plane:
+@dataclass(eq=False, repr=False)
+class Plane(Brief):
     """The infinite plane through `point`."""
 
     point: Vector = (0.0, 0.0, 0.0)
     normal: Vector = (0.0, 1.0, 0.0)  #: any length
 
 
-@dataclass(eq=False)
-class Disc:
+@dataclass(eq=False, repr=False)
+class Disc(Brief):
     """The part of a plane within `radius` of `center`."""
 
     center: Vector = (0.0, 0.0, 0.0)
@@ -53,8 +54,8 @@ class Disc:
     radius: float = 1.0
 
 
-@dataclass(eq=False)
-class Triangle:
+@dataclass(eq=False, repr=False)
+class Triangle(Brief):
     """A single triangle."""
 
     a: Vector
@@ -62,8 +63,8 @@ class Triangle:
     c: Vector
 
 
-@dataclass(eq=False)
-class Quadric:
+@dataclass(eq=False, repr=False)
+class Quadric(Brief):
     """a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0."""
 
     coefficients: Sequence[float] = field(default=(0.0,) * 10)  #: a to j
@@ -72,8 +73,8 @@ class Quadric:
 Shape = Mesh | Sphere | Plane | Disc | Triangle | Quadric
 
 
-@dataclass(eq=False)
-class Object:
+@dataclass(eq=False, repr=False)
+class Object(Brief):
     """A shape with one material."""
 
     shape: Shape

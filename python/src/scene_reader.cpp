@@ -297,6 +297,7 @@ class Reader {
       const nb::handle& environment);
   std::optional<Environment> environment_of(const nb::handle& environment) {
     if (environment.is_none()) return std::nullopt;
+    if (!is(environment, "lights", "Environment")) wrong("an Environment", environment);
     Environment result;
     result.rotation = cast<double>(environment.attr("rotation"), "rotation");
     result.intensity = cast<float>(environment.attr("intensity"), "intensity");
@@ -330,11 +331,17 @@ Scene scene_from_python(const nb::handle& scene) {
 }
 
 Camera camera_from_python(const nb::handle& camera) {
-  return Reader(camera).camera_of(camera);
+  Scene scene;
+  scene.cameras.push_back({.name = "", .camera = Reader(camera).camera_of(camera)});
+  validate(scene);
+  return scene.cameras[0].camera;
 }
 
 std::optional<Environment> environment_from_python(const nb::handle& environment) {
-  return Reader(environment).environment_of(environment);
+  Scene scene;
+  scene.environment = Reader(environment).environment_of(environment);
+  validate(scene);
+  return scene.environment;
 }
 
 }  // namespace microtrace::python

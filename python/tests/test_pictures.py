@@ -136,16 +136,43 @@ def test_wrong_arguments():
     for arguments, text in [
         ({"aovs": ["dept"]}, "unknown AOV"),
         ({"aovs": []}, "at least one"),
-        ({"spp": 0}, "samples"),
         ({"integrator": "x"}, "integrator"),
         ({"filter": "gauss"}, "filter"),
+        ({"size": (0, 10)}, "size must be from 1 to 65536"),
+        ({"size": (1, 2, 3)}, "a width and a height"),
+        ({"spp": -1}, "spp must be from 1"),
+        ({"seed": -1}, "seed must be from 0"),
+        ({"max_depth": 0}, "max_depth must be from 1"),
+        ({"threads": -1}, "threads must be from 0"),
+        ({"background": (1, 2)}, "background must have 3"),
+        ({"environment": mt.Environment((np.nan, 0, 0))}, "/environment/content"),
+        ({"camera": mt.look_at((np.nan, 0, 0), (0, 0, 0))}, "/position: must be finite"),
+        ({"camera": mt.look_at((1, 0, 0), (1, 0, 0))}, "/direction: must not be zero"),
+        ({"camera": mt.look_at((0, 5, 0), (0, 0, 0))}, "/up: must not be parallel"),
+        ({"camera": mt.PerspectiveCamera(vertical_fov=4)}, "/vertical_fov"),
     ]:
         with pytest.raises(ValueError, match=text):
-            mt.render(prepared, size=SIZE, **arguments)
+            mt.render(prepared, **{"size": SIZE, **arguments})
+    for arguments, text in [
+        ({"size": (16.5, 12)}, "size must be an integer"),
+        ({"spp": "many"}, "spp must be an integer"),
+        ({"environment": "studio"}, "expected an Environment"),
+    ]:
+        with pytest.raises(TypeError, match=text):
+            mt.render(prepared, **{"size": SIZE, **arguments})
+    with pytest.raises(TypeError, match="expected a Scene"):
+        mt.render(None)
     with pytest.raises(TypeError, match="expected a camera"):
         mt.render(prepared, "front")
     with pytest.raises(KeyError, match="add 'depth' to aovs"):
         mt.render(prepared, size=SIZE, spp=1)["depth"]
+
+
+def test_small_numbers_of_numpy():
+    prepared = mt.load(KNOT).prepare()
+    camera = mt.PerspectiveCamera(position=np.array([0, 0, 9.0]), vertical_fov=np.float32(1))
+    picture = mt.render(prepared, camera, np.array([16, 12]), spp=np.int64(1), threads=np.uint8(1))
+    assert picture.color.shape == (12, 16, 3)
 
 
 def test_progress_and_cancel():

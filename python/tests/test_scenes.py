@@ -62,7 +62,7 @@ def test_every_field_survives():
             elif isinstance(item.default, tuple):
                 values[item.name] = (number, number + 1 / 64, number + 2 / 64)
             else:
-                values[item.name] = number + 1.5
+                values[item.name] = number + (1.5 if item.default > 1 else 0)
             number += 1 / 64
         made[name] = cls(**values)
     scene = mt.Scene(
@@ -187,6 +187,15 @@ def test_pickle():
     assert scene.objects[0].name != "other"
 
 
+def test_texts_are_short():
+    scene = mt.load(KNOT)
+    assert len(repr(scene)) < 4000
+    assert repr(mt.Material(name="red", roughness_factor=0.5)) == (
+        "Material(name='red', roughness_factor=0.5)"
+    )
+    assert "<float32 (352, 3)>" in repr(scene.objects[0].shape)
+
+
 def test_images():
     pixels = np.arange(24, dtype=np.uint8).reshape(2, 4, 3)
     image = mt.Image(pixels, "checker")
@@ -242,6 +251,17 @@ def scene_with(**changes):
         (mt.Scene(materials=[mt.Material(alpha_mode="glass")]), ValueError, "opaque, mask, blend"),
         (mt.Scene(environment=mt.Environment("sky")), ValueError, "studio"),
         (mt.Scene(integrator="photon"), ValueError, "path"),
+        (
+            mt.Scene(materials=[mt.Material(roughness_factor=7)]),
+            mt.SceneError,
+            "/materials/0/rough",
+        ),
+        (
+            mt.Scene(lights=[mt.PointLight(intensity=-1)]),
+            mt.SceneError,
+            "/lights/0/light/intensity",
+        ),
+        (mt.Scene(environment=mt.Environment((-1, 0, 0))), mt.SceneError, "/environment/content"),
         (mt.Scene(size=(10, -1)), TypeError, "size"),
     ],
 )

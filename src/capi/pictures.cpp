@@ -1,5 +1,5 @@
 #include "capi/handles.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>

@@ -8,7 +8,7 @@
 #include "render/tile_painter.hpp"
 #include "render/tiles.hpp"
 #include "render/view.hpp"
-#include "scene/check_indices.hpp"
+#include "scene/validate/check_indices.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/render.hpp>

@@ -1,4 +1,4 @@
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <cmath>
 #include <limits>
@@ -176,6 +176,48 @@ TEST(Decimal, IsShortestAndRoundTrips) {
   EXPECT_EQ(decimal(0.1F), "0.1");
   EXPECT_EQ(decimal(-1.0), "-1");
   EXPECT_EQ(decimal(1e300), "1e+300");
+}
+
+TEST(ValidateMaterial, Ranges) {
+  EXPECT_EQ(broken(Material{}), "");
+  Material all{.emissive = Vec3(kMost), .ior = 0};
+  all.specular.emplace();
+  all.transmission.emplace();
+  all.volume.emplace();
+  all.clearcoat.emplace();
+  all.sheen.emplace();
+  all.anisotropy.emplace();
+  all.iridescence.emplace();
+  all.diffuse_transmission.emplace();
+  all.specular_glossiness.emplace();
+  EXPECT_EQ(broken(all), "");
+  EXPECT_EQ(broken(Material{.roughness = 7}), "roughness: must be from 0 to 1, is 7");
+  EXPECT_EQ(broken(Material{.base_color = {1, 1, kNan, 1}}),
+            "base_color: must be from 0 to 1, is nan");
+  EXPECT_EQ(broken(Material{.emissive = Vec3(kInfinity)}),
+            "emissive: must be finite and at least 0, is inf");
+  EXPECT_EQ(broken(Material{.ior = 0.5F}), "ior: must be finite and at least 1, is 0.5");
+  all.clearcoat->roughness = -1;
+  EXPECT_EQ(broken(all), "clearcoat/roughness: must be from 0 to 1, is -1");
+  all.clearcoat.reset();
+  all.volume->attenuation_distance = 0;
+  EXPECT_EQ(broken(all), "volume/attenuation_distance: must be positive");
+}
+
+TEST(ValidateLight, Ranges) {
+  EXPECT_EQ(broken(Light(DirectionalLight{})), "");
+  EXPECT_EQ(broken(Light(PointLight{})), "");
+  EXPECT_EQ(broken(Light(SpotLight{})), "");
+  EXPECT_EQ(broken(Light(PointLight{.intensity = -1})),
+            "intensity: must be finite and at least 0, is -1");
+  EXPECT_EQ(broken(Light(PointLight{.range = 0})), "range: must be positive");
+  EXPECT_THAT(broken(Light(SpotLight{.inner_angle = 1, .outer_angle = 1})),
+              testing::StartsWith("outer_angle: must be above inner_angle"));
+  EXPECT_THAT(broken(Light(DirectionalLight{.direction = {kNan, 0, 0}})),
+              testing::StartsWith("direction: "));
+  EXPECT_EQ(broken(Environment{}), "");
+  EXPECT_THAT(broken(Environment{.content = Vec3(-1)}), testing::StartsWith("content: "));
+  EXPECT_THAT(broken(Environment{.intensity = kNan}), testing::StartsWith("intensity: "));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #include "cli/options/values.hpp"
 
 #include "scene/math/srgb.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/environment.hpp>
 

@@ -1,7 +1,7 @@
 #include "cli/pictures/camera.hpp"
 
 #include "scene/math/trigonometry.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <cstddef>
 

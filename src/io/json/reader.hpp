@@ -2,7 +2,7 @@
 /// Typed reading of a JSON document: each value knows its pointer, and each error its position.
 
 #include "io/json/document.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/math.hpp>

@@ -1,7 +1,7 @@
 #include "float_environment.hpp"
 #include "io/sidecar/seen_pixels.hpp"
 #include "scene/support.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/sidecar.hpp>
 

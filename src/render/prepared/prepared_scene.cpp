@@ -1,6 +1,6 @@
 #include "float_environment.hpp"
 #include "render/prepared/content.hpp"
-#include "scene/check_indices.hpp"
+#include "scene/validate/check_indices.hpp"
 
 #include <microtrace/prepared_scene.hpp>
 #include <microtrace/threads.hpp>

@@ -1,6 +1,6 @@
 #include "io/image/encode/notes.hpp"
 
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 namespace microtrace::io {
 

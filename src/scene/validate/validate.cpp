@@ -1,4 +1,4 @@
-#include "scene/validate.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <array>
 #include <charconv>

@@ -2,7 +2,10 @@
 /// The rules for scenes of all file formats.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/light.hpp>
+#include <microtrace/material.hpp>
 #include <microtrace/shape.hpp>
 
 #include <cstdint>
@@ -37,6 +40,11 @@ struct BrokenRule {
 /// aspect_ratio, fx and fy positive; the image of a calibration of valid size; 0 <= near < far with
 /// near finite.
 [[nodiscard]] std::optional<BrokenRule> validate(const Camera& camera);
+
+/// All numbers in the documented ranges.
+[[nodiscard]] std::optional<BrokenRule> validate(const Material& material);
+[[nodiscard]] std::optional<BrokenRule> validate(const Light& light);
+[[nodiscard]] std::optional<BrokenRule> validate(const Environment& environment);
 
 /// At least 1 pixel per side; at most kMaxImageSide per side and kMaxImagePixels in all.
 [[nodiscard]] std::optional<BrokenRule> validate(ImageSize size);

@@ -1,6 +1,6 @@
-#include "scene/check_indices.hpp"
 #include "scene/material_textures.hpp"
-#include "scene/validate.hpp"
+#include "scene/validate/check_indices.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/validate.hpp>
 
@@ -99,6 +99,16 @@ void validate(const Scene& scene) {
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     if (const auto broken = validate(scene.cameras[i].camera))
       refuse(item("cameras", i) + "/camera", *broken);
+  }
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (const auto broken = validate(scene.materials[i])) refuse(item("materials", i), *broken);
+  }
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    if (const auto broken = validate(scene.lights[i].light))
+      refuse(item("lights", i) + "/light", *broken);
+  }
+  if (scene.environment) {
+    if (const auto broken = validate(*scene.environment)) refuse("/environment", *broken);
   }
 }
 
