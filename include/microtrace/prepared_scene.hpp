@@ -67,6 +67,9 @@ class MICROTRACE_EXPORT PreparedScene {
   /// The same for many rays and their hits, faster. Both spans have the same size.
   void surfaces(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
                 const SurfaceBuffers& buffers) const;
+  /// The same for rays in scene coordinates, see in_scene(). Positions are in world space.
+  void surfaces_in_scene(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
+                         const SurfaceBuffers& buffers) const;
 
   /// Mip maps, environment tables and the tree, for PrepareOptions::tables. They don't refer to the
   /// scene.

@@ -34,7 +34,12 @@ _WIDTHS = {
     "uv": 2,
     "front": 0,
 }
-_TYPES: dict[str, Any] = {"object": np.int32, "primitive": np.int32, "front": np.bool_}
+_TYPES: dict[str, Any] = {
+    "object": np.int32,
+    "primitive": np.int32,
+    "front": np.bool_,
+    "position": np.float64,
+}
 
 
 @dataclass(eq=False, repr=False)
@@ -44,7 +49,7 @@ class Hits(Brief):
     t: Array | None = None  #: float32, in multiples of the direction; infinite for misses
     object: Array | None = None  #: int32, index into Scene.objects; -1 for misses
     primitive: Array | None = None  #: int32, face of the mesh, else 0; -1 for misses
-    position: Array | None = None  #: (..., 3) float32, world space; 0 for misses
+    position: Array | None = None  #: (..., 3) float64, world space; 0 for misses
     normal: Array | None = None  #: (..., 3) float32, shading normal of the front side; unit length
     face_normal: Array | None = None  #: (..., 3) float32, geometric normal of the front side
     barycentrics: Array | None = None  #: (..., 3) float32, weights of the triangle's corners

@@ -65,56 +65,62 @@ T* output(const nb::dict& outputs, const char* name) {
 struct Outputs {
   explicit Outputs(const nb::dict& d)
       : t(output<float>(d, "t")),
-        object(output<std::int32_t>(d, "object")),
-        primitive(output<std::int32_t>(d, "primitive")),
-        position(output<float>(d, "position")),
+        // -1, for misses, has the bits of SurfaceBuffers::kNone.
+        object(reinterpret_cast<std::uint32_t*>(output<std::int32_t>(d, "object"))),
+        primitive(reinterpret_cast<std::uint32_t*>(output<std::int32_t>(d, "primitive"))),
+        position(output<double>(d, "position")),
         normal(output<float>(d, "normal")),
         face_normal(output<float>(d, "face_normal")),
         barycentrics(output<float>(d, "barycentrics")),
         uv(output<float>(d, "uv")),
         front(output<bool>(d, "front")) {}
 
-  [[nodiscard]] bool has_surface() const {
-    return position || normal || face_normal || barycentrics || uv || front;
+  /// Fills the arrays from place `first` on, for rays in scene coordinates.
+  void fill(const PreparedScene& scene, std::size_t first, std::span<const Ray> rays,
+            std::span<const std::optional<Hit>> hits) const {
+    if (t != nullptr)
+      for (std::size_t i = 0; i < hits.size(); ++i)
+        t[first + i] = hits[i] ? hits[i]->t : std::numeric_limits<float>::infinity();
+    if (position || normal || face_normal || barycentrics || uv || front) {
+      scene.surfaces_in_scene(rays, hits,
+                              {.p = at<3>(position, first),
+                               .n = at<3>(face_normal, first),
+                               .ns = at<3>(normal, first),
+                               .barycentrics = at<3>(barycentrics, first),
+                               .uv = at<2>(uv, first),
+                               .front = at<1>(front, first),
+                               .object = at<1>(object, first),
+                               .primitive = at<1>(primitive, first)});
+    } else if (object || primitive) {
+      fill_ids(scene.bvh().primitives(), first, hits);
+    }
+  }
+
+ private:
+  template <std::ptrdiff_t width, class T>
+  static OutputArray<T> at(T* data, std::size_t first) {
+    if (data == nullptr) return {};
+    return {.data = data + width * static_cast<std::ptrdiff_t>(first), .stride = width};
+  }
+
+  void fill_ids(const Primitives& primitives, std::size_t first,
+                std::span<const std::optional<Hit>> hits) const {
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const std::optional<Hit>& hit = hits[i];
+      const std::size_t owner = hit ? primitives.object_index(hit->id) : 0;
+      if (object)
+        object[first + i] = hit ? static_cast<std::uint32_t>(owner) : SurfaceBuffers::kNone;
+      if (primitive)
+        primitive[first + i] =
+            hit ? hit->id - primitives.first_id_of(owner) : SurfaceBuffers::kNone;
+    }
   }
 
   float* t;
-  std::int32_t *object, *primitive;
-  float *position, *normal, *face_normal, *barycentrics, *uv;
+  std::uint32_t *object, *primitive;
+  double* position;
+  float *normal, *face_normal, *barycentrics, *uv;
   bool* front;
 };
-
-inline void put(float* to, std::size_t i, const DVec3& v) {
-  if (to == nullptr) return;
-  for (glm::length_t k = 0; k < 3; ++k)
-    to[3 * i + static_cast<std::size_t>(k)] = static_cast<float>(v[k]);
-}
-
-/// Fills the arrays at place i for a hit or a miss of a ray in scene coordinates.
-inline void fill(const Outputs& to, std::size_t i, const Primitives& primitives, const Ray& ray,
-                 const std::optional<Hit>& hit) {
-  if (to.t) to.t[i] = hit ? hit->t : std::numeric_limits<float>::infinity();
-  if (to.object || to.primitive) {
-    const std::size_t object = hit ? primitives.object_index(hit->id) : 0;
-    if (to.object) to.object[i] = hit ? static_cast<std::int32_t>(object) : -1;
-    if (to.primitive)
-      to.primitive[i] =
-          hit ? static_cast<std::int32_t>(hit->id - primitives.first_id_of(object)) : -1;
-  }
-  if (!to.has_surface()) return;
-  const SurfaceInteraction at =
-      hit ? interact(primitives, ray, *hit)
-          : SurfaceInteraction{.n = DVec3(0), .ns = DVec3(0), .front = false};
-  put(to.position, i, hit ? at.p + primitives.scene().origin : DVec3(0));
-  put(to.normal, i, at.ns);
-  put(to.face_normal, i, at.n);
-  put(to.barycentrics, i, at.triangle ? at.triangle->barycentrics : DVec3(0));
-  if (to.uv) {
-    const DVec2 uv = at.uv(0).value_or(DVec2(0));
-    to.uv[2 * i] = static_cast<float>(uv.x);
-    to.uv[2 * i + 1] = static_cast<float>(uv.y);
-  }
-  if (to.front) to.front[i] = at.front;
-}
 
 }  // namespace microtrace::python

@@ -16,7 +16,6 @@ namespace {
 void intersect(const Prepared& self, const AnyArray& array, const nb::object& t_min,
                const nb::object& t_max, const nb::dict& outputs, unsigned threads) {
   const Bvh& bvh = self.scene.bvh();
-  const Primitives& primitives = bvh.primitives();
   const DVec3 origin = self.scene.scene().origin;
   const Rays source(array, t_min, t_max, origin);
   const Outputs to(outputs);
@@ -25,7 +24,7 @@ void intersect(const Prepared& self, const AnyArray& array, const nb::object& t_
     source.get(first, last, rays);
     std::vector<std::optional<Hit>> hits(rays.size());
     bvh.intersect(rays, hits);
-    for (std::size_t k = 0; k < rays.size(); ++k) fill(to, first + k, primitives, rays[k], hits[k]);
+    to.fill(self.scene, first, rays, hits);
   });
 }
 
@@ -82,21 +81,26 @@ std::unique_ptr<AllHits> intersect_all(const Prepared& self, const AnyArray& arr
 
 void fill_all(const Prepared& self, const AllHits& all, const AnyArray& array,
               const nb::dict& outputs, const nb::ndarray<std::int64_t, nb::c_contig>& offsets,
-              const nb::ndarray<std::int64_t, nb::c_contig>& rays_of_hits, unsigned threads) {
-  const Primitives& primitives = self.scene.bvh().primitives();
+              const nb::ndarray<std::int64_t, nb::c_contig>& owners, unsigned threads) {
   const Rays source(array, nb::none(), nb::none(), self.scene.scene().origin);
   const Outputs to(outputs);
   std::copy(all.offsets.begin(), all.offsets.end(), offsets.data());
-  std::int64_t* owner = rays_of_hits.data();
+  std::int64_t* owner = owners.data();
   for_each_block(source.size(), threads, [&](std::size_t first, std::size_t last) {
-    std::vector<Ray> rays;
+    std::vector<Ray> rays, rays_of_hits;
     source.get(first, last, rays);
+    const std::size_t begin = all.offsets[first];
+    std::vector<std::optional<Hit>> hits(
+        all.hits.begin() + static_cast<std::ptrdiff_t>(begin),
+        all.hits.begin() + static_cast<std::ptrdiff_t>(all.offsets[last]));
+    rays_of_hits.reserve(hits.size());
     for (std::size_t i = first; i < last; ++i) {
       for (std::size_t k = all.offsets[i]; k < all.offsets[i + 1]; ++k) {
-        fill(to, k, primitives, rays[i - first], all.hits[k]);
+        rays_of_hits.push_back(rays[i - first]);
         owner[k] = static_cast<std::int64_t>(i);
       }
     }
+    to.fill(self.scene, begin, rays_of_hits, hits);
   });
 }
 

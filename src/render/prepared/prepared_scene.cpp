@@ -119,6 +119,13 @@ void store(const OutputArray<T>& to, std::size_t first, std::span<const std::opt
 
 void PreparedScene::surfaces(std::span<const Ray> rays, std::span<const std::optional<Hit>> hits,
                              const SurfaceBuffers& buffers) const {
+  with_rays_in_scene(*this, rays,
+                     [&](std::span<const Ray> own) { surfaces_in_scene(own, hits, buffers); });
+}
+
+void PreparedScene::surfaces_in_scene(std::span<const Ray> rays,
+                                      std::span<const std::optional<Hit>> hits,
+                                      const SurfaceBuffers& buffers) const {
   const FloatEnvironment environment;
   const SurfaceFinder& finder = content().surface_finder();
   const DVec3 origin = scene().origin;
@@ -130,9 +137,7 @@ void PreparedScene::surfaces(std::span<const Ray> rays, std::span<const std::opt
   for (std::size_t first = 0; first < rays.size(); first += kSurfaceLanes) {
     const std::size_t count = std::min(kSurfaceLanes, rays.size() - first);
     const auto own_hits = hits.subspan(first, count);
-    with_rays_in_scene(*this, rays.subspan(first, count), [&](std::span<const Ray> own_rays) {
-      finder.find(own_rays, own_hits, parts, at);
-    });
+    finder.find(rays.subspan(first, count), own_hits, parts, at);
     store<3>(buffers.p, first, own_hits, 0.0,
              [&](std::size_t c, std::size_t i) { return at.p[c][i] + offset[c]; });
     const auto store_floats = [&]<std::size_t N>(const OutputArray<float>& to,
