@@ -51,14 +51,14 @@ class Picture(Mapping[str, Array]):
     Arrays of one picture have shape (height, width) or (height, width, channels), from the upper
     left; those of several pictures have the number of the camera before that.
 
-    color: float32, linear Rec. 709; with alpha if it was transparent, then premultiplied.
-    depth, distance: float32; infinite where nothing is visible. All others are 0 there.
-    position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: 2. Normals face the
-        viewer.
-    object, primitive, material: uint32, counted from 1: index + 1 in Scene.objects, in the mesh's
-        faces, in Scene.materials.
-    variance, samples: float32, of the mean displayed luminance, and the number of samples.
-    denoise_albedo, denoise_normal: float32, 3 channels, means over the samples.
+    - color: float32, linear Rec. 709; with alpha if it was transparent, then premultiplied.
+    - depth, distance: float32; infinite where nothing is visible. All others are 0 there.
+    - position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: 2. Normals face
+      the viewer.
+    - object, primitive, material: uint32, counted from 1: index + 1 in Scene.objects, in the
+      mesh's faces, in Scene.materials.
+    - variance, samples: float32, of the mean displayed luminance, and the number of samples.
+    - denoise_albedo, denoise_normal: float32, 3 channels, means over the samples.
     """
 
     def __init__(self, arrays: dict[str, Array], exposure: float, tone_map: str) -> None:
