@@ -32,7 +32,7 @@ RUN_ELSEWHERE = [
     r"cmake --install build/release( --prefix \w+)?$|cpack( .*)?$",  # package.*
     r"cmake --workflow --preset \w+$|scripts/\w+( \w+)*$",  # see test_scripts_and_presets_exist
     r"ctest -L [\w |]+$",
-    r"scripts/setup python && python3 -m venv venv && venv/bin/pip install \.$",  # scripts/bare python, which CI shortens to python/tests/install
+    r"scripts/setup python && python3 -m venv venv && venv/bin/pip install \.$",  # scripts/bare python
     r"import microtrace|\w+ = (mt|scene)\.|mt\.",  # python.tests
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
     r"ffmpeg |assimp |ulimit |sudo apt",
