@@ -21,6 +21,8 @@ install(TARGETS microtrace)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
 # The same folders as in the repository, so that links between pages stay valid.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
+install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
+install(DIRECTORY python/notebooks DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN CMakeLists.txt EXCLUDE PATTERN *.scd EXCLUDE)
 
 set(microtrace_modules_dir ${CMAKE_INSTALL_LIBDIR}/microtrace)
