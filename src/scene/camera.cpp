@@ -32,8 +32,8 @@ double aspect(ImageSize size) {
   return double{1} * size.width / size.height;
 }
 
-// Half the picture's height that shows a whole window of half height `half` and the given aspect
-// ratio.
+// Half the height of the smallest picture that contains the whole window. `half` is half the
+// window's height.
 double fitted(double half, const std::optional<double>& window_aspect, ImageSize size) {
   return window_aspect ? half * std::max(1.0, *window_aspect / aspect(size)) : half;
 }
@@ -42,7 +42,7 @@ float at_least_above_zero(double t) {
   return std::max(static_cast<float>(t), std::numeric_limits<float>::denorm_min());
 }
 
-// The coordinates of v in the basis of two perpendicular steps.
+// The coordinates of v's projection in the basis of the perpendicular vectors `right` and `down`.
 DVec2 in_steps(const DVec3& v, const DVec3& right, const DVec3& down) {
   return {glm::dot(v, right) / glm::dot(right, right), glm::dot(v, down) / glm::dot(down, down)};
 }
@@ -66,8 +66,8 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
   center_ = DVec2(size.width, size.height) * 0.5;
   pixels_per_unit_ = DVec2(0);
 
-  // Sets the image plane: `half` is half its height, in units of the focus (perspective) or of the
-  // world.
+  // Sets the image plane. `half` is half its height: at depth 1 for perspective cameras, in world
+  // units for orthographic ones.
   const auto set_plane = [&](Kind kind, double half, const DVec3& middle) {
     kind_ = kind;
     right_ = frame.right * (2 * half * aspect(size) / size.width);
@@ -112,10 +112,12 @@ RayGenerator::RayGenerator(const Camera& camera, ImageSize size) : size_(size) {
 
 Ray RayGenerator::ray_at(double x, double y) const {
   Ray ray;
-  // `toward` is the direction, scaled to depth 1 or, for depth ranges of distances, to length 1.
+  // `toward` is the direction, scaled to depth 1, or to length 1 for cameras whose near and far are
+  // distances.
   const auto set_direction = [&](const DVec3& toward) {
     const LaneRays<1> lane = rays_toward<1>(toward, depth_.near, depth_.far);
-    // One by one, because copying a value that was just written in parts is slow.
+    // Member by member, because copying a struct that was just written in parts stalls store
+    // forwarding.
     ray.o = Vec3(position_);
     ray.t_min = lane.t_min;
     ray.d = lane.d;

@@ -66,9 +66,10 @@ void Framing::add(const Scene& scene) {
   }
 }
 
-// A camera at x right + y up + z back has a point p within the slope s of the right side if (right
-// + s back) . p <= x + s z, and of the left side if (s back - right) . p <= s z - x. Both hold for
-// all points with the least z for which both are equalities.
+// Let s be the slope of the frustum's right and left sides. A camera at x right + y up + z back
+// sees a point p inside the right side if (right + s back) . p <= x + s z, and inside the left side
+// if (s back - right) . p <= s z - x. The least z for which all points satisfy both makes both
+// equalities for the extreme points. The same applies to the top and bottom sides.
 PerspectiveCamera Framing::camera() const {
   const FloatEnvironment environment;
   const bool point = is_empty() || low_ == high_;

@@ -33,9 +33,9 @@ enum class MaterialTexture {
   count,  ///< number of textures
 };
 
-/// Whether path tracing reads the texture. Occlusion textures are unused because path tracing
-/// computes occlusion, thickness textures because only a thickness of 0 is distinguished. Unlit
-/// surfaces use only their own color.
+/// True if path tracing reads the texture. It computes occlusion itself, so it ignores occlusion
+/// textures. It only distinguishes a thickness of 0 from others, so it ignores thickness textures.
+/// Unlit surfaces use only their base color and emission.
 [[nodiscard]] inline bool affects_light(const Material& material, MaterialTexture texture) {
   using enum MaterialTexture;
   if (material.unlit) return texture == base_color || texture == emissive;
@@ -85,7 +85,7 @@ void for_each_named_texture(AnyMaterial& material, const Visit& visit) {
   if (auto& layer = material.specular_glossiness) srgb(specular_glossiness, layer->texture);
 }
 
-/// The same without the name: visit(TextureUse&, ColorEncoding).
+/// Like for_each_named_texture, but calls visit(TextureUse&, ColorEncoding), without the name.
 template <typename AnyMaterial, typename Visit>
 void for_each_texture(AnyMaterial& material, const Visit& visit) {
   for_each_named_texture(

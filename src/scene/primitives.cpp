@@ -17,8 +17,8 @@ Primitives::Primitives(const Scene& scene) : scene_(&scene) {
 }
 
 std::size_t Primitives::object_index(PrimitiveId id) const {
-  // An empty mesh has the same first id as the next object: takes the last object that starts at or
-  // before id.
+  // Takes the last object that starts at or before `id`, because an empty mesh has the same first
+  // id as the next object.
   const auto after = std::upper_bound(first_ids_.begin(), first_ids_.end(), id);
   return static_cast<std::size_t>(after - first_ids_.begin()) - 1;
 }

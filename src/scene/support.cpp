@@ -7,7 +7,7 @@
 
 namespace microtrace {
 
-// p^T A p + 2 b . p + j = 0 is (p - c)^T A (p - c) = c^T A c - j with A c = -b.
+// With A c = -b, the equation p^T A p + 2 b . p + j = 0 becomes (p - c)^T A (p - c) = c^T A c - j.
 std::optional<EllipsoidSupport> ellipsoid(const Quadric& q) {
   const double sign = q.a < 0 ? -1 : 1;
   const double a = sign * q.a, b = sign * q.b, c = sign * q.c;

@@ -33,12 +33,13 @@ struct DiscSupport {
   double radius;
 
   double operator()(const DVec3& u) const {
-    const DVec3 in_plane = glm::cross(normal, u);  // as long as u's projection on the plane
+    const DVec3 in_plane =
+        glm::cross(normal, u);  // has the length of u's projection onto the plane
     return glm::dot(u, center) + radius * std::sqrt(glm::dot(in_plane, in_plane));
   }
 };
 
-/// (p - center)^T A (p - center) = 1 with A positive definite.
+/// The ellipsoid (p - center)^T A (p - center) = 1 with positive definite A.
 struct EllipsoidSupport {
   DVec3 center;
   glm::dmat3 inverse;  ///< of A
@@ -51,9 +52,9 @@ struct EllipsoidSupport {
 /// Nothing if the quadric is not an ellipsoid, or is empty.
 [[nodiscard]] std::optional<EllipsoidSupport> ellipsoid(const Quadric& quadric);
 
-/// Calls point(DVec3) for points whose convex hull equals the shape's, or support(f) with its
-/// support function. Calls neither if the shape is empty or unbounded. Vertices that are not finite
-/// are ignored.
+/// Calls point(DVec3) for points whose convex hull equals that of the shape, or support(f) with the
+/// shape's support function f. Calls neither if the shape is empty or unbounded. Ignores vertices
+/// that are not finite.
 template <class Point, class Support>
 void visit_extent(const Shape& shape, Point&& point, Support&& support) {
   const auto visit = [&](const auto& s) {

@@ -11,13 +11,13 @@
 namespace microtrace {
 namespace {
 
-/// The unit vector of v, or `otherwise` if v is zero.
+/// The normalized v, or `otherwise` if v is zero.
 DVec3 direction_or(const DVec3& v, const DVec3& otherwise) {
   const auto direction = direction_of<1>(v);
   return direction.exists ? direction.v : otherwise;
 }
 
-/// Barycentric weights of the point of the segment a b that is nearest to p.
+/// Barycentric weights of the point on the segment a b that is nearest to p.
 DVec2 nearest_on_segment(const DVec3& a, const DVec3& b, const DVec3& p) {
   const double square = glm::dot(b - a, b - a);
   const double s = square > 0 ? std::clamp(glm::dot(p - a, b - a) / square, 0.0, 1.0) : 0;
@@ -28,7 +28,8 @@ TriangleCorners<1> corners_of(const Triangle& s) {
   return {DVec3(s.a), DVec3(s.b), DVec3(s.c)};
 }
 
-/// For triangles without area or seen exactly edge-on: the nearest point on the longest edge.
+/// Barycentric coordinates of the point on the longest edge that is nearest to p. Used for
+/// triangles that have no area or are seen exactly edge-on.
 DVec3 barycentrics_on_edge(const TriangleCorners<1>& t, const DVec3& p) {
   const std::array corners{t.a, t.b, t.c};
   std::size_t longest = 0;
@@ -46,8 +47,8 @@ DVec3 barycentrics_on_edge(const TriangleCorners<1>& t, const DVec3& p) {
   return result;
 }
 
-/// The root of a t^2 + 2 b t + c near t, which is its float32 value: Newton's method, while it
-/// stays near.
+/// Refines t, a float32 approximation of a root of a t^2 + 2 b t + c, by Newton's method as long as
+/// the result stays near t.
 double polished_root(double a, double b, double c, float t) {
   double x = t;
   for (int i = 0; i < 3; ++i) {
@@ -77,7 +78,7 @@ class Interaction {
   SurfaceInteraction operator()(const Disc& s) const { return planar(s.center, s.normal); }
 
   SurfaceInteraction operator()(const Quadric& q) const {
-    // The polynomial at o + t d: d.Q d t^2 + d.gradient(o) t + value(o).
+    // The quadric's polynomial at o + t d is d.Q d t^2 + d.gradient(o) t + value(o).
     const double a = glm::dot(d_, half_gradient(q, d_, 0));
     const DVec3 half = half_gradient(q, o_, 1);
     const double c = glm::dot(o_, half_gradient(q, o_, 2)) + double{q.j};
@@ -128,8 +129,8 @@ class Interaction {
     return at(o_ + (sure ? t : t_hit) * d_, direction_or(normal, facing()));
   }
 
-  /// Half the gradient at v, with the linear part multiplied by `weight`. With weight 2, its
-  /// product with v is the polynomial's value without j.
+  /// Half the gradient at v, with its linear part multiplied by `weight`. With weight 2, the dot
+  /// product of the result and v is the polynomial's value without j.
   static DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
     const double d = q.d, e = q.e, f = q.f;
     return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,
@@ -143,7 +144,7 @@ class Interaction {
   DVec3 o_, d_;
 };
 
-/// The interpolated vertex attribute, if the mesh has it.
+/// Interpolates a vertex attribute; nothing if the mesh doesn't have it.
 template <typename Result, typename Value>
 std::optional<Result> interpolate(const TrianglePoint& at, const Array<Value>& values) {
   if (values.empty()) return std::nullopt;
@@ -163,7 +164,7 @@ DVec2 SurfaceInteraction::uv_step(std::size_t set, const DVec3& dp) const {
   if (!uv(set)) return DVec2(0);
   const Mesh& mesh = *triangle->mesh;
   const auto& [i, j, k] = triangle->corners;
-  // dp = s (b - a) + t (c - a).
+  // Solves dp = s (b - a) + t (c - a) for s and t.
   const DVec3 a(mesh.positions[i]);
   const DVec3 ab = DVec3(mesh.positions[j]) - a, ac = DVec3(mesh.positions[k]) - a;
   const DVec3 cross = glm::cross(ab, ac);

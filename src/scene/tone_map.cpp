@@ -11,7 +11,7 @@
 namespace microtrace {
 namespace {
 
-/// Matrix from rows, the order in which publications print them.
+/// Makes a matrix from its rows, because publications print matrices by rows.
 constexpr glm::dmat3 matrix(const DVec3& a, const DVec3& b, const DVec3& c) {
   return {a.x, b.x, c.x, a.y, b.y, c.y, a.z, b.z, c.z};
 }
@@ -21,9 +21,9 @@ DVec3 each(const DVec3& v, F&& f) {
   return {f(v.x), f(v.y), f(v.z)};
 }
 
-/// Khronos PBR Neutral Tone Mapper, specification of 2024. The lower part subtracts the reflection
-/// of a surface of reflectance 0.04; the upper part compresses the largest channel from 0.76 toward
-/// 1 and desaturates much brighter colors.
+/// Khronos PBR Neutral Tone Mapper, specification of 2024. The first step subtracts the specular
+/// reflection of a surface with reflectance 0.04. The second compresses a largest channel above
+/// 0.76 into [0.76, 1] and desaturates very bright colors.
 DVec3 khronos_pbr_neutral(const DVec3& light) {
   constexpr double kStart = 0.8 - 0.04, kDesaturation = 0.15;
   const double least = std::min({light.x, light.y, light.z});
@@ -37,8 +37,8 @@ DVec3 khronos_pbr_neutral(const DVec3& light) {
   return glm::mix(color * (shown / peak), DVec3(shown), gray);
 }
 
-/// S. Hill's fit of the reference rendering and output transforms (BakingLab, 2016), with the
-/// exposure of 1 / 0.6 that three.js uses.
+/// S. Hill's fit of the ACES reference rendering and output transforms (BakingLab, 2016), with the
+/// exposure factor 1 / 0.6 of three.js.
 DVec3 aces(const DVec3& light) {
   static const glm::dmat3 aces_from_rec709 =
       matrix({0.59719, 0.35458, 0.04823}, {0.07600, 0.90834, 0.01566}, {0.02840, 0.13383, 0.83777});
@@ -50,7 +50,7 @@ DVec3 aces(const DVec3& light) {
   return rec709_from_aces * fitted;
 }
 
-/// The base contrast of AgX over its logarithmic range, by B. Wrensch's polynomial ("Minimal AgX
+/// AgX's base contrast curve over its logarithmic range: B. Wrensch's polynomial fit ("Minimal AgX
 /// implementation", 2023).
 double agx_contrast(double x) {
   const double x2 = x * x, x4 = x2 * x2;
@@ -58,8 +58,8 @@ double agx_contrast(double x) {
          0.00232;
 }
 
-/// T. Sobotka's AgX in Rec. 2020 primaries, as in Blender and Filament: 16.5 stops around middle
-/// gray, without the display's power function 2.2.
+/// T. Sobotka's AgX in Rec. 2020 primaries, as in Blender and Filament. It covers 16.5 stops around
+/// middle gray. The display's power function of 2.2 is not part of it.
 DVec3 agx(const DVec3& light) {
   static const glm::dmat3 rec2020_from_rec709 =
       matrix({0.6274, 0.3293, 0.0433}, {0.0691, 0.9195, 0.0113}, {0.0164, 0.0880, 0.8956});
@@ -74,7 +74,7 @@ DVec3 agx(const DVec3& light) {
              {-0.1413297634984383, 1.157823702216272, -0.016493938717834257},
              {-0.14132976349843826, -0.11060664309660294, 1.2519364065950405});
   constexpr double kLeast = -12.47393,
-                   kGreatest = 4.026069;  // log2 of 0.18 with -10 and +6.5 stops
+                   kGreatest = 4.026069;  // log2(0.18) - 10 and log2(0.18) + 6.5
   const DVec3 shown = each(inset * (rec2020_from_rec709 * light), [](double v) {
     const double stops = (binary_logarithm(std::max(v, 1e-10)) - kLeast) / (kGreatest - kLeast);
     return agx_contrast(std::clamp(stops, 0.0, 1.0));

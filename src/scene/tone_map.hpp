@@ -6,8 +6,9 @@
 
 namespace microtrace {
 
-/// Linear Rec. 709 on both sides. ToneMap::none returns the color unchanged; the others return a
-/// color in [0, 1] for any input: negative numbers and NaN count as 0, values above 1e6 as 1e6.
+/// Maps a linear Rec. 709 color to another. ToneMap::none returns the color unchanged. The other
+/// tone maps return a color in [0, 1] for any input. They treat negative numbers and NaN as 0, and
+/// values above 1e6 as 1e6.
 [[nodiscard]] Vec3 tone_mapped(const Vec3& color, ToneMap map);
 
 }  // namespace microtrace

@@ -6,7 +6,7 @@
 namespace microtrace {
 
 DVec3 translation_to_origin(const PointBounds& bounds) {
-  // At smaller ratios of distance and size float32 has 20 bits or more for the scene anyway.
+  // Below this ratio of distance to size, float32 resolves the scene with at least 20 bits anyway.
   constexpr double kFar = 16;
   const DVec3 middle = (bounds.low + bounds.high) * 0.5, half = (bounds.high - bounds.low) * 0.5;
   const double size = std::max({half.x, half.y, half.z});

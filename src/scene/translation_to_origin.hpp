@@ -20,9 +20,10 @@ struct PointBounds {
   }
 };
 
-/// The translation to the origin for a scene within the bounds, if its distance is large compared
-/// with its size; else zero. On each axis it is a multiple of a power of two above the size, so
-/// that float32 coordinates no finer than their distance allows stay exact.
+/// The translation that moves a scene with these bounds to the origin if the scene's distance is
+/// large compared with its size; otherwise zero. On each axis, the translation is a multiple of a
+/// power of two that exceeds the size. Coordinates that float32 could represent before the
+/// translation therefore remain exact.
 [[nodiscard]] DVec3 translation_to_origin(const PointBounds& bounds);
 
 }  // namespace microtrace

@@ -1,5 +1,6 @@
 #pragma once
-/// The kernels of all instruction sets. Not to be included by the kernels' own translation units.
+/// Declares the kernels of all instruction sets. The kernels' own translation units must not
+/// include this header.
 
 #include "scene/kernels/kernel.hpp"
 #include "simd/kernel_tables.hpp"

@@ -7,7 +7,7 @@
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
 
-/// get(i) of each lane, which is a float, as float64.
+/// Converts the float get(i) of each lane i to float64.
 template <int N, class Get>
 inline Double<N> gathered_doubles(const Get& get) {
   Float<N> v{};
@@ -29,7 +29,8 @@ inline void store_narrowed(const auto& v, Array& to, int i) {
   narrowed<N>(v.z, to[2] + i);
 }
 
-/// The lanes from `first` on. Those without triangles repeat another one.
+/// Handles the N lanes that start at `first`. Lanes without triangles repeat the first lane with
+/// one.
 template <int N>
 inline void find_surfaces_from(int first, const Ray* rays, const SurfaceParts& parts,
                                SurfaceBatch& batch) {
@@ -37,8 +38,8 @@ inline void find_surfaces_from(int first, const Ray* rays, const SurfaceParts& p
   using V = Doubles3<N>;
   const auto lanes = static_cast<Lanes>(batch.triangles >> first) & kAllLanes<N>;
   if (lanes == 0) return;
-  int from[N];                      // the hit of each lane
-  const std::uint32_t* corners[N];  // of its triangle
+  int from[N];                      // index of each lane's hit
+  const std::uint32_t* corners[N];  // of each lane's triangle
   const MeshArrays* meshes[N];
   for (int i = 0; i < N; ++i) {
     from[i] = first + ((lanes >> i & 1U) != 0 ? i : __builtin_ctz(lanes));

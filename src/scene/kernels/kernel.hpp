@@ -14,13 +14,14 @@ namespace microtrace {
 struct MeshArrays {
   const Vec3* positions = nullptr;
   const std::uint32_t* corners = nullptr;  ///< vertex indices, three per triangle
-  const Vec3* normals = nullptr;           ///< null: none
-  const Vec2* uv = nullptr;                ///< set 0; null: none
+  const Vec3* normals = nullptr;           ///< null if the mesh has none
+  const Vec2* uv = nullptr;                ///< set 0; null if the mesh has none
 };
 
 inline constexpr std::size_t kSurfaceLanes = 64;
 
-/// Surfaces at the hits of up to kSurfaceLanes rays: SurfaceInteraction, rounded once.
+/// Surfaces at the hits of up to kSurfaceLanes rays: the members of SurfaceInteraction, each
+/// rounded once.
 struct alignas(64) SurfaceBatch {
   template <class T>
   using Values = T[kSurfaceLanes];
@@ -29,21 +30,21 @@ struct alignas(64) SurfaceBatch {
   std::uint64_t triangles;
   Values<const MeshArrays*> mesh;  ///< of lanes with triangles
   Values<std::uint32_t> object, primitive;
-  // ---- set by the kernel, for triangles:
+  // The kernel sets the members below, in lanes with triangles.
   Values<double> p[3];
-  Values<float> n[3], ns[3];  ///< of the front side
+  Values<float> n[3], ns[3];  ///< normals of the front side
   Values<float> side;         ///< 1: the ray arrives at the front side; -1: at the back
   Values<float> barycentrics[3];
-  Values<float> uv[2];    ///< 0 if there are none
+  Values<float> uv[2];    ///< 0 if the mesh has none
   Values<float> is_sure;  ///< 0: the triangle has no area or is edge-on; values are undefined
 };
 
-/// What a kernel computes besides p, side and barycentrics.
+/// Selects the outputs of a kernel besides p, side and barycentrics.
 struct SurfaceParts {
   bool n = false, ns = false, uv = false;
 };
 
-/// Rays of a perspective camera: d ~ corner + x right + y down.
+/// Rays of a perspective camera. Their directions are proportional to corner + x right + y down.
 struct PerspectiveRays {
   DVec3 corner, right, down;
   Vec3 origin;
@@ -52,9 +53,9 @@ struct PerspectiveRays {
 
 struct SceneKernels {
   const char* name;
-  /// The surfaces of lanes with triangles, which are hit by these rays.
+  /// Computes the surfaces at the rays' hits in the lanes with triangles.
   void (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
-  /// rays[i] is the ray through (x + i, y).
+  /// Sets rays[i] to the ray through the pixel coordinates (x + i, y).
   void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, Ray* rays,
                            std::size_t count);
 };

@@ -13,12 +13,12 @@ struct LaneRays {
   Float<N> t_min, t_max;
 };
 
-/// The rays toward these points, at depth 1 from the origin.
+/// The rays from the camera toward points at depth 1, given relative to the camera's position.
 template <int N>
 inline LaneRays<N> rays_toward(const Doubles3<N>& toward, double near, double far) {
   const Double<N> length = square_root<N>(dot(toward, toward));
   const Float<N> t_min = to_single<N>(near * length);
-  const Float<N> least = Float<N>{} + 0x1p-149F;  // above zero
+  const Float<N> least = Float<N>{} + 0x1p-149F;  // t_min must be positive
   return {to_single3<N>(toward * (1 / length)), t_min < least ? least : t_min,
           to_single<N>(far * length)};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Points of triangles and their attributes in float64, for N lanes.
+/// Interpolates positions and attributes on triangles in float64, for N lanes.
 
 #include "simd/vector3.hpp"
 
@@ -20,7 +20,7 @@ struct Maybe3 {
   Mask exists;
 };
 
-/// The unit vector of v; none if v is zero. These squares can't overflow for float32 input.
+/// The normalized v; none if v is zero. The square of the length can't overflow for float32 input.
 template <int N>
 inline auto direction_of(const Doubles3<N>& v) {
   const Double<N> square = dot(v, v);
@@ -28,14 +28,15 @@ inline auto direction_of(const Doubles3<N>& v) {
   return Maybe3<N, decltype(exists)>{v / square_root<N>(square), exists};
 }
 
-/// The normal of the front side, with twice the area as length.
+/// The normal of the front side. Its length is twice the triangle's area.
 template <int N>
 inline Doubles3<N> area_vector(const TriangleCorners<N>& t) {
   return cross(t.b - t.a, t.c - t.a);
 }
 
-/// A vertex's weight is the volume spanned by the ray and the opposite edge. None for triangles
-/// without area or seen exactly edge-on.
+/// Barycentric coordinates of the point where the ray meets the triangle's plane. A vertex's weight
+/// is proportional to the volume spanned by the ray and the opposite edge. None for triangles that
+/// have no area or are seen exactly edge-on.
 template <int N>
 inline auto barycentrics_of(const TriangleCorners<N>& t, const Doubles3<N>& o,
                             const Doubles3<N>& d) {

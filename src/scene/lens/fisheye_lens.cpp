@@ -19,7 +19,8 @@ double length_of(const DVec2& v) {
 }  // namespace
 
 FisheyeLens::FisheyeLens(const FisheyeDistortion& k) : k_(k) {
-  // The derivative, a polynomial in the square of the angle, is positive up to this angle.
+  // The distortion is invertible up to max_angle_, because its derivative, a polynomial in the
+  // angle's square, is positive there.
   const double square = least_positive_root({1, 3 * k.k1, 5 * k.k2, 7 * k.k3, 9 * k.k4});
   max_angle_ = std::min(std::sqrt(square), std::numbers::pi);
   max_distorted_ = distorted(max_angle_);

@@ -8,7 +8,7 @@
 
 namespace microtrace {
 
-/// FisheyeDistortion and its inverse; see Lens.
+/// Applies and inverts FisheyeDistortion; see Lens.
 class FisheyeLens {
  public:
   explicit FisheyeLens(const FisheyeDistortion& k);
@@ -22,7 +22,7 @@ class FisheyeLens {
   [[nodiscard]] double slope(double angle) const;
 
   FisheyeDistortion k_;
-  double max_angle_;      // from the viewing direction
+  double max_angle_;      // measured from the viewing direction
   double max_distorted_;  // distorted(max_angle_)
 };
 

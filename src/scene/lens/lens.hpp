@@ -1,7 +1,7 @@
 #pragma once
-/// Lens distortion and its inverse. Directions and points are in OpenCV's camera space: x right, y
-/// down, z forward. Image points are in units of the focal lengths, relative to the principal
-/// point. docs/derivations.md has the formulas.
+/// Applies and inverts lens distortion. Directions and points are in OpenCV's camera space: x
+/// right, y down, z forward. Image points are in units of the focal lengths, relative to the
+/// principal point. docs/derivations.md has the formulas.
 
 #include "scene/lens/fisheye_lens.hpp"
 #include "scene/lens/rational_lens.hpp"
@@ -18,8 +18,8 @@ class Lens {
  public:
   explicit Lens(const Distortion& distortion);
 
-  /// The direction that appears at an image point; nothing if there is none. It has depth 1 for
-  /// rational lenses, and unit length for fisheye lenses.
+  /// The direction that appears at an image point; nothing if no direction does. It is scaled to
+  /// depth 1 for rational lenses and to unit length for fisheye lenses.
   [[nodiscard]] std::optional<DVec3> direction(const DVec2& image) const {
     return std::visit([&](const auto& lens) { return lens.direction(image); }, lens_);
   }

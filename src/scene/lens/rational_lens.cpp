@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// Undistorted points farther than this from the axis have no ray, so that nothing overflows. Their
-/// directions are within a millionth of a radian of perpendicular to the axis.
+/// Undistorted points farther from the axis than this have no ray, which avoids overflow. Little is
+/// lost: their directions are within a millionth of a radian of perpendicular to the axis.
 constexpr double kMaxRadius = 1e6;
 
 /// A polynomial's coefficients, the constant first.
@@ -28,7 +28,7 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   return product;
 }
 
-// a + factor b
+// Returns a + factor b.
 Polynomial sum(Polynomial a, double factor, const Polynomial& b) {
   a.resize(std::max(a.size(), b.size()));
   for (std::size_t i = 0; i < b.size(); ++i) a[i] += factor * b[i];
@@ -50,9 +50,10 @@ RationalLens::Radial RationalLens::radial(double s) const {
   return {.factor = factor, .slope = (dn - factor * dd) / d};
 }
 
-// The Jacobian is a sum of the radial part, with the eigenvalues R and (r R)', and the tangential
-// part, whose eigenvalues are at least -6 |p| r. It is positive definite where R and (r R)' exceed
-// 6 |p| r. With R = N / D these are inequalities of polynomials.
+// The Jacobian is the sum of two symmetric matrices. With the radial factor R = N / D, the radial one
+// has the eigenvalues R and (r R)'. The eigenvalues of the tangential one are at least -6 |p| r. The
+// sum is therefore positive definite where R and (r R)' exceed 6 |p| r. Multiplied by D and D^2,
+// these are inequalities of polynomials.
 double RationalLens::invertible_radius() const {
   // Polynomials in r.
   const Polynomial n{1, 0, k_.k1, 0, k_.k2, 0, k_.k3}, d{1, 0, k_.k4, 0, k_.k5, 0, k_.k6};
@@ -81,7 +82,8 @@ RationalLens::Jacobian RationalLens::jacobian(const DVec2& u) const {
 }
 
 DVec2 RationalLens::Jacobian::solve(const DVec2& w) const {
-  // A minimum keeps numbers finite if rounding puts the point at the edge of the invertible disk.
+  // The minimum keeps the result finite if rounding moves the point to the edge of the invertible
+  // disk.
   constexpr double kLeast = 1e-9;
   return DVec2(yy * w.x - xy * w.y, xx * w.y - xy * w.x) / std::max(determinant(), kLeast);
 }
@@ -144,7 +146,7 @@ std::optional<DVec2> RationalLens::image(const DVec3& direction) const {
 
 LensDifferential RationalLens::differential(const DVec3& d) const {
   const Jacobian j = jacobian(DVec2(d) / d.z);
-  // d = toward / |toward| with toward of depth 1.
+  // Differentiates d = toward / |toward|, where `toward` has depth 1.
   const auto turned = [&](const DVec3& step) { return d.z * (step - d * glm::dot(d, step)); };
   return {.dx = turned(DVec3(j.solve(DVec2(1, 0)), 0)),
           .dy = turned(DVec3(j.solve(DVec2(0, 1)), 0))};

@@ -8,7 +8,7 @@
 
 namespace microtrace {
 
-/// RationalDistortion and its inverse; see Lens.
+/// Applies and inverts RationalDistortion; see Lens.
 class RationalLens {
  public:
   explicit RationalLens(const RationalDistortion& k);
@@ -18,7 +18,7 @@ class RationalLens {
   [[nodiscard]] LensDifferential differential(const DVec3& d) const;
 
  private:
-  /// r^2 = s: the factor of the radial distortion and its derivative with respect to s.
+  /// The factor of the radial distortion at r^2 = s, and its derivative with respect to s.
   struct Radial {
     double factor, slope;
   };
@@ -33,13 +33,14 @@ class RationalLens {
   };
   [[nodiscard]] Jacobian jacobian(const DVec2& u) const;
   [[nodiscard]] double invertible_radius() const;
-  /// The inverse of the radial distortion alone, at most max_radius_.
+  /// Inverts the radial distortion without the tangential part. The result is at most max_radius_.
   [[nodiscard]] double undistorted_radius(double distorted_radius) const;
-  /// Newton's method for distorted(u) = image, from a start in the disk of max_radius_.
+  /// Solves distorted(u) = image by Newton's method, starting at u, which must be in the disk of
+  /// radius max_radius_.
   [[nodiscard]] std::optional<DVec2> undistorted(const DVec2& image, DVec2 u) const;
 
   RationalDistortion k_;
-  double max_radius_;     // of undistorted points
+  double max_radius_;     // greatest radius of undistorted points
   double max_distorted_;  // the radial distortion of max_radius_
 };
 

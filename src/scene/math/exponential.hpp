@@ -1,6 +1,7 @@
 #pragma once
-/// Powers and logarithms whose bits depend only on IEEE 754, as in trigonometry.hpp. Errors are
-/// below two units in the last place; the error of a logarithm less than 1 is below 2^-52.
+/// Powers and logarithms whose bits depend only on IEEE 754, for the reasons given in
+/// trigonometry.hpp. Errors are below two units in the last place unless noted. Logarithms whose
+/// magnitude is less than 1 have an absolute error below 2^-52.
 
 namespace microtrace {
 
@@ -10,11 +11,11 @@ namespace microtrace {
 /// x must be a finite normal number above 0.
 [[nodiscard]] double binary_logarithm(double x);
 
-/// e^x for x <= 690, with a relative error of 2^-50 per unit of |x|; 0 below -690.
+/// e^x for x <= 690; 0 for x below -690. The relative error is up to 2^-50 for each unit of |x|.
 [[nodiscard]] double exponential(double x);
 
-/// x^y for x in [0, 1] and y > 0, with the same relative error in terms of the exponent; 0 below
-/// 2^-1000.
+/// x^y for x in [0, 1] and y > 0; 0 if x^y is below 2^-1000. The relative error is as for
+/// exponential(y log x).
 [[nodiscard]] double power(double x, double y);
 
 }  // namespace microtrace

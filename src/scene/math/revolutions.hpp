@@ -1,6 +1,7 @@
 #pragma once
-/// Fast float32 trigonometry for directions, with angles in revolutions. Uses only + - * /, each
-/// rounded once, so the bits are the same everywhere. The polynomials are Chebyshev interpolants.
+/// Fast float32 trigonometry for directions, with angles in revolutions. It uses only + - * /, each
+/// rounded once, so the bits are the same on every machine. The polynomials are Chebyshev
+/// interpolants.
 
 #include <algorithm>
 #include <bit>
@@ -10,18 +11,19 @@
 
 namespace microtrace {
 
-/// condition ? a : b without a branch, for unpredictable conditions.
+/// Returns condition ? a : b without a branch, for unpredictable conditions.
 [[nodiscard]] inline float chosen(bool condition, float a, float b) {
   const std::uint32_t mask = 0U - std::uint32_t{condition};
   return std::bit_cast<float>((std::bit_cast<std::uint32_t>(a) & mask) |
                               (std::bit_cast<std::uint32_t>(b) & ~mask));
 }
 
-/// The angle of the point (x, y) from the x axis, in [-1/2, 1/2] revolutions, with an error of
-/// 1e-7; 0 for (0, 0). Inputs must be finite.
+/// The angle between the vector (x, y) and the x axis, in [-1/2, 1/2] revolutions; 0 for (0, 0).
+/// The error is at most 1e-7. Inputs must be finite.
 [[nodiscard]] inline float atan2_revolutions(float y, float x) {
   const float ax = std::abs(x), ay = std::abs(y);
-  // Below the least normal number the angle is lost; the minimum also avoids a division by 0.
+  // If both inputs are below the least normal number, the angle is inaccurate. The minimum also
+  // avoids a division by 0.
   const float t = std::min(ax, ay) / std::max({ax, ay, std::numeric_limits<float>::min()});
   const float z = t * t, z2 = z * z, z4 = z2 * z2;
   // atan(t) / (2 pi t) for z = t^2 in [0, 1], with an error of 3e-9, by Estrin's scheme.
@@ -36,7 +38,7 @@ struct SineCosine {
   float sine, cosine;
 };
 
-/// Sine and cosine of an angle in [0, 1] revolutions, with an error of 2^-23.
+/// Sine and cosine of an angle in [0, 1] revolutions. The error is at most 2^-23.
 [[nodiscard]] inline SineCosine sin_cos_revolutions(float revolutions) {
   const float quarters = 4 * revolutions;
   // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)

@@ -7,8 +7,9 @@
 namespace microtrace {
 namespace {
 
-/// A polynomial on an interval in the Bernstein basis. The number of sign changes of its
-/// coefficients is the number of its roots inside, or greater by an even number (Descartes' rule).
+/// A polynomial on an interval in the Bernstein basis. The number of sign changes among its
+/// coefficients equals the number of roots in the interval, or exceeds it by an even number
+/// (Descartes' rule of signs).
 struct Bernstein {
   std::vector<double> b;
   double lo, hi;
@@ -17,7 +18,7 @@ struct Bernstein {
     return std::ranges::any_of(b, [](double x) { return x < 0; });
   }
 
-  /// De Casteljau's subdivision at the middle.
+  /// Splits the polynomial at the middle of the interval by De Casteljau's subdivision.
   [[nodiscard]] std::pair<Bernstein, Bernstein> halves() const {
     const double middle = (lo + hi) / 2;
     Bernstein left{.b = {}, .lo = lo, .hi = middle}, right{.b = b, .lo = middle, .hi = hi};
@@ -29,8 +30,8 @@ struct Bernstein {
   }
 };
 
-// The start of the first interval of the least width that may have a root. The polynomial is
-// positive before.
+// Subdivides down to intervals of width 2^-50 and returns the start of the first one that may have
+// a root. The polynomial is positive before it.
 std::optional<double> first_root(const Bernstein& p) {
   if (!p.may_have_root()) return std::nullopt;
   if (p.hi - p.lo <= 0x1p-50) return p.lo;
@@ -42,8 +43,8 @@ std::optional<double> first_root(const Bernstein& p) {
 }  // namespace
 
 double least_positive_root(const std::vector<double>& c) {
-  // With x = v / (1 - v), c[i] x^i (1 - v)^n = c[i] / binomial(n, i) times the Bernstein polynomial
-  // i of degree n.
+  // Substitutes x = v / (1 - v) and multiplies by (1 - v)^n. Term i becomes c[i] / binomial(n, i)
+  // times the Bernstein polynomial i of degree n.
   Bernstein p{.b = c, .lo = 0, .hi = 1};
   const std::size_t n = c.size() - 1;
   double binomial = 1;

@@ -8,9 +8,9 @@
 
 namespace microtrace {
 
-/// A lower bound, close to rounding, of the least positive root of a polynomial
-/// c[0] + c[1] x + c[2] x^2 + ... with c[0] > 0; infinity if there is none. A local minimum that
-/// rounding can't distinguish from 0 counts as a root.
+/// A lower bound of the least positive root of the polynomial c[0] + c[1] x + c[2] x^2 + ... with
+/// c[0] > 0; infinity if there is no such root. The bound is tight except for rounding errors. A
+/// local minimum that rounding can't distinguish from 0 counts as a root.
 [[nodiscard]] double least_positive_root(const std::vector<double>& c);
 
 /// The value and the derivative of a function.
@@ -18,11 +18,13 @@ struct ValueAndSlope {
   double value, slope;
 };
 
-/// The x in [lo, hi] at which an increasing function has the value y, to rounding: Newton's method,
-/// with bisection where it converges slowly. f(x) returns a ValueAndSlope.
+/// Solves f(x) = y for an increasing function on [lo, hi], as precisely as rounding allows. Uses
+/// Newton's method, with bisection where Newton's method converges slowly. f(x) returns a
+/// ValueAndSlope.
 template <class F>
 double solve_increasing(const F& f, double y, double lo, double hi) {
-  constexpr double kRounding = 1e-13;  // relative errors below are accepted if they don't decrease
+  constexpr double kRounding =
+      1e-13;  // a relative error below this is accepted once it stops decreasing
   double x = std::clamp(y, lo, hi), last_step = hi - lo;
   double best = x, least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 200; ++i) {  // the interval is halved at least every other time

@@ -1,7 +1,7 @@
 #pragma once
-/// The sRGB encoding of linear light in 8 bits (IEC 61966-2-1), exact: the code of v is the integer
-/// nearest to 255 times the transfer function of v. Uses only + - * / at compile time, so the C
-/// library has no influence.
+/// Exact sRGB encoding of linear light in 8 bits (IEC 61966-2-1). The code of v is the integer
+/// nearest to 255 times the transfer function of v. The tables are computed at compile time with +
+/// - * / only, so results don't depend on the C library.
 
 #include <array>
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// x^(1/5) for x in (0, 1], by Newton's method from above, until rounding stops the descent.
+/// x^(1/5) for x in (0, 1]. Newton's method descends from 1 until rounding stops it.
 constexpr double fifth_root(double x) {
   double r = 1;
   for (;;) {
@@ -21,14 +21,14 @@ constexpr double fifth_root(double x) {
   }
 }
 
-/// The linear light of an sRGB value in [0, 1]. x^2.4 = x^2 (x^2)^(1/5).
+/// The linear value of an sRGB value in [0, 1]. Uses x^2.4 = x^2 (x^2)^(1/5).
 constexpr double linear_from_srgb(double encoded) {
   if (encoded <= 0.04045) return encoded / 12.92;
   const double x = (encoded + 0.055) / 1.055;
   return x * x * fifth_root(x * x);
 }
 
-/// Entry k is the least float32 with a code above k.
+/// Computes the table whose entry k is the least float32 with a code above k.
 constexpr std::array<float, 255> make_srgb_thresholds() {
   std::array<float, 255> thresholds{};
   for (std::size_t k = 0; k < thresholds.size(); ++k) {
@@ -42,12 +42,12 @@ constexpr std::array<float, 255> make_srgb_thresholds() {
 
 inline constexpr std::array<float, 255> kSrgbThresholds = make_srgb_thresholds();
 
-/// Bins, 128 per octave from 2^-13 to 1, each of which contains at most one threshold.
+/// The bins divide [2^-13, 1] into 128 parts per octave. Each bin contains at most one threshold.
 inline constexpr std::uint32_t kSrgbFirstBin = std::bit_cast<std::uint32_t>(0x1p-13F) >> 16;
 inline constexpr std::size_t kSrgbBinCount =
     (std::bit_cast<std::uint32_t>(1.0F) >> 16) - kSrgbFirstBin;
 
-/// The code at the start of each bin.
+/// Computes the code at the start of each bin.
 constexpr std::array<std::uint8_t, kSrgbBinCount> make_srgb_bins() {
   std::array<std::uint8_t, kSrgbBinCount> bins{};
   std::size_t code = 0;
@@ -61,7 +61,7 @@ constexpr std::array<std::uint8_t, kSrgbBinCount> make_srgb_bins() {
 
 inline constexpr std::array<std::uint8_t, kSrgbBinCount> kSrgbBins = make_srgb_bins();
 
-/// The 8-bit sRGB code of linear light; values are clamped to [0, 1], NaN gives 0.
+/// The 8-bit sRGB code of a linear value, which is clamped to [0, 1]. NaN gives 0.
 constexpr std::uint8_t encode_srgb(float v) {
   if (!(v >= kSrgbThresholds[0])) return 0;
   if (v >= kSrgbThresholds[254]) return 255;

@@ -9,7 +9,7 @@
 namespace microtrace {
 namespace {
 
-// Taylor polynomial on [0, tan(pi/16)]: the first omitted term is below 2^-55 of the sum.
+// Taylor polynomial on [0, tan(pi/16)]. The first omitted term is less than 2^-55 times the sum.
 double atan_kernel(double x) {
   const double z = x * x;
   double s = 0;
@@ -19,7 +19,7 @@ double atan_kernel(double x) {
 
 using Angle = ReducedAngle<1>;
 
-// fmod is exact.
+// // Reduces an angle to [-45, 45] degrees and a multiple of 90 degrees. std::fmod is exact.
 Angle reduced_degrees(double x) {
   const double turn = std::fmod(x, 360.0);
   const double n = std::floor(turn / 90 + 0.5);

@@ -5,8 +5,8 @@
 
 namespace microtrace {
 
-/// Moves the objects of `part`, with their materials, textures and images, to the end of those of
-/// `whole`, and adjusts indices. Cameras and everything else of `part` are dropped.
+/// Appends the objects, materials, textures and images of `part` to those of `whole` and adjusts
+/// indices. Drops the cameras and all other members of `part`.
 void merge(Scene& whole, Scene&& part);
 
 }  // namespace microtrace

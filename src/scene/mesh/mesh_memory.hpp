@@ -5,10 +5,10 @@
 
 namespace microtrace {
 
-/// Bytes of a mesh's arrays once its segments are widened (segments.hpp).
+/// Size in bytes of a mesh's arrays after its segments are widened (segments.hpp).
 [[nodiscard]] std::uint64_t memory_of(const Mesh& mesh);
 
-/// Bytes of the objects that a scene owns; copies do not share them.
+/// Size in bytes of the objects that a scene owns. Copies of a scene don't share these objects.
 [[nodiscard]] std::uint64_t memory_of(const Scene& scene);
 
 }  // namespace microtrace

@@ -15,19 +15,19 @@ namespace microtrace {
 namespace {
 
 /// Half the width of a line and half the side of a point, in pixels. The width is slightly more
-/// than 1, so that rounding leaves no gap. The bias moves lines right and down, so that of two rows
-/// of pixels at the same distance only one is covered.
+/// than 1 pixel, which closes gaps due to rounding. The bias moves lines right and down, so that a
+/// line midway between two rows of pixels covers only one of them.
 constexpr double kHalfWidth = 0.5 + 1.0 / 64;
 constexpr double kBias = 1.0 / 32;
-/// Lines are clipped this many pixels outside the picture.
+/// Lines are clipped to the picture enlarged by this many pixels on each side.
 constexpr double kMargin = 2;
 
 /// The part [start, end] of a segment, clipped by half-spaces (Liang and Barsky 1984).
 struct Part {
   double start = 0, end = 1;
 
-  /// Keeps the part where a linear function, which is f at the segment's start and g at its end, is
-  /// nonnegative. Returns false if nothing is left.
+  /// Keeps the part where a linear function is nonnegative. Its values at the segment's start and
+  /// end are f and g. Returns false if nothing is left.
   bool keep(double f, double g) {
     if (f < 0 && g < 0) return false;
     if (f < 0) start = std::max(start, f / (f - g));
@@ -46,21 +46,22 @@ SegmentWidener::SegmentWidener(const Camera& camera, ImageSize size)
       down_(rays_.down_),
       low_(-kMargin),
       high_(size.width + kMargin, size.height + kMargin),
-      // At the equator; nearer to the poles a pixel spans more horizontally.
+      // // The angle of a pixel at the equator. Closer to the poles, this angle spans more pixels.
       angle_(std::max(std::numbers::pi / size.height, 2 * std::numbers::pi / size.width)) {
   if (rays_.kind_ == RayGenerator::Kind::distorted) allow_for_lens();
 }
 
-/// Lines get the width of the pixels that show the largest part of the scene, so that no line is
-/// thinner than a pixel.
+/// Sets the width of lines to that of the pixel that covers the largest range of directions, so
+/// that no line is thinner than a pixel.
 void SegmentWidener::allow_for_lens() {
-  constexpr int kSamples = 32;       // on each side of the picture
-  constexpr double kMaxStretch = 4;  // where the distortion ceases to be invertible it is infinite
+  constexpr int kSamples = 32;  // on each side of the picture
+  constexpr double kMaxStretch =
+      4;  // limit, because the stretch is infinite at the edge of the invertible range
   const DVec2 focal = rays_.pixels_per_unit_, size(rays_.size_.width, rays_.size_.height);
   is_planar_ = std::holds_alternative<RationalDistortion>(*rays_.distortion_);
   right_ /= focal.x;
   down_ /= focal.y;
-  DVec2 low(0), high(0);  // of directions at depth 1
+  DVec2 low(0), high(0);  // bounds of the directions at depth 1
   for (int y = 0; y <= kSamples; ++y) {
     for (int x = 0; x <= kSamples; ++x) {
       const DVec2 pixel = size * DVec2(x, y) / double{kSamples};
@@ -79,7 +80,7 @@ void SegmentWidener::allow_for_lens() {
       }
     }
   }
-  // Twice as much as the samples show, so that nothing between them is missing.
+  // Twice the bounds of the samples, to contain everything between samples.
   low_ = rays_.center_ + 2.0 * low * focal - kMargin;
   high_ = rays_.center_ + 2.0 * high * focal + kMargin;
   angle_ = width_ / std::min(focal.x, focal.y);
@@ -132,7 +133,7 @@ std::optional<WideSegment> SegmentWidener::planar(const DVec3& a, const DVec3& b
     part.start = part.end = (part.start + part.end) / 2;
     start = end = at(part.start);
   }
-  if (!(start.w > 0 && end.w > 0)) return std::nullopt;  // at the camera's position
+  if (!(start.w > 0 && end.w > 0)) return std::nullopt;  // an end is at the camera's position
 
   const glm::dvec2 cap = along * (kHalfWidth * width_);
   const glm::dvec2 side(cap.y, -cap.x);  // to the left of the segment

@@ -34,12 +34,13 @@ class SegmentWidener {
 
   RayGenerator rays_;
   bool is_planar_;
-  // Planar: pixels of the picture or, with a lens, of the picture without distortion. The world
-  // steps of a pixel at depth 1, and the rectangle to which segments are clipped.
+  // For planar projections: the world-space steps from pixel to pixel at depth 1, and the rectangle
+  // in pixels to which segments are clipped. For cameras with a lens, the pixels are those of the
+  // undistorted picture.
   DVec3 right_, down_;
   DVec2 low_, high_;
-  double width_ = 1;  // of a line in these pixels
-  double angle_ = 0;  // spherical: of a pixel
+  double width_ = 1;  // width of a line in these pixels
+  double angle_ = 0;  // angle of a pixel for spherical projections
 };
 
 }  // namespace microtrace

@@ -10,13 +10,13 @@
 namespace microtrace {
 namespace {
 
-/// The origin of a new vertex's attributes: one vertex of the old mesh, or a mixture of two.
+/// The source of a new vertex's attributes: one vertex of the old mesh, or a mixture of two.
 struct Source {
   std::uint32_t from, to;
   double t;  // weight of `to`
 };
 
-/// Appends four values for each wide segment to the values of the existing vertices.
+/// Appends the values of each wide segment's four vertices to those of the existing vertices.
 template <typename Value, typename Mix>
 void extend(Array<Value>& array, const std::vector<Source>& sources, Mix&& mix) {
   if (array.empty()) return;
@@ -34,7 +34,7 @@ Value between(const Value& a, const Value& b, double t) {
   return a + (b - a) * static_cast<float>(t);
 }
 
-/// Directions are taken from the nearer end, so that their length stays 1.
+/// Takes a direction from the nearer end, because interpolation would change its length.
 template <typename Value>
 Value nearer(const Value& a, const Value& b, double t) {
   return t < 0.5 ? a : b;
@@ -42,7 +42,7 @@ Value nearer(const Value& a, const Value& b, double t) {
 
 void widen(Mesh& mesh, const SegmentWidener& widened) {
   const Vec3 nowhere(std::numeric_limits<float>::quiet_NaN());
-  std::vector<Source> sources;  // one for each two new vertices
+  std::vector<Source> sources;  // one for every two new vertices
   sources.reserve(2 * mesh.segments.size());
   mesh.positions.reserve(mesh.positions.size() + 4 * mesh.segments.size());
   mesh.triangles.reserve(mesh.triangles.size() + 2 * mesh.segments.size());

@@ -12,17 +12,18 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-// Follows chapter 2 of the thesis and the rules of its implementation, mikktspace.c: vertices with
-// equal attributes are one vertex. Triangles around a vertex share its tangent if they are
-// connected by edges and have the same winding in texture space; each is weighted by its angle at
-// the vertex. Triangles without texture area join any group and add nothing to its tangent.
+// Follows chapter 2 of Mikkelsen's thesis (see tangents.hpp) and the rules of its implementation,
+// mikktspace.c. Vertices with equal attributes are merged. Triangles around a vertex share its
+// tangent if they are connected by edges and have the same winding in texture space. Each triangle
+// is weighted by its angle at the vertex. Triangles with no area in texture space join any group
+// and add nothing to its tangent.
 
 namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
-/// Larger groups are not searched for opposite directions, which takes quadratic time.
+/// Larger groups are not searched for opposite directions, because the search takes quadratic time.
 constexpr std::size_t kMostCompared = 256;
 
 bool is_zero(float x) {
@@ -42,11 +43,11 @@ Vec3 across(const Vec3& v, const Vec3& n) {
   return unit_or_zero(v - n * glm::dot(n, v));
 }
 
-/// Unit derivatives of a triangle's position by its texture coordinates.
+/// Normalized derivatives of a triangle's position with respect to its texture coordinates.
 struct Frame {
   Vec3 s{0}, t{0};
-  bool preserves = false;  ///< true if texture space preserves the triangle's winding
-  bool joins_any = true;   ///< true if it has no direction of its own and joins any group
+  bool preserves = false;  ///< true if the triangle has the same winding in texture space
+  bool joins_any = true;   ///< true if the triangle has no tangent of its own and joins any group
 };
 
 class Grouping {
@@ -82,7 +83,7 @@ class Grouping {
       std::uint32_t& first = first_corner[vertex(corner)];
       if (first == kNone) first = static_cast<std::uint32_t>(place);
     }
-    // A triangle with equal vertices takes the tangents of other triangles at these vertices.
+    // A triangle with equal vertices takes its tangents from other triangles at these vertices.
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
       for (std::size_t k = 0; k < 3 && !is_set[i]; ++k) {
         const std::uint32_t v = vertex_of_[mesh_.triangles[i][k]];
@@ -123,7 +124,8 @@ class Grouping {
     }
   }
 
-  /// Extends a group from a corner across the edges at its vertex, first forward, then backward.
+  /// Extends a group from the corner `seed` across the edges that meet at its vertex, first
+  /// forward, then backward.
   void grow(std::uint32_t seed, std::uint32_t group) {
     const std::uint32_t center = vertex(seed);
     const bool preserves = frames_[seed / 3].preserves;
@@ -167,7 +169,7 @@ class Grouping {
     }
   }
 
-  /// The contribution of a group's member to its tangent.
+  /// A corner's contribution to its group's tangent.
   struct Share {
     Vec3 s, t;  ///< perpendicular to the normal
     double angle;
@@ -196,7 +198,8 @@ class Grouping {
     const Vec4 common = tangent([](std::size_t) { return true; });
     for (const std::uint32_t corner : corners) tangents_[corner] = common;
     if (corners.size() > kMostCompared) return;
-    // Opposite directions cancel, so each corner ignores the corners opposite to it.
+    // Opposite tangents cancel, so each corner ignores the corners whose tangents are opposite to
+    // its own.
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto agrees = [&](std::size_t k) {
         const Share &a = shares_[i], &b = shares_[k];
@@ -223,14 +226,15 @@ class Grouping {
   }
 
   const TangentSource& mesh_;
-  std::vector<std::uint32_t> vertex_of_;  // welded
-  // Triangles with three different vertices: their indices in the mesh, welded vertices, and so on.
+  std::vector<std::uint32_t> vertex_of_;  // index of the merged vertex
+  // For triangles with three different vertices: indices in the mesh, merged vertices, frames and
+  // neighbors.
   std::vector<std::uint32_t> numbers_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
   std::vector<Frame> frames_;
   std::vector<std::array<std::uint32_t, 3>> neighbors_;
   std::vector<std::uint32_t> group_of_;  // by corner of these triangles
-  std::vector<Vec4> tangents_;           // likewise, for corners in a group
+  std::vector<Vec4> tangents_;           // by corner, for corners in a group
   std::uint32_t group_count_ = 0;
   std::vector<std::uint32_t> open_;
   std::vector<Share> shares_;

@@ -10,15 +10,16 @@
 
 namespace microtrace {
 
-/// A mesh with smooth normals; positions, normals and texture coordinates have the same size.
+/// A mesh with smooth normals. The spans of positions, normals and texture coordinates have equal
+/// sizes.
 struct TangentSource {
   std::span<const Vec3> positions, normals;
   std::span<const Vec2> uv;
   std::span<const std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The tangents of all corners, three per triangle, as defined by make_tangents. Equal tangents of
-/// a vertex have equal bits.
+/// The tangents of all corners, three per triangle, as defined by make_tangents. If corners at a
+/// vertex share a tangent, their results have equal bits.
 [[nodiscard]] std::vector<Vec4> corner_tangents(const TangentSource& mesh);
 
 /// An arbitrary unit direction perpendicular to the normal, with w = 1.

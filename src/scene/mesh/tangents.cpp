@@ -13,7 +13,7 @@
 namespace microtrace {
 namespace {
 
-/// The values with these indices, if there are any values.
+/// The values at these indices; empty if `values` is empty.
 template <typename Value>
 std::vector<Value> picked(const Array<Value>& values, std::span<const std::uint32_t> numbers) {
   std::vector<Value> result;
@@ -31,8 +31,8 @@ Vec3 flat_normal(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle)
   return square > 0 ? Vec3(cross / std::sqrt(square)) : Vec3(0);
 }
 
-/// Splits vertices whose corners have different tangents; tangents[i] is that of corner i of all
-/// triangles.
+/// Splits vertices whose corners have different tangents. tangents[i] belongs to corner i, numbered
+/// across all triangles.
 std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   const std::size_t vertex_count = mesh.positions.size();
   std::vector<std::array<std::uint32_t, 3>>& triangles = mesh.triangles.edit();
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
       }
       vertex_at(here[i]) = static_cast<std::uint32_t>(origin.size() - 1);
     }
-    if (!here.empty()) continue;  // else a vertex of lines only
+    if (!here.empty()) continue;  // otherwise no triangle uses the vertex
     origin.push_back(v);
     mesh.tangents.push_back(tangent_across(mesh.normals.empty() ? Vec3(0) : mesh.normals[v]));
   }

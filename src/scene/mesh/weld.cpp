@@ -27,8 +27,8 @@ std::vector<std::uint32_t> welded(std::span<const Vec3> positions, std::span<con
   const auto same = [&](std::size_t i, std::size_t k) {
     return positions[i] == positions[k] && normals[i] == normals[k] && uv[i] == uv[k];
   };
-  // A hash table with linear probing that is at most half full. Its entries are the first vertices
-  // with each value.
+  // A hash table with linear probing that is at most half full. Each entry is the first vertex with
+  // its combination of attributes.
   std::vector<std::uint32_t> table(std::bit_ceil(2 * positions.size() + 1), kFree);
   const std::size_t mask = table.size() - 1;
   std::vector<std::uint32_t> result(positions.size());

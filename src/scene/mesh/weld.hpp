@@ -9,8 +9,8 @@
 
 namespace microtrace {
 
-/// For each vertex the first one with an equal position, normal and texture coordinates. All
-/// numbers must be finite, and the spans have the same size. Takes linear time.
+/// Returns for each vertex the first vertex with equal position, normal and texture coordinates.
+/// All numbers must be finite, and the spans must have equal sizes. Takes linear time.
 [[nodiscard]] std::vector<std::uint32_t> welded(std::span<const Vec3> positions,
                                                 std::span<const Vec3> normals,
                                                 std::span<const Vec2> uv);

@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces at many hits.
+/// Computes surfaces at many hits.
 
 #include "scene/kernels/kernel.hpp"
 
@@ -23,18 +23,19 @@ class SurfaceFinder {
 
   using Hits = std::span<const std::optional<Hit>>;
 
-  /// Sets batch.object and batch.primitive of each hit. There are at most kSurfaceLanes.
+  /// Sets batch.object and batch.primitive for each hit. `hits` has at most kSurfaceLanes elements.
   void find_ids(Hits hits, SurfaceBatch& batch) const;
-  /// Sets all members of each hit but parts that are not asked for: interact(), rounded once.
+  /// Sets all members of the batch for each hit, except for parts that are not selected. Values are
+  /// those of interact(), rounded once.
   void find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts, SurfaceBatch& batch,
             const SceneKernels& kernels) const;
-  /// With the kernels of best_instruction_set().
+  /// Uses the kernels of best_instruction_set().
   void find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
             SurfaceBatch& batch) const;
 
  private:
   struct Entry {
-    MeshArrays mesh;  // without positions: another shape
+    MeshArrays mesh;  // positions is null for shapes without triangles
     PrimitiveId first_id, count;
   };
 

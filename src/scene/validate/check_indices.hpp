@@ -3,7 +3,7 @@
 
 namespace microtrace {
 
-/// The first two rules of validate() (microtrace/validate.hpp): those that keep a program from
+/// Checks the first two rules of validate() (microtrace/validate.hpp), whose violation would cause
 /// undefined behavior. Throws Error (invalid_scene).
 void check_indices(const Scene& scene);
 

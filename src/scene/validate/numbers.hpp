@@ -15,14 +15,14 @@ inline BrokenRule broken_rule(const char* field, std::string message) {
   return {.field = field, .message = std::move(message)};
 }
 
-/// The first broken rule.
+/// Returns the first broken rule.
 inline std::optional<BrokenRule> first_of(std::initializer_list<std::optional<BrokenRule>> rules) {
   for (const auto& rule : rules)
     if (rule) return rule;
   return {};
 }
 
-/// NaN is out of every range.
+/// Checks that low <= x <= high. NaN is outside every range.
 inline std::optional<BrokenRule> in_range(const char* field, double x, double low, double high) {
   if (low <= x && x <= high) return {};
   const bool is_open = high == std::numeric_limits<float>::max();
@@ -31,7 +31,7 @@ inline std::optional<BrokenRule> in_range(const char* field, double x, double lo
   return broken_rule(field, range + ", is " + decimal(x));
 }
 
-/// For each component.
+/// Checks each component of v.
 template <glm::length_t n, class Number>
 std::optional<BrokenRule> in_range(const char* field, const glm::vec<n, Number>& v, double low,
                                    double high) {
@@ -40,7 +40,7 @@ std::optional<BrokenRule> in_range(const char* field, const glm::vec<n, Number>&
   return {};
 }
 
-/// Finite, too.
+/// Checks that all components of x are finite and at least `low`.
 template <class T>
 std::optional<BrokenRule> at_least(const char* field, const T& x, double low) {
   return in_range(field, x, low, std::numeric_limits<float>::max());

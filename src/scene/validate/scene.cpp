@@ -25,7 +25,8 @@ std::string item(const char* array, std::size_t index) {
   return std::string("/").append(array).append("/").append(std::to_string(index));
 }
 
-/// Makes the JSON pointer only for errors, because scenes may have millions of objects.
+/// Checks that `index` is less than `size`. Builds the JSON pointer only for errors, because scenes
+/// may have millions of objects.
 void check_index(const char* array, std::size_t place, const char* field, std::size_t index,
                  std::size_t size) {
   if (index < size) return;
@@ -58,7 +59,7 @@ void check_environment(const Environment& environment) {
                                        std::to_string(kMaxImageSide)});
 }
 
-/// Checks the indices and sizes that are not in meshes.
+/// Checks the indices and sizes outside meshes.
 void check_references(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (const auto& material = scene.objects[i].material)

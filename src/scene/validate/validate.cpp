@@ -20,7 +20,7 @@ std::string shortest(Number x) {
   return {digits.data(), result.ptr};
 }
 
-/// The first broken rule.
+/// Returns the first broken rule.
 template <typename... Rules>
 Rule first(Rules&&... rules) {
   Rule result;
@@ -137,7 +137,8 @@ Rule check(const Pose& pose) {
   Rule rule = first(finite("position", pose.position), not_zero("direction", pose.direction),
                     not_zero("up", pose.up));
   if (rule) return rule;
-  // Closer to parallel, rounding would rotate the picture about the direction.
+  // If the vectors were closer to parallel, rounding would rotate the picture about the viewing
+  // direction.
   constexpr double kLeastSine = 1e-9;
   const double sine =
       glm::length(glm::cross(glm::normalize(pose.direction), glm::normalize(pose.up)));

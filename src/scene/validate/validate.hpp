@@ -17,39 +17,41 @@ namespace microtrace {
 inline constexpr std::uint32_t kMaxImageSide = 65536;  ///< pixels
 inline constexpr std::uint64_t kMaxImagePixels = std::uint64_t{1} << 28U;
 
-/// Numbers of at least this magnitude round to infinity in float32.
+/// Numbers with at least this magnitude round to infinity in float32.
 inline constexpr double kFloat32Bound = 0x1.ffffffp127;
 
-/// The first broken rule of a part of a scene.
+/// A rule that a part of a scene breaks. The functions below return the first broken rule.
 struct BrokenRule {
-  std::string field;    ///< name in the struct and in JSON; empty if the whole part is meant
+  std::string field;  ///< name in the struct and in JSON; empty if the rule concerns the whole part
   std::string message;  ///< the rule and the value: "must be positive, is -1"
   ErrorKind kind = ErrorKind::invalid_scene;
 };
 
-/// All numbers finite; radius positive; normal not zero; at least one of a quadric's a to i not
-/// zero; a mesh's indices below the number of its positions, and its attributes of the same number.
+/// Checks that all numbers are finite, radii are positive, normals are not zero, and at least one
+/// of a quadric's coefficients a to i is not zero. A mesh's indices must be less than its number of
+/// positions, and each attribute array must have as many elements as there are positions.
 [[nodiscard]] std::optional<BrokenRule> validate(const Shape& shape);
 
-/// The rules of meshes about indices and the number of attributes, which keep a program from
+/// Checks a mesh's indices and the sizes of its attribute arrays. Breaking these rules would cause
 /// undefined behavior.
 [[nodiscard]] std::optional<BrokenRule> broken_index(const Mesh& mesh);
 
-/// Position, direction and up finite, direction and up not zero in float32; the angle between up
-/// and direction's line more than 1e-9 radians; vertical_fov in (0, pi); focus, height,
-/// aspect_ratio, fx and fy positive; the image of a calibration of valid size; 0 <= near < far with
-/// near finite.
+/// Checks that position, direction and up are finite, and that direction and up are not zero in
+/// float32. Up must be at least 1e-9 radians from parallel to direction. vertical_fov must be in
+/// (0, pi); focus, height, aspect_ratio, fx and fy must be positive. A calibration's image must
+/// have a valid size. Depths must satisfy 0 <= near < far with finite near.
 [[nodiscard]] std::optional<BrokenRule> validate(const Camera& camera);
 
-/// All numbers in the documented ranges.
+/// Check that all numbers are within their documented ranges.
 [[nodiscard]] std::optional<BrokenRule> validate(const Material& material);
 [[nodiscard]] std::optional<BrokenRule> validate(const Light& light);
 [[nodiscard]] std::optional<BrokenRule> validate(const Environment& environment);
 
-/// At least 1 pixel per side; at most kMaxImageSide per side and kMaxImagePixels in all.
+/// Checks that each side has 1 to kMaxImageSide pixels, and that the image has at most
+/// kMaxImagePixels pixels.
 [[nodiscard]] std::optional<BrokenRule> validate(ImageSize size);
 
-/// The shortest decimal number that reads back as x.
+/// The shortest decimal representation that reads back as x.
 [[nodiscard]] std::string decimal(double x);
 [[nodiscard]] std::string decimal(float x);
 
