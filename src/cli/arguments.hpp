@@ -21,21 +21,21 @@
 
 namespace microtrace::cli {
 
-/// At most one of camera, orbit and eye.
+/// Camera options. At most one of camera, orbit and eye is set.
 struct CameraOptions {
-  std::string camera;  ///< of the scene, by name or index; empty: the first
+  std::string camera;  ///< name or index of a scene's camera; empty: the first
   std::optional<OrbitView> orbit{};
   std::optional<DVec3> eye{};
   std::optional<DVec3> target{};         ///< absent: the center of the scene's bounding box
-  DVec3 up{0, 1, 0};                     ///< of eye
-  std::optional<double> vertical_fov{};  ///< of orbit and eye, degrees
+  DVec3 up{0, 1, 0};                     ///< up vector for `eye`
+  std::optional<double> vertical_fov{};  ///< degrees; for `orbit` and `eye`
 
   [[nodiscard]] bool is_of_scene() const { return !orbit && !eye; }
-  /// Of --view, or the default one, with --fov.
+  /// The view of --view, or the default view, with the angle of --fov.
   [[nodiscard]] View view() const;
 };
 
-/// Uniform radiance, the studio, or a map's file.
+/// Uniform radiance, the built-in studio, or the path of an environment map.
 using EnvironmentSource = std::variant<Vec3, Studio, std::filesystem::path>;
 
 struct EnvironmentOptions {
@@ -52,13 +52,13 @@ struct EnvironmentOptions {
   }
 };
 
-/// How 8-bit formats show light; the integrator decides what is absent.
+/// Conversion of light to 8-bit formats. The integrator determines the values that are absent.
 struct DisplayOptions {
   std::optional<double> exposure{};  ///< stops
   std::optional<ToneMap> tone_map{};
 };
 
-/// Part `index`, from 1, of `count`.
+/// Part `index` of `count`, counted from 1.
 struct Shard {
   std::uint32_t index = 1, count = 1;
 };
@@ -69,13 +69,13 @@ struct SamplingOptions {
   std::uint32_t seed = 0;
   double target_error = 0;                                      ///< 0: none
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
-  std::optional<Shard> shard{};                 ///< renders these samples alone, and no picture
+  std::optional<Shard> shard{};                 ///< renders only these samples, and no picture
   std::filesystem::path checkpoint{};           ///< empty: none
   std::vector<std::filesystem::path> resume{};  ///< checkpoints to continue
   double save_every = 60;                       ///< seconds
   bool is_progressive = false;
 
-  /// The shard's samples.
+  /// The range of the shard's samples; absent without --shard.
   [[nodiscard]] std::optional<SampleRange> range() const;
   /// True if samples are read from files or written while rendering.
   [[nodiscard]] bool uses_files() const {
@@ -100,9 +100,9 @@ struct Arguments {
   EnvironmentOptions environment{};
   DisplayOptions display{};
   SamplingOptions sampling{};
-  /// Absent until apply_defaults(), unless it is given.
+  /// Absent until apply_defaults() unless --integrator is given.
   std::optional<IntegratorOptions> integrator{};
-  PathOptions path{};  ///< of the integrator, if that is path
+  PathOptions path{};  ///< options of the path integrator
   Channels aovs{};
   CameraOptions camera{};
   unsigned threads = 0;                         ///< 0: default_threads()
@@ -115,24 +115,25 @@ struct Arguments {
   bool verbose = false;
   bool strict = false;
   bool validate = false;
-  /// The options that samples depend on, as Checkpoint::identity has them.
+  /// The options on which samples depend, in the form of Checkpoint::identity.
   std::string identity{};
 
-  /// After apply_defaults().
+  /// Requires apply_defaults().
   [[nodiscard]] bool is_path_traced() const {
     return std::holds_alternative<PathOptions>(*integrator);
   }
 
-  // Of merge alone:
+  // // For the command merge only:
   std::vector<std::filesystem::path> checkpoints{};
   bool allows_missing_samples = false;
 };
 
-/// Sets the options that are not given to the library's defaults for scenes of this format. Throws
-/// Error (usage) for options that contradict the result.
+/// Sets options that are absent to the library's defaults for scenes of this format. Throws Error
+/// (usage) if given options contradict these defaults.
 void apply_defaults(Arguments& arguments, SceneFormat format);
 
-/// The properties of surfaces that the picture and its channels show, before apply_defaults().
+/// The surface properties that the picture and its channels need. May be called before
+/// apply_defaults().
 [[nodiscard]] SurfaceDetail surface_detail(const Arguments& arguments);
 
 }  // namespace microtrace::cli

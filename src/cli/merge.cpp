@@ -14,7 +14,7 @@ namespace microtrace::cli {
 
 namespace {
 
-/// "samples 16 to 32 of 50 are missing"; empty if none is.
+/// "samples 16 to 32 of 50 are missing"; empty if none are missing.
 std::string missing_samples(const Checkpoint& all) {
   std::string ranges;
   for (const SampleRange& range : all.sums.missing({.first = 0, .last = all.samples})) {

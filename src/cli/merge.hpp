@@ -1,12 +1,13 @@
 #pragma once
-/// microtrace merge: one picture of the samples of several checkpoints.
+/// `microtrace merge` combines the samples of several checkpoints into one picture.
 
 #include "cli/arguments.hpp"
 
 namespace microtrace::cli {
 
-/// Writes the picture of arguments.checkpoints. Display options that are absent are the first
-/// checkpoint's. Throws Error: usage for missing samples, unless these are allowed.
+/// Writes the picture of arguments.checkpoints. Takes absent display options from the first
+/// checkpoint. Throws Error, of kind usage if samples are missing and missing samples are not
+/// allowed.
 void merge_samples(const Arguments& arguments);
 
 }  // namespace microtrace::cli

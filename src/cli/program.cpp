@@ -83,7 +83,7 @@ int render_pictures(cli::Arguments arguments) {
   return arguments.validate ? log.print_result(arguments.scene) : 0;
 }
 
-/// Runs a command; prints its error.
+/// Runs a command and returns its exit code. Prints its error, if any.
 template <class Work>
 int exit_code_of(const Work& work) {
   try {

@@ -13,7 +13,7 @@
 namespace microtrace::cli {
 namespace {
 
-// Async-signal-safe calls only.
+// These signal handlers make only async-signal-safe calls.
 
 void end_at_once(int signal) {
   remove_unfinished_files();
@@ -51,7 +51,8 @@ void handle_signals() {
 }
 
 void end_after(double seconds) {
-  // The kernel's timer takes no more, and 0 would disable it.
+  // kMost is below the greatest time that the kernel's timer accepts. A time of 0 would disable the
+  // timer.
   constexpr double kMost = 1e8, kLeast = 1e-6;
   const double time = std::clamp(seconds, kLeast, kMost);
   handle(SIGALRM, end_at_limit);

@@ -1,15 +1,16 @@
 #pragma once
-/// Signals and the time limit of the whole run.
+/// Signal handlers, and the time limit of the whole run.
 
 namespace microtrace::cli {
 
-/// Makes INT, TERM, HUP, QUIT and XCPU end the process with exit code 128 + the signal's number and
-/// no temporary file; those that were ignored at the start (nohup, background jobs) stay ignored.
-/// Writing to closed pipes and beyond file size limits fails instead of raising a signal.
+/// Makes INT, TERM, HUP, QUIT and XCPU remove temporary files and end the process with exit code
+/// 128 + the signal's number. Signals that were ignored at the start (nohup, background jobs) stay
+/// ignored. Writing to a closed pipe or beyond the file size limit fails instead of raising a
+/// signal.
 void handle_signals();
 
-/// Ends the process after this time with the exit code of ErrorKind::limit, a message and no
-/// temporary file.
+/// Arms a timer that removes temporary files, prints a message and ends the process with the exit
+/// code of ErrorKind::limit after `seconds`.
 void end_after(double seconds);
 
 }  // namespace microtrace::cli

@@ -26,7 +26,8 @@ std::string escaped(const std::string& text, std::string_view special) {
   return out;
 }
 
-/// Quotes the text; within single quotes only fish interprets backslashes.
+/// Quotes the text for any shell. Fish is the only one that interprets backslashes within single
+/// quotes.
 std::string in_single_quotes(const std::string& text) {
   std::string out = "'";
   for (const char c : text) {
@@ -58,7 +59,7 @@ std::vector<std::string> words_of(const Option& option) {
   return option.words != nullptr ? option.words() : std::vector<std::string>{};
 }
 
-/// True if the next word is the option's value.
+/// True if the word after the option is its value.
 bool has_value(const Option& option) {
   return !option.is_flag();
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// microtrace completion SHELL prints a script by which the shell completes the command line.
+/// `microtrace completion SHELL` prints a script that lets the shell complete microtrace's command
+/// line.
 
 #include <optional>
 #include <string>

@@ -7,7 +7,9 @@
 namespace microtrace::cli {
 namespace {
 
-constexpr std::size_t kLeft = 27, kRight = 72;  // columns of names, and of descriptions
+constexpr std::size_t kLeft = 27,
+                      kRight =
+                          72;  // widths in characters of the columns for names and descriptions
 
 constexpr std::string_view kRenderUsage =
     R"(microtrace: renders JSON and glTF scenes with exact visibility, the same bytes everywhere
@@ -33,7 +35,7 @@ Examples:
   microtrace merge CHECKPOINT... -o picture.png
 )";
 
-/// Breaks the text into lines of the right column; all but the first are indented.
+/// Breaks the text into lines that fit the right column. Indents all lines but the first.
 std::string wrapped(const std::string& text) {
   std::istringstream words(text);
   std::string result;

@@ -1,11 +1,12 @@
 #pragma once
-/// The options of the command line, one row each. Parsing, --help, the manual page, completion,
-/// suggestions for mistyped names and the identity of checkpoints are all made from these rows.
+/// The table of command-line options, one row per option. Parsing, --help, the manual page,
+/// completion, suggestions for mistyped names and the identity of checkpoints all use this table.
 ///
-/// To add an option: a row in one of src/cli/options/*_options.cpp, and the code that uses its
-/// value, which is stored in Arguments or in an options struct of the library that is part of it.
-/// Tests name an option that docs/command-line.md or the manual page doesn't describe;
-/// `tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update` adds it to the manual page.
+/// To add an option, add a row to one of src/cli/options/*_options.cpp, and the code that uses the
+/// option's value. The value is stored in Arguments, directly or in a member that is an options
+/// struct of the library. Tests report options that docs/command-line.md or the manual page doesn't
+/// describe. `tests/cli/manual_test.py PROGRAM SOURCE_FOLDER --update` adds them to the manual
+/// page.
 
 #include "cli/options/option_value.hpp"
 
@@ -23,31 +24,33 @@ struct Arguments;
 enum class Command { render, merge };
 
 /// Effect of an option on the samples of Monte Carlo integrators. Samples of several runs can be
-/// combined only if all options that change samples are the same.
+/// combined only if the runs agree in all options that change samples.
 enum class Samples { undecided, change, keep };
 
-/// Values that shells complete, besides Option::words.
+/// Values that shells offer for completion, in addition to Option::words.
 enum class Completion { none, files, folders };
 
 struct Option {
-  /// Comma-separated, short ones first: "-o,--output". A positional argument has no dashes.
+  /// Comma-separated names, short ones first: "-o,--output". The name of a positional argument has
+  /// no dashes.
   std::string_view names;
   std::string_view metavar{};  ///< placeholder of the value: "FILE"; empty: a flag
   std::string_view help;
   std::string_view default_value{};  ///< a value or a description; empty: none
-  std::string_view implied_value{};  ///< if the value is omitted; empty: it is required
+  std::string_view implied_value{};  ///< used if no value is given; empty: a value is required
   Samples samples = Samples::undecided;
   Completion completion = Completion::none;
-  std::vector<std::string> (*words)() = nullptr;  ///< named values; null: none
+  std::vector<std::string> (*words)() =
+      nullptr;  ///< returns the named values; null if there are none
   bool is_required = false;
   bool is_repeatable = false;
   std::string_view needs{};     ///< an option that must also be given
   std::string_view excludes{};  ///< options that must not be given, space-separated
-  /// Stores the value; of a flag, that it is given. Throws Error (usage). Called in the order of
-  /// the table. Null for --help and --version, which end the program.
+  /// Stores the value or, for a flag, that the flag is given. Throws Error (usage). Called in the
+  /// order of the table. Null for --help and --version, which end the program.
   void (*set)(Arguments&, const OptionValue&) = nullptr;
 
-  /// "--output": the first long name, or the positional argument's.
+  /// The first long name, such as "--output", or the name of the positional argument.
   [[nodiscard]] std::string_view name() const;
   [[nodiscard]] std::vector<std::string_view> all_names() const;
   [[nodiscard]] bool is_flag() const { return metavar.empty() || !implied_value.empty(); }
@@ -76,7 +79,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> common_options();
 [[nodiscard]] std::span<const Option> merge_options();
 
-/// True if every row has names and a help text and states its effect on samples.
+/// True if every row has names, a help text and a stated effect on samples.
 constexpr bool is_complete(std::span<const Option> options) {
   return std::ranges::all_of(options, [](const Option& option) {
     return !option.names.empty() && !option.help.empty() && option.samples != Samples::undecided;

@@ -12,7 +12,7 @@
 namespace microtrace::cli {
 namespace {
 
-/// Converts the whole text.
+/// Converts the text; nothing unless all of it is a number.
 template <typename Number>
 std::optional<Number> read(std::string_view text) {
   Number value{};

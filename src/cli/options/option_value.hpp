@@ -1,5 +1,5 @@
 #pragma once
-/// The text of an option's value, and its conversions.
+/// The text of an option's value, and conversions of this text.
 
 #include <microtrace/math.hpp>
 
@@ -17,7 +17,7 @@ namespace microtrace::cli {
 /// Accepts only decimal digits, without a sign.
 [[nodiscard]] std::optional<std::uint32_t> whole_number(std::string_view text);
 
-/// Comma-separated finite numbers; empty if the text is anything else.
+/// Parses comma-separated finite numbers. Returns an empty list for any other text.
 [[nodiscard]] std::vector<double> numbers_of(std::string_view text);
 
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
@@ -39,19 +39,20 @@ template <class Choices>
   return names;
 }
 
-/// Each conversion throws Error (usage), which names the option and says what it accepts.
+/// The text of an option's value. Each conversion throws Error (usage) with the option's name and
+/// the values that it accepts.
 struct OptionValue {
   std::string option;  ///< "--size"
   std::string text;
 
   [[nodiscard]] std::uint32_t whole_number(std::uint32_t least, std::uint32_t most) const;
   [[nodiscard]] double number() const;
-  /// From `least` to `most`, both included.
+  /// Accepts numbers from `least` to `most`, both included.
   [[nodiscard]] double number(double least, double most) const;
   [[nodiscard]] double positive_number() const;
   [[nodiscard]] double seconds() const { return number(0, std::numeric_limits<double>::max()); }
   [[nodiscard]] DVec3 point() const;
-  /// A number of bytes above 0; the suffix K, M or G stands for KiB, MiB or GiB.
+  /// Accepts a positive number of bytes. The suffix K, M or G stands for KiB, MiB or GiB.
   [[nodiscard]] std::uint64_t bytes() const;
 
   template <class Choices>
@@ -62,7 +63,7 @@ struct OptionValue {
     refuse(listed(names_of(choices)));
   }
 
-  /// "--size: expects {accepted}, not {text}"
+  /// Throws Error (usage) with the message "--size: expects {accepted}, not {text}".
   [[noreturn]] void refuse(const std::string& accepted) const;
 };
 

@@ -20,13 +20,13 @@
 namespace microtrace::cli {
 namespace {
 
-/// An option that is on the command line.
+/// An option that is given on the command line.
 struct Given {
   const Option* option;
   std::vector<std::string> values;
 };
 
-/// CLI11 splits the command line; the rows of the table read the values.
+/// Splits the command line by CLI11. The rows of the option table convert the values.
 class Parser {
  public:
   explicit Parser(Command command) {
@@ -78,7 +78,7 @@ class Parser {
     }
     if (option.is_required) added->required();
     if (option.is_repeatable) {
-      // A positional argument takes all remaining words, an option one at each occurrence.
+      // A positional argument takes all remaining words. An option takes one word per occurrence.
       added->expected(option.is_positional() ? -1 : 1);
       added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
@@ -97,7 +97,7 @@ std::string identity_of(const std::vector<Given>& given) {
     char before = '\t';
     for (const std::string& value : values) {
       identity += before;
-      // Values may contain any bytes; these two separate entries.
+      // Values may contain any bytes. Replaces the two that separate entries.
       for (const char c : value) identity += c == '\n' || c == '\t' ? ' ' : c;
       before = ' ';
     }

@@ -8,11 +8,11 @@ namespace microtrace::cli {
 
 struct Parsed {
   Arguments arguments;
-  std::optional<int> exit_code{};  ///< if present, nothing is left to do
+  std::optional<int> exit_code{};  ///< if present, the program should end with it
 };
 
-/// Reads the command line of a command. Prints --help and --version to standard output and usage
-/// errors to standard error; the exit code is then present.
+/// Parses the arguments of a command. Prints the output of --help and --version to standard output
+/// and usage errors to standard error; in these cases exit_code is present.
 [[nodiscard]] Parsed parse_arguments(Command command, int argc, char** argv);
 
 }  // namespace microtrace::cli

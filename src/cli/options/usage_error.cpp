@@ -43,8 +43,8 @@ std::string unknown_option(Command command, std::string_view argument) {
 }  // namespace
 
 std::string message_of(Command command, const CLI::App& app, const CLI::ParseError& error) {
-  // CLI11 reports what is missing before what it doesn't know; a mistyped option is often why
-  // something is missing.
+  // CLI11 reports missing arguments before unknown ones, but a mistyped option is often the reason
+  // why an argument is missing.
   const std::vector<std::string> left = app.remaining();
   const auto is_option = [](const std::string& text) { return text.size() > 1 && text[0] == '-'; };
   const auto option = std::ranges::find_if(left, is_option);

@@ -23,7 +23,7 @@ constexpr std::array kViews{
     Choice<View>{"left", {.azimuth = 270, .elevation = 0}},
     Choice<View>{"top", {.azimuth = 0, .elevation = 90}},
     Choice<View>{"bottom", {.azimuth = 0, .elevation = -90}},
-    // Looks along a cube's diagonal: sin^2 = 1/3.
+    // Looks along a cube's diagonal, so sin^2(elevation) = 1/3.
     Choice<View>{"iso", {.azimuth = 45, .elevation = 35.264389682754654}},
 };
 
@@ -40,7 +40,7 @@ std::optional<Vec3> parse_hex_color(std::string_view digits) {
   return color;
 }
 
-/// Rounds once, to float32, not first to float64.
+/// Rounds directly to float32, because rounding to float64 first would round twice.
 std::optional<float> parse_float(std::string_view text) {
   float value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -48,7 +48,7 @@ std::optional<float> parse_float(std::string_view text) {
   return value;
 }
 
-/// #rrggbb in sRGB, or three numbers in [0, greatest].
+/// Parses #rrggbb in sRGB, or three linear values in [0, greatest].
 std::optional<Vec3> parse_color(std::string_view text, float greatest) {
   if (text.size() == 7 && text[0] == '#') return parse_hex_color(text.substr(1));
   const std::vector<std::string_view> parts = split_at_commas(text);

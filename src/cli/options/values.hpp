@@ -1,5 +1,5 @@
 #pragma once
-/// Values with a notation of their own.
+/// Parses option values that have their own notation.
 
 #include "cli/options/option_value.hpp"
 
@@ -16,20 +16,21 @@
 
 namespace microtrace::cli {
 
-// Each parse_ throws Error (usage), which names the option and says what it accepts.
+// Each parse_ function that takes an OptionValue throws Error (usage) with the option's name and
+// the values that it accepts.
 
-/// WIDTHxHEIGHT
+/// /// Parses WIDTHxHEIGHT.
 [[nodiscard]] ImageSize parse_size(const OptionValue& value);
-/// x0,y0,x1,y1
+/// /// Parses x0,y0,x1,y1.
 [[nodiscard]] PixelRect parse_crop(const OptionValue& value);
 
 /// The viewing direction of --view.
 struct OrbitView {
   View view{};
-  std::optional<double> distance{};  ///< from the target; absent: the whole scene is framed
+  std::optional<double> distance{};  ///< from the target; absent: the camera frames the whole scene
 };
 
-/// A side's name, AZIMUTH,ELEVATION in degrees, or AZIMUTH,ELEVATION,DISTANCE
+/// Parses the name of a side; or AZIMUTH,ELEVATION in degrees; or AZIMUTH,ELEVATION,DISTANCE.
 [[nodiscard]] OrbitView parse_view(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> view_names();
 
@@ -39,10 +40,11 @@ struct Background {
   Vec3 color{0};  ///< linear Rec. 709; black for the other kinds
 };
 
-/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent" or "env"
+/// Parses #rrggbb in sRGB; or red,green,blue in linear light, each in [0, 1]; or "transparent" or
+/// "env".
 [[nodiscard]] Background parse_background(const OptionValue& value);
-/// #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]; absent if it is
-/// neither
+/// Parses #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]. Returns
+/// nothing for any other text.
 [[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
 
 [[nodiscard]] IntegratorOptions parse_integrator(const OptionValue& value);
@@ -56,7 +58,7 @@ struct Channels {
   [[nodiscard]] bool empty() const { return exact.empty() && sampled.empty(); }
 };
 
-/// Comma-separated names of quantities, each once
+/// Parses comma-separated names of quantities, each of which may appear once.
 [[nodiscard]] Channels parse_aovs(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> aov_names();
 

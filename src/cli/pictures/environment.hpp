@@ -14,18 +14,19 @@
 
 namespace microtrace::cli {
 
-/// Loads the environment of --env, if it is given: reads its file and adds to the warnings. Throws
-/// Error.
+/// Loads the environment of --env if the option is given. Appends warnings about the environment's
+/// file to `warnings`. Throws Error.
 [[nodiscard]] std::optional<Environment> load_environment(const EnvironmentOptions& options,
                                                           std::vector<Diagnostic>& warnings,
                                                           MemoryBudget& memory);
 
-/// Replaces the scene's environment if one is given, and applies the other options. Options about
-/// the environment apply to the studio if the scene has no environment.
+/// Replaces the scene's environment by `environment` if present, and applies the other options. If
+/// the scene then has no environment, options about the environment add the built-in studio and
+/// apply to it.
 void apply_environment(Scene& scene, const std::optional<Environment>& environment,
                        const EnvironmentOptions& options);
 
-/// Applies exposure and tone map, unless the film holds AOV values instead of light.
+/// Applies exposure and tone map unless the film contains AOV values instead of light.
 void apply_display(Film& film, const DisplayOptions& options);
 
 }  // namespace microtrace::cli

@@ -7,8 +7,8 @@
 namespace microtrace::cli {
 namespace {
 
-/// The pattern with the number inserted, and the number of insertions; nothing if it uses % for
-/// anything else.
+/// A pattern with the frame number inserted, and the number of insertions. filled() returns nothing
+/// if the pattern uses % for anything else.
 struct Filled {
   std::string text;
   int places = 0;

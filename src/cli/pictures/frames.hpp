@@ -20,12 +20,12 @@ struct FrameRange {
   [[nodiscard]] double time(std::uint32_t frame) const { return frame / fps; }
 };
 
-/// Parses A:B, inclusive. This and the next function throw Error (usage).
+/// Parses A:B, the frames A to B inclusive. This function and the next throw Error (usage).
 [[nodiscard]] FrameRange parse_frames(const OptionValue& value);
 
-/// Throws Error (usage) unless the file name contains the frame number once, as %d or %04d; %%
-/// stands for %. `option` is the option that has the name. "-" stands for standard output, which
-/// takes all frames one after another.
+/// Throws Error (usage) unless the pattern contains one placeholder for the frame number, %d or one
+/// like %04d. %% stands for %. "-" is accepted too: it writes all frames to standard output, one
+/// after another. `option` is the option whose value is the pattern.
 void check_pattern(const char* option, const std::string& pattern);
 
 /// The file name of one frame.

@@ -51,7 +51,7 @@ void check_paths(const ReadFiles& inputs, const Sequence& sequence) {
     check_outputs_differ({picture, sidecar});
     if (!sidecar.path.empty() && sequence.count() > 1) pictures.insert(normal(picture.path));
   }
-  // A sidecar must not overwrite the picture of another frame either.
+  // Another frame's sidecar must not overwrite a picture either.
   for (std::uint32_t index = 0; !pictures.empty() && index < sequence.count(); ++index) {
     const Output sidecar{"--sidecar", sequence.sidecar(index)};
     if (pictures.contains(normal(sidecar.path))) refuse_same({"--output", {}}, sidecar);

@@ -11,10 +11,10 @@
 
 namespace microtrace::cli {
 
-/// A file to write, and the option that names it.
+/// A file to write, and the option that specifies it.
 struct Output {
   const char* option;
-  std::filesystem::path path;  ///< empty: none
+  std::filesystem::path path;  ///< empty if no file is written
 };
 
 /// Throws Error (usage) if an output would overwrite a file that was read.
@@ -23,7 +23,7 @@ void check_no_input_is_overwritten(const ReadFiles& inputs, const std::vector<Ou
 /// Throws Error (usage) if two of the outputs are the same file.
 void check_outputs_differ(const std::vector<Output>& outputs);
 
-/// Both checks for all pictures and sidecars of a sequence.
+/// Does both checks for all pictures and sidecars of a sequence.
 void check_paths(const ReadFiles& inputs, const Sequence& sequence);
 
 }  // namespace microtrace::cli

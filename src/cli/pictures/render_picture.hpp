@@ -17,23 +17,25 @@ namespace microtrace::cli {
 /// The files of a picture.
 struct PictureFiles {
   std::filesystem::path picture;
-  std::filesystem::path sidecar;   ///< empty: none
-  SampleFiles* samples = nullptr;  ///< the checkpoints to read and write; null: none
+  std::filesystem::path sidecar;   ///< empty if no sidecar is written
+  SampleFiles* samples = nullptr;  ///< the checkpoints to read and write; null if there are none
 };
 
-/// Throws the errors that writing the pictures of a sequence to their paths would throw. Called
-/// before rendering.
+/// Throws the errors that writing a sequence's pictures to their paths would throw. Called before
+/// rendering.
 void check_outputs(const Arguments& arguments, const Sequence& sequence);
 
-/// A function that reports progress over `pictures` pictures according to --progress; may be empty.
+/// Returns the function that reports the progress of rendering `pictures` pictures as --progress
+/// requests. The function may be empty.
 [[nodiscard]] std::function<void(double)> progress_of(const Arguments& arguments,
                                                       std::uint32_t pictures);
 
-/// The tables of the last picture of a sequence, for the next.
+/// The tables of a sequence's previous picture, for reuse by the next picture.
 using Tables = std::shared_ptr<const SharedTables>;
 
-/// Renders a scene, to which apply_environment() was applied, and writes the picture and the
-/// sidecar; for a shard only its samples. Warns before writing a picture that shows nothing.
+/// Renders a scene to which apply_environment() has been applied. Writes the picture and the
+/// sidecar, or only the samples if a shard is rendered. Warns before writing a picture that shows
+/// nothing.
 void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arguments& arguments,
                     const PictureFiles& files, Tables& tables, Stopwatch& watch, Warnings& warnings,
                     const std::function<void(double)>& progress);

@@ -14,8 +14,8 @@ namespace microtrace::cli {
 
 class SampleFiles {
  public:
-  /// Reads and combines the checkpoints that the options name. `files` is the digest of all files
-  /// of the scene. `arguments` must outlive this object. Throws Error.
+  /// Reads and combines the checkpoints that the options specify. `files` is a digest of all the
+  /// scene's files. `arguments` must outlive this object. Throws Error.
   SampleFiles(const Arguments& arguments, std::uint64_t files);
   SampleFiles(const SampleFiles&) = delete;
   SampleFiles& operator=(const SampleFiles&) = delete;
@@ -23,8 +23,8 @@ class SampleFiles {
   /// Warnings about samples beyond --spp.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
-  /// For RenderOptions: continues from these samples and saves them every --save-every seconds.
-  /// Progressive pictures are encoded with `display`.
+  /// Returns passes for RenderOptions that continue from the samples read and save samples every
+  /// --save-every seconds. Progressive pictures are encoded with `display`.
   [[nodiscard]] Passes passes(const Display& display);
 
   /// Writes the checkpoint of --checkpoint if the option is given.

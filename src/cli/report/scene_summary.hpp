@@ -1,5 +1,5 @@
 #pragma once
-/// The lines of --verbose.
+/// The lines that --verbose prints.
 
 #include "cli/arguments.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace microtrace::cli {
 
-/// Prints what was read and how it will be rendered to standard error, in lines that start with
-/// "info: ".
+/// Prints to standard error what the scene contains and how it will be rendered, in lines that
+/// start with "info: ".
 void print_scene_summary(const Arguments& arguments, const Scene& scene, ImageSize size);
 
 }  // namespace microtrace::cli

@@ -15,7 +15,7 @@ class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // Each ends a stage.
+  // // Each of these functions ends a stage.
   void loaded(const LoadTimes& times) {
     load_ = lap();
     load_times_ = times;
@@ -26,10 +26,10 @@ class Stopwatch {
   }
   void written() { write_ = lap(); }
 
-  /// Loading, rendering and writing.
+  /// /// The time for loading, rendering and writing.
   [[nodiscard]] double seconds() const { return load_ + render_ + write_; }
 
-  /// Prints times, rays and memory to standard error.
+  /// Prints times, numbers of rays and memory use to standard error.
   void report(Statistics kind, const Scene& scene, ImageSize size, const RenderCounts& counts,
               unsigned threads, const MemoryBudget& memory) const;
 

@@ -15,8 +15,8 @@
 
 namespace microtrace::cli {
 
-/// Prints each warning once, and none with --quiet. Violations of a format's rules that don't
-/// prevent rendering are warnings, but errors with --validate.
+/// Prints each warning once, and no warnings with --quiet. Violations of a format's rules that
+/// don't prevent rendering are reported as warnings, or as errors with --validate.
 class Warnings {
  public:
   explicit Warnings(const Arguments& arguments)
@@ -24,10 +24,11 @@ class Warnings {
         is_quiet_(arguments.quiet),
         is_validating_(arguments.validate) {}
 
-  /// With --strict throws the first as an Error.
+  /// With --strict, throws the first warning as an Error.
   void report(const std::vector<Diagnostic>& warnings);
 
-  /// The same for a warning about a picture; only the first one of a sequence is printed.
+  /// Reports a warning about a picture in the same way. Of the warnings about a sequence's
+  /// pictures, prints only the first.
   void report_picture(const std::optional<Diagnostic>& warning);
 
   /// Prints the result of --validate and returns the exit code.
@@ -41,12 +42,13 @@ class Warnings {
   std::set<std::string> printed_;
 };
 
-/// The warning about a picture in which nothing of the scene is visible, or nearly all is black.
+/// The warning for a picture in which no object is visible, or which is almost entirely black.
 [[nodiscard]] std::optional<Diagnostic> picture_warning(const FilmView& view,
                                                         const Arguments& arguments,
                                                         const Scene& scene);
 
-/// "the built-in studio", "2 lights of intensity 0, no environment"
+/// Describes the scene's lights, such as "the built-in studio" or "2 lights of intensity 0, no
+/// environment".
 [[nodiscard]] std::string lights_text(const Scene& scene);
 
 }  // namespace microtrace::cli

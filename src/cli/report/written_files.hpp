@@ -1,5 +1,5 @@
 #pragma once
-/// The line on standard error about the files that a run has written.
+/// The line on standard error that lists the files that a run has written.
 
 #include <microtrace/film.hpp>
 
@@ -10,10 +10,11 @@ namespace microtrace::cli {
 
 struct WrittenFiles {
   std::filesystem::path main;     ///< a picture or a checkpoint; "-" is standard output
-  std::filesystem::path sidecar;  ///< or empty
+  std::filesystem::path sidecar;  ///< empty if there is none
 };
 
-/// "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Standard output is not mentioned.
+/// Prints a line like "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Doesn't mention
+/// standard output.
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
                     double seconds);
 

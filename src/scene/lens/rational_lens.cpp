@@ -50,10 +50,10 @@ RationalLens::Radial RationalLens::radial(double s) const {
   return {.factor = factor, .slope = (dn - factor * dd) / d};
 }
 
-// The Jacobian is the sum of two symmetric matrices. With the radial factor R = N / D, the radial one
-// has the eigenvalues R and (r R)'. The eigenvalues of the tangential one are at least -6 |p| r. The
-// sum is therefore positive definite where R and (r R)' exceed 6 |p| r. Multiplied by D and D^2,
-// these are inequalities of polynomials.
+// The Jacobian is the sum of two symmetric matrices. With the radial factor R = N / D, the first
+// has the eigenvalues R and (r R)'. The eigenvalues of the second, the tangential part, are at
+// least -6 |p| r. The sum is therefore positive definite where R and (r R)' exceed 6 |p| r.
+// Multiplied by D and D^2, these conditions are inequalities of polynomials.
 double RationalLens::invertible_radius() const {
   // Polynomials in r.
   const Polynomial n{1, 0, k_.k1, 0, k_.k2, 0, k_.k3}, d{1, 0, k_.k4, 0, k_.k5, 0, k_.k6};
