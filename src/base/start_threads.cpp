@@ -24,6 +24,21 @@ std::vector<std::jthread> start_threads(unsigned count, const std::function<void
   return threads;
 }
 
+unsigned run_on_threads(unsigned count, const HostThreads& host,
+                        const std::function<void()>& work) {
+  const auto work_exactly = [&] {
+    const FloatEnvironment environment;
+    work();
+  };
+  if (host) {
+    host(count, work_exactly);
+    return 0;
+  }
+  const std::vector<std::jthread> started = start_threads(count - 1, work);
+  work_exactly();
+  return count - 1 - static_cast<unsigned>(started.size());
+}
+
 bool can_start_threads(unsigned count) {
   std::latch end(1);
   const std::vector<std::jthread> threads = start_threads(count, [&end] { end.wait(); });

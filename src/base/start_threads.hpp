@@ -13,6 +13,14 @@ namespace microtrace {
 [[nodiscard]] std::vector<std::jthread> start_threads(unsigned count,
                                                       const std::function<void()>& work);
 
+/// Provides threads of a host program; see RenderOptions::run_threads.
+using HostThreads = std::function<void(unsigned threads, const std::function<void()>& work)>;
+
+/// Runs work() on `count` threads at the same time, including the calling one, and waits for all.
+/// Uses the host's threads if `host` isn't empty. Sets the FloatEnvironment of each. work() must
+/// not throw. Returns the number of threads that the system refused to start.
+unsigned run_on_threads(unsigned count, const HostThreads& host, const std::function<void()>& work);
+
 /// True if the system can start this many threads now.
 [[nodiscard]] bool can_start_threads(unsigned count);
 

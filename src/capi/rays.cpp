@@ -1,7 +1,6 @@
 #include "base/shared_range.hpp"
 #include "base/start_threads.hpp"
 #include "capi/handles.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/threads.hpp>
 
@@ -11,7 +10,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <thread>
 #include <vector>
 
 namespace microtrace::capi {
@@ -35,17 +33,10 @@ mt_hit hit_of(const std::optional<Hit>& hit) {
 template <class F>
 void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   SharedRange blocks(count, kBlock);
-  const auto work = [&] {
-    const FloatEnvironment environment;
-    blocks.take(f);
-  };
-  {
-    const std::size_t most = (count + kBlock - 1) / kBlock;
-    const std::size_t wanted =
-        std::min<std::size_t>(threads != 0 ? threads : default_threads(), most);
-    const auto started = start_threads(wanted > 1 ? static_cast<unsigned>(wanted - 1) : 0, work);
-    work();
-  }
+  const std::size_t most = (count + kBlock - 1) / kBlock;
+  const std::size_t wanted =
+      std::min<std::size_t>(threads != 0 ? threads : default_threads(), most);
+  run_on_threads(static_cast<unsigned>(wanted), nullptr, [&] { blocks.take(f); });
   blocks.rethrow();
 }
 

@@ -2,15 +2,12 @@
 
 #include "base/shared_range.hpp"
 #include "base/start_threads.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/threads.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 namespace microtrace {
 
@@ -39,7 +36,6 @@ void for_each_run(
     throw Error(ErrorKind::canceled, "", "the query was canceled");
   };
   const auto work = [&] {
-    const FloatEnvironment environment;
     Poll poll(report);
     range.take([&](std::uint64_t first, std::uint64_t last) {
       f(first, last, poll);
@@ -49,12 +45,7 @@ void for_each_run(
   const std::uint64_t wanted = options.threads != 0 ? options.threads : default_threads();
   const auto threads =
       static_cast<unsigned>(std::clamp<std::uint64_t>((count + run - 1) / run, 1, wanted));
-  if (options.run_threads) {
-    options.run_threads(threads, work);
-  } else {
-    const std::vector<std::jthread> started = start_threads(threads - 1, work);
-    work();
-  }
+  run_on_threads(threads, options.run_threads, work);
   range.rethrow();
   report();
 }

@@ -2,7 +2,6 @@
 
 #include "base/shared_range.hpp"
 #include "base/start_threads.hpp"
-#include "float_environment.hpp"
 
 #include <microtrace/error.hpp>
 
@@ -10,7 +9,6 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <vector>
 
 namespace microtrace {
 namespace {
@@ -73,16 +71,7 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   };
 
   const auto wanted = static_cast<unsigned>(std::min<std::uint64_t>(threads.wanted, count));
-  if (threads.run) {
-    threads.run(wanted, [&] {
-      const FloatEnvironment environment;  // start_threads() sets it for its own threads
-      work();
-    });
-  } else {
-    const std::vector<std::jthread> started = start_threads(wanted - 1, work);
-    threads.missing = std::max(threads.missing, wanted - 1 - static_cast<unsigned>(started.size()));
-    work();
-  }
+  threads.missing = std::max(threads.missing, run_on_threads(wanted, threads.run, work));
   tiles.rethrow();
 }
 

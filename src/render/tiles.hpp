@@ -1,6 +1,8 @@
 #pragma once
 /// Division of a picture into tiles, and their distribution to threads.
 
+#include "base/start_threads.hpp"
+
 #include <microtrace/film.hpp>
 #include <microtrace/stage_counts.hpp>
 
@@ -29,9 +31,8 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
 /// The threads that share the tiles, including the calling one.
 struct Threads {
-  unsigned wanted = 1;  ///< at least 1
-  std::function<void(unsigned, const std::function<void()>&)>
-      run{};             ///< RenderOptions::run_threads
+  unsigned wanted = 1;   ///< at least 1
+  HostThreads run{};     ///< RenderOptions::run_threads
   unsigned missing = 0;  ///< maximum number of threads that the system refused to start
   StageCounts stages{};  ///< counts of the rendered tiles
 };

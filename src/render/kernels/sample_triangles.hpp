@@ -25,7 +25,7 @@ void sample_triangles_from(TriangleLights<width>& lanes, int i) {
   const D square = dot(to_light, to_light), distance = square_root<N>(square);
   const V wi = to_single3<N>(to_light / distance);
   const F cosine = -dot(wi, normal);
-  const D pdf = square / (length / 2 * to_double<N>(magnitude(cosine)));
+  const D pdf = area_pdf<N>(square, length / 2, magnitude(cosine));
 
   const V emission = load3<N>(lanes.emission, i);
   const F coverage = load<N>(lanes.coverage + i);

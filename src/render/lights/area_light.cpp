@@ -1,6 +1,7 @@
 #include "render/lights/area_light.hpp"
 
 #include "render/bsdf/frame.hpp"
+#include "render/lights/light_limits.hpp"
 #include "render/sampling/warps.hpp"
 
 #include <algorithm>
@@ -33,12 +34,16 @@ Flat flat(const DVec3& v, double area) {
   if (!(length > 0) || !std::isfinite(length)) return {};
   return {.n = Vec3(v / length), .area = area};
 }
+/// Perpendicular to the triangle; its length is twice the area.
+DVec3 area_vector(const Triangle& t) {
+  return glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
+}
+
 Flat flat_of(const Disc& s) {
   return flat(DVec3(s.normal), kPi * double{s.radius} * double{s.radius});
 }
 Flat flat_of(const Triangle& s) {
-  const DVec3 v = glm::cross(DVec3(s.b) - DVec3(s.a), DVec3(s.c) - DVec3(s.a));
-  return flat(v, std::sqrt(glm::dot(v, v)) / 2);
+  return flat(area_vector(s), triangle_area(s));
 }
 
 DVec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
@@ -50,10 +55,6 @@ DVec3 point_of(const Disc& s, const Vec3& n, const Vec2& u) {
 DVec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
   const DVec2 w(sampling::triangle_weights(u));
   return w.x * DVec3(s.a) + w.y * DVec3(s.b) + std::max(1 - w.x - w.y, 0.0) * DVec3(s.c);
-}
-
-double pdf_of(const Flat& flat, double square, float cosine) {
-  return square / (flat.area * double{cosine});
 }
 
 /// The cone of directions from p to a sphere.
@@ -114,7 +115,7 @@ std::optional<ShapeSample> sample(const FlatShape& s, const Vec3& p, const Vec2&
   return ShapeSample{.to_light = to_light,
                      .wi = wi,
                      .front = cosine > 0,
-                     .pdf = pdf_of(flat, square, std::abs(cosine))};
+                     .pdf = area_pdf<1>(square, flat.area, std::abs(cosine))};
 }
 std::optional<ShapeSample> sample(const Sphere& s, const Vec3& p, const Vec2& u) {
   const Cone cone(s, p);
@@ -141,6 +142,11 @@ std::optional<LightBounds> shape_bounds(const Shape& shape) {
   return result;
 }
 
+double triangle_area(const Triangle& t) {
+  const DVec3 v = area_vector(t);
+  return std::sqrt(glm::dot(v, v)) / 2;
+}
+
 std::optional<ShapeSample> sample_shape(const Shape& shape, const Vec3& p, const Vec2& u) {
   std::optional<ShapeSample> result;
   std::visit(
@@ -156,8 +162,8 @@ double shape_pdf(const Shape& shape, const Vec3& p, float distance, float cosine
   Flat flat;
   if (const auto* disc = std::get_if<Disc>(&shape)) flat = flat_of(*disc);
   if (const auto* triangle = std::get_if<Triangle>(&shape)) flat = flat_of(*triangle);
-  return flat.area > 0 && cosine > 0 ? pdf_of(flat, double{distance} * double{distance}, cosine)
-                                     : 0;
+  const double square = double{distance} * double{distance};
+  return flat.area > 0 && cosine > 0 ? area_pdf<1>(square, flat.area, cosine) : 0;
 }
 
 }  // namespace microtrace

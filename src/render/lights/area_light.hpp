@@ -14,6 +14,8 @@ namespace microtrace {
 /// area, which are not sampled.
 [[nodiscard]] std::optional<LightBounds> shape_bounds(const Shape& shape);
 
+[[nodiscard]] double triangle_area(const Triangle& t);
+
 /// A point of a shape as seen from another point.
 struct ShapeSample {
   DVec3 to_light{0};  ///< vector to the point

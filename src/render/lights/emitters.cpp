@@ -16,11 +16,6 @@
 namespace microtrace {
 namespace {
 
-double area_of(const Triangle& t) {
-  const DVec3 n = glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
-  return std::sqrt(glm::dot(n, n)) / 2;
-}
-
 /// Bytes for each emitter: its entry, its bounds and its tree nodes, including unused capacity.
 constexpr std::uint64_t kBytesOfEmitter = 276;
 
@@ -60,7 +55,7 @@ void Emitters::add_surfaces(std::vector<LightBounds>& bounds) {
 }
 
 void Emitters::add_triangle(PrimitiveId id, const Triangle& t, std::vector<LightBounds>& bounds) {
-  const double area = area_of(t);
+  const double area = triangle_area(t);
   // Uses a texture footprint of about the triangle's size, so that the emission is approximately
   // the mean over the triangle.
   const auto width = static_cast<float>(std::sqrt(area) * 0.75);
@@ -165,7 +160,7 @@ float Emitters::pdf(std::size_t light, const LightSampleContext& context, float 
   const double length = distance;
   const double pdf = emitter.shape != nullptr
                          ? shape_pdf(*emitter.shape, context.p, distance, cosine)
-                         : length * length / (emitter.area * double{cosine});
+                         : area_pdf<1>(length * length, emitter.area, cosine);
   probability *= tree_->probability(light, context.p, context.n);
   return probability > 0 ? static_cast<float>(limited_pdf<1>(pdf * probability)) : 0;
 }

@@ -18,6 +18,14 @@ Double<N> limited_pdf(const Double<N>& pdf) {
   return pdf < kMost ? larger_of(pdf, zero + 1 / kMost) : zero + kMost;
 }
 
+/// The pdf per solid angle of a point that is uniformly distributed over an area, as seen from a
+/// distance with this square. `cosine`, above 0, is that of the angle between the direction and the
+/// surface normal.
+template <int N>
+Double<N> area_pdf(const Double<N>& square, const Double<N>& area, const Float<N>& cosine) {
+  return square / (area * to_double<N>(cosine));
+}
+
 /// A light selected with some probability, in the form that shadow rays need.
 template <int N>
 struct SelectedLight {
