@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// A reader of an asset with one buffer, and all objects that must outlive it.
+/// An accessor reader for an asset with one buffer. Owns all objects that must outlive the reader.
 class Reading {
  public:
   explicit Reading(const AssetBuilder& asset)
@@ -90,7 +90,7 @@ TEST(GltfAccessorReader, MatricesAreColumnMajor) {
 
 TEST(GltfAccessorReader, SelectedElementsEqualThoseOfAFullRead) {
   AssetBuilder asset;
-  std::vector<std::int16_t> numbers;  // interleaved: the accessor uses three of every four numbers
+  std::vector<std::int16_t> numbers;  // interleaved: the accessor reads three of every four numbers
   for (int i = 0; i < 400; ++i) numbers.push_back(static_cast<std::int16_t>(i * 80));
   const int accessor = add<std::int16_t>(asset, 5122, "VEC3", true, numbers, 100, 8);
   const std::size_t changed = asset.add_view(bytes_of<std::uint8_t>({0, 7, 50, 99}));
@@ -141,13 +141,13 @@ TEST(GltfAccessorReader, ElementsWithoutViewAreZeroAndLimited) {
   }
 }
 
-/// The padding after the last column of the last matrix does not belong to an accessor (glTF 2.0,
+/// An accessor does not include the padding after the last column of its last matrix (glTF 2.0,
 /// section 3.6.2.4).
 TEST(GltfAccessorReader, LastMatrixOfSmallIntegersNeedsNoPadding) {
   struct Case {
     const char* type;
     int component_type;
-    std::size_t bytes;  // of two matrices
+    std::size_t bytes;  // size of two matrices
   };
   for (const Case& c :
        {Case{"MAT2", kUint8, 14}, Case{"MAT2", kInt16, 16}, Case{"MAT3", kInt8, 23},

@@ -24,7 +24,7 @@ void use(AssetBuilder& asset, const char* extension) {
   if (std::ranges::find(used, Json(extension)) == used.end()) used.push_back(extension);
 }
 
-/// A channel of animation 0 at the times 0 and 2 seconds.
+/// Adds a channel for this JSON pointer to animation 0, with keys at 0 and 2 seconds.
 void point(AssetBuilder& asset, const char* pointer, std::size_t output,
            const char* interpolation = "LINEAR") {
   use(asset, "KHR_animation_pointer");
@@ -292,7 +292,7 @@ TEST(GltfAnimationPointer, IgnoresValuesOfAnotherSize) {
   }
 }
 
-// Loads several poses of one file, as a sequence of frames does.
+// Loads several poses of one file, as rendering a sequence of frames does.
 TEST(GltfAnimationPointer, OneFileGivesManyPoses) {
   AssetBuilder asset = cube();
   point(asset, "/materials/0/pbrMetallicRoughness/roughnessFactor", "SCALAR", {0, 1});

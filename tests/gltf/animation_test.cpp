@@ -26,8 +26,8 @@ void expect_near(const Vec3& value, const Vec3& wanted) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], wanted[i], 1e-6) << i;
 }
 
-/// A cube that makes one full rotation about z from 1 to 3 seconds, in four quarters, and moves by
-/// 10 along x.
+/// A cube that makes one full rotation about z between 1 and 3 seconds, in four quarter turns, and
+/// moves by 10 along x.
 AssetBuilder turning_cube() {
   AssetBuilder asset = cube();
   const float half = std::sqrt(0.5F);
@@ -90,14 +90,14 @@ TEST(GltfAnimation, StepAndCubicSplineAreRead) {
   EXPECT_EQ(corner_at(asset, 0.99).x, 1);
   EXPECT_EQ(corner_at(asset, 1).x, 11);
   asset.json.erase("animations");
-  // The tangents inward are 0 and 8 along x, outward 4 and 0 along y.
+  // The in-tangents are 0 and then 8 along x. The out-tangents are 4 along y and then 0.
   asset.animate(0, 0, "translation", input,
                 asset.add_numbers<float>("VEC3", {7, 7, 7, 0, 0, 0, 0, 4, 0,  //
                                                   8, 0, 0, 1, 1, 0, 7, 7, 7}),
                 "CUBICSPLINE");
   const Vec3 p = corner_at(asset, 0.5) - Vec3(1);
-  EXPECT_FLOAT_EQ(p.x, 0.5F - 1);     // 3 t^2 - 2 t^3 and 8 (t^3 - t^2)
-  EXPECT_FLOAT_EQ(p.y, 0.5F + 0.5F);  // the same and 4 (t^3 - 2 t^2 + t)
+  EXPECT_FLOAT_EQ(p.x, 0.5F - 1);     // 3 t^2 - 2 t^3 plus 8 (t^3 - t^2) at t = 1/2
+  EXPECT_FLOAT_EQ(p.y, 0.5F + 0.5F);  // 3 t^2 - 2 t^3 plus 4 (t^3 - 2 t^2 + t) at t = 1/2
 }
 
 TEST(GltfAnimation, RotationsMayBeNormalizedIntegers) {
@@ -127,7 +127,7 @@ TEST(GltfAnimation, IsSelectedByNameOrIndexOrAll) {
   EXPECT_EQ(corner_at(asset, 3, "grow"), Vec3(1, 1, 5));
   EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(1, 1, 5));
   EXPECT_EQ(corner_at(asset, 3, "all"), Vec3(11, 1, 5));
-  asset.json["animations"][0]["name"] = "1";  // names take precedence over numbers
+  asset.json["animations"][0]["name"] = "1";  // names take precedence over indices
   EXPECT_EQ(corner_at(asset, 3, "1"), Vec3(11, 1, 1));
   for (const char* wrong : {"run", "2", "-1", "0x0", " 1", "99999999999999999999999"}) {
     try {
@@ -193,12 +193,13 @@ TEST(GltfAnimation, PointersToNodesAreFollowed) {
 TEST(GltfAnimation, IgnoresUnplayableChannels) {
   AssetBuilder asset = turning_cube();
   const std::size_t first =
-      asset.json["accessors"].size() - 4;  // times, rotations, ends, translations
+      asset.json["accessors"].size() - 4;  // times, rotations, end times, translations
   const auto with = [&](std::size_t accessor, const char* key, const Json& value) {
     AssetBuilder broken = asset;
     broken.json["accessors"][first + accessor][key] = value;
     const LoadedScene loaded = load(broken, {.time = 3});
-    // The other channel is played: the cube either rotates or moves.
+    // The other channel still plays: the cube either moves without rotating or rotates without
+    // moving.
     EXPECT_EQ(corner(loaded).x, accessor < 2 ? 11 : 1) << accessor << key;
     return texts(loaded.warnings);
   };
@@ -217,7 +218,7 @@ TEST(GltfAnimation, IgnoresUnplayableChannels) {
   EXPECT_EQ(corner_at(broken, 2), Vec3(1));
 }
 
-/// Moves the cube to these positions at these times; returns its x at a time, minus 1.
+/// Animates the cube to these x positions at these times. Returns its x at `time`, minus 1.
 float x_at(const std::vector<float>& times, const std::vector<float>& places, double time) {
   AssetBuilder asset = cube();
   std::vector<float> moves;

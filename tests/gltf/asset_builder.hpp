@@ -1,5 +1,5 @@
 #pragma once
-/// Small glTF assets created in memory, and helpers for tests.
+/// Builds small glTF assets in memory, and loads them for tests.
 
 #include "support/json.hpp"
 
@@ -48,19 +48,20 @@ std::string bytes_of(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-/// Builds the JSON of an asset with one buffer, and the buffer.
+/// Builds the JSON of an asset, and its only buffer.
 struct AssetBuilder {
   Json json = {{"asset", {{"version", "2.0"}}}};
   std::string buffer;
 
-  /// Appends to an array of the root object and returns the new index.
+  /// Appends an item to an array of the root object. Returns the item's index.
   std::size_t add(const char* array, Json item);
-  /// Appends bytes to the buffer, aligned to 4, and adds a view of them.
+  /// Appends bytes to the buffer at a multiple of 4. Adds a view of these bytes and returns its
+  /// index.
   std::size_t add_view(std::string_view bytes, std::size_t stride = 0);
   std::size_t add_positions(const std::vector<Vec3>& positions);
   std::size_t add_indices(const std::vector<std::uint32_t>& indices, ComponentType type);
-  /// Adds numbers in a view of their own, with min and max for scalars; `shape` is as in glTF:
-  /// "SCALAR", "VEC3", "MAT4".
+  /// Adds an accessor for numbers, which get a view of their own. Scalars get min and max. `shape`
+  /// is glTF's type: "SCALAR", "VEC3", "MAT4".
   template <typename Number>
   std::size_t add_numbers(const char* shape, const std::vector<Number>& numbers,
                           bool normalized = false) {
@@ -68,13 +69,13 @@ struct AssetBuilder {
   }
   std::size_t add_accessor(const char* shape, const std::string& bytes, int component_type,
                            bool normalized);
-  /// Adds a channel to animation `index`, which is created if necessary, and a sampler for it.
+  /// Adds a sampler, and a channel for it, to animation `index`, which is created if necessary.
   void animate(std::size_t index, std::size_t node, const char* path, std::size_t input,
                std::size_t output, const char* interpolation = "LINEAR");
-  /// Adds a mesh with one primitive on a new node of the default scene; returns the node's index.
+  /// Adds a mesh with one primitive, on a new node of the default scene. Returns the node's index.
   std::size_t add_object(Json primitive);
 
-  /// The asset with its buffer as a data URI, and as a GLB file.
+  /// The asset as JSON with its buffer in a data URI, and as a GLB file.
   [[nodiscard]] std::string embedded() const;
   [[nodiscard]] std::string glb() const;
   [[nodiscard]] Json with_buffer(const char* uri) const;
@@ -86,20 +87,21 @@ struct GlbChunk {
 };
 inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
-/// A GLB file with these chunks, unchanged.
+/// A GLB file of exactly these chunks.
 [[nodiscard]] std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version = 2);
 [[nodiscard]] std::string padded(std::string bytes, char filler);
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// The cube [-1, 1]^3: 8 vertices, 12 triangles with u16 indices, a red material, a node "Cube".
+/// The cube [-1, 1]^3 on a node named "Cube": 8 vertices, 12 triangles with u16 indices, and a red
+/// material.
 [[nodiscard]] AssetBuilder cube();
 
-/// The asset with one change: sets the value at the JSON pointer `where`, or removes it if `value`
-/// is empty. If the pointer is empty, applies `value` as a JSON merge patch (RFC 7396) to the whole
-/// asset.
+/// The text of the asset after one change: sets the value at the JSON pointer `where`, or removes
+/// it if `value` is empty. If `where` is empty, applies `value` as a JSON merge patch (RFC 7396) to
+/// the whole asset.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
-/// Loads bytes as "test.gltf", without a folder.
+/// Loads bytes as "test.gltf" that has no folder.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);
@@ -107,10 +109,10 @@ inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 /// The base color factor of an object's material.
 [[nodiscard]] Vec4 color_of(const LoadedScene& loaded, std::size_t object);
 
-/// The vertices of an object's triangles, one after another.
+/// The corner positions of an object's triangles, in order.
 [[nodiscard]] std::vector<std::array<Vec3, 3>> triangles_of(const Object& object);
 
-/// The texts "/pointer: message" of warnings.
+/// Formats warnings as "/pointer: message".
 [[nodiscard]] std::vector<std::string> texts(const std::vector<Diagnostic>& warnings);
 
 }  // namespace microtrace::tests

@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A triangle with the vertex attributes that the test adds.
+/// A triangle to which tests add vertex attributes.
 struct AttributeAsset : AssetBuilder {
   AttributeAsset() {
     add_object({{"attributes", {{"POSITION", add_positions({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}}}});
@@ -46,7 +46,8 @@ TEST(GltfAttributes, NormalsAndTangentsFollowAMirroredNode) {
   asset.add_attribute<float>("TANGENT", "VEC4", kFloat32, {h, -h, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1});
   asset.json["nodes"][0]["scale"] = {-2, 1, 1};
   const Mesh mesh = asset.mesh();
-  // The normal is interpolated between surfaces along (1, -1) and (-2, -1).
+  // The unmirrored normal is perpendicular to (1, -1), and the mirrored one is perpendicular to
+  // (-2, -1).
   const float r = std::sqrt(0.2F);
   ASSERT_EQ(mesh.normals.size(), 3U);
   EXPECT_NEAR(mesh.normals[0].x, -r, 1e-6F);

@@ -23,7 +23,7 @@ std::string ktx2_file(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The cube with a texture of image 0 (KTX2) and of image 1 (PNG).
+/// The cube with a texture whose source is image 0 (KTX2). Image 1 (PNG) is the fallback.
 AssetBuilder textured(const std::string& ktx2) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"KHR_texture_basisu"};
@@ -37,7 +37,7 @@ AssetBuilder textured(const std::string& ktx2) {
   return asset;
 }
 
-/// The only decoded image.
+/// The only image that was decoded.
 const Image& image_of(const Scene& scene) {
   const Texture& texture = scene.textures.at(0);
   EXPECT_EQ(texture.image, 0U);

@@ -1,5 +1,5 @@
-// Writes draco.glb and meshopt.glb, each with a sphere that only the module of this name can
-// decode.
+// Writes draco.glb and meshopt.glb. Each contains a sphere that only the module of the same name
+// can decode.
 //
 // usage: compressed_assets FOLDER
 
@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr std::uint32_t kColumns = 16, kRows = 8;  // of the faces
+constexpr std::uint32_t kColumns = 16, kRows = 8;  // of the sphere's faces
 
 struct Sphere {
   std::vector<float> positions{};
@@ -87,7 +87,7 @@ std::string word(std::size_t number) {
   return bytes;
 }
 
-/// A GLB file with this JSON, given without its braces, and this buffer.
+/// Writes a GLB file with this JSON, whose outer braces are omitted, and this buffer.
 void save(const std::filesystem::path& path, const std::string& extension, const std::string& rest,
           std::string binary) {
   std::string json =
@@ -121,7 +121,8 @@ void save_draco(const std::filesystem::path& path, const Sphere& sphere) {
   save(path, "KHR_draco_mesh_compression", rest, bytes);
 }
 
-/// A view whose uncompressed data is in the second buffer, which has no data.
+/// The JSON of a compressed view. The uncompressed data belongs to the second buffer, which has no
+/// bytes.
 std::string view(const std::string& offset, const std::string& length, const char* mode,
                  std::size_t from, std::size_t size, std::size_t count, const char* stride) {
   const std::string step = std::string(R"("byteStride":)") + stride + ",";

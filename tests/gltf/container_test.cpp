@@ -121,7 +121,7 @@ TEST(GltfContainer, BrokenFilesAreRefused) {
     SCOPED_TRACE(file.name);
     std::string bytes = file.bytes;
     if (std::string_view(file.name) == "chunk header cut") {
-      bytes[8] = static_cast<char>(bytes[8] + 4);  // the file's length includes the stray bytes
+      bytes[8] = static_cast<char>(bytes[8] + 4);  // lets the file's length include the stray bytes
     }
     try {
       (void)load(bytes);

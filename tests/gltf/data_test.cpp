@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A change to the numbers of the rig, and the expected message.
+/// A change to numbers in the rig's accessors, and the expected message.
 struct Poke {
   std::function<void(AssetBuilder&)> change;
   const char* pointer;
@@ -27,7 +27,7 @@ std::function<void(AssetBuilder&)> set(RigAccessor accessor, std::size_t number,
   return [=](AssetBuilder& asset) { poke(asset, accessor, number, value); };
 }
 
-/// Replaces one element of an accessor by a sparse part.
+/// Adds a sparse part with two elements to an accessor.
 std::function<void(AssetBuilder&)> sparse(RigAccessor accessor, std::uint16_t first,
                                           std::uint16_t second, float value) {
   return [=](AssetBuilder& asset) {

@@ -1,6 +1,7 @@
 #pragma once
-/// A mesh encoded and decoded by Draco's own library. It is in a separate module, because that
-/// library contains another tinygltf, and the two must not be linked into one program.
+/// A mesh that was encoded and decoded by Google's Draco library. The code is in a separate module,
+/// because the Draco library contains another copy of tinygltf. The two copies must not be linked
+/// into one program.
 
 #include <microtrace/math.hpp>
 
@@ -14,14 +15,14 @@ namespace microtrace::tests {
 struct DracoSample {
   std::string bytes;
   std::uint32_t position_id = 0, normal_id = 0, color_id = 0;
-  std::vector<Vec3> positions, normals;  // as decoded, by point
+  std::vector<Vec3> positions, normals;  // decoded values, by point index
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-inline constexpr std::uint32_t kDracoRows = 9, kDracoColumns = 30;  // of vertices
+inline constexpr std::uint32_t kDracoRows = 9, kDracoColumns = 30;  // number of vertices
 
-/// Creates a bowl with 14 bits, normals and the colors (2 i, 7, 255, 255), with sequential or
-/// edgebreaker encoding.
+/// Makes a bowl with positions of 14 bits, normals and the colors (2 i, 7, 255, 255). The encoding
+/// is sequential or edgebreaker.
 using MakeDracoSample = void (*)(bool sequential, DracoSample& sample);
 
 }  // namespace microtrace::tests

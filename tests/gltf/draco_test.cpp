@@ -99,8 +99,7 @@ TEST(GltfDraco, AccessorsWithOtherCountsAreIgnoredWithAWarning) {
     };
     for (std::size_t i = 0; i < 2; ++i) add(i, vertices);
     add(3, indices);
-    // For an attribute that the compressed data lacks, the number of vertices comes from its
-    // accessor.
+    // The compressed data lacks this attribute, so its accessor states the number of values.
     const std::size_t uvs = add(2, vertices);
     asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
         asset.add_numbers<float>("VEC2", std::vector<float>(2 * uvs, 0.5F));

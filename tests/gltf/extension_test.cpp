@@ -18,7 +18,8 @@
 
 #include <gmock/gmock.h>
 
-// Names the forgotten parts of an extension; see io/gltf/extensions/extensions.hpp.
+// Each test reports a part of an extension that was forgotten. The parts are listed in
+// io/gltf/extensions/extensions.hpp.
 
 namespace microtrace::tests {
 namespace {
@@ -53,17 +54,17 @@ bool is_texture(const Rule& rule) {
   return rule.place == Place::texture_info;
 }
 
-/// A value that no property has as its default.
+/// A value that is not the default of any property.
 Json value_of(const Rule& rule) {
   const double least = std::max(rule.min, -1.0), most = std::min(rule.max, least + 1);
-  // The values of two keys that may be combined differ.
+  // Distinct keys get distinct values, at least where a test combines them.
   const int sum = std::accumulate(rule.key.begin(), rule.key.end(), 0);
   const double share = 0.4 + 0.002 * (sum % 97);
   const double number = least + share * (most - least);
   return rule.form == Form::numbers ? Json::repeated(rule.most, number) : Json(number);
 }
 
-/// A material with only this extension, read without validation.
+/// Reads a material that has only this extension, without validation.
 Material material_of(const Extension& extension, const Json& object) {
   Json asset;
   asset["materials"][0] = {{"emissiveFactor", {0.5, 0.25, 0.125}},
@@ -115,10 +116,10 @@ TEST(GltfExtensions, EachTextureOfMaterialsIsReadAndVisited) {
   }
 }
 
-/// Extension objects of a material by name.
+/// Extension objects of a material, with the extensions' names.
 using Objects = std::vector<std::pair<std::string, Json>>;
 
-/// A path-traced picture of a cube with normals, tangents and texture coordinates.
+/// Path traces a cube with normals, tangents and texture coordinates.
 std::vector<Vec3> picture_of(const Objects& objects) {
   AssetBuilder asset = cube();
   Json& attributes = asset.json["meshes"][0]["primitives"][0]["attributes"];
@@ -153,7 +154,7 @@ std::vector<Vec3> picture_of(const Objects& objects) {
   return pixels;
 }
 
-/// True if the last of the objects changes the picture.
+/// True if the last of the extension objects changes the picture.
 bool is_seen(Objects objects) {
   const std::vector<Vec3> with = picture_of(objects);
   objects.pop_back();
@@ -181,7 +182,7 @@ TEST(GltfExtensions, OfMaterialsAreDrawn) {
     const bool alone = is_seen({{name, numbers}});
     EXPECT_TRUE(alone || is_seen(within)) << name << " changes no picture";
     for (const Rule& rule : rules_of(*extension)) {
-      // For a thickness, only whether it is positive matters.
+      // Only whether the thickness factor is positive matters, so its texture changes no picture.
       if (!is_texture(rule) || rule.key == "thicknessTexture") continue;
       Json textured = numbers;
       textured[rule.key] = {{"index", 0}};
@@ -197,7 +198,7 @@ std::string text_of(const char* path) {
 }
 
 TEST(GltfExtensions, EachPropertyThatIsReadHasARule) {
-  std::set<std::string, std::less<>> keys = {"scale"};  // of a texture info
+  std::set<std::string, std::less<>> keys = {"scale"};  // a property of normal textures
   for (const Extension* extension : extensions_of_materials()) {
     for (const Rule& rule : rules_of(*extension)) keys.emplace(rule.key);
   }
@@ -211,7 +212,7 @@ TEST(GltfExtensions, EachPropertyThatIsReadHasARule) {
   EXPECT_GT(count, keys.size());
 }
 
-/// The names of extensions between two headings of docs/gltf.md. A row may abbreviate names to
+/// The extension names between two headings of docs/gltf.md. A table row may abbreviate names to
 /// their endings: `KHR_materials_ior`, `_specular`.
 std::set<std::string> documented(const std::string& heading, const std::string& next) {
   std::string text = text_of("docs/gltf.md");

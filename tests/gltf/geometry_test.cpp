@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 using Corners = std::array<Vec3, 3>;
 
-/// Distinct vertices: (0, 0, 0), (1, 1, 0), (2, 4, 0), ...
+/// `count` distinct vertices: (0, 0, 0), (1, 1, 0), (2, 4, 0), ...
 std::vector<Vec3> points(int count) {
   std::vector<Vec3> result;
   for (int i = 0; i < count; ++i) result.emplace_back(i, i * i, 0);
@@ -75,11 +75,11 @@ TEST(GltfGeometry, StripsAndFansHaveTheSpecifiedWinding) {
 
 TEST(GltfGeometry, ReadsInterleavedPositions) {
   AssetBuilder asset;
-  std::vector<float> numbers = {99};  // before the accessor's offset
+  std::vector<float> numbers = {99};  // precedes the accessor's offset
   for (const Vec3& p : points(3)) {
     for (const float number : {p.x, p.y, p.z, -7.F, -8.F}) numbers.push_back(number);
   }
-  numbers.resize(numbers.size() - 2);  // the last element needs no full stride
+  numbers.resize(numbers.size() - 2);  // the last element may be shorter than the stride
   const std::size_t view = asset.add_view(bytes_of(numbers), 20);
   const std::size_t accessor = asset.add("accessors", {{"bufferView", view},
                                                        {"byteOffset", 4},
@@ -134,13 +134,13 @@ TEST(GltfGeometry, PointsAndLinesAreSegmentsOfTheMesh) {
   using Segments = std::vector<std::array<std::uint32_t, 2>>;
   const std::vector<Segments> expected = {
       {{1, 1}, {2, 2}, {0, 0}, {2, 2}, {1, 1}},  // POINTS
-      {{1, 2}, {0, 2}},                          // LINES: the fifth vertex is ignored
+      {{1, 2}, {0, 2}},                          // LINES: the fifth index is ignored
       {{1, 2}, {2, 0}, {0, 2}, {2, 1}, {1, 1}},  // LINE_LOOP
       {{1, 2}, {2, 0}, {0, 2}, {2, 1}},          // LINE_STRIP
   };
   for (int mode = 0; mode < 4; ++mode) {
     AssetBuilder asset;
-    // Vertices 3 to 5 of 6, which become 0 to 2.
+    // The indices use only vertices 3 to 5 of 6. The mesh numbers them 0 to 2.
     const std::size_t positions = asset.add_positions(points(6));
     const std::size_t indices = asset.add_indices({4, 5, 3, 5, 4}, kUint8);
     asset.add_object(
@@ -216,7 +216,7 @@ TEST(GltfGeometry, PositionsBeyondFloat32InTheWorldGiveAWarning) {
               ElementsAre(HasSubstr("/meshes/0/primitives/0: has vertices that are not finite")));
 }
 
-/// NaN and infinity in accessors without bounds.
+/// Tests NaN and infinity in accessors that state no bounds.
 TEST(GltfGeometry, TrianglesWithNonFiniteVerticesAreDropped) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   AssetBuilder asset;
@@ -245,7 +245,7 @@ TEST(GltfGeometry, TrianglesWithNonFiniteVerticesAreDropped) {
   EXPECT_THAT(load(asset).scene.objects, IsEmpty());
 }
 
-/// glTF 2.0, Point and Line Materials.
+/// Tests the rules of glTF 2.0, section "Point and Line Materials".
 TEST(GltfGeometry, PointsAndLinesWithoutNormalsAreUnlit) {
   const auto material_of = [](int mode, bool has_normals, bool has_material) {
     AssetBuilder asset;
@@ -270,7 +270,7 @@ TEST(GltfGeometry, PointsAndLinesWithoutNormalsAreUnlit) {
     EXPECT_FALSE(material_of(mode, true, true).unlit) << mode;
   }
   EXPECT_EQ(material_of(1, false, true).name, "m");
-  EXPECT_EQ(material_of(1, false, true).emissive, Vec3(0, 0, 1));  // is added
+  EXPECT_EQ(material_of(1, false, true).emissive, Vec3(0, 0, 1));  // added to the base color
 }
 
 TEST(GltfGeometry, IntegersMayHaveADecimalPoint) {

@@ -51,7 +51,7 @@ TEST(GltfInstances, AreTransformedWithinTheirNode) {
   EXPECT_EQ(scene.scene.objects[1].name, "Tree[1]/mesh0");
   EXPECT_THAT(triangles_of(scene.scene.objects[0]),
               ElementsAre(std::array{Vec3(100, 0, 0), Vec3(101, 0, 0), Vec3(100, 1, 0)}));
-  // Half a turn about z after the scale.
+  // The second instance is scaled and then rotated by 180 degrees about z.
   EXPECT_THAT(triangles_of(scene.scene.objects[1]),
               ElementsAre(std::array{Vec3(100, 10, 0), Vec3(98, 10, 0), Vec3(100, 7, 0)}));
 }

@@ -54,7 +54,7 @@ TEST(GltfKeyframes, TimesAreClampedToTheKeys) {
     EXPECT_THAT(value_at(sampler, 1e300), ElementsAre(20));
     EXPECT_THAT(value_at(sampler, HUGE_VAL), ElementsAre(20));
   }
-  // The tangents before the first key and after the last have no effect.
+  // The in-tangent of the first key and the out-tangent of the last key have no effect.
   const Keyframes cubic = keys(Interpolation::cubic_spline, {1, 2}, {9, 10, 9, 9, 20, 9});
   EXPECT_THAT(value_at(cubic, 0.5), ElementsAre(10));
   EXPECT_THAT(value_at(cubic, 7), ElementsAre(20));
@@ -63,7 +63,8 @@ TEST(GltfKeyframes, TimesAreClampedToTheKeys) {
 }
 
 TEST(GltfKeyframes, CubicSplinesReproduceAPolynomial) {
-  // p(t) = 2 t^3 - 3 t^2 + t - 5 with its derivatives per second at 1, 3 and 3.5 seconds.
+  // The keys at 1, 3 and 3.5 seconds have the values of p(t) = 2 t^3 - 3 t^2 + t - 5 and its
+  // derivatives per second.
   const auto p = [](double t) { return ((2 * t - 3) * t + 1) * t - 5; };
   const auto slope = [](double t) { return (6 * t - 6) * t + 1; };
   std::vector<float> values;
@@ -87,7 +88,7 @@ TEST(GltfKeyframes, RotationsHaveConstantSpeed) {
 TEST(GltfKeyframes, RotationsTakeTheShorterArc) {
   const Quaternion a = about_z(0), b = about_z(0.5);
   EXPECT_LT(distance(slerp(a, -b, 0.5), about_z(0.25)), 1e-15);
-  // A rotation of more than 180 degrees is shorter in the other direction.
+  // A rotation by 270 degrees is shorter in the other direction.
   const Quaternion c = about_z(1.5 * std::numbers::pi);
   EXPECT_LT(distance(slerp(a, c, 0.5), about_z(-0.25 * std::numbers::pi)), 1e-15);
 }
@@ -105,8 +106,8 @@ TEST(GltfKeyframes, SlerpGivesUnitQuaternionsAndIsAccurateAtSmallAngles) {
     const double t = 0.05 * (i % 21);
     const Quaternion q = slerp(a, b, t);
     ASSERT_NEAR(glm::length(q), 1, 1e-14);
-    // The angle to a is t times the angle between a and b; compares chord lengths, which are
-    // precise.
+    // The angle from a must be t times the angle from a to b. The test compares chord lengths,
+    // which are more accurate than angles.
     const double whole =
         std::asin(std::min(1.0, glm::length(glm::dot(a, b) < 0 ? a + b : a - b) / 2));
     ASSERT_NEAR(glm::length(q - a), 2 * std::sin(t * whole), 2e-15);
@@ -122,7 +123,7 @@ TEST(GltfKeyframes, RotationsAreNormalized) {
   EXPECT_THAT(value_at(turn, 0), ElementsAre(0, 0, 0, 1));
   EXPECT_THAT(value_at(turn, 0.5), ElementsAre(0, 0, DoubleNear(std::sin(angle / 4), 1e-15),
                                                DoubleNear(std::cos(angle / 4), 1e-15)));
-  // The values of a cubic spline leave the unit sphere between the keys.
+  // Between the keys, the cubic spline leaves the unit sphere.
   turn = keys(Interpolation::cubic_spline, {0, 1},
               {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0}, 4);
   turn.are_rotations = true;

@@ -15,7 +15,8 @@ using ::testing::SizeIs;
 
 constexpr const char* kExtension = "KHR_lights_punctual";
 
-/// The cube, with each light on its own node; all nodes have the same rotation and scale.
+/// The cube, and each of these lights on a node of its own. All nodes have the same rotation and
+/// scale.
 AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {kExtension};
@@ -97,7 +98,7 @@ TEST(GltfLights, InvalidLightsAreRefused) {
   }
 }
 
-/// The light with this JSON, which is loaded with a warning.
+/// Loads the light with this JSON. Checks that loading gives a warning for it.
 template <typename Kind>
 Kind repaired(const Json& light) {
   const LoadedScene scene = load(lit(Json::array({light})));

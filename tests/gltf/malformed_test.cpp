@@ -14,17 +14,17 @@ constexpr auto kInvalid = ErrorKind::invalid_scene;
 constexpr auto kUnsupported = ErrorKind::unsupported;
 constexpr auto kLimit = ErrorKind::limit;
 
-/// The cube with one change, made by mutated().
+/// A change to the cube's JSON, as made by mutated().
 struct Mutation {
   const char* where;
   const char* value;
   ErrorKind kind = kInvalid;
-  const char* pointer = nullptr;  ///< of the message; null: same as `where`
+  const char* pointer = nullptr;  ///< pointer in the message; null if equal to `where`
 };
 
 // Accessor 0 of the cube has 8 positions (96 bytes), accessor 1 has 36 indices (72 bytes).
 const Mutation mutations[] = {
-    // The asset as a whole.
+    // The asset as a whole
     {"/asset", "", kInvalid, ""},
     {"/asset", "[]", kInvalid},
     {"/asset/version", "", kInvalid, "/asset"},
@@ -47,7 +47,7 @@ const Mutation mutations[] = {
     {"/nodes/0", "0"},
     {"/nodes/0/name", "7"},
 
-    // Indices into arrays.
+    // Indices into arrays
     {"/scene", "1"},
     {"/scene", "-1"},
     {"/scene", "0.5"},
@@ -66,7 +66,7 @@ const Mutation mutations[] = {
     {"/textures", R"([{"source": 0}])", kInvalid, "/textures/0/source"},
     {"/materials/0/normalTexture", R"({"index": 0})", kInvalid, "/materials/0/normalTexture/index"},
 
-    // Buffers and views.
+    // Buffers and views
     {"/buffers/0/byteLength", "0"},
     {"/buffers/0/byteLength", "169"},
     {"/buffers/0/byteLength", "167", kInvalid, "/bufferViews/1"},
@@ -84,9 +84,9 @@ const Mutation mutations[] = {
     {"/bufferViews/0/byteStride", "100"},
     {"/bufferViews/0/byteStride", "8", kInvalid, "/accessors/0"},
     {"/bufferViews/0/byteStride", "16", kInvalid, "/accessors/0"},
-    {"/bufferViews/1/byteStride", "4", kInvalid, "/accessors/1"},  // the last would lie beyond
+    {"/bufferViews/1/byteStride", "4", kInvalid, "/accessors/1"},  // the last would lie outside
 
-    // Accessors.
+    // Accessors
     {"/accessors/0/count", "9", kInvalid, "/accessors/0"},
     {"/accessors/0/count", "0"},
     {"/accessors/0/count", "9007199254740992", kInvalid, "/accessors/0"},
@@ -99,7 +99,7 @@ const Mutation mutations[] = {
     {"/accessors/1", R"({"componentType": 5125, "count": 9007199254740992, "type": "SCALAR"})",
      kLimit, "/meshes/0/primitives/0/indices"},
 
-    // Sparse accessors.
+    // Sparse accessors
     {"/accessors/0/sparse", R"({"count": 1})"},
     {"/accessors/0/sparse",
      R"({"count": 9, "indices": {"bufferView": 1, "componentType": 5123},
@@ -109,11 +109,11 @@ const Mutation mutations[] = {
      R"({"count": 1, "indices": {"bufferView": 1, "componentType": 5122},
          "values": {"bufferView": 0}})",
      kInvalid, "/accessors/0/sparse/indices/componentType"},
-    {"/accessors/0/sparse",  // the indices 0, 2, 1 of the first triangle
+    {"/accessors/0/sparse",  // the indices 0, 2, 1 are not increasing
      R"({"count": 3, "indices": {"bufferView": 1, "componentType": 5123},
          "values": {"bufferView": 0}})",
      kInvalid, "/accessors/0/sparse/indices"},
-    {"/accessors/0/sparse",  // reads the 1 and the preceding 0 as one number, beyond the count
+    {"/accessors/0/sparse",  // reads two u16 indices as one u32, which exceeds the count
      R"({"count": 1, "indices": {"bufferView": 1, "byteOffset": 4, "componentType": 5125},
          "values": {"bufferView": 0}})",
      kInvalid, "/accessors/0/sparse/indices"},
@@ -126,14 +126,14 @@ const Mutation mutations[] = {
          "values": {"bufferView": 0, "byteOffset": 88}})",
      kInvalid, "/accessors/0/sparse/values"},
 
-    // Meshes and materials.
+    // Meshes and materials
     {"/meshes/0/primitives", "", kInvalid, "/meshes/0"},
     {"/meshes/0/primitives/0/attributes", "", kInvalid, "/meshes/0/primitives/0"},
     {"/meshes/0/primitives/0/mode", "7"},
     {"/materials/0/doubleSided", "0"},
     {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1, 1]"},
 
-    // Nodes.
+    // Nodes
     {"/nodes/0/children", "[0]", kInvalid, "/nodes/0/children/0"},
     {"/nodes", R"([{"children": [1]}, {"children": [0]}])", kInvalid, "/nodes/0"},
     {"/nodes", R"([{}, {"children": [2]}, {"children": [1]}])", kInvalid, "/nodes/1"},
@@ -143,11 +143,11 @@ const Mutation mutations[] = {
     {"/nodes/0/translation", "[1, 2]"},
     {"/nodes/0/scale", R"([1, "2", 3])", kInvalid, "/nodes/0/scale/1"},
 
-    // Cameras.
+    // Cameras
     {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 1}}])", kInvalid,
      "/cameras/0/perspective"},
 
-    // Sources of data.
+    // URIs and images
     {"/buffers/0/uri", "\"cube.bin\""},
     {"/buffers/0/uri", "\".\""},
     {"/buffers/0/uri", "\"../cube.bin\""},
@@ -193,7 +193,7 @@ TEST(GltfMalformed, IndexOutOfRangeIsRefused) {
     AssetBuilder asset;
     const std::size_t positions = asset.add_positions({Vec3(0), Vec3(1), Vec3(2)});
     const std::size_t indices = asset.add_indices({0, 1, last}, type);
-    // Points and lines are checked too.
+    // Strips of lines are checked like triangles.
     asset.add_object(
         {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"mode", 3}});
     try {
@@ -235,7 +235,7 @@ TEST(GltfMalformed, TooManyInstancesAreRefusedBeforeAllocation) {
   }
 }
 
-/// A file with any single wrong byte is read or refused without crashing.
+/// If any single byte of a file is wrong, loading must succeed or throw an Error.
 TEST(GltfMalformed, AnyByteOfABinaryFileMayBeDamaged) {
   const std::string good = cube().glb();
   std::size_t refused = 0;

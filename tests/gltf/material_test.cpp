@@ -13,8 +13,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// The cube with the material of this JSON, with all extensions declared, and with 24 textures of
-/// different images.
+/// The cube with this material. All its extensions are declared, and 24 textures with different
+/// images exist.
 AssetBuilder with_material(const char* material) {
   AssetBuilder asset = cube();
   asset.json["materials"][0] = Json::parse(material);
@@ -36,7 +36,8 @@ Material material(const char* json) {
   return load(with_material(json)).scene.materials.at(0);
 }
 
-/// A material with all extensions except the archived one, with different numbers and textures.
+/// A material with all material extensions except the archived one. Its numbers and textures are
+/// all different.
 constexpr const char* kEverything = R"({
   "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
                            "metallicRoughnessTexture": {"index": 1}},
@@ -202,7 +203,7 @@ TEST(GltfMaterial, SpecularGlossinessReplacesMetallicRoughness) {
       EXPECT_EQ(own.specular_glossiness.value().specular, m.specular_glossiness->specular);
     }
   }
-  // Replaces omitted members by their defaults.
+  // The extension's omitted properties have their own defaults, not the core material's values.
   Json& own = both.json["materials"][0]["extensions"];
   own["KHR_materials_pbrSpecularGlossiness"] = Json::object();
   EXPECT_EQ(load(both).scene.materials.at(0).base_color, Vec4(1));
@@ -228,7 +229,7 @@ TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
   EXPECT_THAT(encodings, ElementsAre(1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1));
 }
 
-// The images that a picture with this detail decodes, by index.
+// The indices of the images that are decoded for pictures with this detail.
 std::vector<std::size_t> decoded(const AssetBuilder& asset, SurfaceDetail detail) {
   const Scene scene = load(asset, {.detail = detail}).scene;
   std::vector<std::size_t> result;
@@ -242,7 +243,7 @@ TEST(GltfMaterial, OnlyImagesThatThePictureReadsAreDecoded) {
   EXPECT_THAT(decoded(asset, SurfaceDetail::shape), IsEmpty());
   EXPECT_THAT(decoded(asset, SurfaceDetail::color), ElementsAre(0));
   EXPECT_THAT(decoded(asset, SurfaceDetail::shape_and_color), ElementsAre(0));
-  // All except occlusion (3) and thickness (8).
+  // Contains all textures except occlusion (3) and thickness (8).
   EXPECT_THAT(decoded(asset, SurfaceDetail::all),
               ElementsAre(0, 1, 2, 4, 5, 6, 7, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18));
   asset.json["materials"][0]["alphaMode"] = "MASK";
@@ -254,15 +255,15 @@ TEST(GltfMaterial, OnlyImagesThatThePictureReadsAreDecoded) {
 
 TEST(GltfMaterial, AnImageWithSeveralUsesIsDecodedIfOneIsRead) {
   AssetBuilder asset = with_material(kEverything);
-  asset.json["materials"][0]["occlusionTexture"]["index"] = 1;  // metallic-roughness
+  asset.json["materials"][0]["occlusionTexture"]["index"] = 1;  // the metallic-roughness texture
   EXPECT_THAT(decoded(asset, SurfaceDetail::all), testing::Contains(1));
 }
 
-// Only the header of an image that no shader reads is examined.
+// If no shader reads an image, only its header is examined.
 TEST(GltfMaterial, DamagedPixelsThatNothingReadsAreNoError) {
   AssetBuilder asset = with_material(kEverything);
   std::string png = png_of(1, 1, {9, 8, 7, 6});
-  png.resize(png.size() - 20);  // in the pixels
+  png.resize(png.size() - 20);  // cuts into the pixels
   png += std::string(20, '\xFF');
   const Json damaged = {{"mimeType", "image/png"}, {"bufferView", asset.add_view(png)}};
   for (const std::size_t texture : {3U, 8U, 1U}) {
@@ -341,7 +342,7 @@ TEST(GltfMaterial, NumbersOutOfRangeAreClamped) {
     if (warning.severity == Severity::error && warning.pointer.starts_with("/materials/0/"))
       ++errors;
   }
-  EXPECT_EQ(errors, 14U);  // each text once
+  EXPECT_EQ(errors, 14U);  // each message is reported once
   EXPECT_EQ(material(R"({"extensions": {"KHR_materials_ior": {"ior": -1}}})").ior, 1.5F);
 }
 

@@ -42,10 +42,11 @@ std::string encoded_indices(const std::vector<unsigned>& indices) {
       out, meshopt_encodeIndexSequence(out.data(), out.size(), indices.data(), indices.size()));
 }
 
-/// Assets whose views are compressed into buffer 0; buffer 1 has no data.
+/// An asset whose views are compressed in buffer 0. Buffer 1 stands for the uncompressed data and
+/// has no bytes.
 struct CompressedAsset {
   AssetBuilder asset;
-  std::size_t uncompressed = 0;  // bytes of buffer 1
+  std::size_t uncompressed = 0;  // size of buffer 1 in bytes
 
   CompressedAsset() {
     asset.json["extensionsUsed"] =
@@ -90,7 +91,7 @@ struct CompressedAsset {
   }
 };
 
-constexpr unsigned kSide = 12;  // vertices of a wavy grid, in each direction
+constexpr unsigned kSide = 12;  // number of vertices of a wavy grid along each side
 
 std::vector<std::int16_t> grid_positions() {
   std::vector<std::int16_t> result;
@@ -114,7 +115,7 @@ std::vector<unsigned> grid_triangles() {
   return result;
 }
 
-/// A grid of triangles, or for index mode 2 a line strip.
+/// A grid of triangles. If `triangles` is false, a line strip, which is compressed in mode INDICES.
 CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& spoil = {}) {
   CompressedAsset result;
   const std::vector<std::int16_t> positions = grid_positions();
@@ -143,7 +144,7 @@ TEST(GltfMeshopt, TrianglesAndAttributesAreDecoded) {
   const std::vector<unsigned> corners = grid_triangles();
   ASSERT_EQ(mesh.triangles.size() * 3, corners.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    // The codec may rotate the vertices of a triangle.
+    // The codec may rotate the order of a triangle's vertices.
     std::array<unsigned, 3> expected = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
     for (int k = 0; k < 3 && expected != mesh.triangles[i]; ++k) {
       expected = {expected[1], expected[2], expected[0]};
@@ -195,19 +196,19 @@ TEST(GltfMeshopt, OctahedralFilterGivesUnitVectors) {
   const auto decode8 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 4); };
   EXPECT_THAT(filtered<std::int8_t>({0, 0, 127, 5, 127, 0, 127, 6, 0, -127, 127, -7}, decode8),
               ElementsAre(0, 0, 127, 5, 127, 0, 0, 6, 0, -127, 0, -7));
-  // The lower pole is at the square's corners; the equator is halfway to a corner.
+  // The lower pole maps to every corner of the square.
   EXPECT_THAT(filtered<std::int8_t>({7, 7, 7, 0, -7, 7, 7, 0}, decode8),
               ElementsAre(0, 0, -127, 0, 0, 0, -127, 0));
   const auto decode16 = [](std::string& bytes) { io::gltf::decode_octahedral(bytes, 8); };
   EXPECT_THAT(filtered<std::int16_t>({0, 0, 511, 3, 0, 511, 511, -4}, decode16),
               ElementsAre(0, 0, 32767, 3, 0, 32767, 0, -4));
-  // Meaningless input still gives a number.
+  // Meaningless input must not cause undefined behavior.
   (void)filtered<std::int16_t>({1, -1, 0, 3, -32768, 32767, -1, 0, 0, 0, 0, 0}, decode16);
 }
 
 TEST(GltfMeshopt, QuaternionFilterRestoresTheLargestComponent) {
-  // The last number is 2047, the maximum of 12 bits; its low bits hold the index of the largest
-  // component, 3 and 1.
+  // The last number of each quaternion is 2047, the maximum of 12 bits, except for its two low
+  // bits. These are the index of the largest component: 3 and 1.
   const std::vector<std::int16_t> stored = {0, 0, 0, 2047, 2047, 0, 0, 2045, 0, 0, 0, 0};
   const auto decoded = filtered<std::int16_t>(stored, io::gltf::decode_quaternions);
   EXPECT_THAT(std::vector(decoded.begin(), decoded.begin() + 4), ElementsAre(0, 0, 0, 32767));
@@ -235,7 +236,7 @@ TEST(GltfMeshopt, FiltersEqualThoseOfTheLibraryUpToRounding) {
 TEST(GltfMeshopt, ViolationsOfTheExtensionAreRefused) {
   struct Case {
     std::size_t view;
-    Json change;  // of the view's extension
+    Json change;  // members of the extension object to change
     const char* message;
   };
   const std::vector<Case> cases = {

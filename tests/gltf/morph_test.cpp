@@ -13,7 +13,7 @@ Mesh first_mesh(const LoadedScene& loaded) {
   return std::get<Mesh>(loaded.scene.objects.at(0).shape);
 }
 
-/// The triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with all attributes and two targets.
+/// The triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with all attributes and two morph targets.
 AssetBuilder morphed_triangle() {
   AssetBuilder asset;
   const Json attributes = {
@@ -61,14 +61,15 @@ TEST(GltfMorph, AnimationsSetWeights) {
                 asset.add_numbers<float>("SCALAR", {0, 1, 1, 0}));
   EXPECT_THAT(first_mesh(load(asset, {.time = 0.25})).positions,
               ElementsAre(Vec3(0.75F, 0, 1), Vec3(1.75F, 0, 0), Vec3(0.75F, 3, 0)));
-  // Each key of a cubic spline has in-tangents, values and out-tangents for all weights.
+  // In a cubic spline, each key has in-tangents, values and out-tangents, each with a number for
+  // every weight.
   asset.json.erase("animations");
   asset.animate(0, 0, "weights", asset.add_numbers<float>("SCALAR", {0, 1}),
                 asset.add_numbers<float>("SCALAR", {9, 9, 0, 1, 0, 0, 0, 0, 1, 0, 9, 9}),
                 "CUBICSPLINE");
   EXPECT_THAT(first_mesh(load(asset, {.time = 0.5})).positions,
               ElementsAre(Vec3(0.5F, 0, 2), Vec3(1.5F, 0, 0), Vec3(0.5F, 5, 0)));
-  // Weights as normalized bytes.
+  // Weights may be normalized bytes.
   asset.json.erase("animations");
   asset.animate(0, 0, "weights", asset.add_numbers<float>("SCALAR", {0, 1}),
                 asset.add_numbers<std::uint8_t>("SCALAR", {255, 0, 0, 255}, true));
@@ -85,7 +86,7 @@ TEST(GltfMorph, TargetsMorphOtherAttributes) {
   EXPECT_THAT(mesh.normals, ElementsAre(Vec3(half, 0, half), Vec3(0, 0, 1), Vec3(0, 0, -1)));
   EXPECT_THAT(mesh.tangents, ElementsAre(Vec4(0, 0, 1, 1), Vec4(1, 0, 0, 1), Vec4(-1, 0, 0, -1)));
   EXPECT_THAT(mesh.uv_sets.at(0), ElementsAre(Vec2(1, 2), Vec2(1, 0), Vec2(0, 1)));
-  // Colors are clamped to [0, 1].
+  // Colors must be clamped to [0, 1].
   EXPECT_THAT(mesh.colors,
               ElementsAre(Vec4(0.5F, 0.125F, 0, 1), Vec4(1, 0, 1, 1), Vec4(0.5F, 0.5F, 0.5F, 1)));
 }
@@ -130,7 +131,8 @@ TEST(GltfMorph, TargetsMayBeQuantized) {
 
 TEST(GltfMorph, EachVertexIsRoundedOnce) {
   AssetBuilder asset = morphed_triangle();
-  // 2^24 + 1 is not representable in float32; the node's transform brings the sum back to 1.
+  // float32 cannot represent 2^24 + 1. The node's transform brings the sum back to 1, so an
+  // intermediate rounding would show.
   asset.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] =
       asset.add_positions({Vec3(0x1p24F, 0, 0), Vec3(0x1p24F, 0, 0), Vec3(0x1p24F, 0, 0)});
   asset.json["meshes"][0]["weights"] = {1, 0};
@@ -141,8 +143,8 @@ TEST(GltfMorph, EachVertexIsRoundedOnce) {
 
 TEST(GltfMorph, DisplacementsAreLimited) {
   AssetBuilder asset = morphed_triangle();
-  // Many instances of many targets of one accessor with many vertices: a small file that would
-  // cause excessive work.
+  // A small file that would cause excessive work: 32 nodes share a mesh with 2048 morph targets,
+  // which all use one large accessor.
   constexpr std::size_t kVertices = 3 * 4096, kTargets = 2048, kNodes = 32;
   Json position = {{"componentType", kFloat32},
                    {"count", kVertices},

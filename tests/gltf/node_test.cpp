@@ -29,7 +29,7 @@ TEST(GltfNode, ScaleThenRotationThenTranslation) {
   AssetBuilder asset = triangle();
   const double half = std::sqrt(0.5);
   asset.json["nodes"][0].update({{"translation", {10, 20, 30}},
-                                 {"rotation", {0, 0, half, half}},  // x to y, y to -x
+                                 {"rotation", {0, 0, half, half}},  // rotates x to y and y to -x
                                  {"scale", {2, 3, 4}}});
   const auto triangles = first_object(load(asset));
   ASSERT_EQ(triangles.size(), 1U);
@@ -40,20 +40,20 @@ TEST(GltfNode, ScaleThenRotationThenTranslation) {
 
 TEST(GltfNode, MatrixIsColumnMajorAndEqualsItsDecomposition) {
   AssetBuilder parts = triangle();
-  // The unit quaternion (1, 1, 1, 1) / 2 turns x to y, y to z, z to x.
+  // The unit quaternion (1, 1, 1, 1) / 2 rotates x to y, y to z, and z to x.
   parts.json["nodes"][0].update({{"translation", {0.1, -7, 1e5}},
                                  {"rotation", {0.5, 0.5, 0.5, 0.5}},
                                  {"scale", {0.3, 2, -5}}});
   AssetBuilder matrix = triangle();
   matrix.json["nodes"][0]["matrix"] = {0, 0.3, 0, 0, 0, 0, 2, 0, -5, 0, 0, 0, 0.1, -7, 1e5, 1};
   EXPECT_EQ(first_object(load(parts)), first_object(load(matrix)));
-  // The scale mirrors, so vertices 1 and 2 are swapped.
+  // The negative scale mirrors the triangle, so vertices 1 and 2 are swapped.
   EXPECT_EQ(first_object(load(matrix))[0][2], Vec3(0.1F, static_cast<float>(-7 + 0.3), 1e5F));
 }
 
 TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
   AssetBuilder asset = triangle();
-  // Two distant translations that cancel: float32 would lose the 0.125.
+  // Two large translations cancel. In float32, the remaining 0.125 would be lost.
   asset.json["nodes"][0]["translation"] = {-1e9, 0.125, 0};
   asset.json["nodes"].push_back(
       {{"children", {0}}, {"translation", {1e9 + 0.125, 0, 0}}, {"name", "above"}});
@@ -66,7 +66,7 @@ TEST(GltfNode, HierarchyIsComposedInDoubleAndRoundedOnce) {
   EXPECT_EQ(loaded.scene.objects[0].name, "top/above/node0/mesh0");
 }
 
-// At a distance of 6 000 km float32 numbers are half a meter apart.
+// At a distance of 6 000 km, float32 numbers are half a meter apart.
 TEST(GltfNode, DistanceFromTheOriginCostsNoPrecision) {
   AssetBuilder asset = triangle();
   const DVec3 far(-2694044.4111565403, -4266368.805493665, 3888310.602231939);

@@ -1,12 +1,11 @@
 #pragma once
-/// An asset with almost every kind of object, for breaking one at a time.
+/// An asset with almost every kind of object. Tests break one object at a time.
 
 #include "gltf/asset_builder.hpp"
 
 namespace microtrace::tests {
 
-/// A triangle with all standard attributes, a morph target, a skin of two joints, an animation of
-/// three channels, a textured material, a spot light and two variants. Its accessors:
+/// The accessors of rig(), by number.
 enum RigAccessor : std::size_t {
   rig_positions,
   rig_normals,
@@ -24,11 +23,13 @@ enum RigAccessor : std::size_t {
   rig_morph_weights,
 };
 
-/// Its nodes: 0 the mesh, 1 and 2 the joints, 2 a child of 1, 3 the light. The view of an accessor
-/// has the accessor's number; the last view is the image's.
+/// A triangle with all standard attributes, a morph target, a skin of two joints, an animation of
+/// three channels, a textured material, a spot light and two variants. Nodes: 0 has the mesh, 1 and
+/// 2 are the joints, 2 is a child of 1, and 3 has the light. Each accessor has the view with its
+/// own number. The last view contains the image.
 [[nodiscard]] AssetBuilder rig();
 
-/// Overwrites element `number` of an accessor of the rig.
+/// Overwrites a value in the rig's accessor `accessor`. `number` counts values of this type.
 template <typename Number>
 void poke(AssetBuilder& asset, std::size_t accessor, std::size_t number, Number value) {
   const std::size_t offset =

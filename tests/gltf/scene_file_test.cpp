@@ -34,7 +34,7 @@ TEST(GltfSceneFile, LoadsExternalBuffers) {
   const std::filesystem::path folder =
       std::filesystem::path(testing::TempDir()) / "microtrace_gltf_test";
   std::filesystem::create_directories(folder / "a b");
-  // A file may be longer than its buffer.
+  // A file may be longer than the buffer's byteLength.
   std::ofstream(folder / "a b" / "cube.bin", std::ios::binary) << cube().buffer << "more";
   const std::string json = cube().with_buffer("a%20b/cube.bin").dump();
   const LoadedScene loaded = io::load_gltf(json, "cube.gltf", folder);

@@ -9,7 +9,7 @@ using testing::Contains;
 using testing::Each;
 using testing::HasSubstr;
 
-/// The rig with one change, made by mutated(); the default pointer is `where`.
+/// A change to the rig, as made by mutated(). If `pointer` is null, messages must point to `where`.
 struct Change {
   const char* where;
   const char* value;
@@ -21,22 +21,22 @@ struct Change {
 constexpr const char* kAttributes = "/meshes/0/primitives/0/attributes";
 
 const Change refused[] = {
-    // Meshes.
+    // Meshes
     {"/meshes/0/primitives/0/indices", "10"},
 
-    // Skins.
+    // Skins
     {"/skins/0/inverseBindMatrices", "0"},
     {"/skins/0/inverseBindMatrices", "99"},
     {"/skins/0/joints", "[1, 2, 3]", "/skins/0/inverseBindMatrices"},
     {"/skins/0/skeleton", "4"},
 
-    // Animations.
+    // Animations
     {"/animations/0/channels/0/sampler", "3"},
     {"/animations/0/channels/0/target/node", "9"},
     {"/animations/0/channels/0/target", "{}"},
     {"/animations/0/channels/0/target/path", "7"},
 
-    // Materials, textures and lights.
+    // Materials, textures and lights
     {"/textures/0/source", "1"},
     {"/textures/0/sampler", "1"},
     {"/images/0/uri", "\"a.png\"", "/images/0"},
@@ -91,7 +91,7 @@ const Change survived[] = {
     {"/skins/0/joints", "[1, 1]", "/skins/0/joints/1"},
     {"/images/0/mimeType", "\"image/webp\""},
 
-    // Meshes.
+    // Meshes
     {"/meshes/0/primitives/0/attributes/TEXCOORD_2", "3", kAttributes},
     {"/meshes/0/primitives/0/attributes/TEXCOORD_0", "1"},
     {"/meshes/0/primitives/0/attributes/_IDS", "14"},
@@ -106,7 +106,7 @@ const Change survived[] = {
     {"/accessors/1/bufferView", "0", "/meshes/0/primitives/0/attributes/POSITION"},
     {"/bufferViews/9/byteStride", "64", "/skins/0/inverseBindMatrices"},
 
-    // Nodes and skins.
+    // Nodes and skins
     {"/nodes/0/rotation", "[0, 0, 0.5, 0.5]"},
     {"/nodes/0/weights", "[1, 2, 3]"},
     {"/nodes/2/weights", "[1]"},
@@ -117,14 +117,14 @@ const Change survived[] = {
     {"/skins/0/joints", "[1, 3]"},
     {"/skins/0/skeleton", "2"},
 
-    // Animations.
+    // Animations
     {"/animations/0/channels/1", R"({"sampler": 0, "target": {"node": 1, "path": "translation"}})",
      "/animations/0/channels/1/target"},
     {"/animations/0/channels/0/target/path", "\"colour\""},
     {"/animations/0/samplers/0/interpolation", "\"CUBIC\""},
     {"/accessors/10/min", "", "/accessors/10"},
 
-    // Materials, textures and lights.
+    // Materials, textures and lights
     {"/images/0/mimeType", "", "/images/0"},
     {"/images/0/mimeType", "\"image/webp\"", "/textures/0/source"},
     {"/extensions/KHR_lights_punctual/lights/0/type", "\"sun\""},
@@ -135,7 +135,7 @@ const Change survived[] = {
 };
 
 TEST(GltfSemantics, TheUnchangedRigIsValid) {
-  // All remaining warnings are about unsupported features.
+  // The valid rig has only warnings about unsupported features.
   EXPECT_THAT(texts(load(rig()).warnings),
               Each(testing::AnyOf(HasSubstr("not drawn"), HasSubstr("ignored"), HasSubstr("yet"),
                                   HasSubstr("not supported"))));
@@ -158,7 +158,8 @@ TEST(GltfSemantics, HarmlessViolationsGiveWarningsAtTheirPointer) {
   for (const Change& change : survived) {
     SCOPED_TRACE(std::string(change.where) + " = " + change.value);
     AssetBuilder asset = rig();
-    // 14: an application-specific attribute with a type that vertices may not have.
+    // Accessor 14 has a type that vertex attributes must not have. Some changes use it for an
+    // application-specific attribute.
     asset.add("accessors", {{"componentType", kUint32}, {"count", 3}, {"type", "SCALAR"}});
     EXPECT_THAT(texts(load(mutated(asset, change.where, change.value)).warnings),
                 Contains(HasSubstr(change.place() + ": ")));

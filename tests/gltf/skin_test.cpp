@@ -25,9 +25,9 @@ void expect_near(const Array<Vec3>& values, const std::vector<Vec3>& wanted) {
 
 const double half = std::sqrt(0.5);
 
-/// An arm along x from 0 to 2 in the plane z = 0: a shoulder (node 1) at 0 moves the vertices at x
-/// = 0, an elbow (node 2) at 1 those at x = 2, and both move those at x = 1 with equal weights.
-/// Node 0 has the mesh.
+/// An arm in the plane z = 0, along x from 0 to 2. The shoulder (node 1) is at x = 0 and moves the
+/// vertices there. The elbow (node 2) is at x = 1 and moves the vertices at x = 2. Both have equal
+/// weights for the vertices at x = 1. Node 0 has the mesh.
 template <typename Joint = std::uint8_t>
 AssetBuilder arm() {
   AssetBuilder asset;
@@ -69,7 +69,7 @@ TEST(GltfSkin, ElbowBendsByNinetyDegrees) {
   AssetBuilder asset = arm();
   asset.json["nodes"][2]["rotation"] = {0, 0, half, half};
   const Mesh mesh = first_mesh(load(asset));
-  // At the elbow, the mean of (1, y) and of (1 - y, 0).
+  // The positions at the elbow are the means of (1, y) and (1 - y, 0).
   expect_near(mesh.positions, {Vec3(0, -1, 0), Vec3(0, 1, 0), Vec3(1.5F, -0.5F, 0),
                                Vec3(0.5F, 0.5F, 0), Vec3(2, 1, 0), Vec3(0, 1, 0)});
   expect_near(mesh.normals, {Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1),
@@ -131,7 +131,8 @@ TEST(GltfSkin, ReadsJointsAndWeightsOfAllTypesAndSets) {
   for (const std::uint8_t byte : bytes) shorts.push_back(static_cast<std::uint16_t>(257 * byte));
   attributes["WEIGHTS_0"] = asset.add_numbers<std::uint16_t>("VEC4", shorts, true);
   EXPECT_FLOAT_EQ(first_mesh(load(asset)).positions[2].z, 6.4F);
-  // Adds a second set of influences, with three quarters of each weight for the elbow.
+  // The first set of influences gives the shoulder a weight of 1/4. The second set gives the elbow
+  // a weight of 3/4.
   std::vector<float> quarter, rest;
   for (int i = 0; i < 6; ++i) {
     quarter.insert(quarter.end(), {0.25F, 0, 0, 0});

@@ -11,8 +11,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A violation of the specification that is rendered with a warning. `where` and `value` are
-/// arguments of mutated().
+/// A violation of the specification that gives a warning and can still be rendered. `where` and
+/// `value` are arguments of mutated().
 struct Survived {
   const char* where;
   const char* value;
@@ -21,7 +21,7 @@ struct Survived {
 };
 
 const Survived mutations[] = {
-    // The asset as a whole.
+    // The asset as a whole
     {"/asset/version", "\"2.1\"", "/asset/version", "read as glTF 2.0"},
     {"/asset/minVersion", "\"2.1\"", "/asset/minVersion", "greater than version"},
     {"/asset", R"({"version": "2.1", "minVersion": "2.1"})", "/asset/minVersion",
@@ -46,12 +46,12 @@ const Survived mutations[] = {
              "nodes": [{"mesh": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}}]})",
      "/nodes/0/extensions/KHR_lights_punctual/light", "absent"},
 
-    // Unknown enumeration values.
+    // Unknown enumeration values
     {"/bufferViews/0/target", "1", "/bufferViews/0/target", "must be one of"},
     {"/materials/0/alphaMode", "\"GLASS\"", "/materials/0/alphaMode", "must be one of"},
     {"/samplers", R"([{"wrapS": 1, "minFilter": 2}])", "/samplers/0/wrapS", "must be one of"},
 
-    // Null.
+    // Null values
     {"/skins", "null", "/skins", "is null"},
     {"/meshes/0/primitives/0/material", "null", "/meshes/0/primitives/0/material", "is null"},
     {"/meshes/0/primitives/0/attributes/NORMAL", "null", "/meshes/0/primitives/0/attributes/NORMAL",
@@ -60,7 +60,7 @@ const Survived mutations[] = {
     {"/nodes/0/extensions", "null", "/nodes/0/extensions", "is null"},
     {"/nodes/0/extensions", R"({"X_a": null})", "/nodes/0/extensions/X_a", "is null"},
 
-    // Numbers out of their range.
+    // Numbers out of range
     {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1.00000012, 1, 1]",
      "/materials/0/pbrMetallicRoughness/baseColorFactor/1", "must be a number"},
     {"/materials/0/emissiveFactor", "[0, 0, 7]", "/materials/0/emissiveFactor/2", "nearest"},
@@ -69,7 +69,7 @@ const Survived mutations[] = {
     {"/nodes/0/rotation", "[0, 0, 0, 2]", "/nodes/0/rotation", "it is normalized"},
     {"/nodes/0/rotation", "[0, 0, 0, 0]", "/nodes/0/rotation", "must be a unit quaternion"},
 
-    // Accessors and attributes.
+    // Accessors and attributes
     {"/accessors/0/type", "\"VEC2\"", "/accessors/0/max", "must have 2 items, has 3"},
     {"/accessors/0/min", "[0, 0]", "/accessors/0/min", "must have 3 items, has 2"},
     {"/accessors/0/max", "[]", "/accessors/0/max", "must have 3 items, has 0"},
@@ -78,7 +78,7 @@ const Survived mutations[] = {
     {"/meshes/0/primitives/0/attributes/_X", "1", "/meshes/0/primitives/0/attributes/_X",
      "has 36 elements, but POSITION has 8"},
 
-    // Cameras.
+    // Cameras
     {"/cameras", R"([{"type": "perspective"}])", "/cameras/0", "the camera is left out"},
     {"/cameras", R"([{"type": "perspective", "perspective": {"yfov": 0, "znear": 1}}])",
      "/cameras/0/perspective/yfov", "the camera is left out"},
@@ -102,10 +102,10 @@ const Survived mutations[] = {
           "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 1}}])",
      "/cameras/0/perspective", "the other type"},
 
-    // Buffers.
+    // Buffers
     {"/buffers/0/uri", "", "/buffers/0", "has no uri"},
 
-    // Scenes.
+    // Scenes
     {"/scenes/0/nodes", "[0, 0]", "/scenes/0/nodes/1", "repeats an earlier item"},
     {"/nodes/0",
      R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], "scale": [1, 1, 1]})",

@@ -8,8 +8,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// A square facing +z with u to the right and v down, and a second one to its right with reversed
-/// u; the material has a normal texture. They share vertices 1 and 4.
+/// Two adjacent squares that face +z and share vertices 1 and 4. In the left one u points right and
+/// v points down. In the right one u is reversed. The material has a normal texture.
 AssetBuilder folded() {
   AssetBuilder asset;
   const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0},

@@ -207,7 +207,8 @@ TEST(GltfTexture, SamplersAreReadAndHaveDefaults) {
 TEST(GltfTexture, TransformScalesRotatesAndTranslates) {
   AssetBuilder asset = textured();
   asset.json["extensionsUsed"] = {"KHR_texture_transform"};
-  // The specification's example: the lower left quarter of the image, rotated by 90 degrees.
+  // The specification's example, which shows the lower left quarter of the image, rotated by 90
+  // degrees.
   asset.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
       {"KHR_texture_transform",
        {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}, {"texCoord", 3}}}};

@@ -16,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// The test vectors of RFC 4648, section 10.
+// Test vectors from RFC 4648, section 10.
 TEST(GltfUri, Base64TestVectors) {
   EXPECT_EQ(decode_base64(""), "");
   EXPECT_EQ(decode_base64("Zg=="), "f");

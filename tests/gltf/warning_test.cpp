@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 struct Ignored {
-  const char* add;  ///< a JSON merge patch (RFC 7396) to the cube
+  const char* add;  ///< a JSON merge patch (RFC 7396) for the cube
   const char* pointer;
   const char* message;
 };
@@ -82,7 +82,7 @@ TEST(GltfWarning, DistinguishesViolationsFromOtherWarnings) {
   for (const Diagnostic& d : found) {
     EXPECT_EQ(d.severity, d.pointer == "/extensionsUsed/0" ? Severity::warning : Severity::error);
   }
-  // If a long list of unknown extensions is cut short, the asset still isn't reported as valid.
+  // Even if the list of unknown extensions is cut short, the asset must not be reported as valid.
   for (int i = 0; i < 100; ++i) asset.json["extensionsUsed"].push_back("X_" + std::to_string(i));
   EXPECT_EQ(load(asset).warnings.back().severity, Severity::error);
   asset.json["materials"][0].erase("alphaCutoff");

@@ -5,7 +5,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// A quadric with ten coefficients drawn by `draw`, some of them omitted.
+/// A quadric with coefficients drawn by `draw`. Some of the ten are omitted.
 template <class Draw>
 Quadric drawn(Random& random, Draw draw) {
   Quadric q;
@@ -15,13 +15,13 @@ Quadric drawn(Random& random, Draw draw) {
   return q;
 }
 
-/// The left-hand side of the quadric's equation; exact for small integers.
+/// The left-hand side of the quadric's equation. Exact for small integers.
 float value(const Quadric& q, const Vec3& p) {
   return q.a * p.x * p.x + q.b * p.y * p.y + q.c * p.z * p.z + q.d * p.x * p.y + q.e * p.x * p.z +
          q.f * p.y * p.z + q.g * p.x + q.h * p.y + q.i * p.z + q.j;
 }
 
-/// The sphere with squared radius r2 as a quadric; exact for small integers.
+/// The quadric of the sphere with center c and squared radius r2. Exact for small integers.
 Quadric sphere(const Vec3& c, float r2) {
   return {.a = 1,
           .b = 1,
@@ -32,7 +32,7 @@ Quadric sphere(const Vec3& c, float r2) {
           .j = glm::dot(c, c) - r2};
 }
 
-/// A quadric and a line whose t^2 coefficient vanishes.
+/// A quadric and a line whose intersection has no t^2 term.
 struct Ruled {
   Quadric quadric;
   Vec3 direction, on_line;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Barycentric coordinates of b and c.
+/// Barycentric coordinates: the weights of the corners b and c.
 struct Barycentric {
   double u, v;
 };
@@ -25,7 +25,8 @@ DVec3 point_at(const Triangle& t, const Barycentric& at) {
   return (1 - at.u - at.v) * DVec3(t.a) + at.u * DVec3(t.b) + at.v * DVec3(t.c);
 }
 
-/// A ray from o to a point of a triangle, rounded, with an offset of up to `error` ulps.
+/// Describes a ray from o to a point of a triangle. Its rounded direction is moved by up to `error`
+/// ulps.
 struct Aim {
   Vec3 o;
   Barycentric at;
@@ -63,7 +64,7 @@ Case<Triangle> grid(Random& random) {
   return {ray({random.on_grid(n, s), random.on_grid(random.between(1, 4))}), t};
 }
 
-/// A triangle at a distance of up to 2^12 times its size, and an origin at the same distance.
+/// A triangle at a distance of up to 2^12 times its size, and a ray origin.
 struct Placed {
   Triangle triangle;
   Vec3 o;
@@ -84,7 +85,7 @@ Case<Triangle> vertex(Random& random) {
           p.triangle};
 }
 
-/// v rounded to multiples of spacing.
+/// Rounds v to multiples of `spacing`.
 Vec3 snapped(const Vec3& v, float spacing) {
   return Vec3(std::round(v.x / spacing), std::round(v.y / spacing), std::round(v.z / spacing)) *
          spacing;
@@ -93,7 +94,8 @@ Vec3 snapped(const Vec3& v, float spacing) {
 Case<Triangle> edge(Random& random) {
   const Placed p = placed(random);
   if (random.one_in(2)) {
-    // Numbers with few bits make the point on the edge and the direction to it representable.
+    // With only a few significant bits, the point on the edge and the direction to it are
+    // representable exactly.
     const float spacing = p.distance * 0x1p-10f;
     const Triangle t{snapped(p.triangle.a, spacing), snapped(p.triangle.b, spacing),
                      snapped(p.triangle.c, spacing)};
@@ -123,15 +125,14 @@ Case<Triangle> far_from_zero(Random& random) {
   return {aimed(random, t, {o, at, random.between(0, 2)}), t};
 }
 
-/// The vector scaled to a largest component of 2^k.
+/// Scales the vector so that its largest component is 2^k.
 Vec3 scaled(const DVec3& v, int k) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   return largest > 0 ? Vec3(v / largest * std::ldexp(1.0, k)) : Vec3(0, 0, 1);
 }
 
 Case<Triangle> full_range(Random& random) {
-  if (random.one_in(3)) {  // a shape of one size with any magnitude, and a direction of another
-                           // magnitude
+  if (random.one_in(3)) {  // the shape's coordinates have one magnitude, the direction another
     const int k = random.between(-140, 110);
     const Triangle t{random.any_vector(k, k + 10), random.any_vector(k, k + 10),
                      random.any_vector(k, k + 10)};
@@ -177,7 +178,7 @@ Case<Triangle> degenerate(Random& random) {
   switch (random.between(0, 3)) {
     case 0:  // through a vertex
       return {ray({o, corner(random, t) - o}), t};
-    case 1:  // through some point of the line
+    case 1:  // through any point of the line
       return {ray({o, on_line() - o}), t};
     case 2:  // along the line
       return {ray({on_line(), static_cast<float>(random.between(-3, 3)) * e}), t};

@@ -1,7 +1,7 @@
 #pragma once
 /// Rays and shapes that are difficult for rounded arithmetic: rays through vertices and along
-/// edges, origins on surfaces, tangents, degenerate shapes, all magnitudes of float32. A seed gives
-/// the same cases on every machine.
+/// edges, origins on surfaces, tangent rays, degenerate shapes, and all magnitudes of float32. A
+/// seed gives the same cases on every machine.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -18,40 +18,42 @@ class Random {
   explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u + 1) {}
 
   std::uint32_t bits();
-  /// An integer in [lo, hi].
+  /// Returns a random integer in [lo, hi].
   int between(int lo, int hi);
   bool one_in(int n) { return between(1, n) == 1; }
-  /// A number in [0, 1).
+  /// Returns a random number in [0, 1).
   double unit();
-  /// A number in [-1, 1].
+  /// Returns a random number in [-1, 1].
   float symmetric() { return static_cast<float>(2 * unit() - 1); }
-  /// 2^k with k in [lo, hi].
+  /// Returns 2^k for a random integer k in [lo, hi].
   float power_of_two(int lo, int hi);
-  /// A number with random sign, exponent in [lo, hi] and random mantissa, sometimes with few bits.
+  /// Returns a number with a random sign, an exponent in [lo, hi] and a random mantissa that
+  /// sometimes has few bits.
   float any_float(int lo, int hi);
   Vec3 any_vector(int lo, int hi);
-  /// A point in the cube [-half_width, half_width]^3.
+  /// Returns a random point in the cube [-half_width, half_width]^3.
   Vec3 in_cube(float half_width);
-  /// A point whose coordinates are integers from -n to n times the spacing.
+  /// Returns a point whose coordinates are random integers from -n to n, multiplied by the spacing.
   Vec3 on_grid(int n, float spacing = 1);
-  /// The vector with each coordinate moved by up to n units in the last place.
+  /// Returns v with each coordinate moved by up to n units in the last place.
   Vec3 jitter(const Vec3& v, int n);
 
  private:
   std::uint64_t state_;
 };
 
-/// x moved by n units in the last place; x itself if it is near zero or the largest number.
+/// Moves x by n units in the last place. Leaves x unchanged if it is near zero or the largest
+/// number.
 [[nodiscard]] float moved(float x, int n);
 
-/// An origin and a direction. Initializer lists are evaluated from left to right, but function
-/// arguments in any order; expressions that draw several random numbers are therefore in lists, so
-/// that every compiler draws the same.
+/// An origin and a direction. Compilers may evaluate function arguments in any order, but must
+/// evaluate initializer lists from left to right. Expressions that draw several random numbers are
+/// therefore initializer lists, which give the same cases with every compiler.
 struct Line {
   Vec3 o, d;
 };
 
-/// The ray along the line with the interval [0, infinity].
+/// The ray along the line over the interval [0, infinity].
 [[nodiscard]] Ray ray(const Line& line);
 
 template <class S>
@@ -61,15 +63,15 @@ struct Case {
 };
 
 enum class TriangleKind {
-  unit,             ///< vertices in a unit cube, half of the rays aimed at a point inside
+  unit,             ///< vertices in a unit cube, half of the rays aimed at a point of the triangle
   grid,             ///< small integers times a power of two
-  vertex,           ///< aimed at a vertex, up to 3 ulps beside it
-  edge,             ///< aimed at a point of an edge, half of them exactly
+  vertex,           ///< aimed at a vertex, with an error of up to 3 ulps
+  edge,             ///< aimed at a point of an edge, exactly in half of the cases
   origin_on_plane,  ///< origin at a vertex or within 2 ulps of the plane
   far_from_zero,    ///< up to 2^24 triangle sizes away from (0, 0, 0)
   full_range,       ///< every exponent of float32
   subnormal,
-  coplanar,      ///< the ray in the triangle's plane or an ulp beside it
+  coplanar,      ///< the ray in the triangle's plane or an ulp away from it
   degenerate,    ///< collinear or equal vertices
   sliver,        ///< heights down to 2^-26 of the length
   axis_aligned,  ///< integer coordinates, d along an axis
@@ -91,17 +93,16 @@ inline constexpr std::array kTriangleKinds = {TriangleKind::unit,
 [[nodiscard]] const char* name(TriangleKind kind);
 [[nodiscard]] Case<Triangle> triangle_case(Random& random, TriangleKind kind);
 
-/// Kinds of plane, disc, sphere and quadric cases.
+/// Kinds of cases for planes, discs, spheres and quadrics.
 enum class ShapeKind {
   random,
-  grid,        ///< small integers times a power of two
-  tangent,     ///< touches the surface; planes: parallel except for an ulp; discs: through the rim
-  on_surface,  ///< origin exactly on the surface
+  grid,          ///< small integers times a power of two
+  tangent,       ///< touches the surface; planes: parallel up to an ulp; discs: through the rim
+  on_surface,    ///< origin exactly on the surface
   axis_aligned,  ///< integer coordinates, d along an axis
   full_range,    ///< every exponent of float32
   subnormal,
-  special,  ///< planes, discs: the ray in the plane; spheres: radius 0; quadrics: the t^2
-            ///< coefficient vanishes
+  special,  ///< planes, discs: the ray in the plane; spheres: radius 0; quadrics: no t^2 term
 };
 
 inline constexpr std::array kShapeKinds = {
@@ -114,7 +115,7 @@ inline constexpr std::array kShapeKinds = {
 [[nodiscard]] Case<Sphere> sphere_case(Random& random, ShapeKind kind);
 [[nodiscard]] Case<Quadric> quadric_case(Random& random, ShapeKind kind);
 
-/// The ray with t_min or t_max, or both, at t or one ulp away.
+/// Returns the ray with t_min, t_max or both moved to t or to a neighboring number.
 [[nodiscard]] Ray with_range_near(Random& random, Ray ray, float t);
 
 }  // namespace microtrace::adversarial

@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A point, a segment with two vertices at one end or one in the interior, or a triangle. Many
-// points of the small grid occur more than once.
+// A point, a segment whose third vertex is at one end or between them, or a triangle. Half of the
+// calls use a small grid, on which many vertices coincide.
 Corners degenerate_corners(Random& random) {
   const bool on_grid = random.one_in(2);
   const auto anywhere = [&] { return on_grid ? random.on_grid(2) : random.in_cube(2); };
@@ -91,7 +91,7 @@ SceneKind any_kind(Random& random) {
       random.between(0, static_cast<int>(kSceneKinds.size()) - 1))];
 }
 
-// A vertex, or a point of an edge or of the interior, of some triangle.
+// A vertex of a random triangle, or a point of an edge or of the interior.
 Vec3 target(Random& random, const Scene& scene) {
   const Object& object = scene.objects[static_cast<std::size_t>(
       random.between(0, static_cast<int>(scene.objects.size()) - 1))];
@@ -150,7 +150,7 @@ Scene random_scene(Random& random, SceneKind kind) {
   };
   add(random_mesh(random, kind));
   if (random.one_in(2)) add(random_mesh(random, any_kind(random)));
-  if (random.one_in(4)) add(scene.objects[0].shape);  // every hit is a tie
+  if (random.one_in(4)) add(scene.objects[0].shape);  // the copy makes every hit a tie
   for (int i = random.between(-20, 20); i > 0; --i) {
     add(Sphere{random.on_grid(4), float(random.between(0, 2))});
     add(Disc{random.on_grid(4), random.on_grid(2), float(random.between(0, 2))});
@@ -184,7 +184,7 @@ Ray random_ray(Random& random, const Scene& scene, const Vec3& o) {
   if (random.one_in(3)) ray.t_min = 0;
   if (random.one_in(5)) ray.t_max = random.one_in(2) ? 1 : float(random.unit() * 4);
   if (random.one_in(16) && ray.d != Vec3(0)) {
-    // An interval that ends near the target.
+    // The interval ends near the target.
     const float size = std::max({std::abs(ray.d.x), std::abs(ray.d.y), std::abs(ray.d.z)});
     ray.t_max = std::min(1 / size, std::numeric_limits<float>::max()) * float(random.unit() * 4);
   }

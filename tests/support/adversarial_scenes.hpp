@@ -1,7 +1,7 @@
 #pragma once
 /// Scenes and rays that are difficult for a tree and its kernels: shared vertices, duplicates,
-/// coplanar walls, slivers, huge triangles beside tiny ones, scenes far from the origin, numbers
-/// beyond the kernels' limits or not finite.
+/// coplanar walls, slivers, huge triangles beside tiny ones, and scenes far from the origin. Some
+/// numbers exceed the kernels' limits or are not finite.
 
 #include "support/adversarial_rays.hpp"
 
@@ -14,7 +14,7 @@ namespace microtrace::adversarial {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Triangles without shared vertices, each made by make_corners().
+/// A mesh of triangles made by make_corners(), without shared vertices.
 [[nodiscard]] Mesh mesh_of(int triangles, auto&& make_corners) {
   Mesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -26,14 +26,15 @@ using Corners = std::array<Vec3, 3>;
 }
 
 enum class SceneKind {
-  soup,           ///< small triangles anywhere
-  lattice,        ///< integer coordinates: shared vertices, coplanar walls, duplicates, no area
+  soup,     ///< small triangles anywhere
+  lattice,  ///< integer coordinates: shared vertices, coplanar walls, duplicates, triangles without
+            ///< area
   huge_and_tiny,  ///< sizes from 2^-20 to 2^6
   far_from_zero,  ///< 2^20 triangle sizes away from (0, 0, 0)
   slivers,        ///< heights down to 2^-26 of the length
-  walls,          ///< in planes x, y or z = an integer: rays along edges and within planes
+  walls,          ///< in planes x, y or z = an integer; rays along edges and within planes
   degenerate,     ///< points and segments, some repeated, among small triangles
-  any_size,       ///< 2^-140 to 2^60, beyond the kernels' limits; some not finite
+  any_size,       ///< sizes from 2^-140 to 2^60, beyond the kernels' limits; some not finite
 };
 
 inline constexpr std::array kSceneKinds = {
@@ -42,20 +43,20 @@ inline constexpr std::array kSceneKinds = {
 
 [[nodiscard]] const char* name(SceneKind kind);
 
-/// A mesh of up to 400 triangles, often a second one of any kind or a copy of the first, and some
-/// other shapes.
+/// A scene with a mesh of up to 400 triangles and often a second mesh, which may be a copy of the
+/// first. Other shapes may be added.
 [[nodiscard]] Scene random_scene(Random& random, SceneKind kind);
-/// A scene of any kind.
+/// A random scene of a random kind.
 [[nodiscard]] Scene random_scene(Random& random);
 
-/// A point from which rays are likely to hit such a scene, often on one of its surfaces.
+/// A random point from which rays are likely to hit the scene. It is often on a surface.
 [[nodiscard]] Vec3 origin(Random& random, const Scene& scene);
 
-/// A ray from o, often toward a vertex or a point of an edge; some have a short interval,
-/// axis-aligned directions, or a length beyond the kernels' limits.
+/// A ray from o, often toward a vertex or a point of an edge. Some rays have a short interval, an
+/// axis-aligned direction, or a length beyond the kernels' limits.
 [[nodiscard]] Ray random_ray(Random& random, const Scene& scene, const Vec3& o);
 
-/// Rays without a common origin; some are invalid, exceed the kernels' limits, or share an origin
+/// Rays without a common origin. Some are invalid, exceed the kernels' limits, or share an origin
 /// with their neighbors.
 [[nodiscard]] std::vector<Ray> unrelated_rays(Random& random, const Scene& scene, int count);
 

@@ -8,7 +8,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// An integer vector of integer length.
+/// A vector with integer coordinates and integer length.
 struct Offset {
   Vec3 vector;
   float length;
@@ -37,7 +37,7 @@ Vec3 axis(Random& random) {
   return v;
 }
 
-/// An integer vector perpendicular to n, small if n is.
+/// An integer vector perpendicular to n. Small if n is small.
 Vec3 perpendicular(Random& random, const Vec3& n) {
   return glm::cross(n, random.on_grid(3));
 }
@@ -47,12 +47,12 @@ Vec3 nonzero_on_grid(Random& random, int n) {
   return v == Vec3(0) ? Vec3(1, 0, 0) : v;
 }
 
-/// A length of the magnitude 2^lo to 2^hi.
+/// A random length between about 2^lo and 2^hi.
 float any_length(Random& random, int lo, int hi) {
   return std::abs(random.any_float(lo, hi));
 }
 
-/// Numbers of one magnitude, chosen at random from all of float32.
+/// A range of exponents of float32 numbers.
 struct Magnitude {
   int lo, hi;
 };
@@ -68,7 +68,8 @@ Ray any_ray(Random& random, const Magnitude& of_o) {
   return ray({random.any_vector(of_o.lo, of_o.hi), random.any_vector(of_d.lo, of_d.hi)});
 }
 
-/// Small integers times 2^-149 to 2^-120.
+/// A ray whose origin coordinates are small multiples of `spacing`, which callers choose from
+/// 2^-149 to 2^-120.
 Ray subnormal_ray(Random& random, float spacing) {
   return ray({random.on_grid(9, spacing),
               random.on_grid(3, random.one_in(2) ? random.power_of_two(-149, 0) : 1)});
@@ -129,7 +130,8 @@ Case<Plane> plane_case(Random& random, ShapeKind kind) {
 }
 
 Case<Disc> disc_case(Random& random, ShapeKind kind) {
-  // The point center + rim is on the rim: rim is perpendicular to n and as long as the radius.
+  // The point center + rim lies on the disc's rim, because rim is perpendicular to n and its length
+  // is the radius.
   const auto [rim, radius] = random_offset(random);
   const Vec3 n = glm::cross(rim, nonzero_on_grid(random, 3));
   const Vec3 center = random.on_grid(9);

@@ -10,8 +10,8 @@
 namespace microtrace::generated {
 namespace {
 
-// The output function of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number
-// generators, 2014), applied to a counter.
+// The output function of SplitMix64, applied to a counter (Steele, Lea, Flood: Fast splittable
+// pseudorandom number generators, 2014).
 std::uint64_t random_bits(std::uint64_t counter) {
   std::uint64_t z = counter * 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -19,7 +19,7 @@ std::uint64_t random_bits(std::uint64_t counter) {
   return z ^ (z >> 31U);
 }
 
-/// Adds a quad whose vertices are counterclockwise and not shared, as exporters write flat faces.
+/// Adds a quad with counterclockwise vertices of its own. Exporters write flat faces in this way.
 void add_quad(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (const Vec3& p : {a, b, c, d}) mesh.positions.push_back(p);
@@ -27,7 +27,7 @@ void add_quad(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-/// Adds the six faces of the box lo .. hi, facing inwards if `inside`.
+/// Adds the six faces of the box lo .. hi. They face inward if `inside` is true.
 void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool inside = false) {
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -45,7 +45,7 @@ void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool inside = false) {
   }
 }
 
-/// A point with coordinates in tenths, the grid to which most modeling programs snap.
+/// A point with coordinates in tenths, a grid to which many modeling programs snap.
 Vec3 tenths(int x, int y, int z) {
   return {0.1 * x, 0.1 * y, 0.1 * z};
 }
@@ -53,7 +53,7 @@ void add_box_of_tenths(Mesh& mesh, const std::array<int, 6>& b, bool inside = fa
   add_box(mesh, tenths(b[0], b[1], b[2]), tenths(b[3], b[4], b[5]), inside);
 }
 
-/// Adds a square area light with edges of 2 * reach, facing down.
+/// Adds a square area light that faces down. Its edges are 2 * reach long.
 void add_lamp(ArchitectureScene& scene, const Vec3& center, float reach) {
   const Vec3 u(reach, 0, 0), v(0, 0, reach);
   add_quad(scene.lamp, center - u - v, center + u - v, center + u + v, center - u + v);
@@ -119,7 +119,7 @@ ArchitectureScene voxels() {
   return scene;
 }
 
-/// The top or bottom of a plate: the square lo .. hi with a square hole in its middle third.
+/// Adds the top or bottom of a plate, which is a square with a square hole in its middle ninth.
 void add_holed_plate(Mesh& mesh, int x, int z, int size, int low, int high) {
   const std::array<int, 4> xs{x, x + size, x + 2 * size, x + 3 * size},
       zs{z, z + size, z + 2 * size, z + 3 * size};
@@ -158,7 +158,7 @@ ArchitectureScene plates() {
   add_box_of_tenths(scene.mesh, {-3, -1, -3, 69, 0, 69});
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k < 6; ++k) {
-      // Stacks are next to each other; the steps of a stack are on top of each other.
+      // Stacks stand side by side. The steps of a stack lie on each other.
       const int x = 11 * i, z = 11 * k,
                 steps = 1 + static_cast<int>(
                                 random_bits(static_cast<std::uint64_t>(36 + 6 * i + k)) % 3);
@@ -184,7 +184,8 @@ ArchitectureScene stepped_terrain() {
   return scene;
 }
 
-/// A room of n x n x n cells; `at` gives the coordinate of grid line i as stored for cell k.
+/// A room of n x n x n cells. at(i, k) is the stored coordinate of grid line i as computed for cell
+/// k.
 ArchitectureScene tiled_room(std::string name, std::uint32_t n,
                              const std::function<float(std::uint32_t, std::uint32_t)>& at) {
   ArchitectureScene scene{.name = std::move(name), .mesh = {}, .lamp = {}, .views = {}};
@@ -233,7 +234,7 @@ ArchitectureScene architecture(const std::string& name) {
     return tiled_room(name, 24,
                       [](std::uint32_t i, std::uint32_t) { return 0.25F * static_cast<float>(i); });
   if (name == "inexact tiles") {
-    // A tile starts at a multiple of 0.1, and its edge length is added in float32.
+    // Each tile starts at a multiple of 0.1. Its edge length is added in float32.
     return tiled_room(name, 24, [](std::uint32_t i, std::uint32_t k) {
       return 0.1F * static_cast<float>(k) + (i > k ? 0.1F * static_cast<float>(i - k) : 0);
     });

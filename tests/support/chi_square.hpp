@@ -7,9 +7,9 @@
 
 namespace microtrace {
 
-/// The number of standard deviations by which the statistic exceeds its mean, by the cube-root
-/// approximation of E. Wilson and M. Hilferty (The distribution of chi-square, 1931). Cells with an
-/// expectation below 5 are pooled.
+/// Returns by how many standard deviations the statistic exceeds its mean, using the cube-root
+/// approximation of E. Wilson and M. Hilferty (The distribution of chi-square, 1931). Pools cells
+/// whose expected count is below 5.
 inline double chi_square_excess(std::span<const double> counts, std::span<const double> expected) {
   double statistic = 0, pooled_count = 0, pooled = 0, cells = 0;
   const auto add = [&](double count, double mean) {

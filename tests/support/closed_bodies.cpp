@@ -18,7 +18,7 @@ namespace {
 using Corners = std::array<std::uint32_t, 3>;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Three orthogonal directions, sometimes the axes.
+/// Three orthogonal directions, sometimes the coordinate axes.
 std::array<DVec3, 3> random_frame(Random& random) {
   if (random.one_in(3)) return {DVec3(1, 0, 0), DVec3(0, 1, 0), DVec3(0, 0, 1)};
   const DVec3 z = glm::normalize(DVec3(random.in_cube(1)) + DVec3(1e-3, 0, 0));
@@ -26,7 +26,8 @@ std::array<DVec3, 3> random_frame(Random& random) {
   return {x, glm::cross(z, x), z};
 }
 
-/// Points of a unit circle, with radii alternating between 1 and `inner`.
+/// `count` points around a circle, whose radii alternate between 1 and `inner`, and the circle's
+/// axis.
 std::vector<DVec3> rim(Random& random, int count, double inner) {
   const std::array<DVec3, 3> frame = random_frame(random);
   std::vector<DVec3> points;
@@ -34,7 +35,7 @@ std::vector<DVec3> rim(Random& random, int count, double inner) {
     const double angle = 2 * 3.14159265358979 * i / count, r = i % 2 == 0 ? 1 : inner;
     points.push_back(r * (std::cos(angle) * frame[0] + std::sin(angle) * frame[1]));
   }
-  points.push_back(frame[2]);  // the axis is the last point
+  points.push_back(frame[2]);  // the last point is the axis
   return points;
 }
 
@@ -91,7 +92,7 @@ Solid icosahedron(Random& random) {
         solid.positions.push_back((s * frame[(axis + 1) % 3] + t * frame[(axis + 2) % 3]) / golden);
     }
   }
-  // Three vertices form a face if their distances are the shortest ones.
+  // Three vertices form a face if each two of them are as close as the ends of an edge.
   const auto is_edge = [&](std::uint32_t i, std::uint32_t j) {
     return glm::distance(solid.positions[i], solid.positions[j]) < 2.1 / golden;
   };
@@ -105,7 +106,8 @@ Solid icosahedron(Random& random) {
   return solid;
 }
 
-/// Convex hull: adds points one by one, and joins each to the edges around the faces that it sees.
+/// The convex hull. Adds points one by one. Each new point replaces the faces that it sees, and is
+/// joined to the edges around them.
 Mesh hull(std::vector<Vec3> points) {
   Mesh mesh{.positions = std::move(points),
             .triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
@@ -117,8 +119,9 @@ Mesh hull(std::vector<Vec3> points) {
     for (auto& t : mesh.triangles.edit()) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
-    // The edges by their vertices, each with its direction in one of its faces. If rounding makes
-    // faces overlap, several faces may share an edge; an even number of them cancels.
+    // The edges of the faces that the point sees, with their directions in these faces. Edges
+    // between two such faces cancel. If rounding makes faces overlap, more than two faces may share
+    // an edge. An even number of them cancels.
     std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles.edit(), [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;
@@ -146,7 +149,7 @@ float ulp(float x) {
   return std::nextafter(std::abs(x), std::numeric_limits<float>::infinity()) - std::abs(x);
 }
 
-/// The float32 spacing at the body's position.
+/// The largest spacing of float32 numbers at the body's position.
 float greatest_ulp(const Vec3& center, float size) {
   return std::max({ulp(center.x), ulp(center.y), ulp(center.z), ulp(size)});
 }

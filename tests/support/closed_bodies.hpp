@@ -1,5 +1,5 @@
 #pragma once
-/// Closed meshes of few triangles, of any size and at any distance from the origin.
+/// Closed meshes of a few triangles, of any size and at any distance from the origin.
 
 #include "support/adversarial_rays.hpp"
 
@@ -11,13 +11,13 @@ namespace microtrace::adversarial {
 
 enum class BodyKind {
   hull,         ///< the convex hull of random points
-  prism,        ///< of three to fifteen sides
+  prism,        ///< three to fifteen sides
   icosahedron,  ///< randomly rotated
   double_cone,  ///< two apexes over a polygon
-  star,         ///< a double cone whose rim alternates between two radii
+  star,         ///< two apexes, one on each side of a polygon
   box,          ///< axis-aligned
   plate,        ///< a prism one to four ulps thick, often along an axis
-  shell,        ///< the space between a body and a copy of it, one to four ulps away
+  shell,        ///< the space between a body and a copy that is shifted by one to four ulps
 };
 
 inline constexpr std::array kBodyKinds = {
@@ -26,9 +26,9 @@ inline constexpr std::array kBodyKinds = {
 
 [[nodiscard]] const char* name(BodyKind kind);
 
-/// A body of 4 to 64 triangles, or twice as many for a shell. Each edge has an even number of
-/// triangles, so a point is inside if a ray from it crosses an odd number of triangles. Rounding
-/// may cause triangles without area or overlapping triangles.
+/// A body of 4 to 64 triangles, or of twice as many for a shell. Each edge has an even number of
+/// triangles, so a point is inside if a ray from it crosses an odd number of triangles. Because of
+/// rounding, triangles may overlap or have no area.
 [[nodiscard]] Mesh closed_body(Random& random, BodyKind kind, const Vec3& center, float size);
 
 }  // namespace microtrace::adversarial

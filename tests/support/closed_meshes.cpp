@@ -7,7 +7,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-// Rounds vertices to a grid: differences and small multiples of grid points are exact, so rays can
+// Rounds vertices to a grid. Differences and small multiples of grid points are exact, so rays can
 // be aimed exactly.
 Mesh on_grid(Mesh mesh, float spacing) {
   for (Vec3& p : mesh.positions.edit()) {
@@ -21,8 +21,8 @@ Mesh scaled(Mesh mesh, const Vec3& scale, const Vec3& offset) {
   return mesh;
 }
 
-// A cube whose faces have n x n cells of two triangles, with all vertices at integers: walls in one
-// plane, and every ray along an axis hits vertices or edges.
+// A cube whose faces have n x n cells of two triangles. All vertices are at integers. Each face is
+// a coplanar wall, and every axis-aligned ray from an integer point hits vertices or edges.
 Mesh cube(int n) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -66,13 +66,13 @@ std::vector<ClosedMesh> closed_meshes() {
        .radius = 0.5F,
        .spacing = 0x1p-12F},
       {.name = "cube", .mesh = cube(16), .center = Vec3(8), .radius = 7, .spacing = 1},
-      // Long thin triangles.
+      // Has long thin triangles.
       {.name = "needle",
        .mesh = scaled(on_grid(displaced_sphere(5000), 0x1p-10F), {1, 1, 64}, Vec3(0)),
        .center = Vec3(0),
        .radius = 0.5F,
        .spacing = 0x1p-10F},
-      // The grid has the spacing of float32 numbers at this distance.
+      // Has a grid with the spacing of float32 numbers at this distance.
       {.name = "far",
        .mesh = scaled(on_grid(displaced_sphere(5000), 0x1p-8F), Vec3(64),
                       Vec3(0x1p21F, -0x1p20F, 0x1p21F)),

@@ -1,5 +1,5 @@
 #pragma once
-/// Closed meshes, and rays aimed exactly at their vertices and edges.
+/// Closed meshes, and rays that are aimed exactly at their vertices and edges.
 
 #include "support/adversarial_rays.hpp"
 
@@ -13,17 +13,17 @@ namespace microtrace::adversarial {
 struct ClosedMesh {
   const char* name;
   Mesh mesh;
-  Vec3 center;    ///< inside
-  float radius;   ///< radius of a ball around `center` that is inside the mesh
-  float spacing;  ///< spacing of the grid on which all vertices are
+  Vec3 center;    ///< a point inside the mesh
+  float radius;   ///< a ball around `center` with this radius is inside the mesh
+  float spacing;  ///< all vertices are at multiples of this number
 };
 
 /// Meshes with few and with many triangles, with coplanar walls, with long thin triangles, and far
 /// from the origin.
 [[nodiscard]] std::vector<ClosedMesh> closed_meshes();
 
-/// A ray from o exactly at a vertex, or at one of the fifteen points that divide an edge into
-/// sixteen parts; o must be on the grid.
+/// A ray from o that is aimed exactly at a vertex, or at one of the fifteen points that divide an
+/// edge into sixteen equal parts. `o` must be on the grid.
 [[nodiscard]] Ray aimed_exactly(Random& random, const ClosedMesh& closed, const Vec3& o);
 
 }  // namespace microtrace::adversarial

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks that a sampler of directions has the pdf that it returns.
+/// Checks that directions sampled by a BSDF have the pdf that the BSDF returns.
 
 #include "support/chi_square.hpp"
 
@@ -14,20 +14,20 @@
 
 namespace microtrace {
 
-/// A direction in local coordinates, z up; angles in radians.
+/// A direction in local coordinates with z up. Angles are in radians.
 inline Vec3 direction(double theta, double phi = 0.3) {
   return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
 }
 
-/// Cells of equal cos(theta) and phi over the whole sphere, each integrated by fine x fine points.
+/// Divides the sphere into cells of equal extent in cos(theta) and phi. The pdf is integrated over
+/// each cell at fine x fine points.
 struct DirectionGrid {
   int rows, columns, fine, samples;
 };
 
 struct PdfTest {
   double mass;    ///< integral of the pdf
-  double excess;  ///< chi_square_excess of the samples' counts, with rejected samples in a cell of
-                  ///< their own
+  double excess;  ///< chi_square_excess of the sample counts; rejected samples have their own cell
 };
 
 template <class Bsdf>

@@ -16,7 +16,7 @@ std::uint32_t root(double x) {
   return static_cast<std::uint32_t>(std::max(1.0, std::floor(std::sqrt(x) + 0.5)));
 }
 
-/// Waves in several directions, approximately within -1 and 1.
+/// Waves in several directions, with values of about -1 to 1.
 double bumps(const DVec3& p) {
   double sum = 0, size = 0.5, frequency = 3;
   for (int octave = 0; octave < 5; ++octave) {
@@ -29,7 +29,8 @@ double bumps(const DVec3& p) {
   return sum;
 }
 
-/// A grid of columns x rows cells, two triangles each, over point(s, t) with s, t in [0, 1].
+/// Adds a surface of columns x rows cells with two triangles each. point(s, t) gives its points for
+/// s and t in [0, 1].
 template <class Point>
 void add_grid(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Point point) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -46,7 +47,7 @@ void add_grid(Mesh& mesh, std::uint32_t columns, std::uint32_t rows, Point point
   }
 }
 
-/// The parallelogram with this corner and the edges u and v.
+/// Adds the parallelogram with this corner and the edges u and v.
 void add_panel(Mesh& mesh, const DVec3& corner, const DVec3& u, const DVec3& v) {
   add_grid(mesh, 1, 1, [&](double s, double t) { return Vec3(corner + s * u + t * v); });
 }
@@ -60,8 +61,8 @@ void add_box(Mesh& mesh, const DVec3& corner, const DVec3& u, const DVec3& v, co
   add_panel(mesh, corner + v, w, u);
 }
 
-/// A surface of revolution around a vertical axis through base; profile(t) returns radius and
-/// height.
+/// Adds a surface of revolution around the vertical axis through `base`. profile(t) returns its
+/// radius and height.
 template <class Profile>
 void add_lathe(Mesh& mesh, const DVec3& base, std::uint32_t around, std::uint32_t rows,
                Profile profile) {
@@ -85,18 +86,18 @@ struct RadiusHeight {
 
 }  // namespace
 
-// An octahedron, with each face divided into k x k triangles, projected to the sphere.
+// An octahedron whose faces are divided into k x k triangles each, projected to a sphere and
+// displaced.
 Mesh displaced_sphere(std::size_t triangles) {
   const std::uint32_t k = root(static_cast<double>(triangles) / 8);
   Mesh mesh;
-  // One quarter of the surface, as rows of the whole double pyramid: z runs over 0 .. k, x and y
-  // over a square.
+  // Projects the point of the octahedron |x| + |y| + |z| = k to the sphere and displaces it.
   const auto point = [&](std::int64_t x, std::int64_t y, std::int64_t z) {
     const DVec3 p = glm::normalize(DVec3(x, y, z));
     return Vec3(p * (1 + 0.15 * bumps(p)));
   };
-  // Ring r of points has |z| = k - |r - k|. At distance m from a pole it has 4 m points, or one for
-  // m = 0.
+  // Ring r has the points with z = k - r. If it is m rings from the nearer pole, it has 4 m points.
+  // The poles are rings of one point.
   const auto ring_size = [&](std::uint32_t r) {
     const std::uint32_t m = r <= k ? r : 2 * k - r;
     return m == 0 ? 1U : 4 * m;
@@ -156,7 +157,7 @@ Mesh hall(std::size_t triangles) {
       });
       add_moved(mesh, bust, base + DVec3(2, 1.3, 0), 0.3);
       add_box(mesh, base + DVec3(1.7, 0, -0.3), {0.6, 0, 0}, {0, 1, 0}, {0, 0, 0.6});
-      // A beam across the hall, and an oblique cloth.
+      // A beam across the hall, and a slanted cloth.
       add_box(mesh, base + DVec3(0, 7.8, 0), {0.2, 0, 0.1}, {0, 0.3, 0.1}, {2, 1.9, -4.5 * row});
       add_panel(mesh, base + DVec3(0.5, 6.5, 0), {2.9, -1.5, 0.4}, {-0.8, -2.6, 0.5});
     }

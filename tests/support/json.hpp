@@ -1,5 +1,5 @@
 #pragma once
-/// A JSON value for building and editing test input.
+/// JSON values for building and editing test input.
 
 #include <cstddef>
 #include <functional>
@@ -12,8 +12,8 @@
 
 namespace microtrace::tests {
 
-/// Behaves like nlohmann::json as far as tests need it, but without templates, which would take
-/// seconds of compile time in every file.
+/// Offers the part of nlohmann::json's interface that tests need, without templates. Templates
+/// would take seconds of compile time in every file.
 class Json {
  public:
   Json();  // null
@@ -25,7 +25,7 @@ class Json {
   Json(double value);
   Json(const char* value);
   Json(const std::string& value);
-  /// An object if every value is an array of a string and a value, otherwise an array.
+  /// Makes an object if every value is an array of a string and a value. Otherwise makes an array.
   Json(std::initializer_list<Json> values);
   Json(const Json&);
   Json(Json&&) noexcept;
@@ -35,19 +35,19 @@ class Json {
 
   [[nodiscard]] static Json array(std::initializer_list<Json> values = {});
   [[nodiscard]] static Json object();
-  /// An array of equal values.
+  /// An array of `count` equal values.
   [[nodiscard]] static Json repeated(std::size_t count, const Json& value);
-  /// Throws nlohmann's exceptions.
+  /// Throws the same exceptions as nlohmann::json.
   [[nodiscard]] static Json parse(std::string_view text);
 
-  /// The element with this index or key, created as null if absent. References to an object's
-  /// elements stay valid when elements are added.
+  /// The element with this index or key. If it is absent, it is created as null. Adding elements to
+  /// an object does not invalidate references to its elements.
   Json& operator[](std::size_t index);
   Json& operator[](std::string_view key);
   void push_back(const Json& value);
   void erase(std::size_t index);
   void erase(std::string_view key);
-  /// Sets the members of another object.
+  /// Sets the members of another object in this one.
   void update(const Json& other);
   /// Applies a merge patch (RFC 7396).
   void merge_patch(const Json& patch);
@@ -62,7 +62,8 @@ class Json {
   [[nodiscard]] std::size_t to_size() const;
   [[nodiscard]] bool operator==(const Json& other) const;
 
-  /// The JSON text: on one line, or with a line for each value if there is an indentation.
+  /// The JSON text, on one line if `indentation` is negative. Otherwise each value has a line of
+  /// its own.
   [[nodiscard]] std::string dump(int indentation = -1) const;
   friend std::ostream& operator<<(std::ostream& out, const Json& json);
 
@@ -74,7 +75,7 @@ class Json {
   void append_to(std::string& text) const;
 
   Kind kind_ = Kind::scalar;
-  std::string scalar_;  // its JSON text
+  std::string scalar_;  // JSON text of the value
   std::vector<Json> elements_;
   std::map<std::string, Json, std::less<>> members_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Random input of shading kernels, and comparison of their output bit by bit.
+/// Random input for shading kernels, and bitwise comparison of their output.
 
 #include "render/kernels/kernel.hpp"
 #include "simd/vector3.hpp"
@@ -23,7 +23,7 @@ class LaneRandom {
   Vec3 vector() { return {signed_unit(), signed_unit(), signed_unit()}; }
   Vec3 color() { return {number(), number(), number()}; }
   Vec3 direction() { return unit<1>(vector() + Vec3(0, 0, 1e-3F)); }
-  /// A direction above the plane with this normal.
+  /// A random direction on the side of the plane to which its normal n points.
   Vec3 above(const Vec3& n) {
     const Vec3 w = direction();
     return glm::dot(w, n) < 0 ? -w : w;
@@ -33,7 +33,7 @@ class LaneRandom {
   std::mt19937 engine_;
 };
 
-/// Equal bits; NaN equals NaN.
+/// Expects equal bits. All NaNs are equal.
 inline void expect_bits(float a, float b, const char* what) {
   if (std::isnan(a) && std::isnan(b)) return;
   ASSERT_EQ(std::bit_cast<std::uint32_t>(a), std::bit_cast<std::uint32_t>(b))

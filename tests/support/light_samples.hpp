@@ -1,5 +1,5 @@
 #pragma once
-/// Samples lights for single points.
+/// Samples lights for a single shading point.
 
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"
@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// Nothing if the sample has no light.
+/// Samples one light. Returns nothing if the sample carries no light.
 inline std::optional<LightSample> light_sample(const Lighting& lighting,
                                                const LightSampleContext& context, const Vec2& u,
                                                float choice) {
@@ -27,7 +27,8 @@ inline std::optional<LightSample> light_sample(const Lighting& lighting,
   return samples[0];
 }
 
-/// A light of the tree; nothing if no light reaches the point.
+/// A light chosen from the tree, and its probability. chosen_light() returns nothing if no light
+/// reaches the point.
 struct ChosenLight {
   std::size_t light;
   double probability;

@@ -1,5 +1,5 @@
 #pragma once
-/// Small path-traced pictures, and their statistics.
+/// Renders small path-traced pictures and computes their statistics.
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -44,7 +44,7 @@ struct Shot {
   return sum / static_cast<double>(pixels.size());
 }
 
-/// The mean of independent numbers, and its standard deviation.
+/// The mean of independent numbers, and the estimated standard deviation of this mean.
 struct Estimate {
   double mean = 0, deviation = 0;
 
@@ -56,7 +56,7 @@ struct Estimate {
   }
 };
 
-/// The picture's mean green, over `count` pictures with different seeds.
+/// Renders `count` pictures with different seeds. Estimates the mean of their green channel.
 [[nodiscard]] inline Estimate estimate(const Scene& scene, const Camera& camera, Shot shot,
                                        std::uint32_t count) {
   std::vector<double> means;
@@ -67,7 +67,8 @@ struct Estimate {
   return Estimate(means);
 }
 
-/// A parallelogram, seen from the front if the rotation from `along` to `up` is counterclockwise.
+/// A parallelogram. Its front is seen from where the rotation from `along` to `up` is
+/// counterclockwise.
 [[nodiscard]] inline Mesh parallelogram(const Vec3& corner, const Vec3& along, const Vec3& up) {
   return {.positions = {corner, corner + along, corner + along + up, corner + up},
           .triangles = {{{0, 1, 2}}, {{0, 2, 3}}}};

@@ -1,5 +1,5 @@
 #pragma once
-/// Uncompressed PNG files created in memory, so that tests know every pixel.
+/// Writes uncompressed PNG files in memory. Tests thus know every pixel.
 
 #include <cstdint>
 #include <string>
@@ -23,13 +23,13 @@ struct PngPicture {
   std::uint32_t width = 1, height = 1;
   std::uint8_t depth = 8;  ///< bits per sample
   PngColor color = PngColor::rgb_alpha;
-  std::vector<std::string> rows{};        ///< the bytes of each, samples of 16 bits big-endian
+  std::vector<std::string> rows{};  ///< the bytes of each row; samples of 16 bits are big-endian
   std::vector<PngChunk> before_pixels{};  ///< PLTE, tRNS, gAMA and other chunks
 };
 
 [[nodiscard]] std::string png_file(const PngPicture& picture);
 
-/// Eight bits for each of four channels.
+/// A PNG file with four channels of eight bits.
 [[nodiscard]] std::string png_of(std::uint32_t width, std::uint32_t height,
                                  const std::vector<std::uint8_t>& rgba);
 

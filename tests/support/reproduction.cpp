@@ -16,7 +16,7 @@ std::string hexadecimal(const Vec3& v) {
   return std::move(out).str();
 }
 
-/// JSON with decimal numbers that read back as the same float32.
+/// Writes JSON whose decimal numbers are read back as the same float32 numbers.
 class Writer {
  public:
   Writer() { out_ << std::setprecision(std::numeric_limits<float>::max_digits10); }
@@ -67,7 +67,7 @@ std::string object(const Quadric& q) {
          '}';
 }
 
-/// The coordinate axis with the largest angle to v.
+/// The coordinate axis that has the largest angle to v.
 Vec3 across(const Vec3& v) {
   const Vec3 size = glm::abs(v);
   if (size.x <= size.y && size.x <= size.z) return {1, 0, 0};

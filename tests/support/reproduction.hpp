@@ -1,5 +1,5 @@
 #pragma once
-/// Output of failing exactness tests for reproducing the case.
+/// Prints the input of a failed exactness test, from which the failure can be reproduced.
 
 #include <microtrace/ray.hpp>
 #include <microtrace/shape.hpp>
@@ -9,7 +9,7 @@
 
 namespace microtrace::adversarial {
 
-/// The shapes for which src/exact/ finds first hits.
+/// Shapes whose first hit src/exact computes.
 using FirstHitShape = std::variant<Sphere, Plane, Disc, Triangle, Quadric>;
 
 /// The ray's numbers in hexadecimal, and a scene whose only pixel looks along the ray at the shape.

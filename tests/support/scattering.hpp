@@ -1,5 +1,5 @@
 #pragma once
-/// BSDFs at single points: the instances of the BSDF templates with one lane.
+/// Evaluates BSDFs for single points, by the one-lane instances of the BSDF templates.
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/bsdf/parameters.hpp"
@@ -12,7 +12,7 @@
 
 namespace microtrace::bsdf {
 
-/// In local shading coordinates.
+/// The surface with these parameters, in local shading coordinates.
 inline Surface<1> surface_of(const Parameters& parameters, const Layers& layers = {},
                              const Vec3& coat_normal = {0, 0, 1}) {
   SurfaceLanes lanes{};
@@ -35,10 +35,10 @@ std::optional<DirectionSample> sample_of(const Model& model, const Vec2& u, floa
   return DirectionSample{.wi = wi, .weight = e.value / e.pdf, .pdf = e.pdf};
 }
 
-/// A BSDF with the features that the parameters need, as at the vertices of paths.
+/// A BSDF with only those features that the parameters need, as chosen for the vertices of paths.
 class Scattering {
  public:
-  /// wo.z > 0, in local coordinates like all directions.
+  /// All directions are in local coordinates. wo.z must be positive.
   Scattering(const Parameters& parameters, const std::optional<Layers>& layers, const Vec3& wo,
              const Vec3& coat_normal = {0, 0, 1})
       : Scattering(features_of(parameters, layers.value_or(Layers{})),
@@ -47,7 +47,7 @@ class Scattering {
       : coating_(features.layers == LayerSide::none ? nullptr
                                                     : std::make_shared<Coating<1>>(surface)),
         model_(model(features, surface, coating_.get(), wo)) {}
-  /// Without layers.
+  /// A BSDF without layers.
   Scattering(const Parameters& parameters, const Vec3& wo)
       : Scattering(parameters, std::nullopt, wo) {}
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Closed surfaces, and points on and beside them.
+/// Closed surfaces, and points on or near them.
 
 #include "support/adversarial_rays.hpp"
 
@@ -14,15 +14,16 @@ struct SolidCase {
   std::string name;
   Mesh mesh;
   Vec3 center;
-  float size;  ///< the surface is about in the cube center +- size
+  float size;  ///< the surface lies about within center +- size
 };
 
-/// `rounds` random bodies of each kind, tiny, huge, far from the origin, some with another body
-/// within or across; then nested shells, touching cubes, slivers and a tetrahedron.
+/// Returns `rounds` random bodies of each kind. They may be tiny, huge or far from the origin, and
+/// some contain or overlap another body. Nested shells, touching cubes, slivers and a tetrahedron
+/// follow.
 [[nodiscard]] std::vector<SolidCase> solid_cases(Random& random, int rounds);
 
-/// A point on a vertex, on an edge or on a face, as far as float32 allows, a few ulps beside them,
-/// or anywhere about the surface.
+/// A point that is on a vertex, an edge or a face as closely as float32 allows, a few ulps away
+/// from one, or anywhere near the surface.
 [[nodiscard]] Vec3 point_about(Random& random, const SolidCase& solid_case);
 
 }  // namespace microtrace::adversarial

@@ -1,5 +1,5 @@
 #pragma once
-/// The source folder, for tests that read scenes and cases from it.
+/// The source folder, from which tests read scenes and other cases.
 
 #include <filesystem>
 

@@ -25,7 +25,7 @@ bool holds(const Bounds& b, const Vec3& p) {
          p.z <= b.hi.z;
 }
 
-// Contains p up to the rounding of p.
+// True if the box contains p, apart from rounding errors of p.
 bool nearly_holds(const Bounds& b, const DVec3& p, const DVec3& slack) {
   return glm::all(glm::lessThanEqual(DVec3(b.lo) - slack, p)) &&
          glm::all(glm::lessThanEqual(p, DVec3(b.hi) + slack));
@@ -35,7 +35,7 @@ bool holds(const Bounds& b, const Triangle& t) {
   return holds(b, t.a) && holds(b, t.b) && holds(b, t.c);
 }
 
-// Checks the six extreme points of a sphere, rounded toward the box.
+// Checks that the box contains the six extreme points of the sphere.
 bool holds(const Bounds& b, const Sphere& s) {
   for (int k = 0; k < 3; ++k) {
     if (!(double{b.lo[k]} <= double{s.center[k]} - s.radius &&

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks the invariants of a tree.
+/// Checks the invariants of a bounding volume hierarchy.
 
 #include "accel/build/tree.hpp"
 
@@ -12,17 +12,19 @@ namespace microtrace {
 
 enum class Place { nowhere, blocks, others, unbounded };
 
-/// Visits a whole tree and records the first error: a box that does not contain its children or its
-/// primitives' vertices, a node, block or entry visited twice or never, a block that does not match
-/// its triangles, a primitive in two kinds of leaf. A triangle may be in several leaves; then a
-/// lattice of its points must be in their boxes.
+/// Visits a whole tree and records the first error.
+///
+/// Errors are: a box that does not contain its children or its primitives' vertices; a node, block
+/// or entry that is visited twice or never; a block that does not match its triangles; a primitive
+/// in two kinds of leaf. A triangle may be split among several leaves. Each point of a lattice on
+/// it must then be in one of their boxes.
 class TreeWalk {
  public:
   TreeWalk(const Tree& tree, const Primitives& primitives);
 
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  [[nodiscard]] int depth() const { return depth_; }  ///< nodes on the longest path
-  /// Triangles in blocks, counted once per leaf.
+  [[nodiscard]] int depth() const { return depth_; }  ///< number of nodes on the longest path
+  /// The number of triangles in blocks. A triangle counts once per leaf.
   [[nodiscard]] std::size_t triangle_references() const { return triangle_references_; }
   [[nodiscard]] Place place(PrimitiveId id) const {
     return id < places_.size() ? places_[id] : Place::nowhere;
@@ -41,23 +43,22 @@ class TreeWalk {
   int depth_ = 0;
   std::vector<Place> places_;
   std::size_t triangle_references_ = 0;
-  std::map<PrimitiveId, std::vector<Bounds>> pieces_;  // leaves that contain only a part of a
-                                                       // triangle
-  std::unordered_set<PrimitiveId> whole_;              // triangles that some leaf contains
-                                                       // completely
+  std::map<PrimitiveId, std::vector<Bounds>> pieces_;  // boxes of the leaves that clip a triangle
+  std::unordered_set<PrimitiveId> whole_;              // triangles that lie completely in some leaf
   std::vector<bool> nodes_, blocks_, others_;          // visited
 };
 
-/// The expected number of visits of a random line that hits the root's box, by the surface area
-/// heuristic.
+/// The expected numbers of visits by a random line that hits the root's box, according to the
+/// surface area heuristic.
 struct TreeCost {
   double nodes = 0, blocks = 0;
   [[nodiscard]] double total() const { return 0.6 * nodes + blocks; }
 };
 [[nodiscard]] TreeCost cost_of(const Tree& tree);
 
-/// The cost of a simple good tree: splits in halves by count along the longest axis of the
-/// centroids, nodes of three such levels, leaves of eight.
+/// The cost of a simple, good tree. It splits triangles into halves of equal count along the
+/// longest axis of the centroids. Each node has three levels of splits, and each leaf has up to
+/// eight triangles.
 [[nodiscard]] TreeCost cost_of_object_medians(const Mesh& mesh);
 
 }  // namespace microtrace

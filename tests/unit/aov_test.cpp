@@ -35,7 +35,7 @@ const std::vector<std::uint32_t>& ids(const Film& film, const char* name) {
   return channel<std::uint32_t>(film, std::string("id.") + name);
 }
 
-/// The three channels of a vector AOV at a pixel.
+/// The value of a three-channel AOV at a pixel.
 DVec3 triple(const Film& film, const std::string& aov, std::size_t pixel,
              const char* names = "XYZ") {
   DVec3 v;
@@ -68,7 +68,7 @@ TEST(Aov, NamesRoundTrip) {
   EXPECT_EQ(aov_named("color"), std::nullopt);
 }
 
-// A wall at z = -4, seen by a camera at distance 1 behind the origin: depth is 5 everywhere.
+// The wall is at z = -4 and the camera at z = 1, looking along -z, so depth is 5 in every pixel.
 TEST(Aov, DepthOfAWallIsItsDistanceAlongTheView) {
   const PerspectiveCamera camera{.pose = {.position = {0, 0, 1}}};
   for (const Shape& wall :
@@ -131,7 +131,7 @@ TEST(Aov, NormalsOfASphere) {
     EXPECT_NEAR(glm::distance(p, center), 1.5, 1e-6);
     EXPECT_LT(glm::distance(normal, (p - center) / 1.5), 1e-6);
     EXPECT_LT(glm::dot(normal, direction_to(i, camera)), 0);
-    // The point is on the pixel's ray.
+    // The point must lie on the pixel's ray.
     const DVec3 way = p - camera.pose.position;
     EXPECT_LT(glm::length(glm::cross(way, direction_to(i, camera))), 1e-5);
   }
@@ -158,7 +158,7 @@ TEST(Aov, BarycentricsWeighTheCorners) {
   EXPECT_GT(seen, 100);
 }
 
-/// Two adjacent triangles as one mesh with texture coordinates, and a floor behind it.
+/// A mesh of two adjacent triangles with texture coordinates, in front of a floor.
 Scene patchwork() {
   Mesh mesh{.positions = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}},
             .triangles = {{0, 1, 2}, {0, 2, 3}}};
@@ -237,8 +237,8 @@ TEST(Aov, SamplesThreadsAndCropHaveNoEffect) {
   }
 }
 
-// More samples reduce each sample's texture footprint, which moves the edges of alpha masks; exact
-// quantities must not change.
+// More samples make each sample's texture footprint smaller, which moves the edges of alpha masks
+// in the color image. AOVs of exact quantities must not change.
 TEST(Aov, SamplesDoNotChangeCutOuts) {
   Image image{.width = 64, .height = 64, .channels = 4};
   std::vector<std::uint8_t> pixels;
@@ -263,7 +263,7 @@ TEST(Aov, SamplesDoNotChangeCutOuts) {
 
 TEST(AovIntegrator, DrawsTheSameNumbers) {
   Scene scene = patchwork();
-  scene.background = {0.5F, 0.5F, 0.5F};  // must not appear in a picture of exact quantities
+  scene.background = {0.5F, 0.5F, 0.5F};  // must not appear in an AOV picture
   const Film film = drawn(scene, PerspectiveCamera{});
   for (const Aov aov : kAovs) {
     if (aov == Aov::id) continue;
@@ -284,7 +284,7 @@ TEST(AovIntegrator, DrawsTheSameNumbers) {
   }
 }
 
-/// A number as shown in 8-bit formats, before rounding.
+/// The display value of a number before it is rounded to 8 bits.
 float shown(const Display& display, float value) {
   return display.scale.x * value + display.offset.x;
 }

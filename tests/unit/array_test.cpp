@@ -43,7 +43,7 @@ TEST(ArrayTest, OwnsValuesLikeAVector) {
   EXPECT_EQ(copy.back(), Vec3(3, 4, 5));
   const Array<Vec3> moved = std::move(a);
   EXPECT_EQ(moved.size(), 4U);
-  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): as a vector
+  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): empty, like a vector
   EXPECT_FALSE(moved.is_borrowed());
   EXPECT_TRUE(Array<Vec3>().empty());
   EXPECT_EQ(Array<Vec3>(), Array<Vec3>::borrow({}));
@@ -61,7 +61,7 @@ TEST(ArrayTest, BorrowsWithoutCopyingUntilItIsEdited) {
   EXPECT_EQ(a, kPoints);
   Array<Vec3> moved = std::move(a);
   EXPECT_EQ(address(moved), points.data());
-  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): no dangling pointer remains
+  EXPECT_TRUE(a.empty());  // NOLINT(bugprone-use-after-move): must not keep a dangling pointer
   moved.push_back(moved[0]);
   EXPECT_EQ(moved.size(), 5U);
   EXPECT_EQ(points.size(), 4U);
@@ -77,7 +77,7 @@ TEST(ArrayTest, KeepsTheOwnerOfItsMemoryAsLongAsItRefersToIt) {
   EXPECT_TRUE(a.empty());
   EXPECT_EQ(copy, kPoints);
   EXPECT_FALSE(watched.expired());
-  copy.push_back(copy[0]);  // the argument is in the memory that is released
+  copy.push_back(copy[0]);  // the argument lies in the memory that push_back releases
   EXPECT_TRUE(watched.expired());
   EXPECT_EQ(copy.back(), kPoints[0]);
 }

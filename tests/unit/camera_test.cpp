@@ -41,8 +41,8 @@ TEST(PerspectiveCamera, MiddleOfThePictureIsTheViewingDirection) {
 }
 
 TEST(PerspectiveCamera, FractionalCoordinatesFollowTheDerivation) {
-  // d ~ f + x (2 px / W - 1) (W / H) tan + u (1 - 2 py / H) tan, computed by hand for the first
-  // camera.
+  // d ~ f + x (2 px / W - 1) (W / H) tan + u (1 - 2 py / H) tan, evaluated by hand for
+  // first_camera().
   const double tangent = 1 / std::numbers::sqrt3;
   const DVec3 expected = glm::normalize(
       DVec3((2 * 128.5 / 640 - 1) * (640.0 / 480) * tangent, (1 - 2 * 5.5 / 480) * tangent, -1));
@@ -79,7 +79,8 @@ TEST(PerspectiveCamera, WindowWithAspectRatioIsFitted) {
   PerspectiveCamera camera = first_camera();
   camera.aspect_ratio = 2;
   const double half = std::tan(std::numbers::pi / 6);
-  // If the picture is wider than the window, the height fits; if it is narrower, the width.
+  // If the picture is wider than the window, their heights match. If it is narrower, their widths
+  // match.
   const DVec3 wide = RayGenerator(camera, {.width = 400, .height = 100})(200, 0).d;
   EXPECT_NEAR(wide.y / -wide.z, half, 1e-6);
   const DVec3 narrow = RayGenerator(camera, {.width = 100, .height = 100})(0, 50).d;
@@ -122,19 +123,21 @@ constexpr RationalDistortion kRational{
     .k1 = 4.2, .k2 = 1.3, .p1 = -0.001, .p2 = 0.0007, .k3 = 0.05, .k4 = 4.6, .k5 = 2.1, .k6 = 0.3};
 constexpr FisheyeDistortion kWide{.k1 = 0.03, .k2 = -0.008, .k3 = 0.001, .k4 = -0.0001};
 
-/// A direction at the angles `from_axis` and `around` in degrees, x right, y down, z forward.
+/// The direction with polar angle `from_axis` and azimuth `around`, in degrees, in OpenCV's camera
+/// space: x right, y down, z forward.
 DVec3 at_angles(double from_axis, double around) {
   return {sin_degrees(from_axis) * cos_degrees(around),
           sin_degrees(from_axis) * sin_degrees(around), cos_degrees(from_axis)};
 }
 
-/// In the camera space of a camera with the default pose.
+/// Converts a direction in world space to OpenCV's camera space, for a camera with the default
+/// pose.
 DVec3 in_opencv(const Vec3& d) {
   return {d.x, -d.y, -d.z};
 }
 
 TEST(CalibratedCamera, GoldenRaysWithoutDistortion) {
-  // ((x - 0.5 - cx) / fx, (y - 0.5 - cy) / fy, 1)
+  // The direction through (x, y) is ((x - 0.5 - cx) / fx, (y - 0.5 - cy) / fy, 1).
   const RayGenerator ray(CalibratedCamera{.fx = 500, .fy = 400, .cx = 300, .cy = 200}, kSize);
   expect_near(ray(300.5, 200.5).d, {0, 0, -1}, 1e-7);
   expect_near(ray(800.5, 200.5).d, glm::normalize(DVec3(1, 0, -1)), 1e-7);
@@ -142,20 +145,21 @@ TEST(CalibratedCamera, GoldenRaysWithoutDistortion) {
 }
 
 TEST(CalibratedCamera, GoldenRaysOfLenses) {
-  // By hand: the point (0.5, 0.25) of the plane at depth 1 has r^2 = 0.3125, so that its factor is
-  // 1 + 0.1 r^2 - 0.2 r^4 = 1.01171875.
+  // Computed by hand: the point (0.5, 0.25) of the plane at depth 1 has r^2 = 0.3125, which gives
+  // the factor 1 + 0.1 r^2 - 0.2 r^4 = 1.01171875.
   const double factor = 1.01171875;
   CalibratedCamera camera{
       .fx = 400, .fy = 400, .distortion = RationalDistortion{.k1 = 0.1, .k2 = -0.2}};
   RayGenerator ray(camera, kSize);
   expect_near(ray(320 + 200 * factor, 240 + 100 * factor).d, glm::normalize(DVec3(0.5, -0.25, -1)),
               1e-7);
-  // Tangential: x' = 0.5 + 2 p1 x y + p2 (r^2 + 2 x^2), y' = 0.25 + p1 (r^2 + 2 y^2) + 2 p2 x y.
+  // Tangential distortion: x' = 0.5 + 2 p1 x y + p2 (r^2 + 2 x^2),
+  // y' = 0.25 + p1 (r^2 + 2 y^2) + 2 p2 x y.
   camera.distortion = RationalDistortion{.p1 = 0.08, .p2 = 0.16};
   ray = RayGenerator(camera, kSize);
   const double x = 0.5 + 0.08 * 0.25 + 0.16 * 0.8125, y = 0.25 + 0.08 * 0.4375 + 0.16 * 0.25;
   expect_near(ray(320 + 400 * x, 240 + 400 * y).d, glm::normalize(DVec3(0.5, -0.25, -1)), 1e-7);
-  // Fisheye: backward at 120 degrees.
+  // A fisheye lens sees a direction at 120 degrees, which points backward.
   const double a = std::numbers::pi * 2 / 3;
   camera.distortion = FisheyeDistortion{.k1 = 0.01};
   ray = RayGenerator(camera, kSize);
@@ -173,14 +177,15 @@ TEST(CalibratedCamera, WithoutDistortionIsAPerspectiveCamera) {
     for (double x = -3; x < 650; x += 13.7) {
       const Ray r = a(x, y), s = b(x, y);
       EXPECT_EQ(r.o, s.o);
-      expect_near(s.d, DVec3(r.d), 6e-8);  // rounding to float32
+      expect_near(s.d, DVec3(r.d), 6e-8);  // the tolerance covers rounding to float32
       EXPECT_FLOAT_EQ(r.t_min, s.t_min);
       EXPECT_FLOAT_EQ(r.t_max, s.t_max);
     }
   }
 }
 
-/// All distortions that have weak spots: folds inside the picture, poles, tangents, wiggles.
+/// Distortions with and without difficult features: folds inside the picture, poles, tangential
+/// terms and functions that are not monotonic.
 std::vector<Distortion> all_distortions() {
   return {RationalDistortion{},
           kStrong,
@@ -209,14 +214,16 @@ TEST(CalibratedCamera, ProjectsRaysToTheirPixels) {
                             kSize);
     int seen = 0;
     for (int i = 0; i < 2000; ++i) {
-      // Each point that a pixel shows is the point of that pixel's ray.
+      // If a direction projects to a pixel position, the ray through that position must have this
+      // direction.
       const DVec3 d = at_angles(fisheye ? angle(random) : angle(random) / 2, around(random));
       const auto pixel = rays.project({d.x, -d.y, -d.z});
       if (!pixel) continue;
       ++seen;
       const Ray ray = rays(pixel->x, pixel->y);
       ASSERT_GT(ray.t_max, 0) << d.x << " " << d.y << " " << d.z;
-      // Next to a fold, rounding of the pixel moves the ray by its square root.
+      // Near a fold, an error in the pixel position causes a direction error of about its square
+      // root.
       EXPECT_LT(glm::length(in_opencv(ray.d) - d), 1e-6) << d.x << " " << d.y << " " << d.z;
     }
     EXPECT_GT(seen, 300);
@@ -231,7 +238,7 @@ TEST(CalibratedCamera, ProjectsRaysToTheirPixels) {
         ++shown;
         EXPECT_NEAR(glm::length(DVec3(ray.d)), 1, 1e-7);
         const auto pixel = rays.project(DVec3(ray.d));
-        // The rounding of rays may push them over the edge.
+        // Rounding may move the ray's direction beyond the edge of the picture.
         if (pixel) {
           EXPECT_LT(glm::length(*pixel - DVec2(x, y)), 2e-4) << x << " " << y;
         }
@@ -275,7 +282,7 @@ TEST(CalibratedCamera, OtherSizesScaleThePicture) {
 }
 
 TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
-  // r - 0.3 r^3 has its maximum at sqrt(1 / 0.9), 2 / 3 of this.
+  // r - 0.3 r^3 has its maximum at r = sqrt(1 / 0.9). The distorted radius there is 2 / 3 of r.
   const double most = std::sqrt(1 / 0.9) * 2 / 3;
   const RayGenerator rays(CalibratedCamera{.distortion = RationalDistortion{.k1 = -0.3}}, kSize);
   EXPECT_GT(rays(320 + 640 * (most - 1e-9), 240).t_max, 0);
@@ -284,12 +291,12 @@ TEST(CalibratedCamera, HasNoRaysWhereTheLensFolds) {
   EXPECT_FALSE(rays.project({1.06, 0, -1}));
   EXPECT_TRUE(rays.project({1.05, 0, -1}));
   EXPECT_FALSE(rays.project({0.1, 0.1, 1}));
-  // a - 0.2 a^3 has its maximum at sqrt(1 / 0.6) = 74 degrees.
+  // a - 0.2 a^3 has its maximum at a = sqrt(1 / 0.6), which is 74 degrees.
   const RayGenerator fisheye(CalibratedCamera{.distortion = FisheyeDistortion{.k1 = -0.2}}, kSize);
   const double farthest = std::sqrt(1 / 0.6) * 2 / 3;
   EXPECT_GT(fisheye(320 + 640 * (farthest - 1e-9), 240).t_max, 0);
   EXPECT_EQ(fisheye(320 + 640 * (farthest + 1e-9), 240).t_max, -1);
-  // Equidistant: all directions, and nothing beyond.
+  // The equidistant fisheye shows all directions, and no rays exist beyond its image circle.
   const RayGenerator full(CalibratedCamera{.fx = 70, .fy = 70, .distortion = FisheyeDistortion{}},
                           kSize);
   expect_near(full(320 + 70 * std::numbers::pi * (1 - 1e-9), 240).d, {0, 0, 1}, 1e-7);
@@ -309,7 +316,7 @@ TEST(CalibratedCamera, DepthsOfFisheyeCamerasAreNegativeBehind) {
 }
 
 TEST(CalibratedCamera, PoseOfOpenCvExtrinsics) {
-  // World x is the camera's z (forward), world y its x (right), world z its -y (up).
+  // World x is the camera's z (forward), world y is its x (right), and world z is its -y (up).
   DMat4 camera_from_world(0);
   camera_from_world[0] = DVec4(0, 0, 1, 0);
   camera_from_world[1] = DVec4(1, 0, 0, 0);
@@ -362,7 +369,8 @@ TEST(RayGenerator, DifferentialsAreTheStepsToNeighboringPixels) {
     const RayGenerator ray(camera, kSize);
     const Ray here = ray(100, 400);
     const RayDifferential step = ray.differential(here);
-    // Float32 rays: a step of ten pixels in each direction, with a relative tolerance of 1/1000.
+    // Estimates the differentials from rays ten pixels away on each side. The relative tolerance
+    // covers float32 rounding.
     const Ray left = ray(90, 400), right = ray(110, 400), above = ray(100, 390),
               below = ray(100, 410);
     const auto compare = [&](const DVec3& a, const DVec3& b) {

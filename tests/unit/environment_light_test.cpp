@@ -37,7 +37,7 @@ std::shared_ptr<const RadianceMap> map_of(
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// A dim map with a sun of one pixel.
+/// A dim map with a sun that is one pixel wide.
 std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t height) {
   return map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
     if (x == width / 3 && y == height / 4) return Vec3(20000, 18000, 15000);
@@ -45,7 +45,8 @@ std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t 
   });
 }
 
-/// Directions and weights whose sum is 4 pi: the midpoints of a fine grid.
+/// Calls f with directions and solid angles that sum to 4 pi: the cells of a fine grid and their
+/// midpoints.
 template <class F>
 void for_sphere(std::uint32_t rows, F&& f) {
   for (std::uint32_t j = 0; j < rows; ++j) {
@@ -77,7 +78,7 @@ TEST(EnvironmentLight, UniformLightIsEqualInAllDirections) {
   EXPECT_NEAR(glm::length(sum), 0, 1e-3);
 }
 
-// The mapping documented in the header, for directions through the centers of pixels.
+// Checks the mapping documented in the header for directions through pixel centers.
 TEST(EnvironmentLight, UsesTheDocumentedMapping) {
   const std::uint32_t width = 64, height = 32;
   const auto map = map_of(width, height, [](std::uint32_t x, std::uint32_t y) {
@@ -104,7 +105,7 @@ TEST(EnvironmentLight, IsBilinearAcrossTheSeam) {
   const EnvironmentLight light({.content = map});
   EXPECT_NEAR(light.radiance({-1, 0, 0}).x, 2, 1e-5);
   EXPECT_NEAR(light.radiance({-1, 0, -1e-6F}).x, 2, 1e-5);
-  EXPECT_NEAR(light.radiance({0, 1, 0}).x, 0, 1e-5);  // atan2(0, 0) = 0: the middle of the map
+  EXPECT_NEAR(light.radiance({0, 1, 0}).x, 0, 1e-5);  // atan2(0, 0) = 0, the middle of the map
   EXPECT_NEAR(light.radiance({-1, 0, -1}).x, 1, 1e-5);
 }
 
@@ -159,9 +160,9 @@ class Maps : public testing::TestWithParam<int> {
   const EnvironmentLight light{{.content = map, .rotation = kRotation, .intensity = 1.5F}};
 };
 
-// The pdf is bilinear between pixel centers in longitude and angle to the axis, except for the
-// solid angle; at the poles it does not depend on the angle. These midpoints of quarter pixels
-// therefore give the integral exactly.
+// Apart from the solid angle, the pdf is bilinear between pixel centers, in longitude and in the
+// angle to the axis. It is constant along meridians within half a pixel of the poles. The midpoint
+// rule on quarter pixels is therefore exact.
 TEST_P(Maps, PdfIntegratesToOne) {
   double integral = 0;
   const std::uint32_t rows = 2 * map->height, columns = 2 * map->width;
@@ -182,7 +183,7 @@ TEST_P(Maps, PdfIntegratesToOne) {
   EXPECT_NEAR(integral, 1, 2e-5);
 }
 
-// Tolerates the rounding of the direction where the map is steep.
+// The tolerances allow for the rounded direction where the map is steep.
 TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   constexpr std::uint32_t kSamples = 20000;
   float brightest = 0;
@@ -199,8 +200,8 @@ TEST_P(Maps, SamplesHaveTheRadianceAndPdfOfTheirDirection) {
   EXPECT_LE(moved, kSamples / 200);
 }
 
-// Radiance / pdf changes little within a sun and around it, so no direction has much more weight
-// than others: compares the minimum and the maximum of samples in the sun.
+// Radiance / pdf is nearly constant in and near the sun, so no direction has a much larger weight
+// than others. Compares the minimum and the maximum over samples in the sun.
 TEST(EnvironmentLight, SamplesOfASunHaveEqualWeights) {
   const EnvironmentLight light({.content = sunny_map(64, 32)});
   float least = HUGE_VALF, most = 0;
@@ -214,8 +215,8 @@ TEST(EnvironmentLight, SamplesOfASunHaveEqualWeights) {
   EXPECT_LT(most, 1.2F * least);
 }
 
-// Pearson's chi-square test of the counts in cells of equal solid angle against the integral of the
-// pdf.
+// Compares the number of samples in each cell of equal solid angle with the integral of the pdf, by
+// Pearson's chi-square test.
 TEST_P(Maps, SamplesFollowThePdf) {
   constexpr std::size_t kRows = 8, kColumns = 16, kSamples = 100000;
   const auto cell = [](const Vec3& d) {
@@ -275,7 +276,7 @@ TEST_P(Maps, EstimatesTheIntegral) {
 
 INSTANTIATE_TEST_SUITE_P(All, Maps, testing::Range(0, 6));
 
-// Even if one pixel has nearly all light, the others must keep a probability above 0.
+// If one pixel emits nearly all light, the others must still have a positive probability.
 TEST(EnvironmentLight, SamplesDimLightBesideASun) {
   const std::uint32_t width = 512, height = 256;
   const auto map = map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
@@ -316,7 +317,7 @@ TEST(Studio, IsGrayAndSymmetric) {
   });
 }
 
-// The values for white surfaces in docs/light.md.
+// Checks the exposures of white surfaces that docs/light.md states.
 TEST(Studio, ExposesWhite) {
   const EnvironmentLight light({.content = Studio{}});
   const auto shown = [&](const Vec3& n) {

@@ -7,7 +7,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// FNV-1a hash of the numbers' bits.
+/// FNV-1a hash of the bits of float32 numbers.
 class Hash {
  public:
   void add(float x) { state_ = (state_ ^ std::bit_cast<std::uint32_t>(x)) * 0x100000001b3u; }

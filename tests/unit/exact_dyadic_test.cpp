@@ -15,7 +15,7 @@ int sign(Int128 x) {
   return x < 0 ? -1 : x > 0;
 }
 
-/// x as a Dyadic, from its digits of 40 bits.
+/// Converts x to a Dyadic in digits of 40 bits.
 Dyadic dyadic(Int128 x) {
   const Int128 magnitude = x < 0 ? -x : x;
   Dyadic sum;
@@ -28,7 +28,7 @@ Dyadic dyadic(Int128 x) {
 
 TEST(Dyadic, AgreesWithInt128) {
   adversarial::Random random(1);
-  const auto integer = [&] {  // at most 62 bits, sometimes few
+  const auto integer = [&] {  // at most 62 bits, sometimes only a few
     const Int128 high = random.bits(), low = random.bits();
     const Int128 x = (high << 30 | low >> 2) >> random.between(0, 61);
     return random.one_in(2) ? x : -x;
@@ -50,7 +50,7 @@ TEST(Dyadic, IsExactForEveryKindOfFloat) {
     EXPECT_EQ(compare(Dyadic(x), Dyadic(double{x})), 0) << x;
     EXPECT_EQ(Dyadic(x).sign(), x < 0 ? -1 : x > 0) << x;
   }
-  // 2^149 times the least float32 is one.
+  // 2^149 times the smallest float32 is one.
   EXPECT_EQ(compare(Dyadic(least) * Dyadic(0x1p149), Dyadic(1.0f)), 0);
   EXPECT_EQ(compare(Dyadic(0x1p-1074) * Dyadic(0x1p1023) * Dyadic(0x1p51), Dyadic(1.0f)), 0);
 }
@@ -78,8 +78,8 @@ TEST(Dyadic, OrdinaryNumbersStayShort) {
   EXPECT_EQ(Dyadic(0x1p-128f).limbs().size(), 1u);
 }
 
-/// The largest form in a comparison of roots, with all bits set: 2^37 - 1 times the 24th power of
-/// float32's whole range of bits.
+/// The largest expression in a comparison of roots, with all bits set: 2^37 - 1 times the 24th
+/// power of a number that spans all bits of float32.
 TEST(Dyadic, HoldsTheLargestForm) {
   const Dyadic x = Dyadic(0x1p128) - Dyadic(std::numeric_limits<float>::denorm_min());
   const Dyadic x2 = square(x), x4 = square(x2), x8 = square(x4), x12 = x8 * x4;

@@ -1,5 +1,5 @@
-// Every answer of Grid must equal that of Dyadic, and Grid must have an answer for coordinates of a
-// scene.
+// Every result of Grid must equal that of Dyadic, and Grid must decide most cases with coordinates
+// that occur in scenes.
 
 #include "exact/grid.hpp"
 #include "exact/implicit.hpp"
@@ -70,7 +70,7 @@ TEST_P(GridKinds, HitsEqualDyadic) {
     if (const auto root = first_hit(triangle, ray))
       check(triangle, with_range_near(random_, ray, round_to_float(*root)));
   }
-  // Rays in the plane of the triangle may start inside it.
+  // Grid leaves a ray in the triangle's plane undecided if it may enter the triangle before t_min.
   if (is_of_a_scene()) {
     EXPECT_GT(known, asked * 2 / 3);
   }
@@ -112,8 +112,8 @@ TEST_P(GridKinds, QueriesOfOtherTrianglesEqualDyadic) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
     const auto root = first_hit(triangle, ray);
     if (!root) continue;
-    // Another triangle of the same kind, or one with vertices of the first, so that planes and
-    // edges contain the point.
+    // The other triangle is of the same kind. It may share vertices with the first one, so that its
+    // plane and edges contain the hit point.
     Triangle other = triangle_case(random_, GetParam()).shape;
     if (random_.one_in(2)) other.a = triangle.b;
     if (random_.one_in(3)) other.b = triangle.a;
@@ -127,7 +127,7 @@ TEST_P(GridKinds, QueriesOfOtherTrianglesEqualDyadic) {
   }
 }
 
-// The combination of all stages always has a result, and always the same one.
+// The combination of all stages must always decide, and must always give the exact result.
 TEST_P(GridKinds, HitsCombineAllStages) {
   for (int i = 0; i < kCases; ++i) {
     const auto [ray, triangle] = triangle_case(random_, GetParam());
@@ -158,7 +158,7 @@ TEST(Grid, RefusesUnrepresentableCoordinates) {
   EXPECT_EQ(GridHit<2>(held, ray).found(), Found::hit);
 }
 
-// A midpoint between two float32 numbers, also as t: ties go to even.
+// Ties between two float32 numbers must be rounded to even, both in hit points and in t.
 TEST(Grid, RoundsMidpointsToEven) {
   const Triangle wall{{-8, -8, 3}, {8, -8, 3}, {0, 8, 3}};
   // x = 1 + 2^-24 (3 - 2^-24): just below the midpoint of 1 + 2^-23 and 1 + 2^-22.

@@ -9,7 +9,7 @@
 namespace microtrace::exact {
 namespace {
 
-/// x as a Dyadic, limb by limb.
+/// Converts x to a Dyadic, limb by limb.
 template <int Limbs>
 Dyadic dyadic(const Integer<Limbs>& x) {
   const Integer<Limbs> size = x.is_negative() ? -x : x;
@@ -24,7 +24,7 @@ Dyadic dyadic(const Integer<Limbs>& x) {
   return x.is_negative() ? -sum : sum;
 }
 
-/// Numbers of up to 2^120 in magnitude, with runs of ones and zeros, which cause long carries.
+/// Random numbers of up to 2^120 in magnitude. Runs of ones and zeros cause long carries.
 class Numbers {
  public:
   Integer<2> operator()() {
@@ -72,7 +72,7 @@ TEST(Integer, SumsAndProductsEqualDyadic) {
   }
 }
 
-// The largest forms of Grid, for maximum coordinates, must not overflow.
+// The largest expressions of Grid, evaluated at the maximum coordinates, must not overflow.
 TEST(Integer, HoldsTheLargestForms) {
   const auto most = Integer<2>::shifted(false, (std::uint64_t{1} << 56U) - 1, 64);  // < 2^120
   const auto difference = most - -most;

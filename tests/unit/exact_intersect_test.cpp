@@ -1,4 +1,4 @@
-/// The rules of docs/exactness.md, one by one, for numbers that are easy to check by hand.
+/// Tests the rules of docs/exactness.md one by one, with numbers that are easy to check by hand.
 
 #include "exact/intersect.hpp"
 #include "support/counterexamples.hpp"
@@ -17,7 +17,7 @@ Ray ray(const Vec3& o, const Vec3& d, float t_min = 0, float t_max = kInfinity) 
   return {.o = o, .t_min = t_min, .d = d, .t_max = t_max};
 }
 
-/// True if the first hit is at exactly t.
+/// True if the first hit is exactly at t.
 template <class Shape>
 ::testing::AssertionResult hits_at(float t, const Shape& shape, const Ray& ray) {
   const auto hit = first_hit(shape, ray);
@@ -65,9 +65,9 @@ TEST(Exact, CoplanarRayHitsTriangleWhereItEnters) {
   EXPECT_TRUE(hits_at(0.5f, triangle, ray({1, 1, 0}, {1, 0, 0}, 0.5f)));
   EXPECT_TRUE(hits_at(1, triangle, ray({-1, 0, 0}, {1, 0, 0})));       // along an edge
   EXPECT_TRUE(hits_at(4, triangle, ray({8, -4, 0}, {-1, 1, 0})));      // through one vertex
-  EXPECT_TRUE(misses(triangle, ray({-2, -1, 0}, {1, 0, 0})));          // beside
-  EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {-1, 0, 0})));          // pointing away
-  EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {1, 0, 0}, 0, 1.5f)));  // too short
+  EXPECT_TRUE(misses(triangle, ray({-2, -1, 0}, {1, 0, 0})));          // beside the triangle
+  EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {-1, 0, 0})));          // pointing away from it
+  EXPECT_TRUE(misses(triangle, ray({-2, 1, 0}, {1, 0, 0}, 0, 1.5f)));  // t_max lies before it
 }
 
 TEST(Exact, DegenerateTriangleIsItsSegmentOrPoint) {
@@ -101,7 +101,7 @@ TEST(Exact, Disc) {
   EXPECT_TRUE(hits_at(7, disc, ray({-7, 1, 5}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(0, disc, ray({0, 1, 0}, {1, 0, 0})));
   EXPECT_TRUE(misses(disc, ray({6, 1, 0}, {1, 0, 0})));
-  EXPECT_TRUE(misses(disc, ray({-7, 2, 0}, {1, 0, 0})));  // parallel to the plane, not in it
+  EXPECT_TRUE(misses(disc, ray({-7, 2, 0}, {1, 0, 0})));  // parallel to the plane, but not in it
   EXPECT_TRUE(misses(disc, ray({-7, 1, 0x1.400002p2f}, {1, 0, 0})));
   EXPECT_TRUE(hits_at(1, Disc{{0, 1, 0}, {0, 1, 0}, 0}, ray({0, 2, 0}, {0, -1, 0})));
   EXPECT_TRUE(misses(Disc{{0, 1, 0}, {0, 1, 0}, -1}, ray({0, 2, 0}, {0, -1, 0})));
@@ -139,7 +139,7 @@ TEST(Exact, QuadricWithVanishingCoefficients) {
   EXPECT_TRUE(hits_at(5, paraboloid, ray({1, 2, 0}, {0, 0, 1})));
   const Quadric cone{.a = 1, .b = 1, .c = -1};
   EXPECT_TRUE(hits_at(0.5f, cone, ray({-1, 0, 0}, {1, 0, 1}, 0.25f)));
-  EXPECT_TRUE(hits_at(0.75f, cone, ray({3, 4, 5}, {3, 4, 5}, 0.75f)));  // a generator
+  EXPECT_TRUE(hits_at(0.75f, cone, ray({3, 4, 5}, {3, 4, 5}, 0.75f)));  // along a ruling line
   const Quadric cylinder{.a = 1, .b = 1, .j = -1};
   EXPECT_TRUE(hits_at(0, cylinder, ray({0, 1, 0}, {0, 0, 1})));
   EXPECT_TRUE(misses(cylinder, ray({0, 2, 0}, {0, 0, 1})));

@@ -1,4 +1,4 @@
-/// Laws that hold for all rays and shapes.
+/// Checks laws that hold for all rays and shapes.
 
 #include "exact/intersect.hpp"
 #include "support/adversarial_rays.hpp"
@@ -23,7 +23,7 @@ constexpr std::array kKindsWithin2To60 = {TriangleKind::unit,     TriangleKind::
                                           TriangleKind::sliver,   TriangleKind::far_from_zero,
                                           TriangleKind::coplanar, TriangleKind::degenerate};
 
-/// Both miss, or both hit at the same t.
+/// True if both miss, or if both hit at the same t.
 ::testing::AssertionResult same(const std::optional<Root>& x, const std::optional<Root>& y) {
   if (x.has_value() != y.has_value()) {
     return ::testing::AssertionFailure() << "one hits, one misses";
@@ -98,7 +98,7 @@ TEST(ExactLaws, HitsOfATriangleLieInItsPlane) {
   int hits = 0;
   for (int i = 0; i < 20000; ++i) {
     const auto [ray, t] = adversarial::triangle_case(random, TriangleKind::grid);
-    const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);  // exact on the grid
+    const Vec3 normal = glm::cross(t.b - t.a, t.c - t.a);  // exact for grid coordinates
     const auto hit = first_hit(t, ray);
     if (!hit || normal == Vec3(0) || glm::dot(normal, ray.d) == 0) continue;
     ++hits;
@@ -143,7 +143,7 @@ TEST(ExactLaws, PlaneIsItsQuadric) {
   }
 }
 
-/// True if the point at t lies in the plane.
+/// True if the ray's point at t lies in the plane.
 bool is_in_plane_at(float t, const Plane& plane, Ray ray) {
   ray.t_min = ray.t_max = t;
   return first_hit(plane, ray).has_value();

@@ -35,8 +35,8 @@ TEST(Root, OrdersIrrationals) {
   EXPECT_GT(sqrt2, number(1.41421356237309492));
   EXPECT_LT(sqrt2, number(1.41421356237309515));
   EXPECT_LT(root(3, -1, 2, 1), root(3, 1, 2, 1));
-  // Compares sqrt(2) + sqrt(3) with sqrt(10) in the form 3 - sqrt(2) and 3 - sqrt(10) + sqrt(3),
-  // and similar cases.
+  // Compares sqrt(2) + sqrt(3) with sqrt(10), and similar sums. Rearranged, each side is a root: 3
+  // - sqrt(2) and 3 - sqrt(10) + sqrt(3).
   EXPECT_LT(root(-1, 1, 3, 1), root(0, 1, 2, 1));
   EXPECT_GT(root(-1, -1, 2, 1), root(-1, -1, 3, 1));
   EXPECT_LT(root(1, -1, 3, 2), root(5, -1, 17, 2));
@@ -98,7 +98,7 @@ TEST(Root, RoundsAsConversionFromDoubleDoes) {
 TEST(Root, RoundsAtTheEndsOfFloat) {
   constexpr float largest = std::numeric_limits<float>::max();
   constexpr float least = std::numeric_limits<float>::denorm_min();
-  const double middle = 0x1p128 - 0x1p103;  // between the largest float and 2^128
+  const double middle = 0x1p128 - 0x1p103;  // halfway between the largest float and 2^128
   EXPECT_EQ(round_to_float(number(middle)), std::numeric_limits<float>::infinity());
   EXPECT_EQ(round_to_float(number(-middle)), -std::numeric_limits<float>::infinity());
   EXPECT_EQ(round_to_float(number(std::nextafter(middle, 0.0))), largest);

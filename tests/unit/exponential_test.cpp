@@ -8,7 +8,7 @@
 namespace microtrace {
 namespace {
 
-// The C library's long double functions have 11 more bits: an independent reference.
+// The reference comes from the C library's long double functions, which have 11 more bits.
 double units_in_last_place(double value, long double exact) {
   const double near = std::abs(static_cast<double>(exact));
   const double ulp = std::nextafter(near, HUGE_VAL) - near;

@@ -38,7 +38,7 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
   EXPECT_EQ(sum_of({0x1p-64, -0x1p-64}), Sum{});
   EXPECT_EQ(sum_of({1, -0x1p-64}).words, (std::array<std::uint64_t, 2>{~std::uint64_t{0}, 0}));
   EXPECT_EQ(sum_of({1, -0x1p-64, 0x1p-64}).words, (std::array<std::uint64_t, 2>{0, 1}));
-  EXPECT_EQ(sum_of({-1, 0x1p-64}).value(), -1);  // -(1 - 2^-64), rounded
+  EXPECT_EQ(sum_of({-1, 0x1p-64}).value(), -1);  // -(1 - 2^-64), rounded to -1
   FixedSum<3, 80> wide;
   wide.add(0x1p100);
   wide.add(-0x1p-80);
@@ -48,7 +48,7 @@ TEST(FixedSum, CarriesAndBorrowsAcrossWords) {
   EXPECT_EQ(wide.value(), 0x1p100);
 }
 
-// Covers both ways of adding terms: near 1 and far from it.
+// The terms reach 2^62, so both code paths of add() are covered: below and above 2^30.
 TEST(FixedSum, TermsAreTruncatedToMultiplesOfTheUnit) {
   __extension__ using Wide = __int128;
   std::mt19937_64 random(2);
@@ -94,7 +94,7 @@ TEST(FixedSum, OrderAndGroupingHaveNoEffect) {
     left += right;
     EXPECT_EQ(left, sum);
   }
-  // The sum in double must depend on the order; otherwise the test would be meaningless.
+  // Summed as doubles, the terms must depend on the order. Otherwise the test would prove nothing.
   double forth = 0, back = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     forth += terms[i];

@@ -7,8 +7,8 @@ namespace {
 
 constexpr Vec3 kBackground{0.5F, 0.25F, 1};
 
-/// Squares at z = -1, -2, ... in front of the only pixel, in order of creation, with vertices
-/// counterclockwise as seen from the camera.
+/// Squares at z = -1, -2, ... in order of creation, in front of the camera's only pixel. Their
+/// vertices are counterclockwise as seen from the camera.
 struct Stack {
   Scene scene;
   float z = 0;
@@ -84,8 +84,8 @@ TEST(Flat, BlendedSurfacesInOnePlaneAllCount) {
 }
 
 TEST(Flat, SharedEdgesAreOneSurface) {
-  // The pixel's ray passes through the diagonal of each square. The two sides of a wedge count as
-  // two layers.
+  // The pixel's ray passes through each square's diagonal, which counts as one layer. The two sides
+  // of a wedge count as two layers.
   Stack stack;
   Mesh& mesh = stack.add(blend({1, 0, 0, 0.5F}));
   EXPECT_EQ(stack.pixel(), Vec3(0.5F, 0, 0) + 0.5F * kBackground);

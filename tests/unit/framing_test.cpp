@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kEdge = 0.96;
 
-/// Extent of projected points, in a picture with edges at -1 and 1; uses the standard library's
-/// trigonometry.
+/// The extent of projected points in a picture whose edges are at -1 and 1. The projection uses the
+/// standard library's trigonometry.
 struct Extent {
   double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
-  double nearest = 1e300;  ///< depth
+  double nearest = 1e300;  ///< smallest depth of a point
 };
 
 Extent seen(const std::vector<DVec3>& points, const PerspectiveCamera& camera, ImageSize size) {
@@ -41,7 +41,7 @@ Extent seen(const std::vector<DVec3>& points, const PerspectiveCamera& camera, I
   return extent;
 }
 
-/// All points are inside, and one axis is filled from edge to edge.
+/// Checks that all points are inside the picture and fill one axis from edge to edge.
 void expect_tight(const Extent& e, double tolerance = 1e-6) {
   const double limit = kEdge + tolerance;
   EXPECT_GT(e.nearest, 0);
@@ -86,7 +86,8 @@ TEST(Framing, RandomPointsFillOneAxis) {
     const View view{.azimuth = 400 * angle(random), .elevation = 90 * angle(random)};
     const PerspectiveCamera camera = frame(cloud(points), view, picture);
     const Extent extent = seen(widened(points), camera, picture);
-    // For deep and narrow clouds the camera's minimum distance applies instead.
+    // For deep and narrow clouds, the minimum distance of the camera determines its position
+    // instead.
     DVec3 low(1e300), high(-1e300);
     for (const Vec3& p : points) {
       low = glm::min(low, DVec3(p));
@@ -106,7 +107,7 @@ TEST(Framing, AnyAngleIsFilled) {
     const PerspectiveCamera camera = frame(cloud(points), {.vertical_fov = degrees}, size);
     EXPECT_NEAR(camera.vertical_fov, degrees * std::numbers::pi / 180, 1e-14);
     const Extent extent = seen(widened(points), camera, size);
-    // For wide angles the camera's minimum distance applies instead.
+    // For wide angles, the minimum distance of the camera determines its position instead.
     if (degrees < 100) expect_tight(extent);
     EXPECT_GT(extent.nearest, 0);
   }
@@ -135,7 +136,7 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   const DVec3 center(3, -2, 5);
-  // The same ball as three shapes, and as points on its surface.
+  // The same ball as three shapes, and as a cloud of points on its surface.
   const Sphere sphere{.center = center, .radius = 2};
   const Quadric quadric{.a = 1, .b = 1, .c = 1, .g = -6, .h = 4, .i = -10, .j = 9 + 4 + 25 - 4};
   const Quadric negative{.a = -2, .b = -2, .c = -2, .g = 12, .h = -8, .i = 20, .j = -68};
@@ -152,7 +153,8 @@ TEST(Framing, RoundShapesAreFramedByTheirOutlines) {
     const double half = std::atan(kEdge * std::tan(std::numbers::pi / 8));
     EXPECT_NEAR(glm::distance(camera.pose.position, center), 2 / std::sin(half), 1e-6);
   }
-  // x^2 + xy + y^2 + 4 z^2 = 1 translated to the center; points p with p^T A p = 1.
+  // The quadric x^2 + xy + y^2 + 4 z^2 = 1 translated to `middle`. Relative to `middle`, its points
+  // satisfy p^T A p = 1.
   const Quadric tilted{.a = 1, .b = 1, .c = 4, .d = 1, .g = -4, .h = 1, .i = -40, .j = 105.5F};
   const glm::dmat3 matrix(1, 0.5, 0, 0.5, 1, 0, 0, 0, 4);
   const DVec3 middle(3, -2, 5);

@@ -1,5 +1,5 @@
-// Compares the kernels that sample lights for every instruction set of this machine, bit by bit,
-// with the instance of one lane.
+// Compares the light sampling kernels of every instruction set of this machine bit by bit with the
+// one-lane instance.
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/dispatch.hpp"
 #include "render/kernels/lane_access.hpp"

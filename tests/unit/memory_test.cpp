@@ -66,7 +66,7 @@ TEST(MemoryAccount, CountsNothingWithoutABudget) {
   EXPECT_THROW(take_memory(11, "c"), Error);
 }
 
-/// A folder that acts as the root of a file system.
+/// A temporary folder that stands for the root of the file system.
 class FreeMemory : public ::testing::Test {
  protected:
   FreeMemory() {
@@ -111,7 +111,7 @@ TEST_F(FreeMemory, RespectsGroupsOfVersion1) {
   EXPECT_EQ(free_memory(root_), 500U);
 }
 
-/// A ball with as many materials as textures; all textures share one image.
+/// A ball with `count` materials and `count` textures that all share one image.
 Scene textured(std::size_t count) {
   Scene scene;
   const Image image{

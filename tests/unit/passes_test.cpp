@@ -13,7 +13,7 @@
 namespace microtrace {
 namespace {
 
-/// Returns values that depend only on the sample's id, of very different magnitudes: their
+/// Returns values that depend only on the sample's id. Their magnitudes differ so much that a
 /// floating-point sum would depend on the order.
 class NoiseIntegrator final : public Integrator {
  public:
@@ -66,7 +66,8 @@ TEST(Passes, SeedChangesTheNoise) {
   EXPECT_NE(one.row(0)[0], other.row(0)[0]);
 }
 
-// Several machines compute the shards in any order, and one resumes from their checkpoints.
+// Simulates machines that compute shards in any order, and one that resumes from the merged
+// checkpoints.
 TEST(Passes, PartsAddUpToTheWhole) {
   const Film whole = drawn({.samples = 50, .transparent = true});
   std::vector<SampleSums> parts;

@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The four-term Blackman-Harris window, 3 pixels wide, at t pixels from its center; its integral
-/// is 1.
+/// The four-term Blackman-Harris window, 3 pixels wide and normalized, at t pixels from its center.
 double density(double t) {
   if (std::abs(t) > 1.5) return 0;
   const double x = 2 * kPi * t / 3;
@@ -36,7 +35,8 @@ TEST(PixelFilter, BlackmanHarrisMapsToItsWholeWidth) {
   }
 }
 
-// Between the positions of u and u + 1/n is 1/n of the weight, by Simpson's rule.
+// Integrates the window by Simpson's rule: each of n equal intervals of u must contain 1/n of the
+// weight.
 TEST(PixelFilter, EqualIntervalsHaveEqualWeight) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 64;
@@ -53,8 +53,8 @@ TEST(PixelFilter, EqualIntervalsHaveEqualWeight) {
   }
 }
 
-// The second moment of the window in closed form: 1/12 + (-a1 + a2/4 - a3/9) / (2 pi^2 a0) times
-// its width squared.
+// The closed form of the window's second moment is 1/12 + (-a1 + a2/4 - a3/9) / (2 pi^2 a0) times
+// the square of its width.
 TEST(PixelFilter, VarianceEqualsTheWindows) {
   const FilterSampler filter(PixelFilter::blackman_harris);
   constexpr int n = 100000;

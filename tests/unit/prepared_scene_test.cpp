@@ -1,4 +1,4 @@
-// A prepared scene gives the same pictures and query results as the scene.
+// Checks that a prepared scene gives the same pictures and query results as the scene itself.
 
 #include "render/prepared/content.hpp"
 #include "support/generated_meshes.hpp"
@@ -84,8 +84,8 @@ RenderOptions lit(const PathIntegrator& path) {
 
 TEST(PreparedScene, DrawsTheSamePictures) {
   const PathIntegrator path({.max_depth = 4});
-  // The last two cameras see the scene near the origin, for path tracing, by the same or by
-  // different translations.
+  // Path tracing translates the scene to the origin for the last two shifts, by a translation that
+  // depends on the camera.
   for (const Vec3& shift : {Vec3(0), Vec3(4096, 0, -8192), Vec3(1e6F, 0, 0)}) {
     const Scene scene = furnished(shift);
     const PreparedScene prepared(scene);
@@ -133,7 +133,7 @@ TEST(PreparedScene, SharesTablesWithTheNextFrame) {
   (void)render(first, camera, kSize, lit(path));
   const auto tables = first.content().tables()->of(*scene.environment);
 
-  std::get<Sphere>(scene.objects[1].shape).center.y = 2;  // the next pose
+  std::get<Sphere>(scene.objects[1].shape).center.y = 2;  // the next pose of the scene
   const PreparedScene second(scene, {.tables = first.tables()});
   EXPECT_EQ(second.content().tables()->of(*scene.environment), tables);
   expect_same(render(second, camera, kSize, lit(path)), render(scene, camera, kSize, lit(path)));
@@ -249,13 +249,13 @@ TEST(PreparedScene, OwnsItsScene) {
     return PreparedScene(first);
   }();
   expect_same(render(copy, camera, kSize), expected);
-  // Types that borrow a scene don't accept temporaries.
+  // Types that keep a reference to the scene must not accept temporaries.
   static_assert(!std::is_constructible_v<Bvh, Scene>);
   static_assert(!std::is_constructible_v<Primitives, Scene>);
   static_assert(std::is_constructible_v<Bvh, const Scene&>);
 }
 
-/// Both functions must refuse the scene, with this pointer.
+/// Checks that both functions refuse the scene with an error at this pointer.
 void expect_refused(const Scene& scene, const char* pointer) {
   const auto expect = [&](const auto& f) {
     try {
@@ -313,7 +313,7 @@ TEST(Validate, RefusesNumbersThatAreNotFinite) {
   Scene scene = furnished();
   std::get<Mesh>(scene.objects[0].shape).positions.edit()[3].y = std::nanf("");
   EXPECT_THROW(validate(scene), Error);
-  // Harmless, because these triangles are empty.
+  // Rendering accepts the triangles that use this vertex, because it treats them as empty.
   EXPECT_NO_THROW((void)render(scene, views_of(scene)[0], kSize));
   scene = furnished();
   scene.cameras.push_back({.name = "", .camera = PerspectiveCamera{.vertical_fov = 4}});

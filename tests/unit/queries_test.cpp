@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// Vertices are not shared between faces, as in glTF.
+// A cube whose faces don't share vertices, as in glTF.
 Mesh cube(const Vec3& lo, float edge) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -67,7 +67,8 @@ TEST(Queries, ReturnRaggedHits) {
   EXPECT_THAT(all.offsets, ElementsAre(0, 5, 5, 8));
   std::vector<PrimitiveId> ids;
   for (const Hit& hit : all.of(0)) ids.push_back(hit.id);
-  // Both cubes, the sphere, and both cubes again: the duplicates are in the order of their numbers.
+  // The ray crosses both cubes, the sphere, and both cubes again. Hits at equal t are ordered by
+  // primitive number.
   EXPECT_THAT(ids, ElementsAre(12, 24, 0, 10, 22));
   std::vector<std::uint32_t> counts(3);
   count_crossings(scene, rays, counts);
@@ -77,9 +78,9 @@ TEST(Queries, ReturnRaggedHits) {
 TEST(Queries, CountEachTriangleAtAnEdge) {
   const PreparedScene scene(scene_of({cube(Vec3(0), 1)}));
   const std::vector<Ray> rays{{.o = {0.5F, 0.5F, 2}},     // through the diagonals of two faces
-                              {.o = {1, 0.25F, 2}},       // along a face, through two edges
+                              {.o = {1, 0.25F, 2}},       // within a face, through two edges
                               {.o = {1, 1, 2}},           // along an edge
-                              {.o = {0.25F, 0.25F, 1}}};  // from a face, without the origin
+                              {.o = {0.25F, 0.25F, 1}}};  // starts on a face, which does not count
   std::vector<std::uint32_t> counts(rays.size());
   count_crossings(scene, rays, counts);
   EXPECT_THAT(counts, ElementsAre(4, testing::Ge(4U), testing::Ge(6U), testing::Ge(1U)));
@@ -88,7 +89,7 @@ TEST(Queries, CountEachTriangleAtAnEdge) {
 TEST(Solid, IsClosedIfVerticesAreEqual) {
   EXPECT_TRUE(Solid{PreparedScene(scene_of({cube(Vec3(1, 2, 3), 0.1F)}))}.is_closed());
   EXPECT_TRUE(Solid{PreparedScene(Scene{})}.is_closed());
-  // Two cubes with a common face, and -0 beside 0.
+  // Two cubes that touch in a common face. Their vertices have both 0 and -0.
   EXPECT_TRUE((
       Solid{PreparedScene(scene_of({cube(Vec3(0), 1), cube({-1, -0.0F, -0.0F}, 1)}))}.is_closed()));
 }
@@ -105,7 +106,7 @@ TEST(Solid, TellsOpenEdges) {
   for (const OpenEdge& edge : edges) {
     EXPECT_EQ(edge.count, 1U);
     EXPECT_LE(edge.side, 2U);
-    // The last triangle is in the plane z = 2.
+    // The triangle that was removed lies in the plane z = 2.
     EXPECT_EQ(edge.a.z, 2);
     EXPECT_EQ(edge.b.z, 2);
     EXPECT_GE(edge.a.x, 100);
@@ -123,7 +124,7 @@ TEST(Solid, IgnoresTrianglesThatAreNotFinite) {
 }
 
 TEST(Solid, LocatesByParity) {
-  // A cavity, in which another cube is.
+  // Nested cubes: a solid with a cavity that contains another cube.
   const Solid solid{PreparedScene(
       scene_of({cube(Vec3(0), 9), cube(Vec3(1), 7), cube(Vec3(2), 5), Sphere{Vec3(20), 3}}))};
   EXPECT_EQ(locate(solid, Vec3(-1)), Location::outside);
@@ -144,7 +145,7 @@ TEST(Solid, CanBeOneObject) {
   const PreparedScene scene(
       scene_of({cube(Vec3(0), 4), Plane{}, cube(Vec3(0), 4), cube(Vec3(2), 4)}));
   const Solid all(scene), second(scene, 2), third(scene, 3), plane(scene, 1);
-  // The first two have the same triangles, which cancel each other.
+  // The two equal cubes cancel each other.
   EXPECT_EQ(locate(all, Vec3(1)), Location::outside);
   EXPECT_EQ(locate(second, Vec3(1)), Location::inside);
   EXPECT_EQ(locate(third, Vec3(1)), Location::outside);
@@ -174,7 +175,8 @@ TEST(Solid, FindsNearestPoints) {
 }
 
 TEST(Solid, FindsTheLowestOfEquallyNearTriangles) {
-  // Beside a corner where five triangles meet, an edge, and a face of which there are three.
+  // The query points are near a corner of five triangles, an edge, and a face that occurs three
+  // times.
   const Solid solid{
       PreparedScene(scene_of({cube(Vec3(0), 1), cube(Vec3(0), 1), cube(Vec3(0), 1)}))};
   EXPECT_EQ(nearest(solid, {-1, -1, -1})->id, 0U);
@@ -253,7 +255,7 @@ TEST(Queries, CanBeCanceled) {
   EXPECT_EQ(calls, 1);
 }
 
-// One ray through a hundred thousand triangles that only exact arithmetic puts in order.
+// The ray hits a hundred thousand triangles that can be ordered only by exact arithmetic.
 TEST(Queries, CanBeCanceledWithinOneRay) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 100'000; ++i) {

@@ -28,7 +28,7 @@ namespace {
 constexpr ImageSize kSize{.width = 43, .height = 27};
 constexpr std::uint32_t kGuard = 0xDEADBEEF;
 
-/// A square facing +z with normals and texture coordinates, of n x n x 2 triangles.
+/// A bumpy square of n x n x 2 triangles that faces +z, with normals and texture coordinates.
 Mesh bumpy_square(const Vec3& center, float half, std::uint32_t n) {
   Mesh mesh;
   mesh.uv_sets.emplace_back();
@@ -61,7 +61,7 @@ std::shared_ptr<const Image> noisy_image() {
   return std::make_shared<const Image>(image);
 }
 
-/// All kinds of shapes and of materials that decide whether a surface is visible.
+/// A scene with all kinds of shapes, and with every material property that affects visibility.
 Scene everything() {
   Scene scene;
   scene.images.push_back(noisy_image());
@@ -82,7 +82,7 @@ Scene everything() {
   Mesh back = bumpy_square({0.75F, 0.5F, -2}, 0.4F, 3);
   for (auto& triangle : back.triangles.edit()) std::swap(triangle[0], triangle[1]);
   add(back, 1);  // culled
-  add(back, 0);  // the same triangles, seen from behind
+  add(back, 0);  // the same triangles, double-sided and seen from behind
   add(bumpy_square({0, 0, -5}, 4, 9), 3);
   add(bumpy_square({1.5F, -1, -4}, 1, 4), 1);
   add(Sphere{{-1, -1, -4}, 0.5F}, 1);
@@ -91,7 +91,7 @@ Scene everything() {
   add(Disc{{-1.25F, 1, -3}, {1, 2, -3}, 0.5F}, 0);
   add(Disc{{-1.25F, -0.25F, -3}, {1, 2, -3}, 0.5F}, 1);  // culled
   add(Triangle{{0.5F, -1, -1.5F}, {1, -1, -1.5F}, {0.75F, -0.5F, -1.5F}});
-  add(Triangle{{0, 0, -1}, {0.25F, 0.25F, -1}, {0.5F, 0.5F, -1}}, 0);  // a segment
+  add(Triangle{{0, 0, -1}, {0.25F, 0.25F, -1}, {0.5F, 0.5F, -1}}, 0);  // degenerate: a segment
   Mesh edge_on{.positions = {{0, 0, -1}, {0, 0, -2}, {0, 0.5F, -2}, {0, 0, -1}},
                .triangles = {{0, 1, 2}, {0, 0, 0}, {0, 3, 2}}};
   edge_on.normals = {{0, 0, 1}, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}};
@@ -116,7 +116,7 @@ Scene far_away() {
   return scene;
 }
 
-/// Culled walls around the camera, and nothing else but distant triangles.
+/// A scene with a single, culled wall.
 Scene all_culled() {
   Scene scene;
   scene.materials.push_back({});
@@ -141,7 +141,7 @@ std::vector<Camera> cameras() {
                            .distortion = RationalDistortion{.k1 = -0.3}}};
 }
 
-/// The quantities as floats or bits of integers, pixel by pixel, computed ray by ray.
+/// Computes AOVs ray by ray, as the bits of floats or integers.
 class Reference {
  public:
   Reference(const PreparedScene& scene, const Camera& camera)
@@ -205,7 +205,7 @@ class Reference {
   RayGenerator camera_;
 };
 
-/// Memory for a quantity with these strides, with guards in between and around.
+/// A buffer for an AOV with these strides. Guard values fill the gaps and both ends.
 class Memory {
  public:
   Memory(Aov aov, ImageSize size, std::ptrdiff_t row, std::ptrdiff_t pixel, std::ptrdiff_t channel)
@@ -235,7 +235,8 @@ class Memory {
     return result;
   }
 
-  /// Takes the value, so that only guards remain.
+  /// Returns the value and replaces it by a guard. After all values are taken, only guards may
+  /// remain.
   [[nodiscard]] std::uint32_t take(std::uint32_t x, std::uint32_t y, std::size_t channel) {
     return std::exchange(
         bits_[static_cast<std::size_t>(first_ + static_cast<std::ptrdiff_t>(y) * row_ +

@@ -21,7 +21,7 @@ namespace {
 
 constexpr Vec3 kNear{1, 0, 0}, kFar{0, 0, 1}, kBackground{0, 1, 0};
 
-// The only pixel looks along -z at discs at distances 4 and 6.
+// Renders one pixel that looks along -z at two discs, at the distances 4 and 6.
 Vec3 pixel(float epsilon, const PerspectiveCamera& camera = {}) {
   Scene scene;
   scene.background = kBackground;
@@ -87,8 +87,8 @@ TEST(Render, StopsIfProgressReturnsFalse) {
 }
 
 TEST(Render, PixelsWithoutRaysAreBlackOrTransparent) {
-  // A fisheye camera in a white sphere, in the light of an environment: the image circle has a
-  // radius of 10 pi pixels.
+  // A fisheye camera inside an emissive sphere, and an environment. The image circle has a radius
+  // of 10 pi pixels.
   Scene scene;
   scene.background = Vec3(0.5F);
   scene.environment = Environment{.content = Vec3(0.25F), .is_background = true};
@@ -128,7 +128,7 @@ TEST(Render, PixelsWithoutRaysAreBlackOrTransparent) {
           if (transparent) {
             EXPECT_EQ(flat.alpha_at(x, y), shows ? 1 : 0);
           }
-          if (std::abs(distance) < 1) continue;  // path tracing has random positions in the pixel
+          if (std::abs(distance) < 1) continue;  // path tracing jitters positions within the pixel
           EXPECT_EQ(lit.at(x, y) == Vec3(0), outside) << x << " " << y;
           if (transparent) {
             EXPECT_EQ(lit.alpha_at(x, y), outside ? 0 : 1);

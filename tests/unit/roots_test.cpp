@@ -8,7 +8,7 @@
 namespace microtrace {
 namespace {
 
-/// factor + ... times (1 - x / root).
+/// The polynomial with coefficients c, constant term first, multiplied by (1 - x / root).
 std::vector<double> with_root(const std::vector<double>& c, double root) {
   std::vector<double> product(c.size() + 1);
   for (std::size_t i = 0; i < c.size(); ++i) {
@@ -39,14 +39,14 @@ TEST(LeastPositiveRoot, IsInfiniteWithoutRoots) {
   EXPECT_EQ(least_positive_root({1}), HUGE_VAL);
   EXPECT_EQ(least_positive_root({1, 2, 3}), HUGE_VAL);
   EXPECT_EQ(least_positive_root({1, -1, 1}), HUGE_VAL);         // complex roots
-  EXPECT_EQ(least_positive_root({1, -2, 1 + 1e-9}), HUGE_VAL);  // nearly touches 0 at 1
+  EXPECT_EQ(least_positive_root({1, -2, 1 + 1e-9}), HUGE_VAL);  // nearly touches zero at x = 1
   EXPECT_EQ(least_positive_root({1, 0, 0, 0}), HUGE_VAL);
 }
 
 TEST(LeastPositiveRoot, OfTinyAndHugeRoots) {
   EXPECT_NEAR(least_positive_root({1, -1e-6}), 1e6, 1e-2);
   EXPECT_NEAR(least_positive_root({1, -1e6}), 1e-6, 1e-14);
-  EXPECT_EQ(least_positive_root({1, -1e30}), 0);  // a lower bound
+  EXPECT_EQ(least_positive_root({1, -1e30}), 0);  // the lower bound underflows to 0
   EXPECT_NEAR(least_positive_root({1, 0, -4}), 0.5, 1e-14);
 }
 
@@ -58,7 +58,7 @@ TEST(SolveIncreasing, SolvesToRounding) {
     const double x = solve_increasing(cube, y, 0, 1e6);
     EXPECT_NEAR((x + x * x * x) / y, 1, 1e-15) << y;
   }
-  // Flat at the end.
+  // The slope of this function is 0 at the end of the interval.
   const auto fold = [](double x) {
     return ValueAndSlope{.value = x - x * x * x / 3, .slope = 1 - x * x};
   };

@@ -27,7 +27,8 @@ TEST(PixelSum, NoSamplesAreBlackAndTransparent) {
   EXPECT_EQ(sum.variance(kBlack), 0);
 }
 
-// The mean of n values that are 0 or v has the estimated variance v^2 p (1 - p) / (n - 1).
+// If a fraction p of n values is v and the rest is 0, the estimated variance of their mean is v^2 p
+// (1 - p) / (n - 1).
 TEST(PixelSum, VarianceIsTheVarianceOfTheMean) {
   for (const float v : {1e-6F, 1.0F, 1e9F}) {
     PixelSum sum;

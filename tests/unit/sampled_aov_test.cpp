@@ -12,7 +12,7 @@
 namespace microtrace {
 namespace {
 
-/// Returns 0, 2, 0, 2, ... by sample.
+/// Returns 0 for samples with even numbers and 2 for odd ones.
 class AlternatingIntegrator final : public Integrator {
  public:
   void trace(const World& /*world*/, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
@@ -25,8 +25,8 @@ class AlternatingIntegrator final : public Integrator {
 
 constexpr ImageSize kSize{.width = 20, .height = 20};
 
-/// The half plane x < 0.33, seen by an orthographic camera whose picture is [-1, 1] x [-1, 1]: its
-/// edge is within the pixels of column 13, of which it covers 0.3.
+/// Renders the half plane x < 0.33 with an orthographic camera that shows [-1, 1] x [-1, 1]. Its
+/// edge lies in pixel column 13 and covers 0.3 of each pixel.
 Film drawn(RenderOptions options) {
   Scene scene;
   scene.background = Vec3(1);

@@ -31,7 +31,8 @@ TEST(SamplePattern, EachRowAndColumnHasOneSample) {
   }
 }
 
-// Any elementary interval of area 1/16 contains one of 16 points (a (0, 4, 2)-net in base 2).
+// Sixteen points must form a (0, 4, 2)-net in base 2: every elementary interval of area 1/16
+// contains exactly one.
 TEST(SamplePattern, PowersOfTwoAreNets) {
   const auto pattern = sample_pattern(16);
   for (int columns = 1; columns <= 16; columns *= 2) {
@@ -47,8 +48,7 @@ TEST(SamplePattern, PowersOfTwoAreNets) {
 
 constexpr Vec3 kWhite{1}, kBlue{0, 0, 1};
 
-/// The half plane x < edge, white, seen by an orthographic camera whose picture is [-1, 1] x [-1,
-/// 1].
+/// A white half plane x < edge. The camera of drawn() shows [-1, 1] x [-1, 1].
 Scene half_plane(float edge) {
   Scene scene;
   scene.background = kBlue;
@@ -65,23 +65,23 @@ Film drawn(const Scene& scene, const RenderOptions& options, ImageSize size = kS
 
 TEST(Antialiasing, EdgesHaveFractionalCoverage) {
   for (const std::uint32_t n : {1U, 2U, 4U, 9U, 16U, 50U, 256U, 1000U}) {
-    // The edge is in the third tenth of the pixels of column 13.
+    // The half plane covers 0.3 of each pixel in column 13.
     Film film = drawn(half_plane(0.3F + 0.03F), {.threads = 2, .samples = n});
     const double share = (film.at(13, 5).x + film.at(13, 14).x) / 2;
     EXPECT_NEAR(share, 0.3, 0.5 / n + 1e-3) << n;
-    EXPECT_EQ(film.at(12, 7), kWhite) << n;  // equal samples give exactly their color
+    EXPECT_EQ(film.at(12, 7), kWhite) << n;  // equal samples have exactly their color as mean
     EXPECT_EQ(film.at(14, 7), kBlue) << n;
     EXPECT_EQ(film.at(13, 7).z, 1) << n;
   }
 }
 
-// The filter's weight left of an edge, for an edge in the middle of a pixel and half a pixel beside
-// it.
+// Compares pixels near an edge with the filter's weight on the white side. The edge passes through
+// the center of column 13.
 TEST(Antialiasing, FilterBlursAnEdgeByItsWeight) {
   Film film = drawn(half_plane(0.35F), {.samples = 256, .filter = PixelFilter::blackman_harris});
   EXPECT_NEAR(film.at(13, 5).x, 0.5, 0.01);
-  // At one pixel: 1/2 + t + (a1 sin(2 pi t) + a2/2 sin(4 pi t) + a3/3 sin(6 pi t)) / (2 pi a0),
-  // t = 1/3.
+  // For an edge one pixel from the center: 1/2 + t + (a1 sin(2 pi t) + a2/2 sin(4 pi t) + a3/3
+  // sin(6 pi t)) / (2 pi a0) with t = 1/3.
   EXPECT_NEAR(film.at(12, 5).x, 0.9934, 0.004);
   EXPECT_NEAR(film.at(14, 5).x, 0.0066, 0.004);
   EXPECT_EQ(film.at(11, 5), kWhite);
@@ -144,7 +144,7 @@ TEST(RenderOptions, OutOfRangeAreUsageErrors) {
   }
 }
 
-/// Returns values that depend only on the ray, with half coverage.
+/// Returns colors that depend only on the ray, and a coverage of one half.
 class DirectionIntegrator final : public Integrator {
  public:
   void trace(const World&, std::span<const Ray> rays, std::span<const SampleId>,

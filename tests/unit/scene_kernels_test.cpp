@@ -40,7 +40,7 @@ void expect_surface(const SurfaceBatch& batch, std::size_t i, const SurfaceInter
 TEST(SceneKernels, FindTheSurfacesOfSingleHits) {
   adversarial::Random random(5);
   for (const adversarial::SceneKind kind : adversarial::kSceneKinds) {
-    if (kind == adversarial::SceneKind::any_size) continue;  // numbers that are not finite
+    if (kind == adversarial::SceneKind::any_size) continue;  // contains numbers that are not finite
     SCOPED_TRACE(adversarial::name(kind));
     Scene scene = adversarial::random_scene(random, kind);
     for (Object& object : scene.objects) {
@@ -90,7 +90,7 @@ TEST(SceneKernels, MakeTheRaysOfSinglePixels) {
   std::mt19937 engine(7);
   const auto number = [&] { return static_cast<double>(engine()) / 0x1p31 - 1; };
   for (int round = 0; round < 200; ++round) {
-    const bool is_aligned = round % 4 == 0;  // zeros with both signs
+    const bool is_aligned = round % 4 == 0;  // gives zeros of both signs
     const DepthRange depth =
         round % 3 == 0 ? DepthRange{} : DepthRange{.near = 1 + number(), .far = 3 + number()};
     const PerspectiveCamera camera{

@@ -22,7 +22,7 @@ using Segment = std::array<std::uint32_t, 2>;
 
 constexpr ImageSize kSize{.width = 60, .height = 40};
 
-/// World units are pixels; (0, 0) is the picture's lower left corner.
+/// A camera for which a world unit is a pixel and (0, 0) is the picture's lower left corner.
 const Camera kPixels = OrthographicCamera{.pose = {.position = {30, 20, 100}}, .height = 40};
 const Camera kPerspective =
     PerspectiveCamera{.pose = {.position = {0, 0, 5}}, .vertical_fov = 1, .depth = {.near = 0.1}};
@@ -36,7 +36,7 @@ Scene scene_of(std::vector<Vec3> positions, std::vector<Segment> segments) {
   return scene;
 }
 
-/// Column (from the left) and row (from below) of the covered pixels.
+/// The covered pixels, as column from the left and row from the bottom.
 std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize size = kSize) {
   Film film = render(scene, camera, size, {.threads = 1});
   std::vector<Pixel> result;
@@ -76,7 +76,7 @@ TEST(Segments, PointsCoverTheirPixel) {
   for (const float x : {7.0F, 7.25F, 7.5F, 7.75F}) {
     for (const float y : {9.0F, 9.25F, 9.5F, 9.75F}) {
       const Scene scene = scene_of({Vec3(x, y, 0)}, {{0, 0}});
-      // A line on the border between pixels covers the right and the lower one.
+      // A point on the border between two pixels covers the right or the lower one.
       const Pixel expected(7, y == 9 ? 8 : 9);
       EXPECT_THAT(drawn(scene, kPixels), ElementsAre(expected)) << x << " " << y;
     }
@@ -133,7 +133,7 @@ TEST(Segments, PerspectiveLinesAreConnectedNearAndFar) {
 }
 
 TEST(Segments, LinesAreClippedAtTheCamera) {
-  // From the picture's center to the right edge, and on to behind the camera.
+  // The line leads from the picture's center to its right edge and continues behind the camera.
   const std::vector<Pixel> pixels = line(Vec3(0, 0, 0), Vec3(6, 0, 10), kPerspective);
   EXPECT_TRUE(is_connected(pixels));
   EXPECT_EQ(pixels.front().first, 30);
@@ -155,7 +155,8 @@ TEST(Segments, EnvironmentCamerasSeeAllDirections) {
     const Vec3 b = anywhere();
     EXPECT_GE(line(a, b, kEnvironment).size(), 1U) << i;
   }
-  // A quarter of the horizon, in front and slightly to the right.
+  // The line spans a quarter of the horizon, from straight ahead to the right and slightly above
+  // the camera.
   const std::vector<Pixel> quarter =
       drawn(scene_of({Vec3(0, 0.05F, -1), Vec3(1, 0.05F, 0)}, {{0, 1}}), kEnvironment,
             {.width = 60, .height = 30});
@@ -246,7 +247,7 @@ TEST(Segments, EachTakesTwoTriangles) {
   EXPECT_TRUE(std::isnan(mesh.positions[4].x));  // behind the camera
   EXPECT_EQ(mesh.uv_sets[0][8], Vec2(0));
   EXPECT_EQ(mesh.uv_sets[0][10], Vec2(1));
-  // The last line is clipped at the camera's near plane, 4.9 of 9 along it.
+  // The near plane clips the last line at 4.9 / 9 of its length.
   EXPECT_NEAR(mesh.uv_sets[0][15].x, 4 * 4.9 / 9, 1e-5);
   EXPECT_NEAR(mesh.colors[15].w, 4.9 / 9, 1e-5);
 }

@@ -1,5 +1,5 @@
-// Compares the shading kernels of every instruction set of this machine, bit by bit, with the
-// instance of one lane.
+// Compares the shading kernels of every instruction set of this machine bit by bit with the
+// one-lane instance.
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/vertex_queue.hpp"
 #include "render/kernels/dispatch.hpp"
@@ -66,7 +66,7 @@ TEST_P(ShadingKernelsTest, PointsHaveTheBitsOfOneLane) {
 }
 
 TEST_P(ShadingKernelsTest, UncertainPointsAreMarked) {
-  HitLanes lanes{};  // no triangle has an area
+  HitLanes lanes{};  // all triangles are degenerate
   for (float& t : lanes.t) t = 1;
   GetParam()->find_points(lanes);
   for (const float sure : lanes.is_sure) EXPECT_EQ(sure, 0);
@@ -117,7 +117,7 @@ void put_any_surface(SurfaceLanes& lanes, int i, LaneRandom& random) {
   put(lanes.along, i, random.vector());
   lanes.film_share[i] = factor();
   lanes.film_ior[i] = 1 + random.number();
-  // Some thicknesses are beyond the range of the fast reduction of angles.
+  // Some film thicknesses exceed the range of the fast argument reduction.
   lanes.film_thickness[i] = random.number() < 0.1F ? 1e12F : 1000 * random.number();
   put(lanes.sheen, i, random.number() < 0.2F ? Vec3(0) : random.color());
   lanes.sheen_roughness[i] = random.number();

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Three objects with names that JSON must escape; the film shows the first and the last.
+/// Three objects whose names need JSON escapes. The film shows the first and the last.
 Scene odd_scene() {
   Scene scene;
   scene.objects.push_back({.name = "a \"quoted\" \\ name\n", .shape = Sphere{{1, 2, 3}, 0.5F}});
@@ -54,7 +54,7 @@ TEST(Sidecar, DescribesObjectsAndTheirPixels) {
   EXPECT_TRUE(objects[1]["world_box"].is_null());
   EXPECT_EQ(objects[2]["name"], "Größe/網");
   EXPECT_EQ(objects[2]["box"], json({10, 21, 11, 22}));
-  // The stored float32 numbers must appear exactly.
+  // The float32 numbers must be written without loss.
   EXPECT_EQ(objects[2]["world_box"]["max"], json({0.0, static_cast<double>(0.1F), 2.0}));
   EXPECT_EQ(sidecar["materials"], json::array({{{"id", 1}, {"name", "\tgold"}}}));
 }
@@ -101,14 +101,14 @@ TEST(Sidecar, CamerasByHand) {
       .vertical_fov = 2 * std::atan(0.5),
       .depth = {.near = 0.5, .far = std::numeric_limits<double>::infinity()}};
   const json c = json::parse(describe_picture(Scene{}, camera, film, ""))["camera"];
-  // The camera looks along -x: right is -z, up is y, backward is x.
+  // The camera looks along -x, so its right is -z, its up is y, and its backward is x.
   const double expected[4][4] = {{0, 0, 1, 1}, {0, 1, 0, 2}, {-1, 0, 0, 3}, {0, 0, 0, 1}};
   for (std::size_t row = 0; row < 4; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
       EXPECT_NEAR(c["world_from_camera"][row][column].get<double>(), expected[row][column], 1e-15);
     }
   }
-  EXPECT_NEAR(c["fx"].get<double>(), 50, 1e-12);  // 25 pixels at slope 1/2
+  EXPECT_NEAR(c["fx"].get<double>(), 50, 1e-12);  // 25 pixels at a slope of 1/2
   EXPECT_EQ(c["fx"], c["fy"]);
   EXPECT_EQ(c["cx"], 50);
   EXPECT_EQ(c["cy"], 25);

@@ -17,8 +17,8 @@ std::vector<Vec2> points(std::uint32_t count, std::uint32_t pair, std::uint32_t 
   return result;
 }
 
-// I. Sobol's definition of a (0, m, 2)-net: every elementary interval of area 2^-m contains one
-// point.
+// Checks I. Sobol's definition of a (0, m, 2)-net: every elementary interval of area 2^-m contains
+// exactly one point.
 TEST(Sobol, EveryPairIsANetInBaseTwo) {
   constexpr std::uint32_t bits = 8, count = 1U << bits;
   for (std::uint32_t pair = 0; pair < 20; ++pair) {
@@ -43,8 +43,8 @@ TEST(Sobol, NumbersLieInTheHalfOpenUnitInterval) {
   }
 }
 
-// The means of products of two pairs' numbers: 1/4 if they are independent. The standard deviation
-// of one product is sqrt(7) / 12.
+// Estimates the mean product of two numbers from different pairs, which is 1/4 if they are
+// independent. One product has the standard deviation sqrt(7) / 12.
 TEST(Sobol, PairsAreIndependent) {
   constexpr std::uint32_t count = 1024, pixels = 64;
   for (std::uint32_t other = 1; other < 8; ++other) {

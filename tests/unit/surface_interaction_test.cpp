@@ -25,7 +25,7 @@ SurfaceInteraction meet(Shape shape, const Ray& ray) {
   Scene scene;
   scene.objects.push_back({.name = "one", .shape = std::move(shape)});
   SurfaceInteraction result = meet(scene, ray);
-  if (result.triangle) result.triangle->mesh = nullptr;  // the scene's lifetime ends here
+  if (result.triangle) result.triangle->mesh = nullptr;  // the scene is destroyed on return
   return result;
 }
 
@@ -120,7 +120,7 @@ TEST(SurfaceInteraction, PlaneAndDiscFaceAlongTheirNormals) {
 }
 
 TEST(SurfaceInteraction, QuadricFacesWhereItsPolynomialGrows) {
-  // x^2 + 2 y^2 + xy + z - 5 = 0, seen from above.
+  // The quadric x^2 + 2 y^2 + xy + z - 5 = 0, seen from above.
   const Quadric quadric{.a = 1, .b = 2, .d = 1, .i = 1, .j = -5};
   const SurfaceInteraction met = meet(quadric, {.o = {0.3F, 0.7F, 20}, .d = {0, 0, -2}});
   const double x = 0.3F, y = 0.7F;
@@ -130,7 +130,7 @@ TEST(SurfaceInteraction, QuadricFacesWhereItsPolynomialGrows) {
 }
 
 TEST(SurfaceInteraction, QuadricOfASphereAgreesWithTheSphere) {
-  // |p - (1, 2, 3)|^2 = 4
+  // The sphere |p - (1, 2, 3)|^2 = 4.
   const Quadric quadric{.a = 1, .b = 1, .c = 1, .g = -2, .h = -4, .i = -6, .j = 10};
   const Ray ray{.o = {4.3F, 6.1F, 9.7F}, .d = {-0.31F, -0.42F, -0.63F}};
   const SurfaceInteraction a = meet(quadric, ray), b = meet(Sphere{{1, 2, 3}, 2}, ray);

@@ -14,7 +14,8 @@
 namespace microtrace {
 namespace {
 
-/// Values with guards around; taken values become guards.
+/// An output array with guards between and around the values. take() returns a value and replaces
+/// it by a guard.
 template <class T>
 class Values {
  public:
@@ -52,7 +53,7 @@ class Values {
   std::size_t size_ = 0;
 };
 
-/// Equal bits; any NaN equals any other.
+/// True if both values have the same bits or both are NaN.
 template <class T>
 bool is_same(T a, T b) {
   if constexpr (std::is_floating_point_v<T>)
@@ -115,7 +116,7 @@ void compare(const PreparedScene& scene, const std::vector<Ray>& rays, const Lay
               object.has_only_guards() && primitive.has_only_guards());
 }
 
-/// Normals, some of them zero, and texture coordinates for some of the meshes.
+/// Adds normals, some of them zero, and texture coordinates to some of the meshes.
 void add_attributes(adversarial::Random& random, Scene& scene) {
   for (Object& object : scene.objects) {
     auto* mesh = std::get_if<Mesh>(&object.shape);

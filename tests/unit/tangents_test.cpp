@@ -20,13 +20,13 @@ using testing::IsEmpty;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Position, normal and texture coordinates at each (x, y) of [0, 1]^2.
+/// Functions that give the position, normal and texture coordinates at each (x, y) of [0, 1]^2.
 struct Sheet {
   std::function<Vec3(double, double)> position, normal;
   std::function<Vec2(double, double)> uv;
 };
 
-/// A grid of 2 * columns * rows triangles whose fronts have x to the right and y up.
+/// A grid of 2 * columns * rows triangles. Seen from the front, x points right and y points up.
 Mesh grid(const Sheet& sheet, std::uint32_t columns, std::uint32_t rows) {
   Mesh mesh;
   mesh.uv_sets.resize(1);
@@ -85,12 +85,12 @@ TEST(Tangents, MirroredCoordinatesFlipTheHandedness) {
 }
 
 TEST(Tangents, ShearedCoordinatesGiveTheDerivativeByU) {
-  // u = x + y / 2, v = -2 y: for fixed v, u increases along x.
+  // With u = x + y / 2 and v = -2 y, u increases along x where v is constant.
   const auto sheared = [](double x, double y) { return Vec2(x + y / 2, -2 * y); };
   for (const Vec4& t : tangents_of(grid(with_uv(kPlane, sheared), 3, 3))) {
     expect_near(t, {1, 0, 0, 1});
   }
-  // u = y, v = x: a reflection about the diagonal.
+  // Swaps u and v: a reflection about the diagonal.
   const auto swapped = [](double x, double y) { return Vec2(y, x); };
   for (const Vec4& t : tangents_of(grid(with_uv(kPlane, swapped), 3, 3))) {
     expect_near(t, {0, 1, 0, 1});
@@ -115,21 +115,19 @@ TEST(Tangents, PointEastOnASphere) {
 }
 
 TEST(Tangents, WeightTrianglesByAngle) {
-  // A ridge along y. At its middle the left slope has a right angle, and so has the right slope,
-  // which consists of two triangles. The normal points up, so both tangents are horizontal and do
-  // not cancel.
+  // Two triangles share an edge. At vertex 0 the first one has an angle of 90 degrees, the second
+  // one of 45 degrees.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 1, 0}};
   mesh.normals.assign(4, {0, 0, 1});
-  // The u of the first triangle increases along x, that of the second is rotated by 90 degrees at
-  // the shared vertices.
+  // u increases along x in the first triangle and along -x in the second one.
   mesh.uv_sets = {{{0, 0}, {1, 0}, {0, -1}, {1, -1}}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
   const std::vector<Vec4> corners = corner_tangents({.positions = mesh.positions,
                                                      .normals = mesh.normals,
                                                      .uv = mesh.uv_sets[0],
                                                      .triangles = mesh.triangles});
-  // The second triangle is mirrored, so they don't share tangents.
+  // The second triangle is mirrored, so the two don't share tangents.
   expect_near(corners[0], {1, 0, 0, 1});
   expect_near(corners[3], {-1, 0, 0, -1});
   mesh.uv_sets = {{{0, 0}, {1, 0}, {0, -1}, {-1, -2}}};
@@ -137,8 +135,8 @@ TEST(Tangents, WeightTrianglesByAngle) {
                                                     .normals = mesh.normals,
                                                     .uv = mesh.uv_sets[0],
                                                     .triangles = mesh.triangles});
-  // The columns e and f of d p / d (u, v) of the second triangle satisfy -f = (0, 1) and -e - 2 f =
-  // (-1, 1): e = (1, 1), f = (0, -1).
+  // For the second triangle, let e and f be the columns of d p / d (u, v). They satisfy -f = (0, 1)
+  // and -e - 2 f = (-1, 1), so e = (1, 1) and f = (0, -1).
   const double half = std::sqrt(0.5);
   const DVec3 sum = (kPi / 2) * DVec3(1, 0, 0) + (kPi / 4) * DVec3(half, half, 0);
   expect_near(shared[0], Vec4(Vec3(sum / std::sqrt(glm::dot(sum, sum))), 1));
@@ -178,8 +176,8 @@ TEST(Tangents, SplitVerticesBetweenMirroredTriangles) {
 
 TEST(Tangents, TrianglesWithoutTextureAreaUseTheirNeighbors) {
   Mesh mesh = grid(kPlane, 2, 1);
-  // The right half maps to one point of the image, so its left vertices have the tangents of the
-  // left half.
+  // The right half maps to a line in the image, so its left vertices take the tangents of the left
+  // half.
   for (const std::size_t i : {1U, 2U, 4U, 5U}) mesh.uv_sets[0].edit()[i].x = 0.5F;
   const Array<Vec4> tangents = tangents_of(mesh);
   ASSERT_EQ(tangents.size(), 6U);
@@ -214,7 +212,7 @@ TEST(Tangents, TrianglesWithoutAreaUseTheirVertices) {
 }
 
 TEST(Tangents, OppositeDirectionsAroundAVertexDoNotCancel) {
-  // Four triangles around a vertex with the same v, whose u increases around the vertex.
+  // Four triangles share a vertex and have equal v there. Their u increases around the vertex.
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 0}};
   mesh.normals.assign(6, {0, 0, 1});
@@ -227,7 +225,7 @@ TEST(Tangents, OppositeDirectionsAroundAVertexDoNotCancel) {
 }
 
 TEST(Tangents, WithoutNormalsTrianglesAreFlat) {
-  // A roof: two slopes of 45 degrees that meet along the y axis.
+  // A roof of two 45-degree slopes that meet in a ridge along the y axis.
   Mesh mesh;
   mesh.positions = {{-1, 0, 0}, {0, 0, 1}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 1}, {1, 1, 0}};
   mesh.uv_sets = {{{0, 1}, {0.5, 1}, {1, 1}, {0, 0}, {0.5, 0}, {1, 0}}};
@@ -243,7 +241,7 @@ TEST(Tangents, WithoutNormalsTrianglesAreFlat) {
   }
 }
 
-/// The tangents of a bumpy sheet with a fold, by corner of the unshuffled triangles.
+/// The tangents of a bumpy sheet with a fold, by corner of the triangles in their original order.
 std::vector<Vec4> shuffled_corners(std::uint32_t seed) {
   const Sheet sheet{
       .position = [](double x, double y) { return Vec3(x, y, 0.1 * std::sin(9 * x) * y); },

@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// Returns 1 left of pixel 16; 0 or 2 with equal probability up to pixel 31; a hundredth of that
-/// from pixel 32 on.
+/// Returns 1 in columns below 16. Returns 0 or 2 with equal probability in columns 16 to 31, and a
+/// hundredth of that from column 32 on.
 class CoinIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> ids,
@@ -38,20 +38,20 @@ Film drawn(RenderOptions options) {
   return render(Scene{}, PerspectiveCamera{}, kSize, options);
 }
 
-/// Renders with at most this number of samples. Continues from the sums, if there are any.
+/// Renders with at most `samples` samples per pixel. Continues from `sums` if it has samples.
 Film drawn_to(double target, SampleSums& sums, std::uint32_t samples, unsigned threads = 1) {
   return drawn({.threads = threads,
                 .samples = samples,
                 .passes = Passes{.sums = &sums, .target_error = target}});
 }
 
-// A coin flip of 0 or 2 has the standard deviation 1; the mean of n flips has an error of at most 1
-// / sqrt(n - 1).
+// A coin flip that gives 0 or 2 has the standard deviation 1. The mean of n flips has an error of
+// at most 1 / sqrt(n - 1).
 TEST(TileErrors, AreRelativeToPixelAndPictureLuminance) {
   SampleSums sums;
   (void)drawn_to(0, sums, 4096);
   const std::vector<double> errors = tile_errors(sums);
-  ASSERT_EQ(errors.size(), 18U);  // 6 x 3
+  ASSERT_EQ(errors.size(), 18U);  // 6 x 3 tiles
   const double mean = (1 + 1 + 0.01) / 3, s = 1 / std::sqrt(4095.0);
   for (std::size_t row = 0; row < 3; ++row) {
     EXPECT_LT(errors[row * 6], 1e-7);
@@ -80,8 +80,8 @@ TEST(TileErrors, ConvergedTilesHaveConvergedNeighbors) {
   EXPECT_EQ(good_tiles(errors, window, 0.1), expected);
 }
 
-// At the border between the halves, tiles wait for each other; the coin needs about 800 samples,
-// rounded up to 1024.
+// At the borders of the coin's columns, converged tiles wait for their neighbors. The coin needs
+// about 800 samples, which the passes round up to 1024.
 TEST(TargetError, StopsConvergedTiles) {
   SampleSums sums;
   RenderCounts counts;
@@ -97,7 +97,7 @@ TEST(TargetError, StopsConvergedTiles) {
   EXPECT_EQ(samples, counts.samples);
   for (std::uint32_t y = 0; y < kSize.height; ++y) {
     EXPECT_EQ(sums.at(0, y).count, 32U);
-    EXPECT_EQ(sums.at(8, y).count, 1024U);  // next to the coin
+    EXPECT_EQ(sums.at(8, y).count, 1024U);  // tiles beside the coin's columns
     EXPECT_EQ(sums.at(20, y).count, 1024U);
     EXPECT_EQ(sums.at(47, y).count, 32U);
   }

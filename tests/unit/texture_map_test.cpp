@@ -8,9 +8,9 @@
 namespace microtrace {
 namespace {
 
-constexpr TextureFootprint kNear{};  // footprint below a pixel
+constexpr TextureFootprint kNear{};  // smaller than a pixel
 
-/// Gray levels from left to right.
+/// A one-row image with these gray levels from left to right.
 Image strip(std::vector<std::uint8_t> grays) {
   return {.width = static_cast<std::uint32_t>(grays.size()),
           .height = 1,
@@ -101,7 +101,7 @@ TEST(TextureMap, KeepsSixteenBits) {
   EXPECT_NEAR(color.w, 1 / 65535.0, 1e-10);
 }
 
-/// 8 x 8 pixels, alternating black and white.
+/// An 8 x 8 checkerboard of black and white pixels.
 Image checker() {
   std::vector<std::uint8_t> samples;
   for (int y = 0; y < 8; ++y) {
@@ -130,7 +130,7 @@ TEST(TextureMap, WithoutMipMapsUsesTheBaseLevel) {
 }
 
 TEST(TextureMap, ObliqueSurfacesAreFilteredAnisotropically) {
-  // Columns of two pixels, which are sharp if the footprint is elongated along them.
+  // Stripes two pixels wide stay sharp if the footprint is elongated along them.
   std::vector<std::uint8_t> samples;
   for (int i = 0; i < 16 * 16; ++i) samples.push_back(i % 4 < 2 ? 255 : 0);
   const Image image{.width = 16, .height = 16, .channels = 1, .samples = samples};

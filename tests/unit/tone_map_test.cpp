@@ -12,8 +12,8 @@ struct Case {
   Vec3 light, khronos_pbr_neutral, aces, agx;
 };
 
-// Computed with Python in float64 from the formulas of the Khronos specification and of three.js.
-// The outset matrix of AgX is the inverse of the one printed in Filament.
+// Reference values computed with Python in float64 from the formulas of the Khronos specification
+// and of three.js. The outset matrix of AgX is the inverse of the matrix printed in Filament.
 constexpr Case kCases[] = {
     {{0.18, 0.18, 0.18},
      {0.14, 0.14, 0.14},
@@ -93,7 +93,7 @@ TEST(ToneMap, GraysAreMonotonic) {
       const float shown = tone_mapped(Vec3(light), map).y;
       EXPECT_TRUE(shown <= 1 || map == ToneMap::none) << name_of(map);
       EXPECT_GE(shown, before) << name_of(map) << ' ' << light;
-      // Levels that 8 bits can distinguish stay distinct over the six stops around middle gray.
+      // Within six stops around middle gray, levels that 8 bits distinguish must stay distinct.
       if (light > 0.02F && light < 1.3F) {
         EXPECT_GT(shown, before + 2e-4F) << name_of(map);
       }
