@@ -96,6 +96,7 @@ class Solid:
         /,
     ) -> None: ...
 
+def picture_array(shape: tuple[int, ...], is_integer: bool, /) -> Array: ...
 def render(
     scene: Prepared,
     camera: Camera,

@@ -236,7 +236,7 @@ def render(
             (4 if transparent else 3, False) if name == "color" else _QUANTITIES[name]
         )
         shape = (len(cameras), height, width, channels)
-        arrays[name] = np.empty(shape, np.uint32 if is_integer else np.float32)
+        arrays[name] = _core.picture_array(shape, is_integer)
     arguments = {
         "size": size,
         "spp": None if spp is None else as_integer(spp, "spp", 1, 65536),

@@ -10,6 +10,7 @@ NB_MODULE(_core, module) {
   module.attr("version") = MICROTRACE_VERSION_TEXT;
   bind_errors(module);
   bind_images(module);
+  bind_memory(module);
   bind_scenes(module);
   bind_rays(module);
   bind_pictures(module);

@@ -281,3 +281,32 @@ def test_wrong_matrices():
         mt.cameras(k, t, SIZE, convention="opencv", distortion=[1, 2, 3])
     with pytest.raises(ValueError, match="convention"):
         mt.cameras(k, t, SIZE, convention="blender")
+
+
+def test_memory_is_reused_but_not_shared():
+    prepared = mt.load(KNOT).prepare()
+    camera = mt.frame(prepared)
+
+    def render(size=(320, 200)):
+        return mt.render(prepared, camera, size, aovs=["position", "object"])
+
+    kept = render()
+    expected = {name: array.copy() for name, array in kept.items()}
+    row = render().position[7]  # keeps its array alive
+    expected_row = row.copy()
+    address = render().position.ctypes.data
+    assert render().position.ctypes.data == address
+    for k in range(1, 200):
+        other = render((320, 200 + k))
+        other.position[:] = np.nan
+        other.object[:] = 7
+    np.testing.assert_array_equal(row, expected_row)
+    for name, array in kept.items():
+        np.testing.assert_array_equal(array, expected[name])
+        assert array.flags.writeable and array.flags.c_contiguous
+
+
+def test_picture_too_large_for_memory():
+    prepared = mt.load(KNOT).prepare()
+    with pytest.raises(MemoryError):
+        mt.render(prepared, [mt.frame(prepared)] * 10**5, (65536, 65536), aovs=["depth"])
