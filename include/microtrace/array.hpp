@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays of a scene: values of its own, or memory of the caller's that is used in place.
+/// The arrays of a scene, which own their values or refer to caller-provided memory.
 
 #include <microtrace/error.hpp>
 
@@ -18,14 +18,15 @@
 
 namespace microtrace {
 
-/// Reads like a `const std::vector<T>` and grows like a vector; edit() gives the elements to be
-/// changed. An array either owns its values or borrows memory, see borrow(). A copy copies owned
-/// values, as a vector's does; a copy of a borrowed array refers to the same memory.
+/// Reads like a `const std::vector<T>` and grows like a vector; edit() gives write access to the
+/// elements. An array either owns its values or borrows memory (see borrow()). Copying an array
+/// copies owned values, as with a vector; a copy of a borrowed array refers to the same memory.
 ///
-/// T consists of numbers of one type without padding: Vec2, Vec3, Vec4, std::array of integers.
+/// T must consist of numbers of one type without padding: Vec2, Vec3, Vec4, or a std::array of
+/// integers.
 ///
-/// Thread safety is that of std::vector. Borrowed memory must not change while an array refers to
-/// it and is read.
+/// Arrays are as thread-safe as std::vector. Borrowed memory must not change while any array that
+/// refers to it is read.
 template <class T>
 class Array {
  public:
@@ -36,15 +37,15 @@ class Array {
   using reference = const_reference;
   using const_iterator = const T*;
   using iterator = const_iterator;
-  using Number = typename T::value_type;  ///< float, std::uint32_t
+  using Number = typename T::value_type;  ///< float or std::uint32_t
 
   Array() = default;
   Array(std::vector<T> values) noexcept : own_(std::move(values)) {}
   Array(std::initializer_list<T> values) : own_(values) {}
 
-  /// Refers to `values` without copying them. They must stay as they are while this array or a copy
-  /// exists, scenes that contain it included. `owner` keeps the memory alive until then; without
-  /// one the caller does.
+  /// Returns an array that refers to `values` without copying them. The values must not change
+  /// while that array or a copy of it exists, including copies inside scenes. `owner` keeps the
+  /// memory alive for that time; without an owner, the caller must keep it alive.
   [[nodiscard]] static Array borrow(std::span<const T> values,
                                     std::shared_ptr<const void> owner = {}) noexcept {
     Array result;
@@ -54,12 +55,14 @@ class Array {
     return result;
   }
 
-  /// `count` elements in memory; each consists of sizeof(T) / sizeof(Number) numbers and begins
-  /// `stride` bytes after the one before, which may be any distance: 0 repeats an element, a
-  /// negative stride runs backwards. Borrows the memory, with `owner` as in borrow(), if its layout
-  /// is that of an array of T: the same type of numbers but for the sign of integers, aligned for
-  /// it, with stride sizeof(T). Otherwise copies: floating-point numbers are rounded to float;
-  /// integers that T can't hold throw Error (invalid_scene).
+  /// Makes an array from `count` elements in memory, each of sizeof(T) / sizeof(Number) numbers.
+  /// Each element begins `stride` bytes after the previous one. Any stride is allowed: 0 repeats
+  /// one element, and a negative stride runs backwards.
+  ///
+  /// Borrows the memory, with `owner` as in borrow(), if it is laid out like an array of T: aligned
+  /// for T, with stride sizeof(T) and numbers of the same type (signed integers are accepted for
+  /// unsigned ones). Otherwise copies the elements and rounds floating-point numbers to float.
+  /// Throws Error (invalid_scene) if a copied integer does not fit into Number.
   template <class Source>
   requires(std::integral<Source>&& std::integral<Number>) ||
       (std::floating_point<Source> && std::floating_point<Number>) [[nodiscard]] static Array
@@ -94,21 +97,22 @@ class Array {
   [[nodiscard]] const T& front() const noexcept { return *begin(); }
   [[nodiscard]] const T& back() const noexcept { return end()[-1]; }
 
-  /// The values as a vector that may be changed, valid until the array is assigned to, moved or
-  /// destroyed. Copies borrowed values first.
+  /// Returns the values as a modifiable vector; the reference is valid until the array is assigned
+  /// to, moved or destroyed. Borrowed values are copied first.
   [[nodiscard]] std::vector<T>& edit() {
     if (view_) *this = std::vector<T>(begin(), end());
     return own_;
   }
 
-  /// From now on, copies of this array share its values.
+  /// Makes later copies of this array share its values instead of copying them.
   void share() {
     if (view_) return;
     const auto owner = std::make_shared<const std::vector<T>>(std::move(own_));
     *this = borrow(*owner, owner);
   }
 
-  /// As those of std::vector, on edit().
+  /// The following functions behave like those of std::vector and copy borrowed values first, as
+  /// edit() does.
   void push_back(T value) { edit().push_back(value); }
   template <class... Arguments>
   void emplace_back(Arguments&&... arguments) {
@@ -143,7 +147,7 @@ class Array {
   }
 
   std::vector<T> own_;
-  std::shared_ptr<const T> view_;  ///< null: own_ has the values
+  std::shared_ptr<const T> view_;  ///< the borrowed values; null if own_ holds them
   std::size_t view_size_ = 0;
 };
 

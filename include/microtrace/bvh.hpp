@@ -1,5 +1,5 @@
 #pragma once
-/// Nearest hits of rays with a scene, by a bounding volume hierarchy.
+/// Finds the nearest hits of rays with a scene by a bounding volume hierarchy (BVH).
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -14,61 +14,67 @@
 
 namespace microtrace {
 
-/// The tree without the scene.
+/// The tree of a Bvh, which does not refer to the scene.
 struct BvhTree;
 
 struct BvhOptions {
   bool fast_build = false;  ///< faster build and slower tracing, for previews
-  unsigned threads = 0;     ///< for the build; 0: default_threads()
-  /// Bvh::tree() of a scene with the same primitives in other positions, say the last frame of an
-  /// animation. Its boxes are fitted to the new positions, which is several times faster than a
-  /// build. A new tree is built if the primitives are not the same, or if fitting would make the
-  /// expected cost of a ray grow by more than this factor since the tree was built; by the surface
-  /// area heuristic, relative to the area of the primitives' boxes.
+  unsigned threads = 0;     ///< number of threads for the build; 0: default_threads()
+  /// Bvh::tree() of a scene with the same primitives at different positions, such as the previous
+  /// frame of an animation. Refitting the boxes of this tree to the new positions is several times
+  /// faster than a build. A new tree is built if the primitives differ, or if the cost of the
+  /// refitted tree would exceed max_cost_growth times the cost when the tree was built. The cost is
+  /// the surface area heuristic's estimate for a ray, relative to the area of the primitives'
+  /// boxes.
   std::shared_ptr<const BvhTree> previous{};
   double max_cost_growth = 1.2;
 };
 
-/// Immutable; may be used by any number of threads.
+/// An exact ray intersector for one scene. Immutable; may be used by any number of threads.
 ///
-/// Every answer is the hit with the least (t, PrimitiveId) over the real numbers, for the float32
-/// numbers of the scene and the ray. It does not depend on options, the instruction set, the order
-/// of work or the function used; see docs/exactness.md.
+/// Every query returns the hit with the least (t, PrimitiveId), as if computed in real arithmetic
+/// from the float32 numbers of the scene and the ray. The result does not depend on options, the
+/// instruction set, the order of work or the function used; see docs/exactness.md. Rays and results
+/// are in scene coordinates (see Scene::origin).
 class MICROTRACE_EXPORT Bvh {
  public:
-  /// The scene must outlive this object and must not change. Throws Error (limit) if memory or
-  /// primitive numbers run out.
+  /// Builds the tree. The scene must outlive this object and must not change. Throws Error (limit)
+  /// if memory runs out or the scene has too many primitives.
   explicit Bvh(const Scene& scene, BvhOptions options = {});
-  explicit Bvh(const Scene&& scene, BvhOptions options = {}) = delete;  // it would dangle
+  explicit Bvh(const Scene&& scene, BvhOptions options = {}) = delete;  // a temporary scene would
+                                                                        // dangle
   ~Bvh();
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;
 
-  /// Nothing if the ray hits nothing or is invalid (see Ray).
+  /// Returns the nearest hit; nothing if the ray hits nothing or is invalid (see Ray).
   [[nodiscard]] std::optional<Hit> intersect(const Ray& ray) const;
 
-  /// The hit that follows `after` in the order (t, PrimitiveId) of the ray's hits. Repeated calls
-  /// enumerate all hits, nearest first, including several at the same t. Each primitive counts
-  /// once, with its first hit in [t_min, t_max]; a sphere is therefore returned once. Only the id
-  /// of `after` is used: its exact t is computed again. Nothing follows a primitive that the ray
-  /// does not hit.
+  /// Returns the hit that follows `after` in the order (t, PrimitiveId) of the ray's hits. Repeated
+  /// calls enumerate all hits, nearest first, including several at the same t. Each primitive
+  /// counts once, with its first hit in [t_min, t_max]; even a sphere is returned only once. Only
+  /// the id of `after` is used, because its exact t is computed again. Returns nothing after the
+  /// last hit, or if the ray does not hit the primitive of `after`.
   [[nodiscard]] std::optional<Hit> next(const Ray& ray, const Hit& after) const;
 
-  /// The origin of a ray that leaves the hit of `ray` in `direction`. Like spawn_origin in
-  /// spawn.hpp, but takes other surfaces into account. All guarantees there hold except the
-  /// distance: the origin may be some 2^10 float32 steps away.
+  /// Returns the origin of a new ray that leaves the hit of `ray` in `direction` (any nonzero
+  /// length). Like spawn_origin in spawn.hpp, but also takes other surfaces into account. All
+  /// guarantees stated there hold except the one on distance: the origin may be about 2^10 float32
+  /// steps away from the hit point.
   ///
-  /// Let w be the point of `ray` just before the hit, if the new ray returns to that side of the
-  /// surface, else the point just behind it. The segment from w to the origin, excluding w, meets
-  /// no triangle that has an area, no disc and no plane, and of each sphere and quadric the origin
-  /// is on the same side as w. A path therefore leaves a closed mesh only where it passes through a
-  /// surface on purpose, not in creases and corners. Exceptions:
+  /// Let w be the point of `ray` just before the hit if the new ray returns to that side of the
+  /// surface, otherwise the point just behind the hit. The segment from w to the origin, excluding
+  /// w, meets no triangle of nonzero area, no disc and no plane. The origin is on the same side of
+  /// each sphere and quadric as w. A path therefore leaves a closed mesh only by transmission
+  /// through a surface, never by accident in a crease or corner. Exceptions:
   ///
-  /// - If `ray` runs within a surface, w lies on it, and the origin may be on either side of it.
-  /// - The segment may cross triangles without area.
+  /// - If `ray` runs within a flat surface, w lies on that surface, and the origin may be on either
+  ///   side of it.
+  /// - The segment may cross triangles of zero area.
   ///
-  /// Nothing if there is no such float32 point, because the walls are too close together. The
-  /// result does not depend on BvhOptions, and no coordinate is -0. The new ray may have t_min = 0.
+  /// Returns nothing if no such float32 point exists because the surrounding surfaces are too close
+  /// together. The result does not depend on BvhOptions, and no coordinate is -0. The new ray may
+  /// have t_min = 0.
   [[nodiscard]] std::optional<Vec3> spawn_origin(const Ray& ray, const Hit& hit,
                                                  const Vec3& direction) const;
 
@@ -76,23 +82,24 @@ class MICROTRACE_EXPORT Bvh {
   struct Spawn {
     const Ray* ray;  ///< the ray of the hit
     Hit hit;         ///< a hit of this ray, as returned by intersect and next
-    Vec3 direction;  ///< of the new ray
+    Vec3 direction;  ///< direction of the new ray, any nonzero length
   };
 
-  /// origins[i] equals spawn_origin for spawns[i], bit for bit, in any batch; both spans have the
-  /// same size. Much faster than single calls, especially if the spawns of one hit are consecutive.
+  /// Sets origins[i] to the result of spawn_origin for spawns[i], bit for bit, however the spawns
+  /// are divided into calls. Both spans must have the same size. Much faster than single calls,
+  /// especially if spawns that leave the same hit are consecutive.
   void spawn_origins(std::span<const Spawn> spawns, std::span<std::optional<Vec3>> origins) const;
 
-  /// True if the ray hits anything. Faster than intersect.
+  /// Returns true if the ray hits anything. Faster than intersect.
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// hits[i] is the nearest hit of rays[i]; both spans have the same size. Faster than single
-  /// calls; fastest for runs of coherent rays with a common origin, such as those of neighboring
-  /// pixels.
+  /// Sets hits[i] to the nearest hit of rays[i]. Both spans must have the same size. Faster than
+  /// single calls, and fastest if consecutive rays are coherent and share an origin, such as the
+  /// rays of neighboring pixels.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
 
-  /// results[i] is true if rays[i] hits anything; both spans have the same size. Faster than single
-  /// calls, for any order of the rays.
+  /// Sets results[i] to true if rays[i] hits anything, otherwise to false. Both spans must have the
+  /// same size. Faster than single calls for any order of the rays.
   void occluded(std::span<const Ray> rays, std::span<bool> results) const;
 
   [[nodiscard]] const Primitives& primitives() const;
@@ -100,7 +107,8 @@ class MICROTRACE_EXPORT Bvh {
   /// Size of the tree in bytes, without the scene.
   [[nodiscard]] std::size_t memory() const;
 
-  /// For BvhOptions::previous. It needs neither this object nor the scene.
+  /// Returns the tree for BvhOptions::previous. It remains valid after this object and the scene
+  /// are destroyed.
   [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Files of samples: an interrupted run resumes from them, and machines that share a picture merge
-/// them.
+/// Checkpoints store the samples of a picture in a file. An interrupted run resumes from its
+/// checkpoint, and the checkpoints of several machines that render the same picture can be merged.
 
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
@@ -12,35 +12,36 @@
 
 namespace microtrace {
 
-/// The samples of a picture, and the identity of the picture.
+/// The samples of a picture and a description that identifies the picture.
 struct Checkpoint {
-  /// Everything that the samples depend on: lines with a name, a tab and a value. Only files with
-  /// equal identities may be merged.
+  /// Lists everything that the samples depend on, in lines of a name, a tab and a value. Only
+  /// checkpoints with equal identities may be merged.
   std::string identity;
   bool has_alpha = false;     ///< true if the picture has alpha
   std::uint32_t samples = 1;  ///< requested samples per pixel
-  Display display{};          ///< exposure and tone map of the picture
+  Display display{};          ///< how 8-bit formats show the picture
   SampleSums sums{};
 };
 
-/// Writes a checkpoint; the file appears whole or not at all. Throws Error (io).
+/// Writes a checkpoint; the file appears whole or not at all. Throws Error: io if it can't be
+/// written, usage if the path can't name a file.
 MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
                                        const std::filesystem::path& path);
 
-/// Reads a checkpoint. Throws Error (io) also if the file is not a checkpoint, has another version,
-/// or is damaged.
+/// Reads a checkpoint. Throws Error (io) if the file can't be read, is not a checkpoint, has a
+/// different version, or is damaged.
 [[nodiscard]] MICROTRACE_EXPORT Checkpoint load_checkpoint(const std::filesystem::path& path);
 
-/// Adds the samples of `other`, which was read from `path`; moves them if `checkpoint` has no sums
-/// yet. Throws Error (usage) if they belong to another picture, naming the difference, or if some
-/// of them are already present.
+/// Adds the samples of `other`, which was read from `path`, to `checkpoint`; moves them if
+/// `checkpoint` has no samples yet. Throws Error (usage) if they belong to a different picture, or
+/// if some of them are already present. The message names the difference between the pictures.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
                                    const std::filesystem::path& path);
 
-/// The picture of the checkpoint's samples.
+/// Returns the picture of the checkpoint's samples.
 [[nodiscard]] MICROTRACE_EXPORT Film picture_of(const Checkpoint& checkpoint);
 
-/// Throws the Error that save_checkpoint would throw immediately, without writing.
+/// Throws the Error with which save_checkpoint would fail at once for this path. Writes nothing.
 MICROTRACE_EXPORT void check_checkpoint_path(const std::filesystem::path& path);
 
 }  // namespace microtrace

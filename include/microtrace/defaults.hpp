@@ -1,5 +1,6 @@
 #pragma once
-/// Default settings for rendering a scene. The program without options uses them too.
+/// Default settings for rendering a scene. The program uses the same settings if it is given no
+/// options.
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
@@ -18,39 +19,42 @@
 
 namespace microtrace {
 
-/// Colors without light, by FlatIntegrator.
+/// Selects FlatIntegrator, which shows colors without lighting.
 struct FlatOptions {};
 
-/// An integrator of the library and its options. An Aov is a picture of that quantity.
+/// Selects one of the library's integrators by the type of its options. An Aov selects
+/// AovIntegrator, which shows that quantity.
 ///
-/// To add one: its options here, its integrator in src/render/defaults.cpp, its name in
-/// src/cli/options/values.cpp and src/capi/pictures.cpp, its help text in
-/// src/cli/options/sampling_options.cpp, a line in docs/command-line.md.
+/// To add an integrator, add its options here, its construction in src/render/defaults.cpp, its
+/// name in src/cli/options/values.cpp and src/capi/pictures.cpp, its help text in
+/// src/cli/options/sampling_options.cpp, and a line in docs/command-line.md.
 using IntegratorOptions = std::variant<FlatOptions, PathOptions, Aov>;
 
 [[nodiscard]] MICROTRACE_EXPORT std::unique_ptr<Integrator> make_integrator(
     const IntegratorOptions& options);
 
-/// glTF assets, which have materials and lights, are path traced; JSON scenes show flat colors.
+/// Returns PathOptions for glTF assets, which have materials and lights, and FlatOptions for JSON
+/// scenes.
 [[nodiscard]] MICROTRACE_EXPORT IntegratorOptions default_integrator(SceneFormat format);
 
-/// Samples per pixel: 64 for path tracing, else 1.
+/// Returns the default number of samples per pixel: 64 for path tracing, otherwise 1.
 [[nodiscard]] MICROTRACE_EXPORT std::uint32_t default_samples(const IntegratorOptions& integrator);
 
-/// Linear Rec. 709; nothing means the scene's own. Path-traced glTF assets, which can't specify a
-/// background, get gray: lighter than shadows and darker than highlights.
+/// Returns the default background in linear Rec. 709, or nothing to keep the scene's own
+/// background. Path-traced glTF assets, which can't specify a background, get a gray that is
+/// lighter than shadows and darker than highlights.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> default_background(
     SceneFormat format, const IntegratorOptions& integrator);
 
-/// Arguments of render(), to be changed as needed.
+/// Arguments for render(). Change them as needed.
 struct RenderSettings {
-  Camera camera{};   ///< default_camera
+  Camera camera{};   ///< the result of default_camera()
   ImageSize size{};  ///< Scene::size
   std::shared_ptr<const Integrator> integrator{};
-  RenderOptions options{};  ///< with the integrator, its samples and the default background
+  RenderOptions options{};  ///< refers to `integrator`; has its default samples and background
 };
 
-/// The settings for a loaded scene with the default integrator or a given one.
+/// Returns the settings for a loaded scene with the default integrator or a given one.
 [[nodiscard]] MICROTRACE_EXPORT RenderSettings default_settings(const Scene& scene,
                                                                 SceneFormat format);
 [[nodiscard]] MICROTRACE_EXPORT RenderSettings

@@ -9,11 +9,12 @@
 
 namespace microtrace {
 
-/// 64 bits that differ for different bytes with high probability (a collision is one in 2^64), the
-/// same on every machine. Not secure against deliberate collisions.
+/// A 64-bit hash, the same on every machine. Two different inputs collide with a probability of
+/// about 2^-64. Not secure against deliberate collisions.
 class Digest {
  public:
-  /// Appends bytes; the division into calls has no effect.
+  /// Appends bytes. The result depends only on the sequence of bytes, not on its division into
+  /// calls.
   void add(std::string_view bytes) {
     for (; !bytes.empty() && filled_ != 0; bytes.remove_prefix(1)) add_byte(bytes[0]);
     for (; bytes.size() >= 8; bytes.remove_prefix(8)) {
@@ -27,7 +28,8 @@ class Digest {
   [[nodiscard]] std::uint64_t value() const {
     Digest ended = *this;
     ended.mix(rest_);
-    ended.mix(8 * words_ + filled_);  // the length: trailing zeros count
+    ended.mix(8 * words_ + filled_);  // the length in bytes distinguishes inputs that differ only
+                                      // in trailing zeros
     return ended.state_ ^ ended.state_ >> 29U;
   }
 
@@ -49,11 +51,11 @@ class Digest {
 
   std::uint64_t state_ = 0x9e3779b97f4a7c15U, words_ = 0;
   std::uint64_t rest_ = 0;  ///< bytes of an incomplete word
-  unsigned filled_ = 0;     ///< their number
+  unsigned filled_ = 0;     ///< number of bytes in rest_
 };
 
-/// During its lifetime, hashes all bytes of files and standard input that the library reads on this
-/// thread. If there are several objects, the last one counts.
+/// During its lifetime, hashes all bytes that the library reads on this thread from files and
+/// standard input. If several objects exist on a thread, only the most recent one hashes.
 class MICROTRACE_EXPORT ReadDigest {
  public:
   ReadDigest();

@@ -10,31 +10,34 @@
 
 namespace microtrace {
 
-/// The radiance from each direction as a latitude-longitude map: the unit direction (x, y, z) is at
-/// u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, where (0, 0) is the upper left corner and (1, 1)
-/// the lower right one. Values between pixel centers are interpolated bilinearly.
+/// The radiance from each direction as a latitude-longitude map. The unit direction (x, y, z) is at
+/// u = atan2(z, x) / (2 pi) + 1/2, v = acos(y) / pi, where (u, v) = (0, 0) is the upper left corner
+/// and (1, 1) the lower right one. Values between pixel centers are interpolated bilinearly.
 struct RadianceMap {
-  std::uint32_t width = 0, height = 0;  ///< at least 1, at most 65536
-  /// Linear Rec. 709, from 0 to kMaxRadiance; row by row from the upper left.
+  std::uint32_t width = 0, height = 0;  ///< pixels, each from 1 to 65536
+  /// Linear Rec. 709, with components from 0 to kMaxRadiance; row by row from the upper left.
   std::vector<Vec3> pixels{};
 };
 
-/// Maximum value of a pixel, so that sums and products stay finite.
+/// Maximum value of a pixel's components, which keeps sums and products finite.
 inline constexpr float kMaxRadiance = 1e9F;
 
-/// The built-in environment: a gray room with large area lights, symmetric left and right.
+/// The built-in environment: a gray room with large area lights, with mirror symmetry between left
+/// and right.
 struct Studio {};
 
-/// To add a kind: a struct in `content`, its radiance in src/render/lights/environment_light.cpp,
-/// its readers in src/io/scene_json/light.cpp and src/cli/options/light_options.cpp, its members
-/// in docs/scene.schema.json and docs/scene-format.md, a line in docs/light.md.
+/// To add a kind of environment, add a struct to the variant `content`, its radiance in
+/// src/render/lights/environment_light.cpp, its readers in src/io/scene_json/light.cpp and
+/// src/cli/options/light_options.cpp, its members in docs/scene.schema.json and
+/// docs/scene-format.md, and a line in docs/light.md.
 struct Environment {
   /// A Vec3 is uniform radiance, linear Rec. 709. Maps are never null.
   std::variant<Vec3, std::shared_ptr<const RadianceMap>, Studio> content{Vec3{1}};
-  double rotation = 0;  ///< of the content about +y, radians, counterclockwise as seen from above
+  double rotation = 0;  ///< rotation of the content about +y in radians, counterclockwise as seen
+                        ///< from above
   float intensity = 1;  ///< multiplies the content
-  /// If true, path-traced pictures show it where camera rays hit nothing, with alpha 1; otherwise
-  /// they show the scene's background.
+  /// If true, path-traced pictures show the environment, with alpha 1, where camera rays hit
+  /// nothing. Otherwise they show the scene's background there.
   bool is_background = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The error type, and diagnostics with positions in files.
+/// The library's error type, and diagnostics with positions in files.
 
 #include <microtrace/export.hpp>
 
@@ -9,15 +9,15 @@
 
 namespace microtrace {
 
-/// Kinds of errors; the values are exit codes of the program.
+/// Kinds of errors. Their values are the exit codes of the program.
 enum class ErrorKind {
-  internal = 1,       ///< an internal failure
+  internal = 1,       ///< an internal failure, which is a defect of the library
   usage = 2,          ///< an invalid request
   invalid_scene = 3,  ///< the scene file violates its format
   unsupported = 4,    ///< the scene requires an unsupported feature
   io = 5,             ///< a file can't be read or written
   limit = 6,          ///< a documented limit was exceeded
-  canceled = 7,       ///< a callback asked to stop; never an exit code of the program
+  canceled = 7,       ///< a callback requested to stop; never an exit code of the program
 };
 
 enum class Severity {
@@ -25,21 +25,23 @@ enum class Severity {
   error,    ///< a violation of the file's format
 };
 
-/// A message about a position in a file. Unknown members are empty or 0.
+/// A message about a position in a file. Members whose value is unknown are empty or 0.
 struct MICROTRACE_EXPORT Diagnostic {
   std::string file;        ///< as the user named it
-  std::size_t line = 0;    ///< from 1
-  std::size_t column = 0;  ///< in bytes, from 1
+  std::size_t line = 0;    ///< counted from 1
+  std::size_t column = 0;  ///< in bytes, counted from 1
   std::string pointer;     ///< JSON pointer (RFC 6901)
   std::string message;     ///< the problem and the remedy
-  std::string excerpt;     ///< the source line, at most a screen wide, then a line with a caret
-  Severity severity = Severity::warning;  ///< for diagnostics that are returned, not thrown
+  std::string excerpt;     ///< the source line, shortened to the width of a screen, and a second
+                           ///< line with a caret
+  Severity severity = Severity::warning;  ///< meaningful only for diagnostics that are returned,
+                                          ///< not thrown
 
-  /// `file:line:col: /json/pointer: message`, then the excerpt on separate lines.
+  /// Returns `file:line:col: /json/pointer: message`, followed by the excerpt on separate lines.
   [[nodiscard]] std::string text() const;
 };
 
-/// Thrown by every function of the library that can fail.
+/// The exception that functions of the library throw when they fail.
 class MICROTRACE_EXPORT Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, Diagnostic where);

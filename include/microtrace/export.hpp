@@ -1,5 +1,5 @@
 #pragma once
-/// Marks the symbols that a shared library exports. All others are hidden.
+/// Marks the symbols that the shared library exports. All other symbols are hidden.
 
 #define MICROTRACE_EXPORT [[gnu::visibility("default")]]
-#define MICROTRACE_HIDDEN [[gnu::visibility("hidden")]]  // for a class within an exported one
+#define MICROTRACE_HIDDEN [[gnu::visibility("hidden")]]  // for classes nested in an exported class

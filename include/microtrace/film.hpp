@@ -1,5 +1,5 @@
 #pragma once
-/// The picture being rendered.
+/// Films, which hold rendered pictures.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/math.hpp>
@@ -24,11 +24,13 @@ struct PixelRect {
 
 /// How 8-bit formats show a film's values; float formats store the values themselves.
 struct Display {
-  bool srgb = true;  ///< linear light, encoded by sRGB's curve; else v is shown as
-                     ///< round(255 (scale v + offset)), clamped
+  bool srgb = true;  ///< true: values are linear light and are encoded by the sRGB curve; false: a
+                     ///< value v is stored as round(255 (scale v + offset)), clamped to [0, 255]
   Vec3 scale{1}, offset{0};
-  double exposure = 0;               ///< for linear light, in stops: multiplies by 2^exposure
-  ToneMap tone_map = ToneMap::none;  ///< for linear light, after exposure and before encoding
+  double exposure = 0;               ///< for linear light only, in stops: multiplies values by
+                                     ///< 2^exposure
+  ToneMap tone_map = ToneMap::none;  ///< for linear light only, applied after the exposure and
+                                     ///< before the encoding
 };
 
 /// One value per pixel in addition to the colors, row by row from the upper left.
@@ -37,12 +39,13 @@ struct Channel {
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-/// width x height linear Rec. 709 colors, row by row from the upper left, with or without alpha.
+/// A picture of width x height colors in linear Rec. 709, with or without alpha, stored row by row
+/// from the upper left.
 class Film {
  public:
   enum class Alpha { none, premultiplied };
 
-  /// All pixels are black, and transparent if there is alpha.
+  /// Creates a film whose pixels are black, and transparent if the film has alpha.
   explicit Film(ImageSize size, Alpha alpha = Alpha::none)
       : whole(size),
         size_(size),
@@ -55,18 +58,18 @@ class Film {
     return std::span(pixels_).subspan(index(0, y), size_.width);
   }
 
-  /// With alpha, colors are premultiplied.
+  /// If true, colors are premultiplied with alpha.
   [[nodiscard]] bool has_alpha() const { return !alpha_.empty(); }
-  /// Only with alpha: 0 transparent, 1 opaque.
+  /// Requires has_alpha(). 0 is transparent, 1 opaque.
   [[nodiscard]] float& alpha_at(std::uint32_t x, std::uint32_t y) { return alpha_[index(x, y)]; }
   [[nodiscard]] std::span<const float> alpha_row(std::uint32_t y) const {
     return std::span(alpha_).subspan(index(0, y), size_.width);
   }
 
   ImageSize whole;               ///< size of the picture that this film is a part of
-  std::uint32_t x0 = 0, y0 = 0;  ///< position of this film's upper left pixel in it
+  std::uint32_t x0 = 0, y0 = 0;  ///< position of this film's upper left pixel in the whole picture
   Display display{};
-  std::vector<Channel> channels{};  ///< each with a number for every pixel of this film
+  std::vector<Channel> channels{};  ///< each has one number for every pixel of this film
 
  private:
   [[nodiscard]] std::size_t index(std::uint32_t x, std::uint32_t y) const {

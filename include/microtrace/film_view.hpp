@@ -11,14 +11,15 @@ namespace microtrace {
 
 struct FilmView {
   bool is_empty = true;  ///< no pixel shows any part of the scene or its environment
-  /// More than three quarters of the pixels that show something are black in 8-bit pictures.
+  /// True if, in 8-bit pictures, more than three quarters of the pixels that show something are
+  /// black or almost black.
   bool is_dark = false;
-  float brightest = 0;  ///< the greatest color component of black pixels, linear
+  float brightest = 0;  ///< the greatest color component among the black pixels, linear
 };
 
-/// Examines a picture made by render() with the same arguments; exposure and tone map are the
-/// film's. Where the background can't be distinguished from black, rays are traced through the
-/// pixel centers. Throws Error.
+/// Examines a film that render() returned for the same arguments, with the exposure and tone map of
+/// film.display. If colors alone don't show whether pixels have the background's color or show a
+/// surface, traces rays through the pixel centers. Throws Error as render() does.
 [[nodiscard]] MICROTRACE_EXPORT FilmView view_of(const Film& film, const Scene& scene,
                                                  const Camera& camera,
                                                  const RenderOptions& options);

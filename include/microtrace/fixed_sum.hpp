@@ -8,9 +8,9 @@
 
 namespace microtrace {
 
-/// A sum of multiples of 2^-FractionBits, exact below 2^(64 Words - 1 - FractionBits) in magnitude:
-/// two's complement, lowest word first. Unlike floating-point sums, integer sums don't depend on
-/// order or grouping.
+/// A sum of multiples of 2^-FractionBits, stored as a two's complement integer with the lowest word
+/// first. The sum is exact while its magnitude is below 2^(64 Words - 1 - FractionBits). Unlike
+/// floating-point sums, integer sums don't depend on order or grouping.
 template <std::size_t Words, int FractionBits>
 struct FixedSum {
   __extension__ using Wide = unsigned __int128;
@@ -27,7 +27,7 @@ struct FixedSum {
         (bits & ((std::uint64_t{1} << kMantissaBits) - 1)) | (std::uint64_t{1} << kMantissaBits);
     int shift = exponent - kBias + FractionBits;
     if (shift < 0) {
-      if (shift <= -64) return;  // also for 0 and subnormals
+      if (shift <= -64) return;  // also true for 0 and subnormal numbers
       mantissa >>= static_cast<unsigned>(-shift);
       shift = 0;
     }
@@ -50,7 +50,7 @@ struct FixedSum {
     return *this;
   }
 
-  /// The sum, rounded.
+  /// Returns the sum, rounded to float64.
   [[nodiscard]] double value() const {
     const bool is_negative = (words[Words - 1] >> 63U) != 0;
     const FixedSum magnitude = is_negative ? negated() : *this;
@@ -66,10 +66,10 @@ struct FixedSum {
   [[nodiscard]] bool operator==(const FixedSum&) const = default;
 
  private:
-  /// The same by conversion to integers, for |x| < 2^30.
+  /// A faster add() for |x| < 2^30 by conversion to integers.
   void add_small(double x) {
     static_assert(Words <= 3 && FractionBits >= 32 && FractionBits <= 94);
-    // Truncates toward 0 both times; the difference is exact.
+    // Both conversions truncate toward 0; the difference between them is exact.
     const double upper = x * 0x1p32;
     const auto whole = static_cast<std::int64_t>(upper);
     constexpr auto kScale = std::bit_cast<double>(std::uint64_t{1023 + FractionBits - 32} << 52U);

@@ -1,5 +1,5 @@
 #pragma once
-/// A camera that frames a whole scene, for scenes without cameras.
+/// Computes a camera that frames a whole scene, for scenes without cameras.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
@@ -12,39 +12,44 @@
 
 namespace microtrace {
 
-/// The direction from which a picture is taken. The default is the front, which in glTF faces +z,
-/// from the right and above.
+/// The direction from which a picture is taken. By default the camera sees the front of the scene,
+/// which faces +z in glTF, from the right and above.
 struct View {
-  double azimuth = 30;    ///< degrees about +y: 0 is +z, 90 is +x; finite
-  double elevation = 25;  ///< degrees above horizontal, in [-90, 90]; at 90 up is -z for azimuth 0
-  double vertical_fov = 45;  ///< of the camera, in degrees, in (0, 180)
+  double azimuth = 30;    ///< degrees about +y, finite: at 0 the camera is on the +z side, at 90 on
+                          ///< the +x side
+  double elevation = 25;  ///< degrees above the horizontal, in [-90, 90]; at elevation 90 and
+                          ///< azimuth 0, -z is up in the picture
+  double vertical_fov = 45;  ///< the camera's full vertical opening angle in degrees, in (0, 180)
 };
 
-/// Finds a perspective camera for the picture's size. All bounded shapes are in the inner 96 % of
-/// the picture, touch two opposite edges of this region, and are centered along the other axis. If
-/// this would bring the camera closer than 1/64 of their bounding box's diagonal to the nearest
-/// point, measured along the view, the camera keeps that distance. Planes, quadrics other than
-/// ellipsoids, and vertices that are not finite are ignored. If all shapes coincide in one point,
-/// the distance is 1; without shapes this point is the origin. Gives the same bits on every
-/// machine, because it uses only + - * / and sqrt.
+/// Finds a perspective camera for a picture of a given size. All bounded shapes lie within the
+/// inner 96 % of the picture's width and height. They touch two opposite edges of this region and
+/// are centered along the other axis. The camera keeps a distance from the nearest point, measured
+/// along the viewing direction, of at least 1/64 of the diagonal of the shapes' bounding box.
+///
+/// Planes, quadrics other than ellipsoids, and vertices that are not finite are ignored. If all
+/// shapes coincide in one point, the camera is at distance 1 from that point; without shapes, from
+/// the origin. The bits of the result are the same on every machine, because only + - * / and sqrt
+/// are used.
 class MICROTRACE_EXPORT Framing {
  public:
   Framing(const View& view, ImageSize size);
 
-  /// Adds a scene's shapes to those of previous scenes, for example the poses of an animation. All
-  /// points of this class are in the first scene's coordinates.
+  /// Adds a scene's shapes to those of the scenes added before, for example the frames of an
+  /// animation. All points that this class takes and returns are in the coordinates of the first
+  /// scene.
   void add(const Scene& scene);
 
   [[nodiscard]] PerspectiveCamera camera() const;
 
-  /// A camera that looks at the target from this distance, even if it doesn't see all shapes.
-  /// distance > 0.
+  /// Returns a camera that looks at the target from this distance, which must be positive. The
+  /// camera need not see all shapes.
   [[nodiscard]] PerspectiveCamera camera_around(const DVec3& target, double distance) const;
 
-  /// The center of the bounding box; (0, 0, 0) if there are no shapes.
+  /// Returns the center of the bounding box; (0, 0, 0) if there are no shapes.
   [[nodiscard]] DVec3 center() const;
 
-  /// The first scene's origin.
+  /// Returns Scene::origin of the first scene.
   [[nodiscard]] DVec3 origin() const { return origin_.value_or(DVec3(0)); }
 
  private:
@@ -58,8 +63,8 @@ class MICROTRACE_EXPORT Framing {
   DVec3 right_, up_, back_;  // orthonormal
   double vertical_fov_;      // radians
   double slope_x_, slope_y_;
-  // The outward normals of the frustum's four sides, and back; and the extent of the shapes along
-  // each.
+  // The outward normals of the frustum's four sides and back_, and the maximum extent of the shapes
+  // along each of these directions.
   std::array<DVec3, 5> directions_;
   std::array<double, 5> reach_;
   DVec3 low_, high_;  // the bounding box
@@ -69,7 +74,8 @@ class MICROTRACE_EXPORT Framing {
 [[nodiscard]] MICROTRACE_EXPORT PerspectiveCamera frame(const Scene& scene, const View& view,
                                                         ImageSize size);
 
-/// The scene's first camera, or without cameras the frame() of the default view.
+/// Returns the scene's first camera. If the scene has no cameras, returns frame() for the default
+/// view.
 [[nodiscard]] MICROTRACE_EXPORT Camera default_camera(const Scene& scene, ImageSize size);
 
 }  // namespace microtrace

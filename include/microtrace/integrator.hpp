@@ -1,5 +1,5 @@
 #pragma once
-/// The extension point of the renderer: an Integrator computes the color of camera rays.
+/// The extension point of the renderer: an Integrator computes the colors of camera rays.
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -22,30 +22,32 @@ class Shading;
 class Surfaces;
 
 /// The scene as integrators see it. Rays, points and normals are in scene coordinates, whose origin
-/// is at Scene::origin in world space. Monte Carlo integrators may get another origin near the
-/// camera.
+/// is at Scene::origin in world space. For Monte Carlo integrators the scene may be translated, so
+/// that its origin is near the camera.
 struct MICROTRACE_EXPORT World {
   const Scene& scene;
   const Bvh& bvh;
   const RayGenerator& camera;
   std::uint32_t seed = 0;     ///< random seed
-  std::uint32_t samples = 1;  ///< samples per pixel for which base_color filters textures
-  const Surfaces& surfaces;   ///< this and the next two are for the library's own integrators
+  std::uint32_t samples = 1;  ///< number of samples per pixel that base_color assumes when it
+                              ///< filters textures
+  const Surfaces& surfaces;   ///< this member and the next two are for the library's own
+                              ///< integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
 
-  /// Position, normals, texture coordinates, object and triangle at a hit of `ray`.
+  /// Returns position, normals, texture coordinates, object and triangle at a hit of `ray`.
   [[nodiscard]] SurfaceInteraction surface(const Ray& ray, const Hit& hit) const {
     return interact(bvh.primitives(), ray, hit);
   }
 
-  /// Base color at a hit of a camera ray, linear Rec. 709: the product of factor, texture and
-  /// vertex color. The texture is filtered over the sample's part of the pixel. Alpha is the
-  /// surface's coverage: 0 for the back of a one-sided surface and where a mask cuts it out, 1
-  /// where it is opaque (glTF 2.0, sections 3.9.4 and 3.9.6).
+  /// Returns the base color at a hit of a camera ray in linear Rec. 709: the product of factor,
+  /// texture and vertex color. The texture is filtered over one sample's part of the pixel. Alpha
+  /// is the surface's coverage: 0 on the back of a one-sided surface and where a mask removes the
+  /// surface, 1 where the surface is opaque (glTF 2.0, sections 3.9.4 and 3.9.6).
   [[nodiscard]] Vec4 base_color(const Ray& ray, const Hit& hit) const;
 
-  /// The first hit of a camera ray, from `hit` on, with coverage above 0.
+  /// Returns the first hit of a camera ray with coverage above 0, starting with `hit` itself.
   [[nodiscard]] std::optional<Hit> first_visible(const Ray& ray, std::optional<Hit> hit) const;
 };
 
@@ -53,57 +55,60 @@ struct MICROTRACE_EXPORT World {
 struct SampleId {
   std::uint32_t x = 0, y = 0;  ///< pixel in the whole picture
   std::uint32_t index = 0;     ///< index within the pixel, from 0
-  std::uint32_t key = 0;       ///< hash of seed and pixel
+  std::uint32_t key = 0;       ///< hash of the random seed and the pixel
 };
 
 /// The radiance along one ray, without the scene's background.
 struct Sample {
-  Vec3 color{0};    ///< linear Rec. 709, premultiplied with alpha
+  Vec3 color{0};    ///< radiance, linear Rec. 709, premultiplied with alpha
   float alpha = 0;  ///< opacity in front of the background: 0 transparent, 1 opaque
 };
 
-/// Numbers of rays by purpose, and their processor time in seconds, summed over threads.
+/// Numbers of rays by purpose, and the processor time spent on them in seconds, summed over
+/// threads.
 struct MICROTRACE_EXPORT RayCounts {
   struct Kind {
     std::uint64_t rays = 0;
     double seconds = 0;
   };
   Kind camera{};
-  Kind path{};    ///< from surfaces, to continue paths
-  Kind shadow{};  ///< from surfaces to lights; the seconds include evaluation of the surfaces hit
-  std::uint64_t beyond = 0;  ///< calls of Bvh::next, for surfaces that transmit paths or light
+  Kind path{};    ///< from surfaces to continue paths
+  Kind shadow{};  ///< from surfaces to lights; the seconds include the evaluation of the surfaces
+                  ///< that these rays hit
+  std::uint64_t beyond = 0;  ///< calls of Bvh::next to continue behind surfaces that let paths or
+                             ///< light through
 
   RayCounts& operator+=(const RayCounts& other);
 };
 
-/// The maximum number of rays per call of an integrator, for Monte Carlo integrators and for
-/// others.
+/// The maximum number of rays per call of an integrator: kRandomBatch for Monte Carlo integrators,
+/// kMaxBatch for others.
 inline constexpr std::size_t kRandomBatch = 1024, kMaxBatch = 64;
 
 class MICROTRACE_EXPORT Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// samples[i] is the result for rays[i] with ids[i]; all spans have the same size, at most
-  /// kMaxBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors, so that they form
-  /// packets for Bvh::intersect. Each result must depend only on its own ray and id. Many threads
-  /// call this function at the same time.
+  /// Sets samples[i] to the result for rays[i] with ids[i]. All spans have the same size, at most
+  /// kMaxBatch, or kRandomBatch if is_random(). Consecutive rays are neighbors in the picture, so
+  /// Bvh::intersect can trace them as packets. Each result must depend only on its own ray and id.
+  /// Several threads call this function at the same time.
   virtual void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
                      std::span<Sample> samples) const = 0;
 
-  /// True if the samples are arbitrary data instead of radiance. Data is not filtered, and not
-  /// composited over the background.
+  /// Returns true if the samples are arbitrary data instead of radiance. Data is neither filtered
+  /// nor composited over the background.
   [[nodiscard]] virtual bool is_data() const { return false; }
 
-  /// True for Monte Carlo integrators: pixel positions are jittered and batches hold up to
-  /// kRandomBatch rays.
+  /// Returns true for Monte Carlo integrators. Their pixel positions are jittered, and their
+  /// batches hold up to kRandomBatch rays.
   [[nodiscard]] virtual bool is_random() const { return false; }
 
-  /// The rays of all calls of trace() so far; zero if they are not counted. The numbers depend only
-  /// on the picture, but the seconds vary.
+  /// Returns the counts of all calls of trace() so far; zero if rays are not counted. The numbers
+  /// of rays depend only on the pictures, but the seconds vary.
   [[nodiscard]] virtual RayCounts ray_counts() const { return {}; }
 
-  /// How 8-bit formats should show the finished film.
+  /// Returns how 8-bit formats should show the finished film.
   [[nodiscard]] virtual Display display(const Film& /*film*/) const { return {}; }
 
  protected:
@@ -112,7 +117,8 @@ class MICROTRACE_EXPORT Integrator {
   Integrator& operator=(const Integrator&) = default;
 };
 
-/// The color of the first surface, without light.
+/// Shows base colors without lighting: the first opaque surface, blended with transparent surfaces
+/// in front of it.
 class MICROTRACE_EXPORT FlatIntegrator final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,

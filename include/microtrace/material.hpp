@@ -1,7 +1,10 @@
 #pragma once
 /// Surface materials: the metallic-roughness model of glTF 2.0, section 3.9, and the extensions
-/// KHR_materials_*, each in a struct with the extension's name. Extensions without effect, whatever
-/// their textures contain, are omitted.
+/// KHR_materials_*, each in a struct with the extension's name. Loaders omit extensions whose
+/// factors leave them without effect.
+///
+/// Comments on textures name the encoding of their colors (sRGB or linear) and the channels that
+/// are used; "alpha: factor" means that alpha is multiplied with the factor.
 
 #include <microtrace/math.hpp>
 #include <microtrace/texture.hpp>
@@ -12,18 +15,19 @@
 
 namespace microtrace {
 
-/// The use of the base color's alpha (glTF 2.0, section 3.9.4).
+/// How the base color's alpha is used (glTF 2.0, section 3.9.4).
 enum class AlphaMode {
-  opaque,  ///< ignored
-  mask,    ///< the surface exists where alpha is at least the cutoff
-  blend,   ///< opacity; surfaces behind are visible through it
+  opaque,  ///< alpha is ignored
+  mask,    ///< the surface exists only where alpha is at least the cutoff
+  blend,   ///< alpha is the opacity; surfaces behind show through
 };
 
 /// The reflectance of a dielectric (KHR_materials_specular).
 struct Specular {
-  float factor = 1;                     ///< of the reflection, in [0, 1]
+  float factor = 1;                     ///< strength of the reflection, in [0, 1]
   std::optional<TextureUse> texture{};  ///< linear; alpha: factor
-  Vec3 color{1};                        ///< of the reflection at normal incidence, not negative
+  Vec3 color{1};                        ///< color of the reflection at normal incidence, linear
+                                        ///< Rec. 709, not negative
   std::optional<TextureUse> color_texture{};  ///< sRGB
 
   bool operator==(const Specular&) const = default;
@@ -37,25 +41,26 @@ struct Transmission {
   bool operator==(const Transmission&) const = default;
 };
 
-/// The surface encloses a medium (KHR_materials_volume); otherwise it is a thin wall without
-/// refraction. Absorption depends on the actual path length; the thickness only distinguishes walls
-/// (0) from volumes.
+/// The medium that the surface encloses (KHR_materials_volume). A surface without a volume is a
+/// thin wall, which does not refract. Absorption depends on the actual length of the path in the
+/// medium; the thickness only distinguishes thin walls (0) from volumes.
 struct Volume {
-  float thickness = 0;                  ///< mesh's own space, not negative; 0: a thin wall
+  float thickness = 0;                  ///< in the mesh's local space, not negative; 0: a thin wall
   std::optional<TextureUse> texture{};  ///< linear; g: thickness
-  /// World space, positive: the distance after which white light has the attenuation color.
+  /// The distance after which white light has the attenuation color, in world space; positive.
   float attenuation_distance = std::numeric_limits<float>::infinity();
   Vec3 attenuation_color{1};  ///< linear Rec. 709, each in [0, 1]
 
   bool operator==(const Volume&) const = default;
 };
 
-/// A smooth or rough coat with index 1.5 over all other layers (KHR_materials_clearcoat).
+/// A coat with index of refraction 1.5 over all other layers (KHR_materials_clearcoat).
 struct Clearcoat {
   float factor = 0, roughness = 0;                ///< each in [0, 1]
   std::optional<TextureUse> texture{};            ///< linear; r: factor
   std::optional<TextureUse> roughness_texture{};  ///< linear; g: roughness
-  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: flat
+  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: the surface's
+                                                  ///< normal
   float normal_scale = 1;                         ///< of the texture's x and y
 
   bool operator==(const Clearcoat&) const = default;
@@ -74,8 +79,8 @@ struct Sheen {
 /// Elongated highlights (KHR_materials_anisotropy).
 struct Anisotropy {
   float strength = 0;  ///< in [0, 1]
-  float rotation = 0;  ///< of the direction of highlights, counterclockwise from the tangent,
-                       ///< radians, in (-2 pi, 2 pi)
+  float rotation = 0;  ///< rotation of the direction of highlights, counterclockwise from the
+                       ///< tangent, radians, in (-2 pi, 2 pi)
   std::optional<TextureUse> texture{};  ///< linear; rg: direction in [-1, 1], b: strength
 
   bool operator==(const Anisotropy&) const = default;
@@ -84,11 +89,12 @@ struct Anisotropy {
 /// A thin film over the surface (KHR_materials_iridescence).
 struct Iridescence {
   float factor = 0;                                        ///< in [0, 1]
-  float ior = 1.3F;                                        ///< of the film, at least 1
+  float ior = 1.3F;                                        ///< index of refraction of the film, at
+                                                           ///< least 1
   float thickness_minimum = 100, thickness_maximum = 400;  ///< nanometers, not negative
   std::optional<TextureUse> texture{};                     ///< linear; r: factor
-  /// Linear; g: 0 is the minimum, 1 the maximum. Without a texture the film has the maximum
-  /// thickness.
+  /// Linear; g: 0 means the minimum thickness, 1 the maximum. Without a texture the film has the
+  /// maximum thickness.
   std::optional<TextureUse> thickness_texture{};
 
   bool operator==(const Iridescence&) const = default;
@@ -104,7 +110,7 @@ struct DiffuseTransmission {
   bool operator==(const DiffuseTransmission&) const = default;
 };
 
-/// Replaces metallic and roughness; the base color is then the diffuse color
+/// Replaces metallic and roughness. The base color becomes the diffuse color
 /// (KHR_materials_pbrSpecularGlossiness, archived).
 struct SpecularGlossiness {
   Vec3 specular{1};      ///< reflectance at normal incidence, linear Rec. 709, each in [0, 1]
@@ -114,8 +120,9 @@ struct SpecularGlossiness {
   bool operator==(const SpecularGlossiness&) const = default;
 };
 
-/// The defaults are a white two-sided surface. Factors are multiplied with textures. Flat pictures
-/// show the base color; members after `unlit` only affect path-traced pictures.
+/// The material of a surface; by default white, rough and two-sided. Factors are multiplied with
+/// textures. Flat pictures show the base color; members after `unlit` only affect path-traced
+/// pictures.
 struct Material {
   std::string name{};
   Vec4 base_color{1};                              ///< linear Rec. 709 and alpha, each in [0, 1]

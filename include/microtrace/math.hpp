@@ -1,5 +1,6 @@
 #pragma once
-/// GLM's vectors. World space is right-handed, +y up; lengths have no unit.
+/// The vector and matrix types, which are GLM's. World space is right-handed with +y up; lengths
+/// have no unit.
 
 #include <glm/mat3x2.hpp>
 #include <glm/mat4x4.hpp>
@@ -13,12 +14,13 @@ using Vec2 = glm::vec2;      ///< texture coordinates
 using Vec3 = glm::vec3;      ///< stored geometry, rays, colors
 using Vec4 = glm::vec4;      ///< colors with alpha, tangents
 using DVec2 = glm::dvec2;    ///< texture coordinates during computation
-using DVec3 = glm::dvec3;    ///< cameras and transforms, before the one rounding to float32
+using DVec3 = glm::dvec3;    ///< cameras, transforms and intermediate results in float64
 using DVec4 = glm::dvec4;    ///< colors with alpha, during computation
-using Mat3x2 = glm::mat3x2;  ///< affine maps of the plane: two columns and the translation
+using Mat3x2 = glm::mat3x2;  ///< affine maps of the plane: two columns of the linear part and the
+                             ///< translation
 using DMat4 = glm::dmat4;    ///< node transforms, column-major as in glTF
 
-// GLM's alignment macros would change the layouts with which the library was built.
+// GLM's alignment macros would give these types a different layout than in the compiled library.
 static_assert(sizeof(Vec2) == 8 && sizeof(Vec3) == 12 && sizeof(Vec4) == 16 && sizeof(DVec3) == 24,
               "GLM must be used without forced alignment");
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Limits the memory of loading and rendering.
+/// Limits the memory used for loading and rendering.
 
 #include <microtrace/export.hpp>
 
@@ -9,19 +9,19 @@
 
 namespace microtrace {
 
-/// Counts memory against a limit before it is allocated: nearly all memory that grows with the
-/// input. May be used by any number of threads.
+/// Counts memory against a limit, before the memory is allocated. The library counts nearly all
+/// memory whose size depends on the input. May be used by any number of threads.
 class MICROTRACE_EXPORT MemoryBudget {
  public:
   explicit MemoryBudget(std::uint64_t limit) : limit_(limit) {}
 
-  /// Throws Error (limit), without counting, if the limit would be exceeded. `what` names the
-  /// purpose in the message: "the vertices of meshes".
+  /// Counts `bytes`. If the limit would be exceeded, throws Error (limit) and counts nothing.
+  /// `what` names the purpose in the message, such as "the vertices of meshes".
   void take(std::uint64_t bytes, std::string_view what);
   void give_back(std::uint64_t bytes);
 
   [[nodiscard]] std::uint64_t limit() const { return limit_; }
-  [[nodiscard]] std::uint64_t peak() const;  ///< maximum counted at any time
+  [[nodiscard]] std::uint64_t peak() const;  ///< the maximum of the counted bytes so far
 
  private:
   const std::uint64_t limit_;
@@ -29,8 +29,8 @@ class MICROTRACE_EXPORT MemoryBudget {
   std::uint64_t used_ = 0, peak_ = 0;
 };
 
-/// Three quarters of the free memory: of the memory that the system reports as available, and of
-/// the remaining limits of this process' control groups.
+/// Returns three quarters of the free memory in bytes. The free memory is what the system reports
+/// as available, or the remaining limit of one of the process's control groups if that is less.
 [[nodiscard]] MICROTRACE_EXPORT std::uint64_t default_memory_limit();
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// All of the library.
+/// Includes all headers of the library.
 
 #include <microtrace/aov.hpp>
 #include <microtrace/array.hpp>

@@ -11,12 +11,13 @@
 
 namespace microtrace {
 
-/// Effect of the backs of one-sided surfaces (glTF's doubleSided false) on light paths. The backs
-/// are invisible to the camera. Surfaces that enclose a medium (KHR_materials_volume) are
-/// two-sided.
+/// What happens to light paths that meet the back of a one-sided surface (glTF's doubleSided
+/// false). The camera never sees such backs. Surfaces that enclose a medium (KHR_materials_volume)
+/// are always two-sided.
 enum class Backfaces {
-  pass,     ///< passes through, like camera rays: hulls seen from inside don't block light
-  occlude,  ///< is blocked: one-sided walls seen from outside block sunlight
+  pass,     ///< paths pass through, as camera rays do, so a hull seen from inside doesn't block
+            ///< light
+  occlude,  ///< paths are blocked, so one-sided walls block sunlight that comes from behind them
 };
 
 struct PathOptions {
@@ -25,9 +26,9 @@ struct PathOptions {
   Backfaces backfaces = Backfaces::pass;
 };
 
-/// Path tracing (J. Kajiya, The rendering equation, 1986) with the scene's lights, its environment
-/// and emissive surfaces, and the materials of glTF 2.0, appendix B. The mean over the samples is
-/// the radiance, except for the contribution of paths longer than max_depth.
+/// Path tracing (J. Kajiya, The rendering equation, 1986) with the scene's lights, its environment,
+/// its emissive surfaces, and the materials of glTF 2.0, appendix B. The expected value of a sample
+/// is the radiance without the contribution of paths longer than max_depth.
 class MICROTRACE_EXPORT PathIntegrator final : public Integrator {
  public:
   explicit PathIntegrator(const PathOptions& options = {});

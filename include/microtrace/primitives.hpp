@@ -19,28 +19,29 @@ namespace microtrace {
   return {.a = mesh.positions[a], .b = mesh.positions[b], .c = mesh.positions[c]};
 }
 
-/// All primitives of a scene by number. The scene must outlive this object and must not change.
+/// Gives access to all primitives of a scene by number. The scene must outlive this object and must
+/// not change.
 class MICROTRACE_EXPORT Primitives {
  public:
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
   explicit Primitives(const Scene& scene);
-  explicit Primitives(const Scene&&) = delete;  // it would dangle
+  explicit Primitives(const Scene&&) = delete;  // a temporary scene would dangle
 
-  /// Numbers run from 0 to count() - 1.
+  /// The number of primitives; PrimitiveIds run from 0 to count() - 1.
   [[nodiscard]] PrimitiveId count() const { return count_; }
 
   /// The index in Scene::objects of the object that contains the primitive.
   [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
-  /// The lowest number of that object's primitives.
+  /// The lowest PrimitiveId in the object that contains the primitive.
   [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
-  /// The lowest number of an object's primitives.
+  /// The lowest PrimitiveId in the object with this index.
   [[nodiscard]] PrimitiveId first_id_of(std::size_t object) const { return first_ids_[object]; }
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Object& object(PrimitiveId id) const {
     return scene_->objects[object_index(id)];
   }
 
-  /// Calls f(shape) with the primitive's own shape, a Triangle for a part of a mesh.
+  /// Calls f(shape) with the primitive's shape, which is a Triangle for a primitive of a mesh.
   template <class F>
   decltype(auto) visit(PrimitiveId id, F&& f) const {
     const std::size_t k = object_index(id);
@@ -54,7 +55,7 @@ class MICROTRACE_EXPORT Primitives {
         scene_->objects[k].shape);
   }
 
-  /// The primitive's shape if it is a triangle, alone or part of a mesh.
+  /// Returns the primitive's shape if it is a triangle, either a separate one or one of a mesh.
   [[nodiscard]] std::optional<Triangle> triangle(PrimitiveId id) const {
     return visit(id, []<class AnyShape>(const AnyShape& shape) -> std::optional<Triangle> {
       if constexpr (std::is_same_v<AnyShape, Triangle>)
@@ -64,7 +65,7 @@ class MICROTRACE_EXPORT Primitives {
     });
   }
 
-  /// Calls f(id, shape) for every primitive in the order of their numbers.
+  /// Calls f(id, shape) for every primitive in the order of PrimitiveIds.
   template <class F>
   void for_each(F&& f) const {
     for (std::size_t k = 0; k < scene_->objects.size(); ++k) {
@@ -87,7 +88,7 @@ class MICROTRACE_EXPORT Primitives {
   static constexpr bool is_mesh = std::is_same_v<std::remove_cvref_t<T>, Mesh>;
 
   const Scene* scene_;
-  std::vector<PrimitiveId> first_ids_;  // of each object
+  std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each object
   PrimitiveId count_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Queries of many rays and points: all hits of rays, points inside and outside of closed meshes,
-/// nearest points.
+/// Bulk queries: all hits of rays, location of points inside or outside of closed meshes, and
+/// nearest points on surfaces.
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -18,21 +18,22 @@
 
 namespace microtrace {
 
-/// Results depend on none of these options.
+/// Options of queries, which never change the results.
 struct QueryOptions {
   unsigned threads = 0;  ///< 0: default_threads()
   /// See RenderOptions::run_threads.
   std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
-  /// Called about 50 times per second by each working thread, including the caller's, with the
-  /// fraction of the rays or points that are done, in [0, 1]; by one thread at a time. If it
-  /// returns false, the query stops at once and throws Error (canceled); its results are then
-  /// unspecified.
+  /// Called about 50 times per second by each working thread, possibly the caller's, but by one
+  /// thread at a time. The argument is the fraction of the rays or points that are done, in [0, 1].
+  /// If the callback returns false, the query stops at once and throws Error (canceled); its
+  /// results are then unspecified.
   std::function<bool(double)> progress{};
 };
 
-/// Hits of several rays. Those of ray i are hits[offsets[i]] to below hits[offsets[i + 1]].
+/// The hits of several rays. The hits of ray i have the indices from offsets[i] up to, but not
+/// including, offsets[i + 1].
 struct RayHits {
-  std::vector<std::uint64_t> offsets{0};  ///< one more than there are rays
+  std::vector<std::uint64_t> offsets{0};  ///< the number of rays + 1 elements
   std::vector<Hit> hits{};
 
   [[nodiscard]] std::size_t rays() const { return offsets.size() - 1; }
@@ -41,16 +42,18 @@ struct RayHits {
   }
 };
 
-/// All hits of each ray in the order (t, PrimitiveId). They equal the results of
+/// Returns all hits of each ray in the order (t, PrimitiveId). The hits equal those of
 /// PreparedScene::intersect and repeated calls of PreparedScene::next, but are found faster. Each
-/// primitive counts once. Throws Error: limit if memory runs out; canceled.
+/// primitive counts once. Rays are in world space. Throws Error: limit if memory runs out, canceled
+/// if options.progress returns false.
 [[nodiscard]] MICROTRACE_EXPORT RayHits intersect_all(const PreparedScene& scene,
                                                       std::span<const Ray> rays,
                                                       const QueryOptions& options = {});
 
-/// counts[i] is the number of hits of rays[i] that intersect_all returns: a ray through an edge or
-/// a vertex of a mesh hits each triangle there, a ray through a sphere hits it once. Both spans
-/// have the same size. Throws Error (canceled).
+/// Sets counts[i] to the number of hits of rays[i] that intersect_all would return. A ray through
+/// an edge or a vertex of a mesh hits each triangle there; a ray through a sphere hits it once.
+/// Both spans must have the same size. Rays are in world space. Throws Error (canceled) if
+/// options.progress returns false.
 MICROTRACE_EXPORT void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
                                        std::span<std::uint32_t> counts,
                                        const QueryOptions& options = {});
@@ -72,20 +75,20 @@ struct NearestPoint {
 struct OpenEdge {
   PrimitiveId triangle = 0;  ///< the triangle with the lowest number among them
   std::uint32_t side = 0;    ///< of this triangle; 0: from a to b, 1: from b to c, 2: from c to a
-  std::uint32_t count = 1;   ///< number of triangles with the edge
-  DVec3 a{0}, b{0};          ///< ends, world space
+  std::uint32_t count = 1;   ///< number of triangles that have this edge
+  DVec3 a{0}, b{0};          ///< end points, world space
 };
 
-/// The triangles of a scene, in meshes or alone, as the surface of a solid. Other shapes are
-/// ignored.
+/// The triangles of a scene, whether separate or in meshes, as the surface of a solid. Other shapes
+/// are ignored.
 ///
-/// A point is on the boundary if it is in a triangle, which is a closed set. Otherwise it is inside
-/// if a ray from it that avoids all edges and vertices crosses an odd number of triangles. This is
-/// decided for the real numbers that the float32 numbers of the scene and the point represent. It
-/// is therefore never wrong for a closed surface, in which each edge belongs to an even number of
-/// triangles. Vertices at equal positions are one vertex here, as glTF duplicates vertices at
-/// seams; triangles may be oriented in any way, intersect, or coincide. docs/exactness.md has the
-/// definitions.
+/// A point is on the boundary if it lies in a triangle, which includes the triangle's edges and
+/// vertices. Otherwise a point is inside if a ray that starts there and avoids all edges and
+/// vertices crosses an odd number of triangles. The decision is exact for the real numbers that the
+/// float32 numbers of the scene and the point represent. It is therefore never wrong for a closed
+/// surface, in which each edge belongs to an even number of triangles. Vertices at equal positions
+/// count as one vertex, because glTF duplicates vertices at seams. Triangles may be oriented in any
+/// way, intersect, or coincide. docs/exactness.md has the definitions.
 ///
 /// Points are in world space. If Scene::origin is not zero, they are translated in float64 and
 /// rounded to float32 once, as PreparedScene does with the origins of rays.
@@ -94,37 +97,39 @@ struct OpenEdge {
 /// same time.
 class MICROTRACE_EXPORT Solid {
  public:
-  /// All triangles of the scene, or those of one object: an index into Scene::objects. Throws Error
-  /// (usage) if there is no such object.
+  /// Uses all triangles of the scene, or only those of one object, given by its index in
+  /// Scene::objects. Throws Error (usage) if there is no such object.
   explicit Solid(PreparedScene scene, std::optional<std::size_t> object = {});
 
-  /// True if there are no open edges; computed on first use. Triangles with coordinates that are
-  /// not finite are empty and don't count.
+  /// Returns true if there are no open edges; computed on first use. Triangles with coordinates
+  /// that are not finite are empty and don't count. Throws Error (limit) if memory runs out.
   [[nodiscard]] bool is_closed() const { return open_edges().empty(); }
-  /// In the order of their triangles and sides. The memory belongs to this object and its copies.
-  /// Throws Error (limit) if memory runs out.
+  /// Returns all open edges, ordered by triangle and side; computed on first use. This object and
+  /// its copies own the memory. Throws Error (limit) if memory runs out.
   [[nodiscard]] std::span<const OpenEdge> open_edges() const;
 
-  /// locations[i] is the location of points[i]; both spans have the same size. If the surface is
-  /// not closed, a point that is not on the boundary is inside if some ray, chosen by the position
-  /// of the point, crosses an odd number of triangles. Points that are not finite are outside.
-  /// Throws Error (canceled).
+  /// Sets locations[i] to the location of points[i]. Both spans must have the same size. If the
+  /// surface is not closed, the location of a point off the boundary is decided by a single ray,
+  /// whose direction depends on the point's position relative to the scene's bounding box. Points
+  /// that are not finite are outside. Throws Error (canceled) if options.progress returns false.
   void locate(std::span<const Vec3> points, std::span<Location> locations,
               const QueryOptions& options = {}) const;
 
-  /// nearest[i] is the point of the surface that is nearest to points[i]; nothing if points[i] is
-  /// not finite or there are no triangles. Both spans have the same size. The triangle is the
-  /// nearest over the real numbers. The distance has a relative error of at most 2^-38. The
-  /// position is a point of the triangle. Its error is at most 2^-40 times the largest magnitude of
-  /// the differences between the coordinates of the point and the triangle's vertices, plus the
-  /// rounding of its coordinates to float64. Bits are the same on every machine. Throws Error
-  /// (canceled).
+  /// Sets nearest[i] to the point of the surface that is nearest to points[i], or to nothing if
+  /// points[i] is not finite or there are no triangles. Both spans must have the same size. Throws
+  /// Error (canceled) if options.progress returns false.
+  ///
+  /// The triangle is the nearest one in real arithmetic. The distance has a relative error of at
+  /// most 2^-38. The position lies on the triangle with an error of at most 2^-40 D plus the
+  /// rounding of coordinates to float64, where D is the largest coordinate difference between
+  /// points[i] and the triangle's vertices. The bits of the results are the same on every machine.
   void nearest_points(std::span<const Vec3> points, std::span<std::optional<NearestPoint>> nearest,
                       const QueryOptions& options = {}) const;
 
-  /// distances[i] is the distance from points[i] to the surface, negative if the point is inside
-  /// and 0 if it is on the boundary; infinity if the point is not finite or there are no triangles.
-  /// Both spans have the same size. Throws Error (canceled).
+  /// Sets distances[i] to the distance from points[i] to the surface: negative if the point is
+  /// inside, 0 if it is on the boundary, and infinite if the point is not finite or there are no
+  /// triangles. Both spans must have the same size. Throws Error (canceled) if options.progress
+  /// returns false.
   void signed_distances(std::span<const Vec3> points, std::span<double> distances,
                         const QueryOptions& options = {}) const;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Records which files were read, so that none of them is overwritten.
+/// Records which files were read, so that a program can avoid overwriting them.
 
 #include <microtrace/export.hpp>
 
@@ -12,20 +12,21 @@
 
 namespace microtrace {
 
-/// A file's device and inode: the same for all its names and links.
+/// A file's device and inode numbers, which are the same for all names and links of the file.
 using FileIdentity = std::pair<std::uint64_t, std::uint64_t>;
 
-/// The identity of the regular file to which the name leads; "-" is standard output. Nothing if
-/// there is none, or if it is another kind of file.
+/// Returns the identity of the regular file to which the path leads; "-" means standard output.
+/// Returns nothing if there is no file or if it is not a regular file.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<FileIdentity> identity_of(
     const std::filesystem::path& path);
 
-/// True if both names lead to the same file, even one that does not exist yet.
+/// Returns true if both paths lead to the same file, even if the file does not exist yet.
 [[nodiscard]] MICROTRACE_EXPORT bool are_same_target(const std::filesystem::path& a,
                                                      const std::filesystem::path& b);
 
-/// During its lifetime, records all regular files, including standard input, that the library reads
-/// on this thread, and those that scenes name. If there are several objects, the last one counts.
+/// During its lifetime, records all regular files that the library reads on this thread, including
+/// standard input, and all files that scenes name. If several objects exist on a thread, only the
+/// most recent one records.
 class MICROTRACE_EXPORT ReadFiles {
  public:
   ReadFiles();
@@ -33,7 +34,8 @@ class MICROTRACE_EXPORT ReadFiles {
   ReadFiles(const ReadFiles&) = delete;
   ReadFiles& operator=(const ReadFiles&) = delete;
 
-  /// The name under which the file was read to which `path` leads; nothing if it was not read.
+  /// Returns the name under which the file at `path` was read, or nothing if that file was not
+  /// read.
   [[nodiscard]] std::optional<std::string> name_of(const std::filesystem::path& path) const;
 
   void note(const FileIdentity& file, const std::string& name) { names_.emplace(file, name); }

@@ -1,5 +1,5 @@
 #pragma once
-/// Rendering of exact quantities (AOVs) alone, into memory of the caller.
+/// Renders exact quantities (AOVs) without colors into caller-provided buffers.
 
 #include <microtrace/aov.hpp>
 #include <microtrace/camera.hpp>
@@ -15,27 +15,27 @@
 
 namespace microtrace {
 
-/// Where the values of a quantity are stored. Channel c of the pixel in column x and row y of the
-/// picture, or of its crop, is data[y * row_stride + x * pixel_stride + c * channel_stride].
-/// Strides count numbers and may be negative.
+/// The buffer for the values of one quantity. The value of channel c in column x and row y of the
+/// picture (or of the crop) is stored in data[y * row_stride + x * pixel_stride + c *
+/// channel_stride]. Strides count numbers, not bytes, and may be negative.
 struct AovBuffer {
   Aov aov = Aov::depth;
-  std::variant<float*, std::uint32_t*> data{};  ///< std::uint32_t for Aov::id, float for others
+  std::variant<float*, std::uint32_t*> data{};  ///< std::uint32_t* for Aov::id, float* for others
   std::ptrdiff_t row_stride = 0, pixel_stride = 1;
   std::ptrdiff_t channel_stride = 1;
-  /// Stores only this channel, as c = 0: 1 for the primitive of Aov::id. Nothing: all channels, as
-  /// in channels_of(aov).
+  /// If set, only the channel with this index in channels_of(aov) is stored, as c = 0. For example,
+  /// 1 stores the primitives of Aov::id. If not set, all channels are stored.
   std::optional<std::size_t> channel{};
 };
 
-/// Renders the quantities to these buffers, with the bytes of render()'s channels. Each ray is
-/// traced once, and no integrator is called. A quantity may be asked for several times; buffers
-/// must not overlap. Other memory, such as padding between rows, is not touched.
+/// Renders quantities into buffers. The values equal the channels of render() bit for bit. Each ray
+/// is traced once, and no integrator is called. A quantity may have several buffers, but buffers
+/// must not overlap. Memory between the values, such as padding between rows, is not touched.
 ///
-/// Of the options, threads, run_threads, progress, times, counts, memory and crop apply; the others
-/// have no effect. Throws Error: usage for a null pointer, the wrong type of numbers, a channel
-/// that the quantity doesn't have, or an invalid crop; limit if memory runs out; canceled. After an
-/// error, the values in the buffers are undefined.
+/// Only the options threads, run_threads, progress, times, counts, memory and crop have an effect.
+/// Throws Error: usage for a null pointer, the wrong type of numbers, a channel that the quantity
+/// doesn't have, or an invalid crop; limit if memory runs out; canceled if options.progress returns
+/// false. After an error, the values in the buffers are unspecified.
 MICROTRACE_EXPORT void render_aovs(const PreparedScene& scene, const Camera& camera, ImageSize size,
                                    std::span<const AovBuffer> buffers,
                                    const RenderOptions& options = {});

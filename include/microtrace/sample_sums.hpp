@@ -1,5 +1,5 @@
 #pragma once
-/// Sample sums of a picture that is rendered in parts: in several passes, several runs of the
+/// Sums of samples, for pictures that are rendered in several passes, in several runs of the
 /// program, or on several machines.
 
 #include <microtrace/export.hpp>
@@ -14,29 +14,31 @@
 
 namespace microtrace {
 
-/// Maximum value of a sample. A pixel has at most 2^16 samples, so their sum stays below 2^62.
+/// Maximum value of a sample's color components. A pixel has at most 2^16 samples, so their sum is
+/// at most 2^62.
 inline constexpr double kMaxSampleLight = 0x1p46;
 
-/// The sums of one pixel's samples. Sums of multiples of 2^-64 (alpha 2^-46, squares 2^-80) are
-/// exact, so the same samples give the same bits in any order and grouping.
+/// The sums of one pixel's samples. Samples are truncated to multiples of 2^-64 (alpha: 2^-46,
+/// squares: 2^-80), whose sums are exact. The same samples therefore give the same bits in any
+/// order and grouping.
 struct MICROTRACE_EXPORT PixelSum {
   std::array<FixedSum<2, 64>, 3> color{};
   FixedSum<1, 46> alpha{};
-  FixedSum<3, 80> square{};  ///< of the displayed luminance
+  FixedSum<3, 80> square{};  ///< sum of the squares of the displayed luminance
   std::uint32_t count = 0;   ///< number of samples
 
-  /// Adds an integrator's sample over this background. Returns false, and counts it as black, if it
-  /// is NaN.
+  /// Adds an integrator's sample composited over this background. If the sample is NaN, counts it
+  /// as black and returns false.
   bool add(const Vec3& sample, float sample_alpha, const Vec3& background);
 
   PixelSum& operator+=(const PixelSum& other);
 
-  [[nodiscard]] Vec3 mean_color() const;   ///< black without samples
-  [[nodiscard]] float mean_alpha() const;  ///< 0 without samples
-  /// The estimated variance of the mean displayed luminance. The estimate is for independent
-  /// samples; low-discrepancy samples have a smaller variance. 0 for less than two samples.
+  [[nodiscard]] Vec3 mean_color() const;   ///< black if there are no samples
+  [[nodiscard]] float mean_alpha() const;  ///< 0 if there are no samples
+  /// Returns the estimated variance of the mean displayed luminance; 0 for fewer than two samples.
+  /// The estimate assumes independent samples; low-discrepancy samples have a smaller variance.
   [[nodiscard]] double variance(const Vec3& background) const;
-  [[nodiscard]] double mean_luminance(const Vec3& background) const;  ///< as displayed
+  [[nodiscard]] double mean_luminance(const Vec3& background) const;  ///< mean displayed luminance
 
   [[nodiscard]] bool operator==(const PixelSum&) const = default;
 };
@@ -49,35 +51,38 @@ struct SampleRange {
   [[nodiscard]] bool operator==(const SampleRange&) const = default;
 };
 
-/// The sums of a part of a picture.
+/// The sums of all pixels in a part of a picture.
 class MICROTRACE_EXPORT SampleSums {
  public:
   SampleSums() = default;
-  /// No samples of the pixels of `window` yet. Throws std::bad_alloc.
+  /// Creates sums without samples for the pixels of `window`. Throws std::bad_alloc.
   SampleSums(ImageSize whole, const PixelRect& window, const Vec3& background);
 
   ImageSize whole;                 ///< size of the whole picture
-  PixelRect window;                ///< the part with these sums
-  Vec3 background{0};              ///< for luminance; black if the picture has alpha
-  std::vector<PixelSum> pixels{};  ///< of the window, row by row from the upper left
+  PixelRect window;                ///< the part of the picture that these sums cover
+  Vec3 background{0};              ///< background under the samples, for luminance; black if the
+                                   ///< picture has alpha
+  std::vector<PixelSum> pixels{};  ///< the sums of the window's pixels, row by row from the upper
+                                   ///< left
 
   [[nodiscard]] PixelSum& at(std::uint32_t x, std::uint32_t y) { return pixels[index(x, y)]; }
   [[nodiscard]] const PixelSum& at(std::uint32_t x, std::uint32_t y) const {
     return pixels[index(x, y)];
   }
 
-  /// The samples that were added, in order, possibly with gaps. Pixels that have converged only
-  /// have the first of them.
+  /// Returns the ranges of samples that were added, in ascending order, possibly with gaps.
+  /// Converged pixels hold only the first of these samples.
   [[nodiscard]] const std::vector<SampleRange>& ranges() const { return ranges_; }
-  /// The number of samples.
+  /// Returns the number of samples per pixel in ranges().
   [[nodiscard]] std::uint32_t count() const;
-  /// The missing parts of `wanted`, in order.
+  /// Returns the parts of `wanted` that were not added yet, in ascending order.
   [[nodiscard]] std::vector<SampleRange> missing(const SampleRange& wanted) const;
   [[nodiscard]] bool overlaps(const SampleRange& range) const;
-  /// Records samples that were added; they must not overlap others.
+  /// Records that these samples were added. The range must not overlap ranges recorded before.
   void note(const SampleRange& range);
 
-  /// Adds the samples of the same window of the same picture; none of them may be present.
+  /// Adds other samples of the same window of the same picture. None of them may be present
+  /// already.
   SampleSums& operator+=(const SampleSums& other);
 
  private:
@@ -89,7 +94,7 @@ class MICROTRACE_EXPORT SampleSums {
   std::vector<SampleRange> ranges_;
 };
 
-/// The picture of the samples so far, with alpha or over the background.
+/// Returns the picture of the samples so far, either with alpha or over the background.
 [[nodiscard]] MICROTRACE_EXPORT Film develop(const SampleSums& sums, Film::Alpha alpha);
 
 }  // namespace microtrace

@@ -1,6 +1,7 @@
 #pragma once
-/// Statistics of a Monte Carlo pixel's samples, as channels beside the colors. Unlike the
-/// quantities of aov.hpp they are means, with the same filter as the colors.
+/// Statistics of the samples of each pixel, for Monte Carlo integrators, stored as channels beside
+/// the colors. Unlike the quantities of aov.hpp, they are computed from all samples of a pixel,
+/// with the same pixel filter as the colors.
 
 #include <microtrace/export.hpp>
 
@@ -10,22 +11,23 @@
 
 namespace microtrace {
 
-/// To add one: a value here and in kSampledAovs, its channels and its value in
+/// To add a sampled AOV, add a value here and in kSampledAovs, its channels and its computation in
 /// src/render/aovs/sampled_aov_painter.cpp, its help text in src/cli/options/picture_options.cpp, a
-/// line in docs/outputs.md, a test in tests/unit/sampled_aov_test.cpp.
+/// line in docs/outputs.md, and a test in tests/unit/sampled_aov_test.cpp.
 enum class SampledAov {
   variance,        ///< Y: estimated variance of the mean luminance (PixelSum::variance)
   samples,         ///< N: number of samples of the pixel
-  denoise_albedo,  ///< R, G, B: base color of the first visible surface, in [0, 1]; 0 without a
-                   ///< surface
-  denoise_normal,  ///< X, Y, Z: its shading normal in world space, facing the viewer; 0 without
-                   ///< a surface; shorter than 1 where normals differ
+  denoise_albedo,  ///< R, G, B: mean base color of the first visible surface, in [0, 1]; samples
+                   ///< without a surface count as 0
+  denoise_normal,  ///< X, Y, Z: mean shading normal of the first visible surface, world space,
+                   ///< facing the viewer; samples without a surface count as 0; shorter than 1
+                   ///< where normals differ between samples
 };
 
 inline constexpr std::array kSampledAovs = {SampledAov::variance, SampledAov::samples,
                                             SampledAov::denoise_albedo, SampledAov::denoise_normal};
 
-/// The name on the command line, and before the dot in channel names.
+/// The AOV's name on the command line, which is also the part of channel names before the dot.
 [[nodiscard]] MICROTRACE_EXPORT std::string_view name_of(SampledAov aov);
 [[nodiscard]] MICROTRACE_EXPORT std::optional<SampledAov> sampled_aov_named(std::string_view name);
 

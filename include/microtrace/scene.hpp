@@ -1,5 +1,5 @@
 #pragma once
-/// A scene as created by the loaders: plain data, checked by `validate`.
+/// The scene as plain data. Loaders create scenes, and validate() checks them.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/environment.hpp>
@@ -18,11 +18,12 @@
 
 namespace microtrace {
 
-/// A shape with one material.
+/// A shape and its material.
 struct Object {
   std::string name;
   Shape shape;
-  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
+  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: a default
+                                            ///< Material{}
 };
 
 struct NamedCamera {
@@ -36,26 +37,28 @@ struct NamedLight {
 };
 
 struct Scene {
-  /// The position of these coordinates' (0, 0, 0) in the file's own coordinates. Scenes far from
-  /// the file's origin are translated, so that float32 can represent them precisely.
+  /// World space is the coordinate system of the scene file. All coordinates in the scene are scene
+  /// coordinates: world space translated so that this position becomes (0, 0, 0). Loaders translate
+  /// scenes that are far from the file's origin, because float32 is most precise near zero.
   DVec3 origin{0};
   std::vector<Object> objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  std::vector<std::shared_ptr<const Image>> images;  ///< null if not decoded
+  std::vector<std::shared_ptr<const Image>> images;  ///< null if the loader did not decode the
+                                                     ///< image
   std::vector<NamedCamera> cameras;                  ///< if empty, see default_camera
   std::vector<NamedLight> lights{};
-  std::optional<Environment> environment{};  ///< no effect on flat pictures
+  std::optional<Environment> environment{};  ///< has no effect on flat pictures
   ImageSize size;                            ///< default size of the picture
   Vec3 background{0};                        ///< linear Rec. 709
-  float epsilon = 0;  ///< camera rays only hit in the open interval (epsilon, infinity)
+  float epsilon = 0;  ///< camera rays hit only at t in the open interval (epsilon, infinity)
 };
 
-/// The object's material, valid for the lifetime of the scene.
+/// Returns the object's material; the reference is valid for the lifetime of the scene.
 [[nodiscard]] MICROTRACE_EXPORT const Material& material_of(const Scene& scene,
                                                             const Object& object);
 
-/// The number of a shape's PrimitiveIds.
+/// Returns the number of PrimitiveIds that a shape has.
 [[nodiscard]] MICROTRACE_EXPORT std::size_t primitive_count(const Shape& shape);
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// Points and lines, which have no area.
+/// Rendering of points and lines, which have no area.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/export.hpp>
@@ -9,13 +9,15 @@ namespace microtrace {
 
 [[nodiscard]] MICROTRACE_EXPORT bool has_segments(const Scene& scene);
 
-/// Replaces the segments of all meshes by triangles that face the camera. There are two for each
-/// segment, in order, after the mesh's own triangles: segment i has the PrimitiveIds n + 2 i and n
-/// + 2 i + 1, where n is the first id after the mesh's own triangles. They are one pixel wide in a
-/// picture of this size and extend half a pixel beyond the segment's ends; a segment shorter than a
-/// pixel becomes a square. Segments are clipped to the view; invisible ones are replaced by two
-/// empty triangles with coordinates that are not finite. Environment cameras and lens distortion
-/// show lines that are wider in places, never thinner. `render` calls this function itself.
+/// Replaces each segment of all meshes by two triangles that face the camera and follow the mesh's
+/// own triangles in order. Segment i gets the PrimitiveIds n + 2 i and n + 2 i + 1, where n is the
+/// first id after the mesh's own triangles.
+///
+/// The two triangles are one pixel wide in a picture of this size and extend half a pixel beyond
+/// the segment's ends. A segment shorter than a pixel becomes a square. Segments are clipped to the
+/// view; invisible ones are replaced by two empty triangles with coordinates that are not finite.
+/// With environment cameras and lens distortion, lines are wider than a pixel in places, but never
+/// thinner. render() calls this function itself.
 MICROTRACE_EXPORT void widen_segments(Scene& scene, const Camera& camera, ImageSize size);
 
 }  // namespace microtrace

@@ -1,5 +1,6 @@
 #pragma once
-/// Origins of rays that leave a surface: without an epsilon, and never on the wrong side.
+/// Computes the origins of rays that leave a surface. No epsilon is needed, and no origin is on the
+/// wrong side of the surface.
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
@@ -11,30 +12,34 @@
 
 namespace microtrace {
 
-/// The origin of a ray that leaves the hit of `ray` on `surface` in `direction` (any nonzero
-/// length). The surface's function F is zero on it: n.(x - a) for flat surfaces, |x - c|^2 - r^2
-/// for a sphere, a quadric's polynomial. The outgoing side is the sign of F just beyond the exact
-/// hit point in this direction; if the direction is within the surface, the side of the incoming
-/// ray. Over the real numbers, for any grazing angle, any distance from (0, 0, 0), and any size of
-/// the surface:
+/// Returns the origin of a new ray that leaves the hit of `ray` on `surface` in `direction` (any
+/// nonzero length).
+///
+/// Let F be the surface's implicit function: n.(x - a) for flat surfaces, |x - c|^2 - r^2 for a
+/// sphere, the polynomial for a quadric. The outgoing side is the sign of F just beyond the exact
+/// hit point in this direction. If the direction lies within the surface, the outgoing side is the
+/// side from which `ray` arrives. The following holds in real arithmetic for any grazing angle, any
+/// distance from (0, 0, 0), and any size of the surface:
 ///
 /// 1. Side. The origin is strictly on the outgoing side.
 /// 2. No spurious hit. The new ray hits the whole surface F = 0 at t >= 0 as often as a ray that
-///   starts just beyond the exact point: a flat surface never; a sphere never if it leaves
-///   outwards, once if inwards. t_min = 0 is therefore sufficient.
-/// 3. Nothing behind a flat surface is hit: nothing on its plane or beyond it, such as coplanar
-///   neighbors and the other faces of a convex edge.
-/// 4. Distance. Each coordinate is the exact one rounded to the nearest float32; then one of them
-///   is moved by at most 4 float32 steps for a flat surface, at most 64 for a curved one. No
-///   coordinate is -0.
+///    starts just beyond the exact hit point. It never hits a flat surface; it hits a sphere once
+///    if it leaves inwards, and never if it leaves outwards. The new ray may therefore have t_min =
+///    0.
+/// 3. No hit behind a flat surface. The new ray hits nothing on the surface's plane or beyond it,
+///    such as coplanar neighbors and the other faces of a convex edge.
+/// 4. Distance. The exact hit point is rounded to the nearest float32 values. Then one coordinate
+///    is moved by at most 4 float32 steps for a flat surface, or 64 for a curved one. No coordinate
+///    is -0.
 ///
-/// Not guaranteed: that the origin is on the right side of other surfaces within a few roundings of
-/// the hit point. In a concave crease it may be beyond the other wall; Bvh::spawn_origin takes
-/// other surfaces into account.
+/// The origin may be on the wrong side of other surfaces that are within a few float32 steps of the
+/// hit point. In a concave crease it may be beyond the other wall. Bvh::spawn_origin takes other
+/// surfaces into account.
 ///
-/// Nothing if the ray does not hit the surface, if the direction is zero or not finite, for a
-/// triangle without area, or if there is no such float32 point (beyond the largest number, or
-/// inside a sphere not much larger than the spacing of float32 numbers).
+/// Returns nothing if the ray does not hit the surface, if the direction is zero or not finite, if
+/// the surface is a triangle of zero area, or if no such float32 point exists. The last case occurs
+/// beyond the largest float32 number, and inside spheres not much larger than the spacing of
+/// float32 numbers.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Triangle& surface,
                                                                  const Ray& ray,
                                                                  const Vec3& direction);
@@ -51,7 +56,7 @@ namespace microtrace {
                                                                  const Ray& ray,
                                                                  const Vec3& direction);
 
-/// The same for a primitive that the ray hits.
+/// Does the same for a primitive that the ray hits.
 [[nodiscard]] MICROTRACE_EXPORT std::optional<Vec3> spawn_origin(const Primitives& primitives,
                                                                  PrimitiveId id, const Ray& ray,
                                                                  const Vec3& direction);

@@ -1,5 +1,5 @@
 #pragma once
-/// The number of queries of a tree that float32 couldn't decide.
+/// Statistics on tests that float32 arithmetic could not decide.
 
 #include <microtrace/export.hpp>
 
@@ -7,17 +7,17 @@
 
 namespace microtrace {
 
-/// Numbers of queries by stage; a stage is queried if the previous one can't decide. For rays, a
-/// query is whether and where one ray hits one primitive, or which of two hits is first; for
-/// origins, the origin of a ray that leaves a surface. See docs/exactness.md.
+/// The number of tests by stage. A test decides whether and where a ray hits a primitive, or which
+/// of two hits comes first. Each stage gets the tests that the previous stage could not decide. The
+/// last three members count origins of rays that leave surfaces. See docs/exactness.md.
 struct StageCounts {
-  std::uint64_t edges = 0;             ///< triangle edges, by float64 in the kernels
-  std::uint64_t filters = 0;           ///< float64 with error bounds
-  std::uint64_t grid = 0;              ///< exact, by fixed-width integers
-  std::uint64_t dyadic = 0;            ///< exact, by arbitrary-width numbers
+  std::uint64_t edges = 0;             ///< tests of triangle edges by float64 in the kernels
+  std::uint64_t filters = 0;           ///< tests by float64 with error bounds
+  std::uint64_t grid = 0;              ///< exact tests by fixed-width integers
+  std::uint64_t dyadic = 0;            ///< exact tests by arbitrary-width numbers
   std::uint64_t origins = 0;           ///< origins of rays that leave surfaces
-  std::uint64_t searched_origins = 0;  ///< of these, not found by float64 alone
-  std::uint64_t missing_origins = 0;   ///< of these, nonexistent: paths end there
+  std::uint64_t searched_origins = 0;  ///< those of `origins` that float64 alone did not find
+  std::uint64_t missing_origins = 0;   ///< those of `origins` that do not exist; paths end there
 
   StageCounts& operator+=(const StageCounts& other) {
     edges += other.edges;
@@ -40,7 +40,8 @@ struct StageCounts {
   }
 };
 
-/// All queries of the calling thread so far. To count those of a step, subtract two values.
+/// Returns the counts of the calling thread so far. To count the tests of a section of code,
+/// subtract the values before and after it.
 [[nodiscard]] MICROTRACE_EXPORT StageCounts stage_counts();
 
 }  // namespace microtrace

@@ -1,13 +1,14 @@
 #pragma once
-/// Surface properties at many hits, in memory of the caller.
+/// Caller-provided buffers for surface properties at many hits.
 
 #include <cstddef>
 #include <cstdint>
 
 namespace microtrace {
 
-/// Component c of value i is data[i * stride + c * component_stride]. Strides count numbers and may
-/// be negative. Null: the values are not computed.
+/// A strided output array: component c of value i is stored in data[i * stride + c *
+/// component_stride]. Strides count elements of type T and may be negative. If data is null, the
+/// values are not computed.
 template <class T>
 struct OutputArray {
   T* data = nullptr;
@@ -15,16 +16,17 @@ struct OutputArray {
   std::ptrdiff_t component_stride = 1;
 };
 
-/// One value for each ray, as in SurfaceInteraction: normals are those of the front side, whichever
-/// side the ray hits. Positions are in world space. Numbers are rounded to the type of the array.
-/// Arrays must not overlap.
+/// Each array receives one value per ray, as defined in SurfaceInteraction. Normals point to the
+/// front side, whichever side the ray hits. Positions are in world space. Numbers are rounded to
+/// the type of the array. Arrays must not overlap.
 struct SurfaceBuffers {
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
 
   OutputArray<double> p{};            ///< 3 components; no hit: 0
   OutputArray<float> n{}, ns{};       ///< 3 components; no hit: 0
   OutputArray<float> barycentrics{};  ///< 3 components; 0 unless the shape is a triangle
-  OutputArray<float> uv{};            ///< 2 components, of set 0; 0 if there are none
+  OutputArray<float> uv{};            ///< 2 components, of set 0; 0 if the surface has no texture
+                                      ///< coordinates
   OutputArray<bool> front{};          ///< no hit: false
   OutputArray<std::uint32_t> object{}, primitive{};  ///< no hit: kNone
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Textures.
+/// Images, samplers and textures.
 
 #include <microtrace/math.hpp>
 
@@ -11,14 +11,14 @@
 
 namespace microtrace {
 
-/// Pixels as stored in the file, row by row from the upper left. Whether they are sRGB or linear is
-/// defined by the material that uses them.
+/// An image as stored in the file, row by row from the upper left. The material that uses the image
+/// defines whether its colors are sRGB or linear.
 struct Image {
   std::string name{};
   std::uint32_t width = 0, height = 0;  ///< pixels, at least 1
   std::uint32_t channels = 4;           ///< 1: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha
-  /// width * height * channels integers of 8 or 16 bits; the maximum means 1. Alpha is not
-  /// premultiplied.
+  /// width * height * channels integers of 8 or 16 bits, whose maximum value means 1. Colors are
+  /// not premultiplied with alpha.
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
 };
 
@@ -43,11 +43,12 @@ struct Texture {
 /// The encoding of an image's colors. Alpha is linear in both.
 enum class ColorEncoding { srgb, linear };
 
-/// A use of a texture by a material.
+/// A material's reference to a texture.
 struct TextureUse {
   std::uint32_t texture = 0;  ///< index into Scene::textures
-  std::uint32_t uv_set = 0;   ///< of Mesh::uv_sets; (0, 0) if the mesh doesn't have it
-  Mat3x2 texture_from_uv{1};  ///< applied to the mesh's coordinates (KHR_texture_transform)
+  std::uint32_t uv_set = 0;   ///< index into Mesh::uv_sets; the coordinates are (0, 0) if the mesh
+                              ///< lacks this set
+  Mat3x2 texture_from_uv{1};  ///< transforms the mesh's texture coordinates (KHR_texture_transform)
 
   bool operator==(const TextureUse&) const = default;
 };

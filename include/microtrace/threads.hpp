@@ -1,10 +1,10 @@
 #pragma once
-/// The meaning of "threads = 0" in all options.
+/// The number of threads that "threads = 0" means in all options.
 #include <microtrace/export.hpp>
 
 namespace microtrace {
 
-/// The number of processors available to this process, at least 1.
+/// Returns the number of processors available to this process, at least 1.
 [[nodiscard]] MICROTRACE_EXPORT unsigned default_threads();
 
 }  // namespace microtrace
