@@ -1,6 +1,6 @@
 #pragma once
-/// A decoder for each file format: returns 1 on success, else 0. The encoder returns 1 if the file
-/// is complete, else 0.
+/// Declares a decoder for each file format, and the PNG encoder. Each function returns 1 on success
+/// and 0 on failure.
 
 #include "io/image/codec_abi.hpp"
 

@@ -4,13 +4,14 @@
 #include <cstdio>
 #include <jpeglib.h>
 
-// The same samples on every machine: libjpeg-turbo's slow integer transform (JDCT_ISLOW), its
-// triangular upsampling and its color conversion are integer arithmetic, and its SIMD code is
-// bit-exact. The fast and the floating-point transforms are not, and are not used.
+// Decoding gives the same samples on every machine. libjpeg-turbo's slow integer transform
+// (JDCT_ISLOW), triangular upsampling and color conversion use integer arithmetic, and their SIMD
+// code is bit-exact. The fast and the floating-point transforms are not bit-exact and therefore not
+// used.
 
 namespace {
 
-/// No object with a destructor may exist in frames that the jump after an error leaves.
+/// Stack frames that the jump after an error leaves must not contain objects with destructors.
 struct ErrorManager {
   jpeg_error_mgr base;  ///< first member, so that libjpeg's pointer can be cast
   std::jmp_buf jump;
@@ -29,12 +30,12 @@ void fail(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
-/// Level -1 means damaged data, reported once.
+/// Handles a message of libjpeg. Level -1 means damaged data, which is reported only once.
 void take_message(j_common_ptr info, int level) {
   if (level < 0 && info->err->num_warnings++ == 0) complain(info);
 }
 
-/// A small file can contain very many scans of a large image.
+/// Limits the number of scans, because a small file can contain very many scans of a large image.
 void limit_scans(j_common_ptr info) {
   constexpr int kMaxScans = 500;
   auto* jpeg = reinterpret_cast<j_decompress_ptr>(info);
@@ -44,7 +45,8 @@ void limit_scans(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
-/// Converts CMYK to RGB. Adobe programs store inverted CMYK, and mark their files.
+/// Converts CMYK to RGB. Adobe programs store inverted CMYK and mark their files with an Adobe
+/// segment.
 void rgb_from_cmyk(const unsigned char* cmyk, unsigned char* rgb, std::size_t pixels,
                    bool inverted) {
   for (std::size_t i = 0; i < pixels; ++i, cmyk += 4, rgb += 3) {
@@ -76,7 +78,7 @@ void read_rows(jpeg_decompress_struct& jpeg, unsigned char* samples, std::size_t
     }
     return;
   }
-  // Memory of the library, released with the rest.
+  // libjpeg owns this memory and releases it with its other memory.
   JSAMPARRAY row = jpeg.mem->alloc_sarray(reinterpret_cast<j_common_ptr>(&jpeg), JPOOL_IMAGE,
                                           jpeg.output_width * 4, 1);
   for (; jpeg.output_scanline < jpeg.output_height; samples += stride) {

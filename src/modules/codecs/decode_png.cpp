@@ -9,8 +9,8 @@
 
 namespace {
 
-/// The input of libpng, and the jump target after an error. No object with a destructor may exist
-/// in frames that the jump leaves.
+/// The input of libpng, and the jump target after an error. Stack frames that the jump leaves must
+/// not contain objects with destructors.
 struct Source {
   const unsigned char* bytes;
   std::size_t left;
@@ -33,7 +33,7 @@ void read(png_structp png, png_bytep to, std::size_t size) {
   source->left -= size;
 }
 
-/// Skips chunks that do not affect the samples: profiles, gamma, texts.
+/// Makes libpng skip chunks that don't affect the samples, such as profiles, gamma and texts.
 void skip_ancillary_chunks(png_structp png) {
   constexpr png_byte kNames[] =
       "bKGD\0cHRM\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0sPLT\0sRGB\0"
@@ -42,8 +42,8 @@ void skip_ancillary_chunks(png_structp png) {
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, kNames, sizeof kNames / 5);
 }
 
-/// Requests whole rows of 8 or 16 bits: palettes, low bit depths and transparent colors are
-/// expanded.
+/// Requests whole rows with 8 or 16 bits per sample. libpng expands palettes, low bit depths and
+/// transparent colors.
 void set_transformations(png_structp png, png_infop info) {
   png_set_expand(png);
   if (std::endian::native == std::endian::little) png_set_swap(png);
@@ -61,7 +61,7 @@ int decode_png(const unsigned char* bytes, std::size_t size, const MicrotraceIma
     return 0;
   }
   png_infop info = png_create_info_struct(png);
-  // Volatile: changed after setjmp, read after the jump.
+  // Volatile, because these variables are changed after setjmp and read after the jump.
   png_bytep* volatile rows = nullptr;
   volatile int done = 0;
   if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {

@@ -26,7 +26,7 @@ void flush(png_structp) {}
 
 }  // namespace
 
-// No object with a destructor may exist here, because libpng jumps after an error.
+// This function must not contain objects with destructors, because libpng jumps after an error.
 int encode_png(const MicrotracePng& picture) {
   auto* pointer = const_cast<MicrotracePng*>(&picture);
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, pointer, fail, ignore);

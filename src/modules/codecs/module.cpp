@@ -1,6 +1,7 @@
 /// Decodes PNG, JPEG, WebP and KTX2, and encodes PNG, behind the C interface of
-/// io/image/codec_abi.hpp. Loaded if a scene has images or a picture is PNG. Uses small libraries,
-/// because OpenImageIO would take a quarter of a second and 130 MB.
+/// io/image/codec_abi.hpp. The library loads this module if a scene has images or the output is
+/// PNG. It uses small libraries, because loading OpenImageIO would take a quarter of a second and
+/// 130 MB.
 
 #include "modules/codecs/codecs.hpp"
 

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <optional>
 
-/// The size of a mesh in the header of Draco's data, for checks before memory is allocated.
+/// The size of a mesh according to the header of Draco's data. It is checked before memory is
+/// allocated.
 struct DracoHeader {
   std::uint64_t triangles = 0;
-  std::uint64_t points = 0;  ///< at least; the edgebreaker format stores a lower number
+  std::uint64_t points = 0;  ///< a lower bound, because edgebreaker data may store a smaller number
 };
 
-/// Nothing if the bytes are not a mesh of Draco bitstream version 2.2, which glTF requires.
+/// Reads the header. Returns nothing unless the bytes are a mesh in version 2.2 of Draco's
+/// bitstream, which glTF requires.
 [[nodiscard]] std::optional<DracoHeader> read_draco_header(const char* bytes, std::size_t size);

@@ -1,5 +1,5 @@
-/// Decodes Draco meshes behind the C interface of io/gltf/mesh/draco_abi.hpp. Only the library's
-/// integer output is used, so the results are the same on every machine.
+/// Decodes Draco meshes behind the C interface of io/gltf/mesh/draco_abi.hpp. It uses only the
+/// integer output of Draco's library, so results are the same on every machine.
 
 #include "io/gltf/mesh/draco_abi.hpp"
 #include "modules/draco/header.hpp"

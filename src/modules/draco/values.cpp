@@ -16,7 +16,7 @@ draco::AttributeValueIndex value_index(const draco::PointAttribute& source, std:
   return source.mapped_index(draco::PointIndex(static_cast<std::uint32_t>(point)));
 }
 
-/// Copies unquantized values.
+/// Copies values that are not quantized.
 template <typename Number>
 const char* write_plain(const draco::PointAttribute& source, std::size_t points,
                         const MicrotraceDracoAttribute& wanted) {
@@ -33,7 +33,8 @@ const char* write_plain(const draco::PointAttribute& source, std::size_t points,
   return nullptr;
 }
 
-/// Calls restore(integers, floats) for the stored integers of each element.
+/// Calls restore(integers, floats) with the stored integers of each element, and writes the
+/// resulting floats.
 template <typename Restore>
 const char* write_restored(const draco::PointAttribute& source, std::size_t points,
                            const MicrotraceDracoAttribute& wanted, std::int8_t stored,
@@ -69,7 +70,8 @@ const char* write_quantized(const draco::PointAttribute& source, std::size_t poi
                         });
 }
 
-/// Unit vectors in octahedral encoding, on a square of 2^bits - 1 steps per side.
+/// Writes unit vectors in octahedral encoding. Each coordinate of the unfolded octahedron is
+/// quantized to 2^bits - 1 steps.
 const char* write_octahedral(const draco::PointAttribute& source, std::size_t points,
                              const MicrotraceDracoAttribute& wanted) {
   draco::AttributeOctahedronTransform transform;

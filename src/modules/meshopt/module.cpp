@@ -1,6 +1,6 @@
-/// The codecs of meshoptimizer behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They use
-/// only integers, so their versions for different processors give the same bytes. The library's
-/// filters do not, and are not used.
+/// Provides meshoptimizer's decoders behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They
+/// use only integers, so their versions for different processors give the same bytes. The library's
+/// filters use floating-point numbers; they are not used here.
 
 #include "io/gltf/bytes/meshopt_abi.hpp"
 

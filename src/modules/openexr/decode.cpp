@@ -20,7 +20,7 @@ namespace {
 
 using Imath::Box2i;
 
-constexpr int kMaxSide = 65536;  // as the library's limit for environments
+constexpr int kMaxSide = 65536;  // equals microtrace's limit for environment maps
 
 /// An input file in memory.
 class MemoryFile : public Imf::IStream {
@@ -43,8 +43,8 @@ class MemoryFile : public Imf::IStream {
   std::size_t size_, place_ = 0;
 };
 
-/// The color channels: R, G and B, without a layer or else of the first layer that has all three;
-/// or the only channel or Y, for gray.
+/// The names of the color channels: R, G and B outside of layers, or of the first layer that has
+/// all three. For gray images, the name is Y or that of the only channel.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
@@ -65,7 +65,7 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
 }
 
 void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
-  // Refuses larger images before memory is allocated for their lines.
+  // Makes OpenEXR refuse larger images before it allocates memory for their lines.
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
   MemoryFile memory(bytes, size);
   Imf::InputFile file(memory, 0);  // 0: no threads

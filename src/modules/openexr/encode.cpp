@@ -46,7 +46,7 @@ Imf::PixelType type_of(MicrotraceNumber number) {
   return number == kMicrotraceU32 ? Imf::UINT : Imf::FLOAT;
 }
 
-/// The box of pixels starting at (x0, y0), with inclusive ends as in OpenEXR.
+/// The box of pixels that starts at (x0, y0). Its ends are inclusive, as OpenEXR requires.
 Box2i box_of(std::uint32_t x0, std::uint32_t y0, std::uint32_t width, std::uint32_t height) {
   const V2i first(static_cast<int>(x0), static_cast<int>(y0));
   return {first, first + V2i(static_cast<int>(width) - 1, static_cast<int>(height) - 1)};
@@ -69,7 +69,7 @@ std::string encode(const MicrotracePicture& picture) {
     Imf::OutputFile output(file, header, 0);  // 0: no threads
     output.setFrameBuffer(pixels);
     output.writePixels(static_cast<int>(picture.height));
-  }  // writes the table of chunks
+  }  // the destructor writes the chunk table
   return file.take_bytes();
 }
 

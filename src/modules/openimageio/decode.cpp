@@ -18,13 +18,14 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Fetches OpenImageIO's error message, which it would otherwise print at exit.
+/// Makes an exception of OpenImageIO's error message. Messages that are not fetched are printed at
+/// exit.
 std::runtime_error complaint(const std::string& otherwise) {
   const std::string message = OIIO::geterror();
   return std::runtime_error(message.empty() ? otherwise : message);
 }
 
-/// The first of the three channels red, green, blue, or the gray channel.
+/// The index of the first of the channels red, green and blue, or of the gray channel.
 int first_color(const ImageSpec& spec) {
   for (int i = 0; i + 2 < spec.nchannels; ++i) {
     if (spec.channel_name(i) == "R" && spec.channel_name(i + 1) == "G" &&
@@ -34,8 +35,8 @@ int first_color(const ImageSpec& spec) {
   return 0;
 }
 
-/// The format of returned samples: 8 and 16-bit integers unchanged, floating-point numbers as
-/// float32, to which half floats convert exactly.
+/// The format of returned samples. 8-bit and 16-bit integers are returned unchanged, floating-point
+/// numbers as float32. Half floats convert to float32 exactly.
 MicrotraceNumber number_of(const ImageSpec& spec) {
   if (spec.format == TypeDesc::UINT8) return kMicrotraceU8;
   if (spec.format == TypeDesc::UINT16) return kMicrotraceU16;
@@ -52,7 +53,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);                                    // only the calling thread
-  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // reads only
+  OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // never writes to `bytes`
   const std::string name = "picture." + extension;
   ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);  // colors as stored in the file

@@ -23,25 +23,25 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// The writer for an extension if it can write to memory, else null.
+/// Returns the writer for an extension, or null if there is none that can write to memory.
 std::unique_ptr<ImageOutput> find_writer(const std::string& extension) {
   OIIO::attribute("threads", 1);
   OIIO::attribute("exr_threads", -1);  // only the calling thread
   std::unique_ptr<ImageOutput> writer = ImageOutput::create(extension);
-  // A failure leaves a message, which OpenImageIO would otherwise print at exit.
+  // Fetches the error message, which OpenImageIO would otherwise print at exit.
   if (!writer) static_cast<void>(OIIO::geterror());
   if (writer && (!writer->supports("ioproxy") || std::string_view(writer->format_name()) == "null"))
     return nullptr;
   return writer;
 }
 
-/// The format for linear light; OpenEXR has its own module.
+/// True for the format that stores linear light. OpenEXR has its own module.
 bool is_float_format(std::string_view name) {
   return name == "hdr";
 }
 
-/// Formats that preserve alpha exactly. GIF's alpha has one bit, and writers of other formats
-/// change the colors.
+/// True for formats that preserve alpha exactly. GIF's alpha has only one bit, and writers of other
+/// formats change the colors.
 bool holds_alpha(std::string_view name) {
   constexpr std::array kNames = {"png", "tiff", "targa", "webp", "bmp"};
   return std::ranges::find(kNames, name) != kNames.end();
@@ -68,14 +68,15 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
     spec.full_width = static_cast<int>(picture.whole_width);
     spec.full_height = static_cast<int>(picture.whole_height);
   }
-  // TIFF would store it in a second directory, which OpenImageIO can't link when it writes to
-  // memory.
+  // Not for TIFF: it would store the color space in a second directory, which OpenImageIO can't
+  // link when it writes to memory.
   if (format != "tiff" && picture.is_color != 0)
     spec.attribute("oiio:ColorSpace", is_float_format(format) ? "Linear" : "sRGB");
   for (const MicrotraceNote& note : std::span(picture.notes, picture.note_count)) {
     spec.attribute(note.name, note.text);
   }
-  // Without an explicit empty value, writers store the time, and no two files would be equal.
+  // The empty value keeps writers from storing the current time, which would make equal pictures
+  // differ.
   spec.attribute("DateTime", "");
   return spec;
 }
@@ -92,7 +93,7 @@ std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::s
   name += extension;
   bool written = writer->open(name, spec);
   if (written) {
-    // Only colors: they are stored in memory in the file's format.
+    // The picture has only color channels, whose layout in memory equals the file's.
     written = writer->write_image(type_of(channels[0].number), channels[0].first);
   }
   if (!writer->close() || !written) throw std::runtime_error(writer->geterror());

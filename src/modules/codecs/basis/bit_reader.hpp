@@ -11,7 +11,8 @@ class BitReader {
  public:
   explicit BitReader(Bytes bytes) : bytes_(bytes) {}
 
-  /// The next `count` bits, 0 to 32, first bit lowest; zeros follow the end of the data.
+  /// The next `count` bits, 0 to 32. The first bit becomes the lowest. Bits beyond the end of the
+  /// data are zeros.
   [[nodiscard]] std::uint32_t peek(unsigned count) const {
     const std::size_t first = position_ / 8;
     const std::size_t end = std::min(bytes_.size(), first + 5);
@@ -22,7 +23,7 @@ class BitReader {
     return static_cast<std::uint32_t>(window >> position_ % 8 & ((std::uint64_t{1} << count) - 1));
   }
 
-  /// Throws Damage beyond the end.
+  /// Advances by `count` bits. Throws Damage if this passes the end of the data.
   void skip(unsigned count) {
     position_ += count;
     if (position_ > 8 * bytes_.size()) throw Damage("the compressed data is cut off");

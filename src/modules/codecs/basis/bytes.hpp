@@ -8,7 +8,7 @@
 
 namespace basis {
 
-/// An error in a file. Never leaves the module.
+/// An error in a file. It is always caught within the module.
 class Damage : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -16,7 +16,7 @@ class Damage : public std::runtime_error {
 
 using Bytes = std::span<const unsigned char>;
 
-/// Throws Damage(words) unless there are `size` bytes at `offset`.
+/// The `size` bytes at `offset`. Throws Damage(words) if `bytes` ends before them.
 inline Bytes part_of(Bytes bytes, std::uint64_t offset, std::uint64_t size, const char* words) {
   if (offset > bytes.size() || size > bytes.size() - offset) throw Damage(words);
   return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));

@@ -8,15 +8,16 @@
 #include <vector>
 #include <zstd.h>
 
-// All decoding is integer arithmetic.
+// All decoding uses integer arithmetic, so it gives the same bits on every machine.
 
 namespace basis {
 namespace {
 
-/// The blocks, `size` bytes in all; `storage` holds them if they were compressed.
+/// The texture's blocks, which have `size` bytes in all. If they are compressed, decompresses them
+/// into `storage`.
 Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char>& storage) {
   if (!ktx2.is_zstd) return ktx2.level;
-  // Zstandard's frame header has the content size, which is checked before memory is allocated.
+  // Checks the content size in Zstandard's frame header before memory is allocated.
   if (ZSTD_getFrameContentSize(ktx2.level.data(), ktx2.level.size()) != size) {
     throw Damage("the Zstandard data does not have the size of the blocks");
   }

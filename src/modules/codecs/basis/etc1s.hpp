@@ -18,7 +18,7 @@ struct Endpoint {
   std::uint8_t intensity;
 };
 
-/// Four 2-bit values for each row of a block, the left one lowest.
+/// Four 2-bit values for each row of a block. The leftmost value is in the lowest bits.
 using Selector = std::array<std::uint8_t, 4>;
 
 /// The codebooks of all levels, and the Huffman codes of references to them.
@@ -33,9 +33,10 @@ struct Codebooks {
 /// Throws Damage.
 [[nodiscard]] Codebooks read_codebooks(const Ktx2& ktx2);
 
-/// Writes the colors. Throws Damage.
+/// Decodes the color slice into the red, green and blue channels. Throws Damage.
 void decode_color_slice(const Codebooks& books, const Texels& texels);
-/// Writes alpha, which is stored in the slice's green channel. Throws Damage.
+/// Decodes the alpha slice, whose green channel stores alpha, into the alpha channel. Throws
+/// Damage.
 void decode_alpha_slice(const Codebooks& books, const Texels& texels);
 
 }  // namespace basis

@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* kDamaged = "an ETC1S slice is damaged";
 
-/// A number in groups of `width` bits, each followed by a bit that tells whether another group
-/// follows.
+/// Reads a number stored in groups of `width` bits. A bit after each group says whether another
+/// group follows.
 std::uint64_t read_groups(BitReader& bits, unsigned width) {
   std::uint64_t result = 0;
   for (unsigned shift = 0; shift < 32; shift += width) {
@@ -57,8 +57,8 @@ class SliceDecoder {
     if (x % 2 == 0) prediction_ = y % 2 == 0 ? even_row_prediction(x) : odd_row_[x / 2];
     const std::uint32_t way = prediction_ & 3U;
     prediction_ >>= 2U;
-    // The left block's endpoint is the previous one. This row's endpoints overwrite those of the
-    // row above.
+    // `last_` is the left block's endpoint. In `above_`, this row's endpoints overwrite those of
+    // the row above.
     const std::uint32_t upper = above_[x];
     if (way == 0) {
       if (x == 0) throw Damage(kDamaged);
@@ -88,7 +88,8 @@ class SliceDecoder {
   }
 
  private:
-  /// Predictions for 2 x 2 blocks, 2 bits each; the lower two are stored for the next row.
+  /// Endpoint predictions for 2 x 2 blocks, 2 bits each. Stores those of the bottom two blocks for
+  /// the next row.
   std::uint32_t even_row_prediction(std::uint32_t x) {
     constexpr std::uint32_t kRepeat = 256, kLeastRepeats = 3;
     if (repeats_ > 0) {
@@ -104,7 +105,7 @@ class SliceDecoder {
     return last_prediction_;
   }
 
-  /// An index into the codebook, or the codebook's size plus one plus an index into the history.
+  /// An index into the codebook, or the codebook's size `count` plus an index into the history.
   std::uint32_t selector_symbol(std::uint32_t count) {
     constexpr std::uint32_t kLeastRun = 3, kLongRun = 63;
     if (run_ > 0) {
@@ -121,7 +122,7 @@ class SliceDecoder {
   const Codebooks& books_;
   BitReader bits_;
   History history_;
-  std::vector<std::uint32_t> above_;   // endpoints of the row above, from the current column on
+  std::vector<std::uint32_t> above_;   // from the current column on, endpoints of the row above
   std::vector<std::uint8_t> odd_row_;  // predictions for pairs of blocks
   std::uint32_t upper_left_ = 0, last_ = 0, prediction_ = 0, last_prediction_ = 0;
   std::uint64_t repeats_ = 0, run_ = 0;
@@ -146,7 +147,7 @@ std::array<Color, 4> palette(const Endpoint& endpoint) {
       result[i][c] =
           static_cast<std::uint8_t>(std::clamp(base + kModifiers[endpoint.intensity][i], 0, 255));
     }
-    result[i][3] = result[i][1];  // for alpha slices
+    result[i][3] = result[i][1];  // alpha slices store alpha in green
   }
   return result;
 }

@@ -8,14 +8,15 @@ namespace {
 
 constexpr unsigned kMaxLength = 16;
 
-/// Codes are stored highest bit first.
+/// Reverses the bits of a code, because codes are stored highest bit first.
 std::uint32_t reversed(std::uint32_t code, unsigned length) {
   std::uint32_t result = 0;
   for (unsigned i = 0; i < length; ++i) result |= (code >> i & 1U) << (length - 1 - i);
   return result;
 }
 
-/// Symbols 17 and above of the alphabet of code lengths: runs of zeros, or of the previous length.
+/// The meaning of symbols 17 and above in the code for code lengths: a run of zeros or of the
+/// previous length.
 struct Run {
   unsigned least, bits;
   bool of_zeros;
@@ -43,7 +44,7 @@ HuffmanTable::HuffmanTable(std::span<const std::uint8_t> lengths) {
   const auto used = static_cast<std::uint32_t>(lengths.size()) - count[0];
   count[0] = 0;
   std::array<std::uint32_t, kMaxLength + 2> next{};  // next code of each length
-  std::uint32_t space = 0;                           // used code space, of 2^16
+  std::uint32_t space = 0;  // used part of the code space, which has the size 2^16
   for (unsigned length = 1; length <= kMaxLength; ++length) {
     next[length + 1] = (next[length] + count[length]) << 1U;
     space += count[length] << (kMaxLength - length);
@@ -64,7 +65,7 @@ HuffmanTable::HuffmanTable(std::span<const std::uint8_t> lengths) {
 
 HuffmanTable read_huffman_table(BitReader& bits) {
   const std::uint32_t size = bits.read(14);
-  if (size == 0) return HuffmanTable({});  // for symbols that do not occur
+  if (size == 0) return HuffmanTable({});  // an empty table, for symbols that don't occur
   const HuffmanTable length_table = read_length_table(bits);
   std::vector<std::uint8_t> lengths;
   lengths.reserve(size);

@@ -1,6 +1,7 @@
 #pragma once
-/// Canonical Huffman codes of BasisLZ: KTX File Format Specification 2.0, appendix "BasisLZ/ETC1S
-/// Bitstream Specification", section "Compressed Huffman Tables"; codes as in RFC 1951, 3.2.2.
+/// Canonical Huffman codes of BasisLZ (KTX File Format Specification 2.0, appendix "BasisLZ/ETC1S
+/// Bitstream Specification", section "Compressed Huffman Tables"). Codes are assigned as in RFC
+/// 1951, section 3.2.2.
 
 #include "modules/codecs/basis/bit_reader.hpp"
 
@@ -16,7 +17,7 @@ class HuffmanTable {
   /// unless the code is complete or has at most one symbol.
   explicit HuffmanTable(std::span<const std::uint8_t> lengths);
 
-  /// Throws Damage.
+  /// Reads the next symbol. Throws Damage.
   std::uint32_t decode(BitReader& bits) const {
     const Entry entry = entries_[bits.peek(longest_)];
     if (entry.length == 0) throw Damage("a Huffman code is invalid");

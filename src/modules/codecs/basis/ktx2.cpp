@@ -46,7 +46,8 @@ void check_shape(Bytes file) {
 void read_descriptor(Bytes file, Ktx2& ktx2) {
   constexpr const char* kDamaged = "the data format descriptor is damaged";
   const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), kDamaged);
-  constexpr std::size_t kHeads = 28, kSampleSize = 16;  // bytes before samples, and of each
+  constexpr std::size_t kHeads = 28,
+                        kSampleSize = 16;  // bytes before the samples, and bytes per sample
   if (dfd.size() < kHeads + kSampleSize || u32_at(dfd, 4) != 0) throw Damage(kDamaged);
   const std::uint32_t block_size = u32_at(dfd, 8) >> 16U;
   if (block_size < kHeads - 4 + kSampleSize || block_size > dfd.size() - 4) throw Damage(kDamaged);
@@ -72,7 +73,7 @@ void read_descriptor(Bytes file, Ktx2& ktx2) {
   }
 }
 
-/// Checks one metadata entry; values end with a null byte.
+/// Checks one metadata entry. Text values may end with a null byte.
 void check_entry(Bytes entry) {
   const std::string_view text(reinterpret_cast<const char*>(entry.data()), entry.size());
   const std::size_t end = text.find('\0');
@@ -97,7 +98,7 @@ void check_metadata(Bytes file) {
   }
 }
 
-/// Reads the first level, which is the largest one.
+/// Locates the data of the first level, which is the largest.
 void read_level(Bytes file, Ktx2& ktx2) {
   constexpr std::size_t kLevelIndex = 80;
   ktx2.levels = std::max(u32_at(file, 40), 1U);

@@ -1,5 +1,6 @@
 #pragma once
-/// The KTX2 container (KTX File Format Specification 2.0), as far as KHR_texture_basisu allows.
+/// The subset of the KTX2 container (KTX File Format Specification 2.0) that KHR_texture_basisu
+/// allows.
 
 #include "modules/codecs/basis/bytes.hpp"
 
@@ -17,11 +18,12 @@ struct Ktx2 {
   bool is_zstd = false;      ///< true if the level is compressed by Zstandard
   Bytes level{};             ///< the level's data
   Bytes global{};            ///< ETC1S: data shared by all levels
-  std::uint32_t levels = 1;  ///< in the file
+  std::uint32_t levels = 1;  ///< number of levels in the file
 };
 
-/// Throws Damage if the file is damaged, or contains anything other than a 2D texture in ETC1S with
-/// BasisLZ, or in UASTC, uncompressed or with Zstandard.
+/// Reads the container's structure. Throws Damage if the file is damaged. Also throws it unless the
+/// file contains a 2D texture that is either ETC1S with BasisLZ, or UASTC without supercompression
+/// or with Zstandard.
 [[nodiscard]] Ktx2 read_ktx2(Bytes file);
 
 }  // namespace basis

@@ -1,5 +1,5 @@
 #pragma once
-/// Destination of decoded blocks.
+/// The buffer into which blocks are decoded.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ constexpr std::uint32_t blocks_along(std::uint32_t texels) {
   return texels / 4 + (texels % 4 != 0 ? 1 : 0);
 }
 
-/// Rows of 8-bit samples; blocks at the right and lower edge are clipped.
+/// Rows of 8-bit samples. Blocks are clipped at the right and lower edges.
 struct Texels {
   unsigned char* samples;
   std::uint32_t width, height, channels;  ///< channels: 3 or 4

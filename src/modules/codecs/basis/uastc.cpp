@@ -10,7 +10,7 @@ namespace {
 
 using Ends = std::array<Color, 2>;
 
-/// ASTC's endpoint modes 8, 12 and 4, without blue contraction.
+/// Computes endpoint colors by ASTC's endpoint modes 8, 12 and 4, without blue contraction.
 std::array<Ends, 3> make_ends(const UastcMode& mode,
                               const std::array<std::uint8_t, kMaxEndpointValues>& values) {
   std::array<Ends, 3> result{};
@@ -28,14 +28,15 @@ std::array<Ends, 3> make_ends(const UastcMode& mode,
   return result;
 }
 
-/// ASTC, section "Weight Unquantization", for weights without trits and quints: 0 to 64.
+/// Converts a weight without trits or quints to the range 0 to 64 (ASTC, section "Weight
+/// Unquantization").
 std::uint32_t unquantize_weight(std::uint32_t value, unsigned bits) {
   std::uint32_t result = value << (6 - bits);
   for (unsigned size = bits; size < 6; size *= 2) result |= result >> size;
   return result > 32 ? result + 1 : result;
 }
 
-/// ASTC, section "Weight Application", linear, to 8 bits.
+/// Interpolates linear channels to 8 bits (ASTC, section "Weight Application").
 std::uint8_t mix(std::uint32_t from, std::uint32_t to, std::uint32_t weight) {
   return static_cast<std::uint8_t>((from * 257 * (64 - weight) + to * 257 * weight + 32) >> 14U);
 }
@@ -55,7 +56,7 @@ Block decode_uastc_block(Bytes bytes) {
   }
 
   bits.skip(mode.hint_bits);
-  // The channel that uses the second plane's weights.
+  // The channel that uses the second plane's weights; 4 if there is no second plane.
   std::size_t second = 4;
   if (mode.planes == 2) second = mode.channels == Channels::luminance_alpha ? 3 : bits.read(2);
   const Pattern& parts = pattern(index, mode.subsets, bits.read(pattern_bits(mode.subsets)));

@@ -5,20 +5,22 @@
 namespace basis {
 namespace {
 
-/// Trits and quints are stored as the digits of a number, in groups; the last group may be short.
+/// Trits or quints are stored in groups. Each group is one number whose base-3 or base-5 digits
+/// they are. The last group may be shorter.
 struct Digits {
   std::size_t group;
-  std::array<unsigned, 6> bits;  ///< bits of a group with this many digits
+  std::array<unsigned, 6> bits;  ///< bits of a group, indexed by its number of digits
 };
 constexpr Digits kTrits = {5, {0, 2, 4, 5, 7, 8}};
 constexpr Digits kQuints = {3, {0, 3, 5, 7}};
 
-/// ASTC's multipliers C of the trit or quint (Khronos Data Format Specification, table "ASTC color
-/// unquantization parameters"), by the number of bits below it.
+/// ASTC's multipliers C for the trit or quint, indexed by the number of bits below it (Khronos Data
+/// Format Specification, table "ASTC color unquantization parameters").
 constexpr std::array<std::uint32_t, 7> kTritScales = {0, 204, 93, 44, 22, 11, 5};
 constexpr std::array<std::uint32_t, 6> kQuintScales = {0, 113, 54, 26, 13, 6};
 
-/// The table's B: nine bits that repeat the value's bits except the lowest.
+/// B of the same table: a pattern of nine bits that repeats the bits of the value, except for the
+/// lowest.
 std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
   const std::uint32_t bits = value >> 1U;
   const bool is_trit = range.values == 3;
@@ -32,12 +34,12 @@ std::uint32_t repeated_bits(std::uint32_t value, const EndpointRange& range) {
       return bits << 6U | (is_trit ? bits : bits >> 1U);
     case 5:
       return bits << 5U | (is_trit ? bits >> 2U : bits >> 3U);
-    default:  // 6 bits of a trit; there are none of 1
+    default:  // 6 bits, with a trit; UASTC uses no range with 1 bit
       return bits << 4U | bits >> 4U;
   }
 }
 
-/// ASTC, section "Endpoint Unquantization".
+/// Converts a quantized endpoint value to 8 bits (ASTC, section "Endpoint Unquantization").
 std::uint8_t unquantize(std::uint32_t digit, std::uint32_t value, const EndpointRange& range) {
   if (range.values == 1) {
     std::uint32_t result = value << (8 - range.bits);

@@ -23,7 +23,8 @@ constexpr std::array<UastcMode, 19> kModes = {{
 
 constexpr unsigned kLongestCode = 7;
 
-/// Modes by the first bits of a block; modes.size() for the reserved code.
+/// Makes the table of modes by the first bits of a block. It contains kModes.size() for the
+/// reserved code.
 constexpr std::array<std::uint8_t, 1U << kLongestCode> make_lookup() {
   std::array<std::uint8_t, 1U << kLongestCode> kLookup{};
   kLookup.fill(kModes.size());

@@ -8,7 +8,7 @@
 
 namespace basis {
 
-/// ASTC's quantization of 8-bit numbers: `values` times 2^bits levels.
+/// ASTC's quantization of 8-bit numbers to `values` times 2^bits levels.
 struct EndpointRange {
   unsigned values;  ///< 1, 3 (a trit) or 5 (a quint)
   unsigned bits;

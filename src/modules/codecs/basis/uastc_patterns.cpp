@@ -23,7 +23,8 @@ constexpr std::uint32_t hash(std::uint32_t p) {
   return p;
 }
 
-/// ASTC's pattern for a seed (same section), for blocks of 4 x 4 texels and 2 or 3 subsets.
+/// ASTC's partition pattern for a seed (same section), for blocks of 4 x 4 texels with 2 or 3
+/// subsets.
 constexpr Pattern make_pattern(std::uint32_t seed, std::uint32_t subsets) {
   seed += (subsets - 1) * 1024;
   const std::uint32_t random = hash(seed);
@@ -37,7 +38,7 @@ constexpr Pattern make_pattern(std::uint32_t seed, std::uint32_t subsets) {
   Pattern result;
   std::array<bool, 3> met{};
   for (std::uint32_t i = 0; i < 16; ++i) {
-    // ASTC doubles the coordinates in blocks of less than 31 texels.
+    // ASTC doubles the coordinates in blocks with fewer than 31 texels.
     const std::uint32_t x = 2 * (i % 4), y = 2 * (i / 4);
     const auto height = [&](unsigned at, unsigned offset) {
       return (slope(at, x_shift) * x + slope(at + 4, y_shift) * y + (random >> offset)) & 63U;
@@ -60,14 +61,15 @@ constexpr std::array<Pattern, size> make_patterns(const std::array<std::uint16_t
   return result;
 }
 
-// "UASTC LDR 4x4 Texture Specification": the patterns common to ASTC and BC7, as ASTC seeds.
+// ASTC seeds of the patterns that ASTC and BC7 have in common ("UASTC LDR 4x4 Texture
+// Specification").
 constexpr auto kTwoSubsets =
     make_patterns<30>({28, 20,  16,  29, 91,  9,   107, 72,  149, 204, 50,  114, 496, 17,  78,
                        39, 252, 828, 43, 156, 116, 210, 476, 273, 684, 359, 246, 195, 694, 524},
                       2);
 constexpr auto kThreeSubsets =
     make_patterns<11>({260, 74, 32, 156, 183, 15, 745, 0, 335, 902, 254}, 3);
-/// ASTC patterns with two subsets that match BC7 patterns with three.
+/// ASTC patterns with two subsets that match BC7 patterns with three subsets.
 constexpr auto kOtherTwoSubsets = make_patterns<19>(
     {36, 48, 61, 137, 161, 183, 226, 281, 302, 307, 479, 495, 593, 594, 605, 799, 812, 988, 993},
     2);

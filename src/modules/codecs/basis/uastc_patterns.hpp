@@ -1,5 +1,5 @@
 #pragma once
-/// Partition of blocks into subsets.
+/// Patterns that partition the texels of a block into subsets.
 
 #include <array>
 #include <cstddef>
@@ -8,11 +8,12 @@
 namespace basis {
 
 struct Pattern {
-  std::array<std::uint8_t, 16> subset{};  ///< of each texel
-  std::array<bool, 16> is_anchor{};  ///< first texel of a subset, whose weight has one bit less
+  std::array<std::uint8_t, 16> subset{};  ///< subset of each texel
+  std::array<bool, 16>
+      is_anchor{};  ///< true for the first texel of a subset, whose weights have one bit fewer
 };
 
-/// Number of bits of a pattern's index in blocks with this many subsets, 1 to 3.
+/// Number of bits of the pattern number in a block with 1 to 3 subsets.
 [[nodiscard]] unsigned pattern_bits(unsigned subsets);
 
 /// Throws Damage if there is no pattern with this number.
