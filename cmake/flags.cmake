@@ -1,14 +1,16 @@
-# The one place for compiler flags. Every target of the project links microtrace_flags.
+# Compiler flags are set only here. Every target of the project links microtrace_flags.
 add_library(microtrace_flags INTERFACE)
 target_compile_features(microtrace_flags INTERFACE cxx_std_20)
 target_compile_options(microtrace_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion
-  # a*b+c must round twice on every machine. Fused operations would make the bits depend on compiler and instruction set.
+  # a*b+c must round twice on every machine. Fused multiply-adds would make results depend on the compiler and the
+  # instruction set.
   -ffp-contract=off
-  # Neither option changes a result. Without them square roots branch, and conditions can't become selections.
+  # These options don't change results. Without them, square roots need branches, and conditionals can't become vector
+  # selections.
   -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC bug 105651: a false alarm on "text" + std::string.
+  # Disables GCC's false warning on "text" + std::string (GCC bug 105651).
   target_compile_options(microtrace_flags INTERFACE -Wno-restrict)
 endif()
 if(MICROTRACE_FUZZ)

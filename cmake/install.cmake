@@ -1,8 +1,8 @@
-# Installation, except of modules, and the package for find_package(microtrace).
+# Installs everything except for modules, and makes the package for find_package(microtrace).
 include(CMakePackageConfigHelpers)
 set(microtrace_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/microtrace)
 
-# One of the two libraries is installed by default; the other can be installed by the name of its component.
+# Installs one of the two libraries by default. `cmake --install --component shared` or `static` installs the other one.
 set(unless_shared EXCLUDE_FROM_ALL)
 set(unless_static)
 if(BUILD_SHARED_LIBS)
@@ -19,7 +19,7 @@ endforeach()
 
 install(TARGETS microtrace)
 install(DIRECTORY include/microtrace TYPE INCLUDE FILES_MATCHING PATTERN *.hpp PATTERN *.h)
-# The same folders as in the repository, so that links between pages stay valid.
+# Uses the folders of the repository, so that links between pages remain valid.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE TYPE DOC)
 install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
 install(DIRECTORY python/notebooks DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)

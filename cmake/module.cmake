@@ -1,9 +1,9 @@
-# The modules' folder relative to the program's, the same in the build folder and when installed. Relative to a shared library
-# it is microtrace/ (src/io/module_folders.hpp).
+# The path of the modules' folder relative to the program's folder is the same in the build folder and after installation.
+# The shared library looks for modules in microtrace/ beside itself (src/io/module_folders.hpp).
 file(RELATIVE_PATH microtrace_modules_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR}/microtrace)
 cmake_path(SET microtrace_module_dir NORMALIZE ${PROJECT_BINARY_DIR}/src/cli/${microtrace_modules_from_program})
 
-# microtrace_module(NAME SOURCE...): a shared object that the library loads when it first needs it.
+# microtrace_module(NAME SOURCE...) builds a shared object that the library loads on first use.
 function(microtrace_module name)
   set(target microtrace_${name})
   add_library(${target} MODULE ${ARGN})
@@ -17,6 +17,7 @@ function(microtrace_module name)
   install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/microtrace)
 endfunction()
 
-# Programs of this build that are not installed, such as tests, may be in any folder.
+# Programs of this build that are not installed, such as tests, may be in any folder. They link the path of the modules'
+# folder.
 include(${CMAKE_CURRENT_LIST_DIR}/module_folder.cmake)
 microtrace_add_module_folder(microtrace_built_modules ${microtrace_module_dir})

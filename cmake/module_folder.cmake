@@ -1,5 +1,5 @@
-# microtrace_add_module_folder(TARGET FOLDER): compiles the path of the modules' folder into an object. Programs that link it and the
-# static library find the modules, wherever the programs are.
+# microtrace_add_module_folder(TARGET FOLDER) compiles the path of the modules' folder into an object. A program in any
+# folder finds the modules if it links this object and the static library.
 function(microtrace_add_module_folder target folder)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp)
   file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[

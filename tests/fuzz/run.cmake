@@ -1,4 +1,4 @@
-# A script: fuzzes one format for some seconds. Fails by FATAL_ERROR.
+# This script fuzzes one format for some seconds. It fails by FATAL_ERROR.
 #   BUILD    the build folder of the preset "fuzz"
 #   FORMAT   one of formats.cmake
 #   SECONDS  duration
@@ -7,8 +7,8 @@ cmake_minimum_required(VERSION 3.25)
 set(program ${BUILD}/tests/fuzz/fuzz_${FORMAT})
 set(work ${BUILD}/tests/fuzz/${FORMAT})
 file(MAKE_DIRECTORY ${work}/corpus ${work}/findings)
-# An allocation of more than 256 MiB is a finding, because files have only a few KiB. So is a run of more than a minute, a
-# limit that even busy machines keep.
+# An allocation of more than 256 MiB is a finding, because files have only a few KiB. A run of more than a minute is one too:
+# even busy machines take less.
 execute_process(
   COMMAND ${program} ${work}/corpus ${BUILD}/tests/fuzz/seeds/${FORMAT}
     -dict=${BUILD}/tests/fuzz/seeds/${FORMAT}.dict -artifact_prefix=${work}/findings/

@@ -1,4 +1,4 @@
-# A script: checks that the scenes in the repository equal the output of the program that makes them.
+# This script checks that the scenes in the repository equal the output of the program that makes them.
 execute_process(COMMAND ${PROGRAM} ${WORK} COMMAND_ERROR_IS_FATAL ANY)
 foreach(name draco meshopt)
   execute_process(COMMAND ${CMAKE_COMMAND} -E compare_files ${WORK}/${name}.glb ${SCENES}/${name}.glb

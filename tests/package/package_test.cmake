@@ -1,4 +1,4 @@
-# A script: uses the installed package as a user would, with the static and the shared library. Fails by FATAL_ERROR.
+# This script uses the installed package as a user would, with the static and the shared library. It fails by FATAL_ERROR.
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -9,8 +9,8 @@ function(run)
   set(output "${output}" PARENT_SCOPE)
 endfunction()
 
-# run_alone(MODULE... -- COMMAND...): according to the dynamic linker, the command loads no object files from the build folder,
-# and it loads the installed modules.
+# run_alone(MODULE... -- COMMAND...) runs a command and checks in the dynamic linker's log that it loads the installed
+# modules and no object files from the build folder.
 function(run_alone)
   list(FIND ARGN -- middle)
   list(SUBLIST ARGN 0 ${middle} modules)
@@ -37,7 +37,8 @@ function(check_pictures)
   endforeach()
 endfunction()
 
-# install_to(FOLDER COMPONENT...): moves the folder after the installation, because its contents must not depend on the path.
+# install_to(FOLDER COMPONENT...) installs into a temporary folder and then moves it, because its contents must not depend on
+# the path.
 function(install_to folder)
   foreach(component ${ARGN})
     run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component ${component})

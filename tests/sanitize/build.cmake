@@ -1,4 +1,4 @@
-# A script: builds targets with a sanitizer preset in a separate folder.
+# This script builds targets with a sanitizer preset in a separate folder.
 #   SOURCE   the project
 #   BUILD    the folder
 #   PRESET   fuzz or tsan
