@@ -1,5 +1,6 @@
-// Compares scenes of axis-aligned walls that touch and share planes with the same scenes rotated by
-// an odd angle: time per query, and the number of queries that reach each stage after float32.
+// Compares scenes of axis-aligned walls that touch and share planes with copies of these scenes
+// rotated by an arbitrary angle. Measures the time per query, and the number of queries that reach
+// each stage after float32.
 
 #include "arguments.hpp"
 #include "rays.hpp"
@@ -119,7 +120,7 @@ class Tracer {
     return on;
   }
 
-  /// The unit normal on the side of the incoming ray d; nothing for triangles without area.
+  /// The unit normal on the side from which the ray d arrives; nothing for triangles without area.
   std::optional<DVec3> normal(PrimitiveId id, const DVec3& d) const {
     return bvh_.primitives().visit(id, [&](const auto& shape) -> std::optional<DVec3> {
       if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {

@@ -1,5 +1,5 @@
-// Measures pictures of a mesh with coincident copies of itself, and of a mesh among triangles
-// without area, relative to the mesh alone.
+// Measures the time to render a mesh together with coincident copies of itself, and together with
+// triangles without area, relative to the time to render the mesh alone.
 
 #include "arguments.hpp"
 #include "rays.hpp"
@@ -25,9 +25,9 @@ using namespace microtrace;
 using namespace microtrace::bench;
 
 constexpr ImageSize kSize{.width = 320, .height = 240};
-constexpr std::uint32_t kSamples = 4;  // per pixel of path-traced pictures
+constexpr std::uint32_t kSamples = 4;  // samples per pixel of path-traced pictures
 
-/// A point in a cube around the mesh.
+/// A pseudorandom point at the distance `half_width` from the origin, which is the mesh's center.
 Vec3 place(std::uint64_t counter, double half_width) {
   return {half_width * random_point(1, counter)};
 }
@@ -44,7 +44,7 @@ Mesh copies(const Mesh& mesh, int count, bool turned) {
   return all;
 }
 
-/// Adds segments in a ball around the mesh; segments of length 0 are points.
+/// Adds segments around the mesh. Segments of length 0 are points.
 Mesh with_segments(Mesh mesh, std::uint64_t count, double length) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());

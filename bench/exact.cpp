@@ -1,4 +1,5 @@
-// Measures one exact decision for each shape: the cost of a ray for which the filters are unsure.
+// Measures one exact decision for each shape, which is the cost of a ray for which the filters are
+// unsure.
 
 #include "exact/grid.hpp"
 #include "exact/intersect.hpp"

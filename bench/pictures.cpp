@@ -1,5 +1,5 @@
-// Measures whole pictures without file output: rays per second for a scene's first camera, by
-// number of threads.
+// Measures the rendering of whole pictures without file output: rays per second for a scene's first
+// camera, for several numbers of threads.
 
 #include "support/generated_meshes.hpp"
 
@@ -31,8 +31,8 @@ void picture(benchmark::State& state, const char* name) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-/// Depth, both normals and object ids of a view of 15 000 triangles, on one thread: the time is
-/// that of the processor.
+/// Renders depth, both normals and object ids of a view of 15 000 triangles on one thread, and
+/// measures processor time.
 void aovs(benchmark::State& state) {
   Mesh mesh = generated::displaced_sphere(15000);
   for (const Vec3& p : mesh.positions) mesh.normals.push_back(glm::normalize(p));

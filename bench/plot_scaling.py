@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws Mray/s over the number of triangles, from what `bench_vs_embree --scaling` writes.
+"""Plots Mray/s over the number of triangles from the output of `bench_vs_embree --scaling`.
 
 usage: plot_scaling.py bench_vs_embree.json scaling.svg
 """
@@ -12,7 +12,7 @@ COLORS = {"primary": "#1b6ca8", "bounce": "#b3541e", "occlusion": "#3c7d3e"}
 
 
 def read(path):
-    """{kind: [(triangles, ours, Embree's)]}, by triangles."""
+    """Returns {kind: [(triangles, microtrace's Mray/s, Embree's Mray/s)]}, sorted by triangles."""
     with open(path) as file:
         rows = json.load(file)
     triangles = {row["scene"]: row["triangles"] for row in rows if row["kind"] == "build"}
@@ -25,7 +25,8 @@ def read(path):
 
 
 def scale(values, low, high):
-    """A logarithmic axis from whole powers of ten (or their 1, 2, 5) around the values."""
+    """A logarithmic axis that extends slightly beyond the values: its function from values to
+    coordinates, and the logarithms of its ends."""
     first, last = math.log10(min(values) / 1.15), math.log10(max(values) * 1.15)
     return lambda v: low + (math.log10(v) - first) / (last - first) * (high - low), first, last
 

@@ -12,8 +12,8 @@
 namespace microtrace::bench {
 namespace {
 
-// The output function of SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number
-// generators, 2014) of a counter.
+// Applies the output function of SplitMix64 to a counter (Steele, Lea, Flood: Fast splittable
+// pseudorandom number generators, 2014).
 std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter) {
   std::uint64_t z = (seed << 40U) + counter * 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -21,7 +21,7 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter) {
   return z ^ (z >> 31U);
 }
 
-// A number in [0, 1).
+// A pseudorandom number in [0, 1).
 double random(std::uint64_t seed, std::uint64_t counter) {
   return static_cast<double>(random_bits(seed, counter) >> 11U) * 0x1p-53;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The rays of ray-casting benchmarks. They are the same on every machine, except for differences
-/// between the sines and cosines of C libraries.
+/// Generates the rays of ray-casting benchmarks. They are the same on every machine, except for
+/// differences between C libraries' sines and cosines.
 
 #include <microtrace/camera.hpp>
 #include <microtrace/hit.hpp>
@@ -13,17 +13,18 @@
 
 namespace microtrace::bench {
 
-/// Rays are ordered tile by tile, and row by row in a tile.
+/// Rays are ordered tile by tile, and row by row within a tile.
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTileRays = std::size_t{kTileEdge} * kTileEdge;
 
-/// Rays, and the hit of each; nothing for misses.
+/// Rays, and the hit of each ray; nothing for misses.
 struct Traced {
   std::span<const Ray> rays;
   std::span<const std::optional<Hit>> hits;
 };
 
-/// A point uniformly distributed on the unit sphere, a function of seed and counter.
+/// A pseudorandom point, uniformly distributed on the unit sphere. It depends only on seed and
+/// counter.
 [[nodiscard]] DVec3 random_point(std::uint64_t seed, std::uint64_t counter);
 
 /// The length of the diagonal of the mesh's bounding box, in world units.
@@ -33,17 +34,17 @@ struct Traced {
 /// kTileEdge.
 [[nodiscard]] std::vector<Ray> primary_rays(const Camera& camera, ImageSize size);
 
-/// One ray from each hit, in the order of the hits, in a cosine-distributed direction about the
-/// geometric normal on the side of the incoming ray. Origins are 1e-5 of the extent above the
-/// surface, so that rounding in either program never puts one on the wrong side. Hits have the
-/// triangle's index in the mesh; triangles without area emit no rays.
+/// One ray from each hit, in the order of the hits. Directions are cosine-distributed about the
+/// geometric normal on the side of the incoming ray. Origins are 1e-5 times the extent above the
+/// surface, so that rounding in either program never puts an origin on the wrong side. Hit ids must
+/// be triangle indices of the mesh. Triangles without area emit no rays.
 [[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
                                            float t_max, std::uint64_t seed);
 
-/// Applies a fixed permutation, so that neighboring rays are incoherent.
+/// Shuffles the rays by a fixed permutation, so that neighboring rays are incoherent.
 void shuffle(std::span<Ray> rays, std::uint64_t seed);
 
-/// Every `step`-th run of `length` rays: a sample with the coherence of all rays.
+/// Every `step`-th run of `length` rays. This sample is as coherent as all rays.
 [[nodiscard]] std::vector<Ray> sample(std::span<const Ray> rays, std::size_t length,
                                       std::size_t step);
 

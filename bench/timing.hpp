@@ -7,17 +7,17 @@
 
 namespace microtrace::bench {
 
-/// The seconds that f() takes: with one thread the processor time of this process, which other
-/// programs affect least; with more threads the elapsed time.
+/// The seconds that f() takes. With one thread, this is the processor time of this process, which
+/// other programs affect least. With more threads, it is the elapsed time.
 [[nodiscard]] double seconds(unsigned threads, const std::function<void()>& f);
 
 /// Calls f(begin, end) for consecutive parts of [0, size), one per thread. Parts begin at multiples
-/// of 64. Throws if a thread flushes denormal numbers to zero before or afterwards: Embree's manual
-/// recommends flushing, and both programs must run in the same mode.
+/// of 64. Throws if a thread flushes denormal numbers to zero before or after the call: Embree's
+/// manual recommends flushing, but both programs must run in the same mode.
 void split(unsigned threads, std::size_t size,
            const std::function<void(std::size_t, std::size_t)>& f);
 
-/// Takes a copy. The median of an even number of values is the mean of the two in the middle.
+/// The median of the values; for an even number of values, the mean of the two in the middle.
 [[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace microtrace::bench

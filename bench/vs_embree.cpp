@@ -1,5 +1,5 @@
-// Compares ray casting with Embree: the same meshes and the same rays, alternately. bench/README.md
-// describes the comparison.
+// Compares ray casting with Embree. The programs alternately trace the same rays through the same
+// meshes. bench/README.md describes the comparison.
 
 #include "accel/kernels/dispatch.hpp"
 #include "arguments.hpp"
@@ -70,7 +70,7 @@ Arguments parse(std::span<char*> words) {
 }
 
 void run(const Arguments& arguments) {
-  // Large scenes are created only when it is their turn.
+  // Creates each scene only when it is measured, because large scenes need much memory.
   std::vector<std::function<BenchScene()>> scenes;
   if (arguments.scaling) {
     for (const unsigned triangles : {10'000U, 100'000U, 1'000'000U, 10'000'000U})

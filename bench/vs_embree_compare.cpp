@@ -17,8 +17,8 @@
 namespace microtrace::bench {
 namespace {
 
-// A scene of Embree. The best instruction set and build quality depend on the mesh and the kind of
-// rays.
+// An Embree scene with one combination of instruction set and build quality. The best combination
+// depends on the mesh and the kind of rays.
 struct Peer {
   std::string name;
   bool robust;
@@ -31,8 +31,8 @@ struct Choice {
   std::string name;
 };
 
-// Robust scenes have one quality: the high quality adds spatial splits, which Embree makes only in
-// non-robust scenes.
+// Robust scenes need only one quality: high quality differs from medium by spatial splits, which
+// Embree uses only in non-robust scenes.
 std::vector<Peer> make_peers(const Mesh& mesh, unsigned threads) {
   std::vector<Peer> peers;
   const auto add = [&](const std::string& name, PeerOptions options) {
@@ -58,8 +58,8 @@ std::string name_of(const std::string& scene, PeerMode mode) {
          (mode.coherent ? " coherent" : "");
 }
 
-// The fastest mode of Embree for such a query. It is found with one thread, because processor time
-// varies less.
+// Embree's fastest mode for the query. It is determined with one thread, because processor time
+// varies less than elapsed time.
 Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& question) {
   Choice best;
   double best_seconds = std::numeric_limits<double>::infinity();
@@ -134,8 +134,8 @@ RayRow compare_rays(const Bvh& bvh, const std::vector<Peer>& peers, Kind kind, Q
   const std::array<std::function<void()>, 3> programs{
       [&] { question.ask_microtrace(bvh, threads); }, [&] { ask(fast); }, [&] { ask(robust); }};
   std::array<std::vector<double>, 3> times;
-  // Each run begins with another program, so that none always profits from the cache contents that
-  // the previous one leaves.
+  // Each round starts with a different program, so that no program always profits from the cache
+  // contents that another one leaves.
   for (unsigned i = 0; i < 3 * options.runs; ++i) {
     const std::size_t turn = (i + i / 3) % 3;
     times[turn].push_back(seconds(threads, programs[turn]));

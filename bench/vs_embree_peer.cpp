@@ -53,7 +53,7 @@ std::vector<RayPacket<K>> pack(std::span<const Ray> rays) {
   return packets;
 }
 
-// Sets the members that are the same for every packet.
+// Sets the members of a packet that don't depend on its rays.
 template <int K>
 void clear(typename Calls<K>::Ray& to) {
   to = {};

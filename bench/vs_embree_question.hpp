@@ -1,5 +1,5 @@
 #pragma once
-/// A query of many rays, for either program.
+/// Rays that both programs trace, and the results.
 
 #include "vs_embree_peer.hpp"
 
@@ -15,7 +15,7 @@ namespace microtrace::bench {
 enum class Kind {
   primary,   ///< nearest hits of camera rays, tile by tile
   bounce,    ///< nearest hits of cosine-distributed rays, shuffled
-  occlusion  ///< any hit of short cosine-distributed rays, tile by tile
+  occlusion  ///< any hits of short cosine-distributed rays, tile by tile
 };
 
 /// The rays of one kind and the results of both programs. Each run overwrites the results.

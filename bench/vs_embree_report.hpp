@@ -8,7 +8,7 @@
 
 namespace microtrace::bench {
 
-/// The lines of one scene under table_head(). Ratios above 1 mean that microtrace is faster.
+/// The table's lines for one scene. Ratios above 1 mean that microtrace is faster.
 [[nodiscard]] std::string table_lines(const SceneRows& rows);
 [[nodiscard]] std::string table_head();
 

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Copies the positions to memory that extends past the last one, because Embree reads 16 bytes of
-/// each.
+/// Copies the positions to memory that extends past the last one, because Embree reads 16 bytes for
+/// each position.
 Array<Vec3> padded(Array<Vec3> positions) {
   const std::size_t size = positions.size();
   const auto owner = std::make_shared<std::vector<Vec3>>(std::move(positions.edit()));

@@ -10,7 +10,7 @@
 
 namespace microtrace::bench {
 
-/// One mesh, so that both programs number triangles in the same way.
+/// A scene with one mesh, so that both programs number triangles in the same way.
 struct BenchScene {
   std::string name;
   Scene scene;
@@ -22,15 +22,15 @@ struct BenchScene {
 /// The names of the scenes in the order of the runs.
 [[nodiscard]] const std::vector<std::string>& generated_scene_names();
 
-/// sphere (1 M triangles), hall (1 M, seen from inside) or terrain (10 M); one hundredth of that if
-/// `small`. Throws std::invalid_argument for another name.
+/// Makes sphere (1 M triangles), hall (1 M, seen from inside) or terrain (10 M). `small` divides
+/// these numbers by 100. Throws std::invalid_argument for other names.
 [[nodiscard]] BenchScene generated_scene(const std::string& name, bool small);
 
-/// The displaced sphere with about this number of triangles.
+/// A displaced sphere with about this number of triangles.
 [[nodiscard]] BenchScene sphere_scene(std::size_t triangles);
 
-/// All triangles of a glTF or JSON scene, seen from the diagonal of their bounding box. Throws
-/// Error if it can't be read, std::invalid_argument if it has no triangles.
+/// All triangles of a glTF or JSON scene, viewed diagonally. Throws Error if the scene can't be
+/// read, and std::invalid_argument if it has no triangles.
 [[nodiscard]] BenchScene scene_from_file(const std::string& path);
 
 }  // namespace microtrace::bench

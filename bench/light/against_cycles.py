@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""glTF assets drawn by microtrace and by Blender's Cycles, from the same place under the same sky, and how far they differ
-as shown: light / 0.6, three.js' ACES curve, 1 / 2.2.
+"""Renders glTF assets with microtrace and with Blender's Cycles, from the same position under the same sky, and
+compares the pictures. Both are displayed with exposure 1 / 0.6, three.js' ACES curve and gamma 2.2.
 
 usage: against_cycles.py FOLDER MICROTRACE ASSET... [--spp N] [--size N] [--defaults]
 
-Needs Blender as a Python module (bpy 5.0) and numpy. Writes NAME.png for each asset: Cycles, microtrace, and four times
-their difference about gray.
+Needs Blender as a Python module (bpy 5.0) and numpy. Writes NAME.png for each asset. It contains Cycles' picture,
+microtrace's, and four times their difference plus gray.
 """
 import argparse
 import math
@@ -25,13 +25,13 @@ THETA, PHI, FOV = 35, 65, 45  # degrees: azimuth about +y from +z, and polar ang
 
 
 def in_gltf(p):
-    """Of Blender's axes, which have z above."""
+    """Converts a point from Blender's axes, in which z points up, to glTF's."""
     return np.array([p[0], p[2], -p[1]])
 
 
 def load(asset):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    # Without this option the importer divides lights by 683 lumens per watt, but glTF's units don't need it.
+    # Without this option, the importer divides light intensities by 683 lumens per watt. microtrace doesn't.
     bpy.ops.import_scene.gltf(filepath=str(asset), export_import_convert_lighting_mode="COMPAT")
     for thing in list(bpy.data.objects):
         thing.animation_data_clear()
@@ -40,7 +40,7 @@ def load(asset):
 
 
 def box():
-    """The middle of the scene, in glTF's axes, and the length of its diagonal."""
+    """The center of the scene's bounding box, in glTF's axes, and the length of the box's diagonal."""
     graph = bpy.context.evaluated_depsgraph_get()
     corners = []
     for thing in bpy.context.scene.objects:
@@ -70,7 +70,8 @@ def set_camera(target, radius):
 
 
 def set_sky(path):
-    """Cycles puts (x, y) of its axes at u = 1/2 - atan2(y, x) / 2 pi, which is glTF's (x, -z) at microtrace's place."""
+    """Sets the sky. Cycles maps the direction (x, y) to u = 1/2 - atan2(y, x) / 2 pi. microtrace maps the same
+    direction to the same u, because Blender's (x, y) is glTF's (x, -z)."""
     world = bpy.data.worlds.new("sky")
     bpy.context.scene.world = world
     world.use_nodes = True
@@ -88,7 +89,7 @@ def render(path, options):
     cycles = scene.cycles
     cycles.device, cycles.samples = "CPU", options.spp
     cycles.use_denoising = cycles.use_adaptive_sampling = False
-    if not options.defaults:  # By default Cycles clamps and blurs indirect light and terminates paths early.
+    if not options.defaults:  # By default, Cycles clamps and blurs indirect light and terminates paths early.
         cycles.sample_clamp_indirect = cycles.blur_glossy = 0
         for kind in ("max", "diffuse", "glossy", "transmission", "volume"):
             setattr(cycles, "max_bounces" if kind == "max" else f"{kind}_bounces", 31)
@@ -101,7 +102,7 @@ def render(path, options):
 
 
 def read(path):
-    """Linear light, from the top."""
+    """Reads linear colors, top row first."""
     image = bpy.data.images.load(str(path))
     image.colorspace_settings.name = "Non-Color"
     pixels = np.empty(image.size[0] * image.size[1] * image.channels, np.float32)
@@ -118,7 +119,7 @@ def shown(light):
 
 
 def compare(asset, options):
-    """The mean difference, the 99th percentile, and Cycles' and our mean light."""
+    """The mean and the 99th percentile of the difference, and the mean light of Cycles' picture and of microtrace's."""
     sky, theirs, ours = (options.folder / name for name in ("sky.hdr", f"{asset.stem}_cycles.exr", f"{asset.stem}.exr"))
     load(asset)
     target, diagonal = box()

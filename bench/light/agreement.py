@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Holds pictures by microtrace against Mitsuba 3's, for scenes that both can express.
+"""Compares pictures by microtrace with pictures by Mitsuba 3, for scenes that both programs support.
 
 usage: agreement.py FOLDER MICROTRACE [--spp N] [--seeds N]
-For each scene several pictures of other seeds by each program: the difference of the means over blocks of pixels, in
-standard deviations of itself, must look like the normal distribution's. FOLDER gets the scenes and the mean pictures.
+Each program renders several pictures of each scene with different seeds. The differences between the programs' means
+over blocks of pixels, divided by their standard deviations, must look normally distributed. Writes the scenes and the
+mean pictures to FOLDER.
 """
 import argparse
 import pathlib
@@ -56,8 +57,8 @@ def main():
         small_a, small_b = (np.array([blocks(p)[..., 1] for p in pictures]) for pictures in (a, b))
         z = small_a.mean(0) - small_b.mean(0)
         spread = np.sqrt((small_a.var(0, ddof=1) + small_b.var(0, ddof=1)) / n)
-        lit = spread > 1e-3 * small_b.mean(0)  # otherwise the block shows the sky itself, and the programs place its pixels
-                                               # differently
+        # Other blocks show only the sky, whose pixels the programs place differently.
+        lit = spread > 1e-3 * small_b.mean(0)
         z = np.abs(z[lit] / spread[lit])
         print(f"{scene.name} | {np.mean(whole_a):.5f} | {np.mean(whole_b):.5f} | "
               f"{(np.mean(whole_a) - np.mean(whole_b)) / deviation:.2f} | {np.sqrt(np.mean(z**2)):.2f} | {z.max():.1f}", flush=True)

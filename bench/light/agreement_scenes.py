@@ -1,7 +1,8 @@
-"""Scenes that glTF and Mitsuba 3 can both express, the same for each.
+"""Writes scenes that glTF and Mitsuba 3 can both represent, once for each.
 
-Common ground: `diffuse` is a dielectric without specular part (KHR_materials_specular, factor 0). A conductor that reflects
-all is the same but for what leaves it after several reflections, which Mitsuba drops: little, if it is smooth.
+Mitsuba's `diffuse` is a glTF dielectric without a specular part (KHR_materials_specular with factor 0). A conductor
+that reflects all light is nearly the same in both: Mitsuba omits multiple scattering between microfacets, which is
+little on smooth surfaces.
 """
 import dataclasses
 
@@ -29,7 +30,7 @@ def quad(corner, along, up):
 
 
 def box(low, high):
-    """Seen from outside."""
+    """The six faces of a box. Their front sides are outside."""
     x, y, z = np.diag(np.subtract(high, low).astype(float))
     low, high = np.array(low, float), np.array(high, float)
     return [quad(low, y, x), quad(low, z, y), quad(low, x, z), quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x)]
@@ -49,7 +50,7 @@ def ball(center, radius, rows=64):
 
 
 class Both:
-    """A scene that grows in both forms."""
+    """Builds a scene in both formats at the same time."""
 
     def __init__(self, folder, name, depth=6):
         self.folder, self.name, self.depth, self.options = folder, name, depth, ["--env", "0,0,0"]
@@ -65,7 +66,8 @@ class Both:
                         "sensor": camera}
 
     def add(self, mesh, color=(0.5, 0.5, 0.5), emission=0.0, conductor=None):
-        """conductor: the roughness of one that reflects all; otherwise the surface is diffuse."""
+        """Adds a mesh. `conductor` is the roughness of a conductor that reflects all light; without it, the surface is
+        diffuse."""
         number = len(self.mitsuba)
         path = self.folder / f"{self.name}_{number}.ply"
         files.write_ply(path, mesh)
@@ -114,7 +116,8 @@ def write(folder):
     lamp = Both(folder, "room_under_lamp")
     add_room(lamp)
     lamp.add(quad((-0.3, 0.98, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0), emission=12.0)
-    # The back of a one-sided surface transmits light in glTF but not in Mitsuba.
+    # In glTF, light passes through the back of a one-sided surface; in Mitsuba, it doesn't. A two-sided surface blocks
+    # it.
     lamp.add(quad((-0.3, 0.985, -0.3), (0.6, 0, 0), (0, 0, 0.6)), (0, 0, 0))
     yield lamp.finish()
 

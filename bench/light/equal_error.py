@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""How long microtrace and Mitsuba 3 take to the same error, that of Mitsuba's picture of the helmet at 64 spp.
+"""Measures how long microtrace takes to reach the error of Mitsuba 3's picture of the helmet with 64 spp.
 
 usage: equal_error.py FOLDER MICROTRACE [--env constant|sky] [--size WxH] [--reference N] [--variant NAME] [--seeds N]
-Each picture is held against a long one by the same program with another seed, since the two programs' materials
-differ. The error is the root of the mean square over all pixels and channels, linear radiance.
+Each picture is compared with a reference by the same program with many samples and another seed, because the programs'
+materials differ. The error is the root mean square error of linear radiance over all pixels and channels.
 """
 import argparse
 import pathlib
@@ -59,7 +59,7 @@ def main():
         errors.append(mean_error(pictures, reference))
         times.append(float(np.mean(seconds_ours)))
         print(f"microtrace: {spp} spp: error {errors[-1]:.5f}, {times[-1]:.2f} s")
-    # Both curves are approximately straight lines on logarithmic scales.
+    # Interpolates between logarithms, because error and samples are nearly a straight line on logarithmic scales.
     spp = np.exp(np.interp(-np.log(goal), -np.log(errors), np.log(SAMPLES)))
     time = times[-1] * spp / SAMPLES[-1]
     slope = np.polyfit(np.log(SAMPLES), np.log(errors), 1)[0]

@@ -1,4 +1,4 @@
-"""Writes the files that both renderers read: PNG, Radiance HDR, PLY and GLB, with numpy alone."""
+"""Writes the files that both renderers read (PNG, Radiance HDR, PLY and GLB), with no library but numpy."""
 import json
 import struct
 import zlib
@@ -26,7 +26,7 @@ def write_png(path, pixels):
 
 
 def write_hdr(path, pixels):
-    """pixels: float, rows x columns x 3, linear; kept with 8 bits and a common exponent."""
+    """pixels: float, rows x columns x 3, linear. They are stored with 8 bits per channel and a common exponent."""
     height, width = pixels.shape[:2]
     mantissa, exponent = np.frexp(pixels.max(axis=2))
     scale = np.where(pixels.max(axis=2) > 0, mantissa * 256 / np.maximum(pixels.max(axis=2), 1e-38), 0)
@@ -55,14 +55,14 @@ def write_ply(path, mesh):
 
 
 class Glb:
-    """A glTF asset that grows; all data in its one buffer."""
+    """Builds a glTF asset with a single buffer."""
 
     def __init__(self):
         self.document = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]}
         self.data = bytearray()
 
     def add(self, kind, entry):
-        """Its number in the list of that kind."""
+        """Appends an entry to the list of this kind and returns its index."""
         entries = self.document.setdefault(kind, [])
         entries.append(entry)
         return len(entries) - 1

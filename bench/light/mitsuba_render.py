@@ -2,7 +2,8 @@
 """Renders an XML scene with Mitsuba 3 on one thread and prints the processor time of each stage as JSON.
 
 usage: mitsuba_render.py SCENE.xml [--variant NAME] [--passes N] [--out FILE.npy] [NAME=VALUE ...]
-NAME=VALUE are the scene's parameters. Each pass has another seed; the file has the mean of all, float32, RGBA.
+NAME=VALUE sets a parameter of the scene. Each pass uses a different seed. FILE.npy contains the mean of all passes as
+float32 RGBA.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-"""The helmet's textures and the sky."""
+"""Makes the helmet's textures and the sky."""
 import numpy as np
 
 import files
@@ -7,7 +7,7 @@ SIZE = 2048
 
 
 def noise(random, size, cells):
-    """Smooth values in [0, 1] between random ones on a grid of cells x cells, periodic."""
+    """Periodic noise in [0, 1], interpolated smoothly between random values on a grid of cells x cells."""
     grid = random.random((cells, cells)).astype(np.float32)
     at = np.arange(size, dtype=np.float32) * cells / size
     low = at.astype(int)
@@ -19,7 +19,7 @@ def noise(random, size, cells):
 
 
 def cloudy(random, first, octaves):
-    """Noise of several sizes, in [0, 1]."""
+    """A sum of noises of several scales, in [0, 1]."""
     sum_, weight = np.zeros((SIZE, SIZE), np.float32), 0.0
     for i in range(octaves):
         sum_ += noise(random, SIZE, first << i) * 0.5**i
@@ -37,7 +37,7 @@ def bytes_of(x):
 
 
 def maps():
-    """{name: uint8 pixels}."""
+    """Returns {name: uint8 pixels}."""
     random = np.random.default_rng(1)
     y, x = np.mgrid[0:SIZE, 0:SIZE].astype(np.float32) / SIZE
     wear, fine, dirt = cloudy(random, 8, 7), cloudy(random, 128, 4), cloudy(random, 4, 8)
@@ -67,7 +67,7 @@ def maps():
 
 
 def sky(width=512):
-    """A sky over brown ground with a sun of about 3 degrees, 45 degrees high, right of the front."""
+    """A sky over brown ground. The sun is about 3 degrees wide, 45 degrees high, and to the right of the front."""
     height = width // 2
     v, u = (np.mgrid[0:height, 0:width] + 0.5) / np.array([height, width])[:, None, None]
     theta, phi = v * np.pi, (u - 0.5) * 2 * np.pi

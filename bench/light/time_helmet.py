@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Processor time of microtrace and of Mitsuba 3 for the helmet, one thread each, in turns.
+"""Measures the processor time of microtrace and of Mitsuba 3 for the helmet, alternately, each on one thread.
 
 usage: time_helmet.py FOLDER MICROTRACE [--runs N] [--spp N] [--env constant|sky] [--variants A,B]
-FOLDER is what helmet.py wrote; `mitsuba` must be importable by the Python that runs this.
+FOLDER is the folder that helmet.py wrote. The Python that runs this script must be able to import `mitsuba`.
 """
 import argparse
 import json
@@ -17,7 +17,7 @@ ENVIRONMENTS = {"constant": "1,1,1", "sky": "sky.hdr"}
 
 
 def cpu(command, folder):
-    """Processor seconds of the process, user and system, and what it printed."""
+    """Runs a command. Returns the user and system time of its process in seconds, and its output."""
     before = os.times()
     done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     after = os.times()
@@ -28,7 +28,8 @@ def cpu(command, folder):
 
 
 def ours(program, folder, env, spp, size="640x480", seed=0):
-    """(whole process, rendering alone): what the process takes for one pixel is taken off."""
+    """Returns the seconds of (the whole process, rendering only). Rendering is the difference from a process that
+    renders one pixel."""
     command = [program, "helmet.glb", "-q", "-t", "1", "--integrator", "path", "--max-depth", "8", "--env", ENVIRONMENTS[env],
                "--background", "env", "--size", size, "--spp", str(spp), "--seed", str(seed), "-o", "ours.exr"]
     whole, _ = cpu(command, folder)
@@ -37,8 +38,8 @@ def ours(program, folder, env, spp, size="640x480", seed=0):
 
 
 def mitsuba(variant, folder, env, spp, passes=1, seed=0, size=("640", "480")):
-    """The same; Mitsuba tells the time of mitsuba.render itself. Of several passes the last counts:
-    the first one of llvm_ad_rgb also makes the kernel or reads it from its cache."""
+    """Like ours(), with the rendering time that mitsuba_render.py measures. Only the last pass counts, because the
+    first pass of llvm_ad_rgb also compiles the kernel or reads it from the cache."""
     command = [sys.executable, str(HERE / "mitsuba_render.py"), "helmet.xml", "--variant", variant,
                "--passes", str(passes), "--seed", str(seed), "--out", f"{variant}.npy", f"spp={spp}", f"env={env}",
                f"width={size[0]}", f"height={size[1]}"]

@@ -22,7 +22,7 @@ import peers
 
 
 def median_times(jobs, rounds):
-    """The median processor time of each job; jobs take turns, after one round of warming up."""
+    """The median processor time of each job. The jobs take turns, after one round of warming up."""
     times = {name: [] for name in jobs}
     for k in range(rounds + 1):
         for name, job in jobs.items():
@@ -50,7 +50,8 @@ def views(quick, rounds):
 
 
 def rays(quick, rounds):
-    """Random rays per processor second: t and ids, from NumPy arrays to NumPy arrays."""
+    """Random rays per processor second. Each ray returns t and ids; input and output are NumPy
+    arrays."""
     edge = 60 if quick else 708
     vertices, faces, _ = meshes.bumpy_sphere(edge, edge)
     batch = meshes.random_rays(10**4 if quick else 10**6)
@@ -61,7 +62,8 @@ def rays(quick, rounds):
 
 
 def edges(quick, _):
-    """How many of the rays from the inside, aimed at vertices and edges, hit nothing."""
+    """Counts the rays that miss a closed mesh although they start inside. They are aimed at
+    vertices and edges."""
     count = 10**4 if quick else 10**6
     result = {}
     for shape, (vertices, faces, center) in meshes.closed_meshes().items():
@@ -74,7 +76,8 @@ def edges(quick, _):
 
 
 def start(quick, rounds):
-    """Processor seconds and resident MiB of importing and of loading a scene, beyond NumPy's."""
+    """Processor seconds and resident MiB of importing a package and loading a scene, in excess of
+    importing NumPy."""
     model = os.path.join(os.path.dirname(__file__), "..", "..", "scenes", "gltf", "textured.glb")
     programs = {
         "numpy": "import numpy",
@@ -83,7 +86,7 @@ def start(quick, rounds):
         "Mitsuba scalar": "import numpy, mitsuba; mitsuba.set_variant('scalar_rgb')",
         "trimesh + embreex": f"import numpy, trimesh, embreex; trimesh.load({model!r})",
     }
-    # Not ru_maxrss, which a process inherits from its parent.
+    # Reads VmRSS instead of ru_maxrss, because a process inherits ru_maxrss from its parent.
     tail = """
 import re, time
 print(time.process_time(), int(re.search(r"VmRSS:\\s+(\\d+)", open("/proc/self/status").read())[1]) / 1024)"""

@@ -1,4 +1,4 @@
-"""Meshes and rays of compare.py."""
+"""Makes the meshes and rays for compare.py."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import numpy as np
 
 
 def bumpy_sphere(columns, rows):
-    """About 2 * columns * rows triangles: vertices, faces, texture coordinates."""
+    """Vertices, faces and texture coordinates of a bumpy sphere with about 2 * columns * rows
+    triangles."""
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
     phi, theta = 2 * np.pi * u, np.pi * v
     radius = 1 + 0.08 * np.sin(9 * phi) * np.sin(7 * theta) * np.sin(theta)
@@ -25,7 +26,7 @@ def orbit(count):
 
 
 def random_rays(count):
-    """Origins and targets are uniform in cubes around the unit sphere."""
+    """Rays between uniformly distributed points in two cubes around the unit sphere."""
     rng = np.random.default_rng(1)
     origins = rng.uniform(-2, 2, (count, 3))
     return np.concatenate([origins, rng.uniform(-1, 1, (count, 3)) - origins], 1).astype(np.float32)
@@ -40,7 +41,7 @@ def icosphere(levels):
 
 
 def closed_meshes():
-    """Vertices, faces and a point inside, by name."""
+    """Returns {name: (vertices, faces, a point inside)}."""
     ball, faces = icosphere(5)
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
     box = np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1],
@@ -52,7 +53,8 @@ def closed_meshes():
 
 
 def aimed_rays(vertices, faces, center, count):
-    """From points near the center, half of the rays at vertices and half at points of edges."""
+    """Rays from points near the center. One half is aimed at vertices, the other half at points on
+    edges."""
     rng = np.random.default_rng(2)
     extent = vertices.max(0).astype(float) - vertices.min(0)
     origins = (center + rng.uniform(-0.2, 0.2, (count, 3)) * extent).astype(np.float32)

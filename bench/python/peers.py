@@ -1,4 +1,4 @@
-"""The same questions to microtrace and its peers, on one thread."""
+"""Asks microtrace and its peers the same queries, on one thread."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FOV = 45.0
 
 
 def texture():
-    """A checkerboard, 512 x 512."""
+    """A checkerboard of 512 x 512 pixels."""
     grid = (np.indices((512, 512)) // 32).sum(0) % 2
     return np.repeat((grid * 200 + 40).astype(np.uint8)[..., None], 3, -1)
 
@@ -26,7 +26,8 @@ def smooth_normals(vertices, faces):
 
 
 def directions(eye, size):
-    """(height, width, 3) float32, with depth 1."""
+    """Directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
+    float32."""
     width, height = size
     forward = -eye / np.linalg.norm(eye)
     right = np.cross(forward, (0, 1, 0))
@@ -39,7 +40,7 @@ def directions(eye, size):
 
 
 def interpolated(normals, faces, primitive, second, third):
-    """Shading normals from barycentric coordinates."""
+    """Interpolates shading normals by barycentric coordinates."""
     n = normals[faces[primitive]]
     result = n[..., 0, :] * (1 - second - third)[..., None] + n[..., 1, :] * second[..., None] + n[..., 2, :] * third[..., None]
     return result / np.linalg.norm(result, axis=-1, keepdims=True)
@@ -150,7 +151,8 @@ def embreex_caster(vertices, faces):
 
 
 def casters(vertices, faces):
-    """Functions from rays (n, 6) to t and the triangles, negative for misses, by name."""
+    """Returns {name: function}. Each function maps rays (n, 6) to t and triangle indices; the index
+    of a miss is negative."""
     import open3d as o3d
 
     scene = mt.Scene()
