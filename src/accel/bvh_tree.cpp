@@ -11,10 +11,10 @@
 namespace microtrace {
 namespace {
 
-// Testing up to this many primitives directly is faster than traversing a tree.
+// Maximum number of primitives for which testing all of them is faster than traversing a tree.
 constexpr PrimitiveId kFew = 16;
 
-// Upper bound during the build, including pieces of split triangles.
+// Upper bound of the memory per primitive during the build, including pieces of split triangles.
 constexpr std::uint64_t kBytesOfPrimitive = 120;
 
 constexpr const char* kMemoryUse = "the tree of primitives";
@@ -29,7 +29,8 @@ Tree tree_of_few(const Primitives& primitives) {
   return tree;
 }
 
-/// Reserves memory for a build. Releases the previous tree if there is no room for both.
+/// Reserves memory for a build. Releases the previous tree if the budget has no room for both
+/// trees.
 MemoryAccount room_for_build(PrimitiveId count, BvhOptions& options) {
   if (options.previous) {
     try {

@@ -10,17 +10,19 @@
 
 namespace microtrace {
 
-/// The part of a Bvh that scenes can share: the tree and its memory account.
+/// The part of a Bvh that can be shared or reused without the scene: the tree and its memory
+/// account.
 struct BvhTree {
   Tree tree;
   MemoryAccount memory;
 };
 
-/// Keeps the primitives of small scenes in Tree::unbounded, without a tree. Throws Error (limit).
+/// Builds the tree. For scenes with few primitives, stores all of them in Tree::unbounded instead.
+/// Throws Error (limit) if memory runs out or there are too many primitives.
 [[nodiscard]] std::shared_ptr<const BvhTree> make_bvh_tree(const Primitives& primitives,
                                                            BvhOptions options);
 
-/// In bytes.
+/// Returns the size of a tree in bytes.
 [[nodiscard]] std::size_t memory_of(const Tree& tree);
 
 }  // namespace microtrace

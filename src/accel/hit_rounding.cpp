@@ -7,8 +7,8 @@
 namespace microtrace {
 namespace {
 
-// Looks up triangle vertices by primitive id. Consecutive hits are mostly on the same mesh, so the
-// mesh is looked up once.
+// Looks up triangle vertices by primitive id. Keeps the last mesh, because consecutive hits are
+// mostly on the same mesh.
 class Corners {
  public:
   explicit Corners(const Primitives& primitives) : primitives_(&primitives) {}
@@ -40,15 +40,15 @@ class Corners {
 
   const Primitives* primitives_;
   const Mesh* mesh_ = nullptr;
-  PrimitiveId first_ = 0, last_ = 0;  // id range of the object that mesh_ points to
+  PrimitiveId first_ = 0, last_ = 0;  // id range of the object that was looked up last
 };
 
 struct RoundedT {
-  std::uint64_t certain;  // one bit per ray: its t is certainly the rounded exact value
+  std::uint64_t certain;  // one bit per ray, set if t is certainly the rounded exact value
   const float* t;
 };
 
-// Computes the uncertain values of t exactly.
+// Writes the hits. Values of t that are not certain are computed again by filters or exactly.
 void write_hits(const Primitives& primitives, std::span<const Ray> rays, const std::uint32_t* ids,
                 const RoundedT& rounded, std::span<std::optional<Hit>> hits) {
   for (std::size_t i = 0; i < rays.size(); ++i) {

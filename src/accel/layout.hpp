@@ -1,42 +1,43 @@
 #pragma once
-/// Memory layout of the tree, as the builder writes and the kernels read it. Plain data without
-/// functions of external linkage, because kernels for several instruction sets include it.
+/// The memory layout of the tree that the builder writes and the kernels read. Kernels for several
+/// instruction sets include this header, so it has no functions of external linkage.
 
 #include <cstdint>
 
 namespace microtrace {
 
-inline constexpr int kWidth = 8;  ///< children per node, triangles per block
+inline constexpr int kWidth = 8;  ///< number of children per node and of triangles per block
 
-/// A reference to a child: none, a node, or a leaf.
+/// A reference to a child, which is a node or a leaf; see child_ref.
 using ChildRef = std::uint32_t;
 
-/// An inner node: the boxes of up to eight children, with one array per bounding plane. Unused
-/// slots have the empty box (lo = +infinity, hi = -infinity), which no ray enters. A box contains
-/// every point of its subtree.
+/// An inner node: the boxes of up to eight children, with one array per bounding plane. A box
+/// contains every point of its subtree. Unused slots have the empty box (lo = +infinity, hi =
+/// -infinity), which no ray enters.
 struct alignas(64) WideNode {
   float lo_x[kWidth], lo_y[kWidth], lo_z[kWidth];
   float hi_x[kWidth], hi_y[kWidth], hi_z[kWidth];
   ChildRef child[kWidth];
 };
-static_assert(sizeof(WideNode) == 256);  // 224 and padding: four cache lines
+static_assert(sizeof(WideNode) == 256);  // 224 bytes of data and padding to four cache lines
 
-/// Up to eight triangles of moderate size (every |coordinate| at most 2^38) with the vertices a, b,
-/// c of the scene. Each triangle starts at the vertex between its two shorter edges, which keeps
-/// the error bounds of thin triangles small. Unused slots have NaN in a and are never hit.
+/// Up to eight triangles with every |coordinate| at most 2^38. a, b and c are the scene's vertices,
+/// rotated so that a is the vertex between the two shorter edges, which keeps the error bounds of
+/// thin triangles small. Unused slots have NaN in a and are never hit.
 struct alignas(64) TriangleBlock {
   float a_x[kWidth], a_y[kWidth], a_z[kWidth];
   float b_x[kWidth], b_y[kWidth], b_z[kWidth];
   float c_x[kWidth], c_y[kWidth], c_z[kWidth];
   float largest_edge;  ///< upper bound of every |component| of e1 = fl(b - a) and e2 = fl(c - a)
-  float edge_product;  ///< the same for |component of e1| times |component of e2|
-  std::uint32_t id[kWidth];  ///< PrimitiveId; mostly in a cache line that only hits access
+  float edge_product;  ///< upper bound of every |component of e1| times |component of e2|
+  std::uint32_t id[kWidth];  ///< PrimitiveIds, mostly in a cache line that is read only for hits
 };
 static_assert(sizeof(TriangleBlock) == 384);
 
-/// Leaves refer to `count` consecutive blocks, or to `count` consecutive entries of the list of
-/// other bounded primitives. Bits 31-30: 0 node, 1 triangle blocks, 2 other primitives. Nodes have
-/// their index in bits 29-0; leaves have their first entry in bits 29-3 and count - 1 in bits 2-0.
+/// The encoding of ChildRef. Bits 31-30 hold the kind: 0 for a node, 1 for a leaf of triangle
+/// blocks, 2 for a leaf of other bounded primitives. A node has its index in bits 29-0. A leaf
+/// consists of `count` consecutive blocks or primitives, with the index of the first in bits 29-3
+/// and count - 1 in bits 2-0.
 namespace child_ref {
 inline constexpr ChildRef kTriangles = 1U << 30U;
 inline constexpr ChildRef kOthers = 2U << 30U;

@@ -1,5 +1,6 @@
 #pragma once
-/// Rays with a common origin, traced together.
+/// Tests primitives against several rays with a common origin, and keeps the nearest hit of each
+/// ray.
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/resolve/closest_hit.hpp"
@@ -18,7 +19,7 @@ class RayPacket {
  public:
   static constexpr std::size_t kCapacity = kPacketRays;
 
-  /// rays: 1 to kCapacity valid rays with the same origin. They and the primitives must outlive
+  /// `rays` must be 1 to kCapacity valid rays with the same origin. Both arguments must outlive
   /// this object.
   RayPacket(const Primitives& primitives, std::span<const Ray> rays)
       : primitives_(&primitives), rays_(rays) {
@@ -30,7 +31,8 @@ class RayPacket {
     }
   }
 
-  /// Tests one primitive against all rays. Every primitive must be tested once, in any order.
+  /// Tests one primitive against all rays. Primitives may be tested in any order, each at most
+  /// once.
   template <class AnyShape>
   void test(PrimitiveId id, const AnyShape& shape) {
     for_each_result(shape, [&](std::size_t i, const FilterResult& filtered) {
@@ -38,7 +40,7 @@ class RayPacket {
     });
   }
 
-  /// Calls f(i, filtered) for every ray.
+  /// Calls f(i, filtered) for every ray i with the filter's result.
   template <class AnyShape, class F>
   void for_each_result(const AnyShape& shape, const F& f) const {
     if (filterable_ && is_filterable(shape)) {
@@ -50,7 +52,7 @@ class RayPacket {
     }
   }
 
-  /// The nearest hit so far of ray i, in the form that kernels use.
+  /// Returns the nearest hit so far of ray i, in the form that kernels use.
   [[nodiscard]] ClosestSoFar best(std::size_t i) const {
     return closest_so_far(closest_[i], rays_[i]);
   }

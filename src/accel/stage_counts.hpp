@@ -1,11 +1,12 @@
 #pragma once
-/// Per-thread counters of the queries that float32 kernels pass on.
+/// Per-thread counters of tests that the float32 kernels could not decide.
 
 #include <microtrace/stage_counts.hpp>
 
 namespace microtrace {
 
-/// Excludes the counters that kernels and exact arithmetic keep themselves.
+/// The counts of this thread, except those that kernels and exact arithmetic keep themselves
+/// (edges, grid, dyadic).
 inline thread_local StageCounts fallback_stages;
 
 }  // namespace microtrace

@@ -11,14 +11,14 @@
 
 namespace microtrace::build {
 
-/// Half the surface area of a box with these extents.
+/// Returns half the surface area of a box with these extents.
 [[nodiscard]] inline double half_area(double x, double y, double z) {
   return x * y + (x + y) * z;
 }
 
-/// Computes surface areas relative to a box that contains all others. Lengths are scaled by a power
-/// of two to at most 4, so areas don't overflow, and don't underflow for ratios of sizes below
-/// 2^60.
+/// Computes surface areas in a unit that depends on a box containing all others. A power of two
+/// scales the largest length to at most 4. Areas therefore never overflow, and they don't underflow
+/// unless a size is less than 2^-60 of the whole.
 class AreaMeasure {
  public:
   explicit AreaMeasure(const Box& whole) {
@@ -28,14 +28,16 @@ class AreaMeasure {
     if (largest > 0) scale_ = std::bit_cast<float>(std::clamp(253 - exponent, 1, 253) << 23);
   }
 
-  /// A quarter of half the surface area of a nonempty box, plus a small multiple of its perimeter.
-  /// Collinear boxes have no area, but shorter ones are still preferable.
+  /// Returns a quarter of half the surface area of a nonempty box plus a small multiple of its
+  /// total edge length. The second term makes the builder prefer the shorter of two boxes of zero
+  /// area.
   [[nodiscard]] float operator()(const Box& b) const {
     const Float4 e = half_extent(b) * splat(scale_);
     return e[0] * e[1] + (e[0] + e[1]) * e[2] + 0x1p-24F * (e[0] + e[1] + e[2]);
   }
 
-  /// The area of a triangle in the limit of ever smaller boxes around its pieces.
+  /// Returns, in the same unit, the limit of the total area of the boxes around a triangle's pieces
+  /// as the pieces become ever smaller.
   [[nodiscard]] float of_triangle(const Vec3& a, const Vec3& b, const Vec3& c) const {
     const float half = 0.5F * scale_;  // as in half_extent()
     const Vec3 n = glm::abs(glm::cross((b - a) * half, (c - a) * half));

@@ -1,6 +1,6 @@
 #pragma once
-/// Four floats in the compilers' portable vector extension; the builder stores a box as two of
-/// them. The fourth lane carries other data and is never used as a number.
+/// Four floats in the portable vector extension of GCC and Clang. The builder stores a box as two
+/// of these vectors. The fourth lane carries other data and is never used as a number.
 
 #include <bit>
 #include <cstdint>
@@ -21,7 +21,8 @@ using Int4 = std::int32_t __attribute__((vector_size(16)));
   return Float4{x, x, x, x};
 }
 
-/// Sets the fourth lane to 0, because its other data could be a subnormal number, which is slow.
+/// Sets the fourth lane to 0, because its data could be the bits of a subnormal number, with which
+/// arithmetic is slow.
 [[nodiscard]] inline Float4 xyz(Float4 v) {
   return std::bit_cast<Float4>(std::bit_cast<Int4>(v) & Int4{-1, -1, -1, 0});
 }
@@ -41,7 +42,7 @@ struct Box {
   }
 };
 
-/// Half of each extent, because the full extent could exceed the largest float.
+/// Returns half of each extent, because the full extent could exceed the largest float.
 [[nodiscard]] inline Float4 half_extent(const Box& b) {
   return xyz(b.hi) * splat(0.5F) - xyz(b.lo) * splat(0.5F);
 }

@@ -13,9 +13,9 @@
 
 namespace microtrace {
 
-/// Aligns to cache lines, and requests huge pages for large arrays: traversal of a large tree would
-/// otherwise miss the TLB at every step. Elements are default-initialized: resize() leaves plain
-/// data uninitialized.
+/// Aligns arrays to cache lines and requests huge pages for large arrays, because traversal of a
+/// large tree would otherwise miss the TLB at every step. Elements are default-initialized, so
+/// resize() leaves plain data uninitialized.
 template <class T>
 struct PageAllocator {
   using value_type = T;

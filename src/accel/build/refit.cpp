@@ -13,7 +13,7 @@
 namespace microtrace::build {
 namespace {
 
-// One thread fits the leaves of this many nodes.
+// Number of nodes whose leaves one thread refits at a time.
 constexpr std::size_t kNodesPerJob = 1024;
 
 class Refitter {
@@ -21,7 +21,8 @@ class Refitter {
   Refitter(const Tree& from, const Primitives& primitives, Tree& to)
       : from_(from), primitives_(primitives), to_(to) {}
 
-  // Fits the leaves of some nodes. Returns false if a primitive no longer belongs in its leaf.
+  // Refits the leaves of the nodes [first, last). Returns false if a primitive no longer belongs in
+  // its leaf.
   bool fit_leaves(std::size_t first, std::size_t last) {
     for (std::size_t n = first; n < last; ++n) {
       WideNode& node = to_.nodes[n] = from_.nodes[n];
@@ -35,7 +36,7 @@ class Refitter {
     return true;
   }
 
-  // Fits the boxes of inner nodes. Children come after their parents.
+  // Refits the boxes of inner nodes from last to first, because children come after their parents.
   void fit_nodes() {
     for (std::size_t n = to_.nodes.size(); n-- > 0;) {
       WideNode& node = to_.nodes[n];
@@ -95,7 +96,8 @@ class Refitter {
   Tree& to_;
 };
 
-// Also returns false if all areas are zero, because the costs are then infinite.
+// Compares each cost with its value when the tree was built. Also returns false if all areas are
+// zero, because the costs are then NaN or infinite.
 bool grows_at_most(double growth, const RelativeCost& from, const RelativeCost& to) {
   return to.to_tree / from.to_tree <= growth && to.to_primitives / from.to_primitives <= growth;
 }

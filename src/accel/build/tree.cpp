@@ -15,7 +15,7 @@ using namespace build;
 
 constexpr int kBinsForPreview = 8;
 
-// With fewer references, starting threads takes longer than it saves.
+// Minimum number of references for which starting threads pays off.
 constexpr std::size_t kWorthThreads = 20000;
 
 void plan(BinaryTree& binary, WorkerPool& pool) {

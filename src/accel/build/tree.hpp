@@ -1,6 +1,6 @@
 #pragma once
-/// The bounding volume hierarchy over a scene's primitives: eight children per node, built by the
-/// surface area heuristic.
+/// The bounding volume hierarchy over a scene's primitives, with up to eight children per node,
+/// built by the surface area heuristic.
 
 #include "accel/build/page_allocator.hpp"
 #include "accel/build/references/duplicates.hpp"
@@ -19,22 +19,23 @@ struct Tree;
 
 struct BuildOptions {
   bool fast = false;     ///< builds faster with fewer candidate splits, for previews
-  unsigned threads = 0;  ///< 0: default_threads(). The tree is the same for any number.
-  /// A tree to be refitted if it has the same primitives in other positions and its cost grows by
-  /// at most this factor. It is released before another tree is built.
+  unsigned threads = 0;  ///< 0: default_threads(). The tree does not depend on this number.
+  /// A tree to refit if it has the same primitives at different positions and its cost grows at
+  /// most by the factor max_cost_growth. Otherwise this tree is released before a new one is built.
   std::shared_ptr<const Tree> previous{};
   double max_cost_growth = 1;
 };
 
-/// World-space bounds, closed; empty if lo > hi.
+/// A closed bounding box in scene coordinates; empty if lo > hi.
 struct Bounds {
   Vec3 lo{std::numeric_limits<float>::infinity()};
   Vec3 hi{-std::numeric_limits<float>::infinity()};
 };
 
 /// The expected cost of a ray by the surface area heuristic, relative to the surface area of the
-/// tree's box, and to that of its primitives' boxes. The first detects primitives that grow, the
-/// second parts of the scene that move away from each other.
+/// tree's box (`to_tree`) and to the total surface area of the primitives' boxes (`to_primitives`).
+/// The first ratio grows if primitives grow; the second grows if parts of the scene move away from
+/// each other.
 struct RelativeCost {
   double to_tree = 0, to_primitives = 0;
 };
@@ -42,25 +43,26 @@ struct RelativeCost {
 /// Maximum number of nodes on a path from the root.
 inline constexpr int kMaxDepth = 64;
 
-/// Every nonempty primitive is in a leaf, in `unbounded`, or a duplicate of a primitive in a leaf.
+/// The tree. Every nonempty primitive is in a leaf, in `unbounded`, or a duplicate of a primitive
+/// in a leaf.
 struct Tree {
   PageVector<WideNode> nodes;
   PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
   std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
   std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and shapes beyond the float32 range
-  Duplicates duplicates;               ///< primitives with the same points as one in the tree
+  Duplicates duplicates;               ///< triangles equal to one in the tree
   ChildRef root = 0;                   ///< a node without children if there are no leaves
   Bounds bounds;                       ///< bounds of all leaves
 
-  // For refitted().
-  std::size_t primitives = 0;                ///< in leaves
-  double area = 0;                           ///< References::area
-  std::optional<RelativeCost> built_cost{};  ///< relative cost when the tree was built, for a
-                                             ///< refitted tree
+  // The following members are for refitted().
+  std::size_t primitives = 0;                ///< number of primitives in leaves
+  double area = 0;                           ///< see References::area
+  std::optional<RelativeCost> built_cost{};  ///< for a refitted tree, its relative cost when it was
+                                             ///< built
 };
 
-/// The scene of the primitives must outlive only this call. Throws Error (limit) if the tree would
-/// exceed its 32-bit references.
+/// Builds or refits a tree, which does not refer to the scene. Throws Error (limit) if there are
+/// more primitives than 32-bit references can address.
 [[nodiscard]] Tree build_tree(const Primitives& primitives, BuildOptions options);
 
 }  // namespace microtrace

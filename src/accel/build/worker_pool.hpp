@@ -13,14 +13,14 @@ namespace microtrace::build {
 /// A pool of threads that execute loops together with the calling thread.
 class WorkerPool {
  public:
-  /// 0: default_threads(). Starts fewer if the system refuses more.
+  /// Starts threads - 1 threads, or fewer if the system refuses more. 0 means default_threads().
   explicit WorkerPool(unsigned threads);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// Calls f(0) ... f(count - 1) concurrently, in any order, and returns when all are done. If
-  /// calls throw, rethrows one of the exceptions and drops calls that have not started.
+  /// Calls f(0) ... f(count - 1) concurrently, in any order, and returns when all calls are done.
+  /// If a call throws, skips calls that have not started and rethrows one of the exceptions.
   void run(std::size_t count, const std::function<void(std::size_t)>& f);
 
  private:

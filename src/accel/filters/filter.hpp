@@ -1,13 +1,16 @@
 #pragma once
-/// Floating-point filters: each decides a hit in float64 with a proven error bound, or reports that
-/// it can't.
+/// Floating-point filters. A filter decides in float64 with a proven error bound whether a ray hits
+/// a shape, or reports that it is unsure.
 ///
-/// A filter is a shape seen from one origin o: terms that depend only on o are computed once (for
-/// all rays of a camera), then each direction takes a few multiplications. The constructors take
-/// float32 data. Every bound below counts roundings as Higham does (Accuracy and Stability of
-/// Numerical Algorithms, 2002, section 3.1): a sum of products in which each term has at most k
-/// roundings has an error of at most gamma_k = k U / (1 - k U) times the sum of the terms'
-/// magnitudes, called its "permanent". tests/property/bounds has inputs that need these counts.
+/// A filter object holds a shape relative to one ray origin o. Its constructor computes all terms
+/// that depend only on o, for example once for all rays of a camera; each direction then takes only
+/// a few multiplications. The constructors take float32 data.
+///
+/// Every bound below counts roundings as N. Higham does (Accuracy and Stability of Numerical
+/// Algorithms, 2002, section 3.1). If each term of a sum of products has at most k roundings, the
+/// error of the sum is at most gamma_k = k U / (1 - k U) times the sum of the terms' magnitudes,
+/// where U is the unit roundoff. That sum of magnitudes is called the "permanent".
+/// tests/property/bounds has inputs for which smaller counts would be wrong.
 
 #include "accel/filters/roundings.hpp"
 
@@ -19,9 +22,9 @@
 
 namespace microtrace {
 
-/// Within this limit no intermediate result overflows, and underflow adds less than kUnderflow to a
-/// form of degree six: a few hundred times 2^-1075 times at most 2^(6 * 64). Larger coordinates are
-/// left to exact arithmetic.
+/// The filters' limit on the magnitude of all inputs; exact arithmetic handles larger ones. Within
+/// the limit no intermediate result overflows. Underflow changes a form of degree six by less than
+/// kUnderflow: at most a few hundred times 2^-1075 times 2^(6 * 64).
 inline constexpr float kLargestCoordinate = 0x1p64F;
 
 [[nodiscard]] constexpr double gamma(double roundings) {
@@ -30,20 +33,20 @@ inline constexpr float kLargestCoordinate = 0x1p64F;
 
 enum class Certainty { miss, hit, unsure };
 
-/// The result of a filter. Unless it is a miss, lo is below the exact t of the hit; if the hit is
-/// certain, hi is above it.
+/// The result of a filter. If it is not a miss, lo is a lower bound of the exact t of the hit,
+/// should there be one. If it is a hit, hi is an upper bound.
 struct FilterResult {
   Certainty certainty = Certainty::miss;
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
 };
 
-/// The closed interval in which a ray looks for hits.
+/// The closed interval of t in which a ray can hit.
 struct Range {
   double t_min, t_max;
 };
 
-/// A rounded number and a bound of its error.
+/// A rounded number and an upper bound of its error.
 struct Approximate {
   double value, error;
 
@@ -51,15 +54,15 @@ struct Approximate {
   [[nodiscard]] bool is_negative() const { return value < -error; }
 };
 
-/// The sum of x_i y_i. Each product has at most `roundings` roundings, including those before this
-/// function and the two of the sum.
+/// Returns the sum of x_i y_i. `roundings` is the maximum number of roundings of a term, including
+/// those of x_i and y_i, one of the product and two of the sum.
 [[nodiscard]] inline Approximate dot_product(const DVec3& x, const DVec3& y, int roundings) {
   const double a = x.x * y.x, b = x.y * y.y, c = x.z * y.z;
   return {.value = a + b + c,
           .error = gamma(roundings) * (std::abs(a) + std::abs(b) + std::abs(c)) + kUnderflow};
 }
 
-/// Whether a number is within the filters' limit; false for NaN.
+/// True if a number is within the filters' limit; false for NaN.
 [[nodiscard]] inline bool is_filterable(float x) {
   return std::abs(x) <= kLargestCoordinate;
 }
@@ -67,10 +70,11 @@ struct Approximate {
   return is_filterable(v.x) && is_filterable(v.y) && is_filterable(v.z);
 }
 
-/// The interval of numerator / denominator, compared with the range. The quotient q of the rounded
-/// parts satisfies |q - q*| <= (error_n + |q| error_d) / (|d| - error_d). The bound itself has
-/// eight roundings of second order, for which 1 + gamma(8) would suffice. Any |d| above its error
-/// would be valid; requiring four times the error keeps lo and hi close.
+/// Compares the interval of t = numerator / denominator with the range. The quotient q of the
+/// rounded numbers n and d differs from the exact quotient q* by |q - q*| <= (error_n + |q|
+/// error_d) / (|d| - error_d). This bound itself is computed with eight roundings of second order,
+/// for which the factor 1 + gamma(8) would suffice. Any |d| above its error would be valid;
+/// requiring four times the error keeps lo and hi close.
 [[nodiscard]] inline FilterResult quotient_result(const Approximate& numerator,
                                                   const Approximate& denominator,
                                                   const Range& range) {

@@ -7,9 +7,9 @@
 
 namespace microtrace {
 
-/// Computes the two roots (-b -+ s) / a in ascending order, with error bounds of the numerators; a
-/// is certainly positive, and s is the root of the discriminant. The first root that is certainly
-/// in range is the hit; a root that may be in range makes the result unsure.
+/// Returns the first of the two roots (-b -+ s) / a that is in range, where a is certainly positive
+/// and s is the square root of the discriminant. The roots are tested in ascending order. A root
+/// that is certainly in range is a hit; a root that may be in range makes the result unsure.
 [[nodiscard]] inline FilterResult first_root_result(const Approximate& a, const Approximate& b,
                                                     const Approximate& s, const Range& range) {
   const double error = b.error + s.error + gamma(1) * (std::abs(b.value) + s.value);
@@ -19,33 +19,34 @@ namespace microtrace {
   return quotient_result({.value = -b.value + s.value, .error = error}, a, range);
 }
 
-/// The square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error / sqrt(x)
-/// for error <= x. Callers make sure that x is at least four times the error. Half of gamma(4)
-/// would suffice, because it covers two roundings of second order.
+/// Returns the square root of a number that is certainly positive: |sqrt(x) - sqrt(x*)| <= error /
+/// sqrt(x) if error <= x. Callers make sure that x exceeds four times its error. gamma(2) would
+/// suffice, because there are two roundings of second order.
 [[nodiscard]] inline Approximate square_root(const Approximate& x) {
   const double root = std::sqrt(x.value);
   return {.value = root, .error = x.error / root * (1 + gamma(4)) + gamma(1) * root};
 }
 
-/// A sphere relative to the ray origin o. With m = o - center: (d.d) t^2 + 2 (d.m) t + m.m - r^2 =
-/// 0. By Lagrange's identity the discriminant is r^2 d.d - |d x m|^2, without the cancellation of
-/// (d.m)^2 - (d.d)(m.m - r^2).
+/// A sphere relative to the ray origin o. With m = o - center, hits satisfy (d.d) t^2 + 2 (d.m) t +
+/// m.m - r^2 = 0. The discriminant (d.m)^2 - (d.d)(m.m - r^2) would suffer from cancellation. By
+/// Lagrange's identity it equals r^2 d.d - |d x m|^2, which is computed instead.
 class SphereFilter {
  public:
   SphereFilter(const Sphere& sphere, const Vec3& o)
       : m_(DVec3(o) - DVec3(sphere.center)), radius2_(double{sphere.radius} * sphere.radius) {
     const double m2 = glm::dot(m_, m_);
-    // Only its sign is used. It has two roundings of m, one of the squares, two of their sum.
+    // Only the sign of outside_ is used. The five roundings are two of m, one of the squares, and
+    // two of their sum.
     outside_ = {.value = m2 - radius2_, .error = gamma(5) * m2 + kUnderflow};
   }
 
   [[nodiscard]] FilterResult operator()(const DVec3& d, const Range& range) const {
-    // v = d x m has the roundings of m, of the products and of the difference: |v - v*| <= u (2 p +
-    // |v|) for the permanent p of a component, so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p +
-    // |v|)^2. v^2 has three more roundings, d^2 r^2 three and the difference one: in all u (4 |v| p
-    // + 6 v^2 + 4 d^2 r^2), and v^2 <= |v| p. The second-order term matters if v vanishes but v*
-    // does not: there u^2 p^2 would suffice four times over, because a hit is certain only above
-    // four errors.
+    // A component v of d x m has the roundings of m, of the products and of the difference. If p is
+    // its permanent, |v - v*| <= u (2 p + |v|), so |v^2 - v*^2| <= u (4 |v| p + 2 v^2) + u^2 (2 p +
+    // |v|)^2. The sum of v^2 adds three roundings, d^2 r^2 has three, and the difference adds one.
+    // The total error is at most u (4 |v| p + 6 v^2 + 4 d^2 r^2), where v^2 <= |v| p. The
+    // second-order term matters if v vanishes but v* does not: then v*^2 <= 4 u^2 p^2. Even u^2 p^2
+    // instead of gamma(4)^2 p^2 would suffice, because a hit is certain only above four errors.
     const DVec3 left(d.y * m_.z, d.z * m_.x, d.x * m_.y);
     const DVec3 right(d.z * m_.y, d.x * m_.z, d.y * m_.x);
     const DVec3 v = left - right, p = glm::abs(left) + glm::abs(right);
@@ -64,8 +65,8 @@ class SphereFilter {
 
  private:
   DVec3 m_;
-  double radius2_;         // exact: a product of two float32
-  Approximate outside_{};  // m.m - r^2: positive outside the sphere
+  double radius2_;         // exact, as a product of two float32 numbers
+  Approximate outside_{};  // m.m - r^2, positive if o is outside the sphere
 };
 
 /// A quadric Q(p) = 0 relative to the ray origin o: Q(o + t d) = alpha t^2 + (grad Q(o) . d) t +
@@ -96,14 +97,14 @@ class QuadricFilter {
     Approximate alpha = {
         .value = form(squares_, mixed_, d),
         .error = gamma(kRoundings) * form(glm::abs(squares_), glm::abs(mixed_), size) + kUnderflow};
-    // beta is half of the product with the gradient.
+    // beta is half of the coefficient of t.
     Approximate beta = {
         .value = glm::dot(gradient_, d) / 2,
         .error = gamma(kRoundings) * glm::dot(gradient_permanent_, size) / 2 + kUnderflow};
     const double b2 = beta.value * beta.value, ac = alpha.value * value_.value;
-    // The roundings of the products and of the difference are within the bounds of beta and alpha,
-    // which count more roundings than there are. The roundings of the bound itself are of second
-    // order: 1 + gamma(8) would suffice.
+    // The error bounds of beta and alpha count more roundings than there are, so they also cover
+    // the roundings of the products and of the difference. The roundings of the bound itself are of
+    // second order, for which 1 + gamma(8) would suffice.
     const Approximate discriminant = {
         .value = b2 - ac,
         .error = ((2 * std::abs(beta.value) + beta.error) * beta.error +
@@ -121,9 +122,9 @@ class QuadricFilter {
   }
 
  private:
-  // Products of two float32 are exact, products of three have one rounding. Five sums in the form
-  // of three products follow: six roundings for alpha, and eight for the value with its two more
-  // sums. beta has three sums in the gradient, one product and two sums: six.
+  // Products of two float32 numbers are exact, and products of three have one rounding. The form of
+  // degree two adds five sums: six roundings for alpha. The value Q(o) adds two more sums: eight
+  // roundings. beta has six roundings: three sums in the gradient, one product and two sums.
   static constexpr int kRoundings = 8;
 
   // a x^2 + b y^2 + c z^2 + d xy + e xz + f yz

@@ -1,5 +1,5 @@
 #pragma once
-/// Selects the filter of each shape, and states the conditions under which it may be used.
+/// Selects the filter for each shape, and checks the conditions under which the filter may be used.
 
 #include "accel/filters/planar_filter.hpp"
 #include "accel/filters/quadratic_filter.hpp"
@@ -23,7 +23,7 @@ namespace microtrace {
   return {q, o};
 }
 
-/// Excludes negative radii: such spheres are empty, but the filter squares the radius.
+/// Also false for negative radii, because such spheres are empty but the filter squares the radius.
 [[nodiscard]] inline bool is_filterable(const Sphere& s) {
   return is_filterable(s.center) && is_filterable(s.radius) && s.radius >= 0;
 }

@@ -11,8 +11,8 @@
 
 namespace microtrace {
 
-/// A cross product, and for each component the sum of the magnitudes of its two terms. If the
-/// factors have one rounding each, a component has four.
+/// A cross product and, for each component, the sum of the magnitudes of its two terms. If the
+/// components of both factors have one rounding each, a component of the product has four.
 struct CrossProduct {
   DVec3 value, permanent;
 
@@ -25,8 +25,8 @@ struct CrossProduct {
   /// Wraps an exact vector as a cross product without error.
   explicit CrossProduct(const DVec3& exact) : value(exact), permanent(glm::abs(exact)) {}
 
-  /// The product with an exact vector d has four earlier roundings, one of the product, two of the
-  /// sum.
+  /// Returns the dot product with an exact vector d. Its kSlopeRoundings are the four above, one of
+  /// the product and two of the sum.
   [[nodiscard]] Approximate along(const DVec3& d) const {
     return {.value = glm::dot(d, value),
             .error = gamma(kSlopeRoundings) * glm::dot(glm::abs(d), permanent) + kUnderflow};
@@ -40,7 +40,7 @@ class TrianglePlaneFilter {
   TrianglePlaneFilter(const Triangle& triangle, const Vec3& o)
       : normal_(DVec3(triangle.b) - DVec3(triangle.a), DVec3(triangle.c) - DVec3(triangle.a)) {
     const DVec3 from_a = DVec3(triangle.a) - DVec3(o);
-    // A has one rounding, n four, the product one, the sum two.
+    // The kHeightRoundings are one of A, four of n, one of the product and two of the sum.
     height_ = {.value = glm::dot(from_a, normal_.value),
                .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal_.permanent) +
                         kUnderflow};
@@ -56,9 +56,9 @@ class TrianglePlaneFilter {
 };
 
 /// A triangle relative to the ray origin o. With A = a - o, B = b - o, C = c - o, the signs of w_a
-/// = d.(B x C), w_b = d.(C x A), w_c = d.(A x B) tell on which side the ray passes each edge. Two
-/// strictly opposite signs mean a miss. Three equal signs mean that the ray meets the plane inside
-/// the triangle.
+/// = d.(B x C), w_b = d.(C x A), w_c = d.(A x B) tell on which side of each edge the ray passes. If
+/// two signs are strictly opposite, the ray misses. If all three are strictly equal, the ray's line
+/// meets the plane inside the triangle.
 class TriangleFilter {
  public:
   TriangleFilter(const Triangle& triangle, const Vec3& o)
@@ -84,13 +84,13 @@ class TriangleFilter {
   }
 
  private:
-  /// Whether some component of d x A, d x B and d x C certainly has the same sign for all three
-  /// vertices. Projected along d, the ray is then outside the triangle. This also holds for a
-  /// triangle without area or one whose plane contains the ray.
+  /// True if, for some axis, that component of d x A, d x B and d x C certainly has the same sign
+  /// for all three vertices. Projected along d, the ray is then outside the triangle. The test also
+  /// works for triangles of zero area and triangles whose plane contains the ray.
   [[nodiscard]] bool misses_projected(const DVec3& d) const {
     std::array<bool, 3> all_positive{true, true, true}, all_negative = all_positive;
     for (const DVec3& corner : corners_) {
-      // A and the product have one rounding each; the rounding of the difference doesn't change its
+      // A and the product have one rounding each. The rounding of the difference never changes its
       // sign.
       const CrossProduct side(d, corner);
       for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
-/// The kernels of all instruction sets. Not to be included by the kernels' own translation units.
+/// The kernels for all instruction sets. The kernels' own translation units must not include this
+/// header.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
@@ -10,7 +11,7 @@ namespace microtrace {
 inline constexpr KernelTables<Kernels> kRayKernels =
     MICROTRACE_KERNEL_TABLES(kPortableKernels, kAvx2Kernels, kAvx512Kernels);
 
-/// For rays that leave surfaces.
+/// Kernels for the origins of rays that leave surfaces.
 inline constexpr KernelTables<SpawnKernels> kSpawnKernels =
     MICROTRACE_KERNEL_TABLES(kPortableSpawn, kAvx2Spawn, kAvx512Spawn);
 

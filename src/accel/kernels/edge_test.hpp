@@ -1,6 +1,7 @@
 #pragma once
-/// Decides most triangle edges that float32 can't decide: evaluates the forms of block_test.hpp in
-/// float64, for one triangle and one ray, with the same bound for the smaller unit roundoff.
+/// Decides most edge tests that float32 can't decide. Evaluates the forms of block_test.hpp in
+/// float64 for one triangle and one ray, with the same error bound but the unit roundoff of
+/// float64.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -16,8 +17,8 @@ inline std::uint64_t edge_tests() {
   return edge_test_count;
 }
 
-/// A triangle relative to a ray's origin in float64: a is the vector from the origin to its first
-/// vertex, e1 and e2 are the two edges from there.
+/// A triangle relative to a ray's origin in float64: a is the vector from the origin to the first
+/// vertex, and e1 and e2 are the edges from the first vertex.
 struct NearTriangle {
   double a[3], e1[3], e2[3];
 
@@ -36,13 +37,13 @@ inline double largest_magnitude(const double (&x)[3]) {
   return greater(greater(__builtin_fabs(x[0]), __builtin_fabs(x[1])), __builtin_fabs(x[2]));
 }
 
-/// Whether the plane of triangle k of a block certainly lies behind the ray. Most triangles that
-/// float32 can't decide are the ones that the ray has just left.
+/// True if the ray's line certainly meets the plane of triangle k of a block at t < 0. Most
+/// triangles that float32 can't decide are those that the ray has just left.
 inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, const float* d) {
   const NearTriangle t(block, k, o);
-  // Bounds by each component's own terms; an axis-aligned triangle has only one. This matters
-  // because a ray that has left a floor at 0 starts 2^-149 above it. A term of the height has 8
-  // roundings; the rest is of second order.
+  // The bounds sum the magnitudes of actual terms, of which an axis-aligned triangle has only one
+  // per form. This matters because a ray that leaves a floor at 0 may start only 2^-149 above it. A
+  // term of the height has 8 roundings; the .01 covers second-order terms.
   constexpr double kRoundings = 8.01 * 0x1p-53;
   double height = 0, size = 0, height_sum = 0, size_sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -60,7 +61,7 @@ inline bool is_left_behind(const TriangleBlock& block, int k, const float* o, co
                   : size < -size_bound && height > height_bound;
 }
 
-/// Whether the line of a ray passes through triangle k of a block, including its edges.
+/// Decides whether the line of a ray passes through triangle k of a block, including its edges.
 inline Within within_edges(const TriangleBlock& block, int k, const float* o, const float* d) {
   ++edge_test_count;
   const auto [a, e1, e2] = NearTriangle(block, k, o);

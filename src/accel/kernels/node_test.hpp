@@ -8,16 +8,17 @@
 namespace microtrace {
 namespace {
 
-constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder limits the depth to 64
+constexpr int kStackSize = 64 * (kWidth - 1) + 1;  // the builder limits the depth of trees to 64
 
 /// Marks the end of the stack.
 constexpr ChildRef kFinished = child_ref::kKind;
 
-/// The subtrees still to be visited, each with the distance at which the ray enters it. kFinished
-/// is at the bottom.
+/// The subtrees that are still to be visited, each with the distance at which the ray enters it.
+/// kFinished is at the bottom.
 struct RayStack {
   int size;
-  ChildRef child[kStackSize + kWidth];  // writing a node's children overwrites kWidth slots
+  ChildRef child[kStackSize + kWidth];  // storing a node's children may overwrite up to kWidth
+                                        // slots above the top
   float near[kStackSize + kWidth];
 
   void clear() {
@@ -27,7 +28,7 @@ struct RayStack {
   }
 };
 
-/// Pops the last pushed subtree; without kAny skips those that start beyond the limit.
+/// Pops the subtree that was pushed last. Without kAny, skips subtrees that start beyond the limit.
 template <bool kAny>
 inline ChildRef pop(RayStack& stack, float limit) {
   int top = stack.size - 1;
@@ -38,7 +39,7 @@ inline ChildRef pop(RayStack& stack, float limit) {
   return stack.child[top];
 }
 
-/// The children, out of eight, that the ray enters before `limit`, and their entry distances.
+/// The children of a node that the ray enters before `limit`, and the entry distances.
 template <int N>
 struct NodeTest {
   Lanes entered = 0;
@@ -46,7 +47,7 @@ struct NodeTest {
 
   NodeTest(const WideNode& node, const KernelRay& ray, float limit) {
     using F = Float<N>;
-    const float* planes = node.lo_x;  // the six arrays are consecutive
+    const float* planes = node.lo_x;  // the node's six arrays are consecutive in memory
     for (int i = 0; i < kWidth; i += N) {
       const auto distance = [&](const std::uint32_t(&plane)[3], const float(&factor)[3], int axis) {
         return (load<N>(planes + plane[axis] + i) - ray.o[axis]) * factor[axis];
@@ -57,8 +58,8 @@ struct NodeTest {
       const F far_x = distance(ray.far_plane, ray.far_factor, 0);
       const F far_y = distance(ray.far_plane, ray.far_factor, 1);
       const F far_z = distance(ray.far_plane, ray.far_factor, 2);
-      // 0 * infinity is NaN, and means no limit: lesser and greater drop a NaN in their first
-      // argument.
+      // 0 * infinity is NaN, which means that the plane is no limit: lesser and greater ignore a
+      // NaN in their first argument.
       const F enter = greater(near_x, greater(near_y, greater(near_z, all<N>(ray.t_begin))));
       const F leave = lesser(far_x, lesser(far_y, lesser(far_z, all<N>(limit))));
       entered |= less_equal<N>(enter, leave) << i;
@@ -67,15 +68,15 @@ struct NodeTest {
   }
 };
 
-/// Visits the children of a node that the ray enters before `limit`: returns the nearest and pushes
-/// the others. With kAny returns any one, and pushes the others without their distances. If the ray
-/// enters none, pops a subtree: with kAny the top one, otherwise the first that starts before the
-/// limit.
+/// Tests the children of a node. Returns the nearest child that the ray enters before `limit` and
+/// pushes the other entered children. With kAny, returns any entered child and pushes the others
+/// without their distances. If the ray enters none, pops a subtree: with kAny the top one,
+/// otherwise the first that starts before the limit.
 template <int N, bool kAny>
 inline ChildRef step_into(const WideNode& node, const KernelRay& ray, float limit,
                           RayStack& stack) {
   const NodeTest<N> test(node, ray, limit);
-  // The ninth bit is for the case that no child is entered.
+  // The ninth bit gives first_lane a defined result if no child is entered.
   const int lane =
       kAny ? first_lane(test.entered | 0x100U) & 7 : least_lane(test.entered, test.near);
   const Lanes others = test.entered & ~(Lanes{1} << lane);

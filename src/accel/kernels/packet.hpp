@@ -1,8 +1,8 @@
 #pragma once
-/// Traverses the tree with 64 rays that have a common origin. A node's eight boxes are first tested
-/// against the beam around all rays; then each remaining box is tested against rays until one
-/// enters it. Terms that depend only on the origin are computed once per triangle, so each ray
-/// takes three dot products.
+/// Traverses the tree with up to 64 rays that have a common origin. A node's eight boxes are first
+/// tested against the beam around all rays; each remaining box is then tested against the rays
+/// until one enters it. Terms that depend only on the origin are computed once per triangle, so
+/// each ray takes only three dot products.
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -48,7 +48,7 @@ class PacketWalk {
     limit_ = greatest_of<N>(limit);
   }
 
-  // The planes of the children through which rays enter and leave along an axis.
+  // The planes of a node's children through which the packet's rays enter and leave along an axis.
   struct Slab {
     const float *enter, *leave;
   };
@@ -90,10 +90,11 @@ class PacketWalk {
     return top;
   }
 
-  // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
+  // Always inlined, because GCC removes calls of a function that only prefetches.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const bool is_node = (child & child_ref::kKind) == 0;
-    // As integers: if there are only other primitives, blocks is null.
+    // Addresses are computed as integers, because tree_.blocks is null if the tree has no
+    // triangles.
     const auto p = is_node
                        ? reinterpret_cast<std::uintptr_t>(tree_.nodes) + child * sizeof(WideNode)
                        : reinterpret_cast<std::uintptr_t>(tree_.blocks) +
@@ -118,7 +119,7 @@ class PacketWalk {
           enter = greater(near_factor * (negative ? hi[axis] : lo[axis]), enter);
           leave = lesser(far_factor * (negative ? lo[axis] : hi[axis]), leave);
         } else {
-          // The order of the planes depends on the ray: on the sign of the factors.
+          // The sign of each ray's factor decides which plane the ray meets first.
           const F zero{};
           const F l = all<N>(lo[axis]), h = all<N>(hi[axis]);
           enter = greater(near_factor * (near_factor < zero ? h : l), enter);
@@ -155,7 +156,7 @@ class PacketWalk {
     }
   }
 
-  // Tests the triangles that are not culled for `group` against the rays [i, i + N).
+  // Tests the triangles that are not culled for this group of rays against the rays [i, i + N).
   void meet_triangles(const PacketView<kNodeLanes>& view, int group, int i,
                       const TriangleBlock& block, std::uint32_t index) {
     const F dx = load<N>(packet_.d[0] + i), dy = load<N>(packet_.d[1] + i),
@@ -195,8 +196,8 @@ class PacketWalk {
     std::uint32_t slot;
   };
 
-  // Processes the rays [i, i + N): those in `maybe` may hit a triangle, those in `certain`
-  // certainly do.
+  // Processes the rays [i, i + N) and one triangle. Rays in `maybe` may pass inside its edges; rays
+  // in `certain` certainly do.
   void meet_hits(const Quotient& q, Lanes maybe, Lanes certain, int i, const Candidate& triangle) {
     const F best_lo = load<N>(packet_.best_lo + i), best_hi = load<N>(packet_.best_hi + i);
     const F t_begin = load<N>(packet_.t_begin + i);
@@ -222,12 +223,13 @@ class PacketWalk {
     }
     for (Lanes lanes = maybe & ~nearer & ~farther; lanes != 0; lanes &= lanes - 1) {
       const int ray = i + first_lane(lanes);
-      // A triangle that was split among leaves is tested more than once.
+      // A triangle with references in several leaves is tested more than once.
       if (packet_.best_id[ray] != id) decide_by_fallback(ray, id, triangle.slot);
     }
   }
 
-  // Moves lanes that float64 can decide from `maybe` to `certain`, or removes them.
+  // Decides uncertain lanes in float64 if possible: adds them to `certain` or removes them from
+  // `maybe`.
   void look_at_edges(Lanes& maybe, Lanes& certain, int i, const Candidate& triangle) const {
     for (Lanes lanes = maybe & ~certain; lanes != 0; lanes &= lanes - 1) {
       const int lane = first_lane(lanes), ray = i + lane;
@@ -251,7 +253,7 @@ class PacketWalk {
   const TreeView& tree_;
   KernelPacket& packet_;
   const PacketFallback& slow_;
-  float limit_ = 0;  // no hit beyond this can be the nearest of any ray
+  float limit_ = 0;  // a hit beyond this t can't be the nearest hit of any ray
 };
 
 template <int N>

@@ -1,5 +1,5 @@
 #pragma once
-/// Fills a packet with rays: transposes them to one array per component, and computes the beam
+/// Fills a packet with rays: transposes the rays to one array per component and computes the beam
 /// around them.
 
 #include "accel/kernels/kernel.hpp"
@@ -29,7 +29,7 @@ inline void transpose(Float<8> (&m)[8]) {
   }
 }
 
-/// Transposes rays to one array per component. Returns false if they have different origins.
+/// Transposes rays to one array per component. Returns false if the rays have different origins.
 inline bool read_rows(const float* rays, KernelPacket& packet) {
   Float<8> differences{};
   for (int i = 0; i < kPacketRays; i += 8) {
@@ -45,8 +45,7 @@ inline bool read_rows(const float* rays, KernelPacket& packet) {
     store<8>(packet.best_lo + i, column[7]);
     store<8>(packet.best_hi + i, column[7]);
   }
-  // The difference of two different float32 numbers is never 0, and the comparison is false for
-  // NaN.
+  // The difference of two different float32 numbers is never 0. The comparison is false for NaN.
   return less_equal<8>(differences, Float<8>{}) == kAllLanes<8>;
 }
 
@@ -61,7 +60,7 @@ inline Beam beam_between(const float (&least)[3], const float (&greatest)[3]) {
   return beam;
 }
 
-/// Bounds of the factors of all rays: the factors decrease as |d| increases.
+/// Computes bounds of the slab factors of all rays, which decrease as |d| increases.
 inline void bound_factors(const float (&least)[3], const float (&greatest)[3],
                           KernelPacket& packet) {
   const float d[8] = {least[0], least[1], least[2], 0, greatest[0], greatest[1], greatest[2], 0};
@@ -93,7 +92,7 @@ bool fill_packet(const float* rays, int count, KernelPacket& packet) {
     if (!(__builtin_fabsf(rays[axis]) <= kFarthestCoordinate)) return false;
   }
   if (!read_rows(rays, packet)) return false;
-  // The caller's next packet is usually stored after this one.
+  // The caller's next packet of rays is usually stored directly after this one.
   for (int i = 0; i < 8 * kPacketRays; i += 16) __builtin_prefetch(rays + 8 * kPacketRays + i);
   __builtin_memset(packet.best_id, 0xff, sizeof packet.best_id);
   __builtin_memset(packet.best_slot, 0xff, sizeof packet.best_slot);

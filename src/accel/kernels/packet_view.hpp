@@ -1,6 +1,6 @@
 #pragma once
-/// A block's triangles relative to the common origin of a packet's rays, and the groups of rays
-/// that may hit them.
+/// A block's triangles relative to the common origin of a packet's rays, and which groups of rays
+/// may hit each of them.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -12,14 +12,15 @@ namespace {
 /// Processes N triangles at a time, N <= kWidth.
 template <int N>
 struct PacketView {
-  // All multiplied by the sign of n . d, if it is the same for all directions of the beam.
+  // If n . d has the same sign for all directions of the beam, the following values are multiplied
+  // by this sign.
   alignas(64) float u[3][kWidth];  ///< e2 x A
   float v[3][kWidth];              ///< A x e1
   float n[3][kWidth];              ///< e1 x e2
   float height[kWidth];            ///< n . A
   float error[kWidth], size_error[kWidth], height_error[kWidth];
-  Lanes seen[kGroups];  ///< for each group, triangles that are not certainly missed by all its rays
-  Lanes two_sided;      ///< triangles that rays may hit from both sides
+  Lanes seen[kGroups];  ///< for each group, the triangles that its rays do not certainly miss
+  Lanes two_sided;      ///< triangles for which the sign of n . d is not the same for all rays
 
   PacketView(const TriangleBlock& block, const KernelPacket& packet) : seen{}, two_sided(0) {
     for (int i = 0; i < kWidth; i += N) look_at(block, packet, i);
@@ -37,7 +38,7 @@ struct PacketView {
   static Vector cross(const Vector& a, const Vector& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   }
-  // The range of the product with all directions of the beam.
+  // Returns the range of a . d over all directions d of the beam.
   static Range over(const Beam& beam, const Vector& a) {
     return {a.x * beam.center[0] + a.y * beam.center[1] + a.z * beam.center[2],
             magnitude(a.x) * beam.radius[0] + magnitude(a.y) * beam.radius[1] +
@@ -66,8 +67,9 @@ struct PacketView {
                     load<N>(block.c_z + i) - corner.z};
     Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
     F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
-    // Bounds for each triangle. A common bound would be too large: one huge triangle would make a
-    // tiny one undecided for every ray. em and m as in TriangleBlock.
+    // Each triangle has its own error bounds. With a common bound, one huge triangle in the block
+    // would make a tiny one undecided for every ray. em1 and em2 correspond to
+    // TriangleBlock::largest_edge, and m to edge_product.
     const F a_sum = magnitude(a.x) + magnitude(a.y) + magnitude(a.z);
     const F em1 = greater(greater(magnitude(e1.x), magnitude(e1.y)), magnitude(e1.z));
     const F em2 = greater(greater(magnitude(e2.x), magnitude(e2.y)), magnitude(e2.z));
@@ -76,8 +78,8 @@ struct PacketView {
     const F size_bound = m * (15.01F * kUnit * packet.d_sum) + kTiny;
 
     const Range size = over(packet.beam, normal);
-    // The range has as many roundings as the product with a ray. Half of the bound would suffice,
-    // because center and radius together do not exceed the largest |d|.
+    // Computing the range takes as many roundings as n . d for one ray. Half of this bound would
+    // suffice, because center and radius together do not exceed the largest |d|.
     const Lanes both = less_equal<N>(magnitude(size.middle) - size.radius, 2 * size_bound);
     normal = with_sign_of(normal, size.middle);
     p = with_sign_of(p, size.middle);
@@ -85,8 +87,9 @@ struct PacketView {
     h = microtrace::with_sign_of<N>(h, size.middle);
     two_sided |= both << i;
 
-    // A group certainly misses if u, v or size - u - v is negative for all its directions. The
-    // third form has nine roundings, for which 18 units would suffice; 1.5 times the bound is more.
+    // A group certainly misses a triangle if u, v or size - u - v is negative for all directions of
+    // the group. The third form has nine roundings, for which 18 units would suffice; three times
+    // the bound is more than enough.
     const Vector r{normal.x - p.x - q.x, normal.y - p.y - q.y, normal.z - p.z - q.z};
     for (int group = 0; group < kGroups; ++group) {
       const Beam& beam = packet.group_beam[group];

@@ -1,7 +1,7 @@
 #pragma once
-/// Rounds the parameters t of known hits once: t = (A.n) / (d.n) in float64 with
-/// TrianglePlaneFilter's error bound (derived in src/accel/filters/triangle_filter.hpp), for
-/// several hits at a time.
+/// Computes the rounded parameters t of known hits, several at a time. t = (A.n) / (d.n) is
+/// evaluated in float64 with the error bound of TrianglePlaneFilter, which
+/// src/accel/filters/triangle_filter.hpp derives.
 
 #include "accel/filters/roundings.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// D is a scalar or a vector.
+/// Three components, each a double or a SIMD vector of doubles.
 template <class D>
 struct Double3 {
   D x, y, z;
@@ -20,12 +20,13 @@ struct Double3 {
   }
 };
 
-/// A triangle's plane relative to a ray's origin o: n = e1 x e2 and A.n with A = a - o.
+/// A triangle's plane relative to a ray's origin o: the normal n = e1 x e2 and the height A.n,
+/// where A = a - o.
 template <class D>
 struct SeenPlane {
   Double3<D> n;
   D height, height_error;
-  Double3<D> sum;  ///< the permanent of each component of n
+  Double3<D> sum;  ///< the permanent of each component of n (see filter.hpp)
 
   SeenPlane(const Double3<D>& o, const Double3<D>& a, const Double3<D>& b, const Double3<D>& c) {
     const Double3<D> from = a - o, e1 = b - a, e2 = c - a;
@@ -42,16 +43,17 @@ struct SeenPlane {
   }
 };
 
-/// Writes N parameters; returns the lanes that are certain. size_error bounds the error of d.n.
+/// Writes N parameters t and returns the lanes whose t is certainly rounded correctly. size_error
+/// bounds the error of d.n.
 template <int N, class D>
 inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, const D& size_error,
                      float* t) {
   using V = Double<N>;
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
-  // As quotient_result, with one division. t and its ends have three more roundings than the
-  // quotient, so half of the eight would suffice. If size exceeds 64 times its error, 1 / (size -
-  // error) is at most 64/63 / size, and a factor of 32 would suffice; smaller sizes are too
-  // imprecise to round t.
+  // Like quotient_result, but with only one division. t and the ends of its interval have three
+  // more roundings than the quotient, so half of the 8 would suffice. If size exceeds 64 times its
+  // error, 1 / (size - error) is at most 64/63 / size, which the factor 1.04 covers; 32 times would
+  // suffice. The result for smaller sizes is too imprecise to round t.
   const V inverse = 1.0 / size, middle = plane.height * inverse, distance = magnitude(middle);
   V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.04 +
             distance * (8 * kRounding) + kUnderflow;
@@ -91,7 +93,7 @@ std::uint64_t round_t(HitBatch& hits) {
   return certain;
 }
 
-/// Processes the triangles that a packet's rays hit, one after another.
+/// Rounds t for the hits of a packet's rays.
 template <int N>
 class PacketRounding {
  public:
@@ -115,7 +117,8 @@ class PacketRounding {
   }
 
  private:
-  // Computes rays that hit the same triangle, which is often the triangle of the preceding rays.
+  // Rounds t for N rays that hit the same triangle, which is often also the triangle of the
+  // preceding rays.
   Lanes round_one(std::uint32_t slot, int i) {
     if (slot != place_) {
       place_ = slot;
@@ -131,7 +134,8 @@ class PacketRounding {
     return round_t<N>(plane_, d(i), size_error_, t_ + i);
   }
 
-  // Rays without a hit use the triangle `other`.
+  // Rounds t for N rays that may hit different triangles. Rays without a hit use the triangle
+  // `other`.
   Lanes round_several(std::uint32_t other, int i) const {
     float corner[9][N];
     for (int lane = 0; lane < N; ++lane) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Traverses the eight-wide tree with one ray, nearest children first.
+/// Traverses the tree with one ray, nearest children first.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"

@@ -1,13 +1,15 @@
 #pragma once
-/// Factors for the distances to the planes of boxes, with margins that make the box test
-/// conservative: no box is missed that the ray touches in real arithmetic. After Ize, "Robust BVH
-/// Ray Traversal", JCGT 2013, whose 2 ulps are insufficient if d is subnormal.
+/// Computes the factors of a ray that give the distances to the planes of boxes. Margins make the
+/// box test conservative: it never misses a box that the ray touches in real arithmetic. After T.
+/// Ize, "Robust BVH Ray Traversal", JCGT 2013, whose margin of 2 ulps is insufficient if d is
+/// subnormal.
 ///
-/// q = fl(1 / |d|) is within (1 +- u) / |d|. Two ulps less is at most (1 - u) / |d|, and fl(x) <= x
-/// (1 + u), so fl(fl(lo - o) * near) is at most the exact distance for lo >= o; for lo < o it is
-/// negative, and t_min >= 0 replaces it. Three ulps more is at least (1 + u)^2 / |d|, which is
-/// sufficient for the far side. If q overflows, near is the largest float and far is infinite: 0 *
-/// infinity is NaN and means no limit.
+/// q = fl(1 / |d|) is within (1 +- u) / |d|. The near factor is two ulps less than q, at most (1 -
+/// u) / |d|. Because fl(x) <= x (1 + u), fl(fl(lo - o) * near) is at most the exact distance if lo
+/// >= o. If lo < o, it is negative, and t_min >= 0 replaces it. The far factor is three ulps more
+/// than q, at least (1 + u)^2 / |d|, which is sufficient for the far side. If q overflows, the near
+/// factor is the largest float and the far factor is infinite; 0 * infinity is NaN, which means no
+/// limit.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/simd.hpp"
@@ -15,7 +17,8 @@
 namespace microtrace {
 namespace {
 
-/// Computes the factors for the lanes of d; d = 0 counts as positive.
+/// Computes the near and far factors for the lanes of d, with the sign of d; d = 0 counts as
+/// positive.
 template <int N>
 inline void slab_factors(const Float<N>& d, Float<N>& near, Float<N>& far) {
   using F = Float<N>;
@@ -38,7 +41,7 @@ inline void find_planes(KernelRay& ray) {
   }
 }
 
-/// Fills the lower part of a ray.
+/// Computes the members of KernelRay that depend only on its direction.
 inline void prepare_ray(KernelRay& ray) {
   float d[4] = {ray.d[0], ray.d[1], ray.d[2], 0}, near[4], far[4];
   Float<4> near_factor, far_factor;
@@ -51,8 +54,9 @@ inline void prepare_ray(KernelRay& ray) {
     ray.far_factor[axis] = far[axis];
     sum += __builtin_fabsf(d[axis]);
   }
-  // The sum and the product have three roundings, so half of the margin would suffice. The kernels'
-  // other factors near 1 omit u^2, which the hundredth in the bounds covers.
+  // The sum and the product have three roundings, so half of the margin would suffice. This and
+  // other factors near 1 in the kernels omit terms of order u^2, which the .01 in bounds such as
+  // 15.01 u covers.
   ray.d_sum = sum * (1 + 0x1p-21F);
   find_planes(ray);
 }

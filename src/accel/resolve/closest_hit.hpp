@@ -1,6 +1,6 @@
 #pragma once
-/// The nearest hit so far of one ray. Compares bounds of t in float64 if possible; compares two
-/// hits whose bounds overlap by exact arithmetic.
+/// The nearest hit so far of one ray. Two hits are compared by their float64 bounds of t, or by
+/// exact arithmetic if the bounds overlap.
 
 #include "accel/filters/filter.hpp"
 #include "accel/resolve/exact_hits.hpp"
@@ -14,7 +14,7 @@ namespace microtrace {
 
 class ClosestHit {
  public:
-  /// Considers the filter result for primitive `id`.
+  /// Updates the nearest hit, given the filter's result for primitive `id`.
   void consider(PrimitiveId id, const FilterResult& filtered, const ExactHits& exactly) {
     if (filtered.certainty == Certainty::miss || filtered.lo > hi_) return;
     const std::optional<exact::Enclosure> bounds =
@@ -34,7 +34,7 @@ class ClosestHit {
     return Candidate{.id = id_, .lo = lo_, .hi = hi_};
   }
 
-  /// The hit with its t rounded to the nearest float32.
+  /// Returns the nearest hit, with t rounded to the nearest float32.
   [[nodiscard]] std::optional<Hit> rounded(const ExactHits& exactly) const {
     if (!found_) return std::nullopt;
     const auto below = static_cast<float>(lo_), above = static_cast<float>(hi_);
@@ -42,7 +42,7 @@ class ClosestHit {
   }
 
  private:
-  // Ties go to the lower id.
+  // Of hits at the same t, the one with the lower id comes first.
   [[nodiscard]] bool precedes(PrimitiveId id, const ExactHits& exactly) const {
     const auto order = exactly.order(id, id_);
     return order < 0 || (order == 0 && id < id_);
@@ -55,7 +55,7 @@ class ClosestHit {
     found_ = true;
   }
 
-  // A ray without a hit has t at infinity.
+  // Infinite while there is no hit.
   double lo_ = std::numeric_limits<double>::infinity();
   double hi_ = std::numeric_limits<double>::infinity();
   PrimitiveId id_ = 0;

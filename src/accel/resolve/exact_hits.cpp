@@ -6,9 +6,9 @@
 namespace microtrace {
 namespace {
 
-/// Whether two triangles lie in the same plane x_k = s that the ray crosses, such as faces of boxes
-/// that stand on a floor or side by side. If the ray hits both, the hits have the same parameter (s
-/// - o_k) / d_k.
+/// True if two triangles lie in the same axis-aligned plane x_k = s and the ray is not parallel to
+/// the plane. If the ray hits both triangles, both hits then have the parameter (s - o_k) / d_k.
+/// Such triangles are common, for example where a box stands on a floor.
 bool share_axis_plane(const Triangle& a, const Triangle& b, const Vec3& d) {
   for (int k = 0; k < 3; ++k) {
     const float s = a.a[k];

@@ -1,6 +1,6 @@
 #pragma once
-/// Exact results about a ray's hits, computed with fixed-width integers if these can represent all
-/// numbers, else with arbitrary-width numbers.
+/// Exact queries about a ray's hits. They use fixed-width integers if these can represent all
+/// numbers, otherwise arbitrary-width numbers.
 
 #include "exact/numbers/ratio.hpp"
 #include "exact/numbers/root.hpp"
@@ -15,19 +15,20 @@ namespace microtrace {
 
 class ExactHits {
  public:
-  /// Both must outlive this object.
+  /// Both arguments must outlive this object.
   ExactHits(const Primitives& primitives, const Ray& ray) : primitives_(&primitives), ray_(&ray) {}
 
-  /// Bounds of the t at which the ray hits a primitive; nothing if it misses.
+  /// Returns bounds of the t at which the ray hits a primitive, or nothing if the ray misses it.
   [[nodiscard]] std::optional<exact::Enclosure> bounds(PrimitiveId id) const;
 
-  /// The order of two hits.
+  /// Compares the exact t of the ray's hits with two primitives, both of which must exist.
   [[nodiscard]] std::strong_ordering order(PrimitiveId id, PrimitiveId other) const;
 
-  /// A hit's t, rounded to the nearest float32.
+  /// Returns the t of the hit with a primitive, rounded to the nearest float32. The hit must exist.
   [[nodiscard]] float t(PrimitiveId id) const;
 
-  /// The exact t of a hit, computed with Dyadic.
+  /// Returns the exact t of the hit with a primitive, computed with Dyadic, or nothing if the ray
+  /// misses it.
   [[nodiscard]] std::optional<exact::Root> root(PrimitiveId id) const;
 
  private:

@@ -41,7 +41,9 @@ HitResolver::HitResolver(const Primitives& primitives, const Ray& ray, double t_
 
 void HitResolver::consider(std::uint32_t id, ClosestSoFar& best) const {
   ++fallback_stages.filters;
-  if (id == best.id) return;  // a triangle that was split among leaves is tested more than once
+  if (id == best.id)
+    return;  // a triangle with references in several leaves is tested more than
+             // once
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);
@@ -49,7 +51,7 @@ void HitResolver::consider(std::uint32_t id, ClosestSoFar& best) const {
 }
 
 Hit HitResolver::hit(std::uint32_t id) const {
-  // Gets t from the plane of a triangle that is certainly hit.
+  // The ray certainly hits, so for a triangle t can be computed from its plane alone.
   const auto filtered_by = [this](const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>)
       return TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
@@ -82,7 +84,8 @@ FilterResult HitResolver::filtered(PrimitiveId id) const {
   return primitives_->visit(id, [&](const auto& shape) {
     if (!filterable_ || !is_filterable(shape)) return FilterResult{.certainty = Certainty::unsure};
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
-      // Usually the triangle that the ray has just left; the cheaper plane test rejects it.
+      // This is usually the triangle that the ray has just left, which the cheaper plane test
+      // rejects.
       const FilterResult plane = TrianglePlaneFilter(shape, ray_->o)(DVec3(ray_->d), range());
       if (plane.certainty == Certainty::miss) return plane;
     }

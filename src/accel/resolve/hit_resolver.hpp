@@ -1,5 +1,5 @@
 #pragma once
-/// The stages after the float32 kernels: float64 filters, then exact arithmetic.
+/// The stages that follow the float32 kernels: float64 filters, then exact arithmetic.
 
 #include "accel/build/references/duplicates.hpp"
 #include "accel/filters/filter.hpp"
@@ -14,43 +14,46 @@
 
 namespace microtrace {
 
-/// The initial value of a ray's nearest hit; t_scale is that of its kernel ray.
+/// Returns the initial value of a ray's nearest hit. t_scale is the result of kernel_t_scale for
+/// the ray.
 [[nodiscard]] inline ClosestSoFar no_hit(const Ray& ray, double t_scale = 1) {
   constexpr float kGreatest = std::numeric_limits<float>::max();
-  const double end = ray.t_max * t_scale;  // a float32 unless it overflows
+  const double end = ray.t_max * t_scale;  // exactly a float32 number unless it overflows
   const float t_max =
       end > kGreatest ? std::numeric_limits<float>::infinity() : static_cast<float>(end);
   return {.lo = t_max, .hi = t_max, .id = kNoPrimitive};
 }
 
-/// A hit with t in [lo, hi] in the kernels' form: the interval is rounded outwards.
+/// Returns a hit with t in [lo, hi] in the kernels' form, with the interval rounded outwards to
+/// float32.
 [[nodiscard]] ClosestSoFar outwards(double lo, double hi, PrimitiveId id);
 [[nodiscard]] ClosestSoFar closest_so_far(const ClosestHit& closest, const Ray& ray,
                                           double t_scale = 1);
 
 class KnownHit;
 
-/// Decides hits of one ray with primitives.
+/// Decides for one ray which primitives it hits and which hit is nearest.
 class HitResolver {
  public:
-  /// All arguments must outlive this object. Values of t in kernels are t_scale times the ray's.
-  /// With `after`, considers only hits that follow it.
+  /// All referenced arguments must outlive this object. Values of t in kernels are t_scale times
+  /// the ray's t. If `after` is given, only hits that follow it are considered.
   HitResolver(const Primitives& primitives, const Ray& ray, double t_scale = 1,
               const KnownHit* after = nullptr);
 
-  /// The initial value of the nearest hit.
+  /// Returns the initial value of the nearest hit.
   [[nodiscard]] ClosestSoFar no_hit() const { return microtrace::no_hit(*ray_, t_scale_); }
 
-  /// Updates best if primitive id is hit before it. best may come from a kernel.
+  /// Sets `best` to the hit with primitive `id` if that hit comes first. `best` may come from a
+  /// kernel.
   void consider(std::uint32_t id, ClosestSoFar& best) const;
 
-  /// The filter's result for primitive id; unsure if the filters' limits are exceeded.
+  /// Returns the filter's result for primitive `id`; unsure if a number exceeds the filters' limit.
   [[nodiscard]] FilterResult filtered(PrimitiveId id) const;
 
-  /// The hit with a primitive that the ray is known to hit, t rounded once.
+  /// Returns the hit with a primitive that the ray is known to hit, with t rounded once.
   [[nodiscard]] Hit hit(std::uint32_t id) const;
 
-  /// For kernels; this object must outlive the result.
+  /// Returns callbacks for kernels. This object must outlive the result.
   [[nodiscard]] Fallback fallback();
 
  private:
@@ -67,16 +70,17 @@ class HitResolver {
 /// The hit of a valid ray with a primitive, if there is one.
 class KnownHit {
  public:
-  /// All arguments must outlive this object. `duplicates` are those of the primitives that will be
-  /// queried.
+  /// All referenced arguments must outlive this object. `duplicates` must be Tree::duplicates of
+  /// the tree that the ray traverses.
   KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
            const Duplicates& duplicates);
 
   [[nodiscard]] bool exists() const { return exists_; }
-  /// Bounds of its exact t.
+  /// Bounds of the hit's exact t.
   [[nodiscard]] const exact::Enclosure& bounds() const { return bounds_; }
-  /// The next hit among primitive `id` and its duplicates, given a filter's result for them: `id`
-  /// itself if its t is larger; if t is equal, the least id above this hit's.
+  /// Returns the first primitive among `id` and its duplicates whose hit follows this one, given
+  /// the filter's result for `id`. If its t is larger than this hit's, this is `id` itself; if t is
+  /// equal, the lowest id above this hit's id. Returns nothing if there is no such primitive.
   [[nodiscard]] std::optional<PrimitiveId> next(PrimitiveId id, const FilterResult& filtered) const;
 
  private:

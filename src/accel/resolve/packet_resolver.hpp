@@ -1,5 +1,6 @@
 #pragma once
-/// The stages after the float32 packet kernel: HitResolver for many rays with a common origin.
+/// The stages that follow the float32 packet kernel, as HitResolver for several rays with a common
+/// origin.
 
 #include "accel/kernels/kernel.hpp"
 #include "accel/ray_packet.hpp"
@@ -16,10 +17,10 @@ class PacketResolver {
   PacketResolver(const Primitives& primitives, std::span<const Ray> rays)
       : primitives_(&primitives), rays_(rays) {}
 
-  /// Initializes the packet with the hits of these primitives.
+  /// Initializes the packet's nearest hits by testing these primitives.
   void begin(KernelPacket& packet, std::span<const PrimitiveId> ids);
 
-  /// For kernels; this object must outlive the result.
+  /// Returns callbacks for kernels. This object must outlive the result.
   [[nodiscard]] PacketFallback fallback();
 
  private:
@@ -28,7 +29,8 @@ class PacketResolver {
 
   const Primitives* primitives_;
   std::span<const Ray> rays_;
-  std::optional<RayPacket> packet_;  // created when first needed: most packets hit only triangles
+  std::optional<RayPacket> packet_;  // created on first use, because most packets meet only
+                                     // triangles
 };
 
 }  // namespace microtrace

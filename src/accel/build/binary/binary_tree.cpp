@@ -7,18 +7,20 @@
 namespace microtrace::build {
 namespace {
 
-// The number of references per task while all threads work on one set, and the size of sets that
-// one thread builds alone. Constants keep the tree independent of the number of threads.
+// kChunkSize is the number of references per task while all threads split one set together. Sets of
+// at most kSubtreeSize references are built by one thread each. These are constants so that the
+// tree does not depend on the number of threads.
 constexpr std::size_t kChunkSize = std::size_t{1} << 13U;
 constexpr std::size_t kSubtreeSize = std::size_t{1} << 14U;
 
-// Beyond this depth sets are halved without evaluating costs, so at most log2(size) levels follow.
+// Near this depth, sets are halved without evaluating costs, so at most log2(size) more levels
+// follow.
 constexpr unsigned kDepthLimit = 58;
 
 constexpr std::uint32_t kMaxLeafWeight = 8;
 
-// References of a node that is not yet split. They are stored in one of two arrays, at their final
-// positions; splitting moves them to the other array.
+// The references of a node that is not yet split. They are stored in one of two arrays, in the
+// range that they keep in the final order. Splitting moves them to the other array.
 struct Set {
   BinaryNode* node;
   unsigned depth, array;
@@ -34,7 +36,8 @@ struct CentroidBoxes {
   }
 };
 
-// Moves each reference to one of two positions without a branch, which would be unpredictable.
+// Copies each reference to the left or the right output without a branch, which would be
+// unpredictable.
 CentroidBoxes partition(std::span<const Reference> from, const BinMapping& mapping,
                         const Split& split, Reference* left, Reference* right) {
   const float infinity = std::numeric_limits<float>::infinity();
@@ -111,7 +114,7 @@ class Builder {
     return set;
   }
 
-  // Creates the nodes of the two halves and sets the data that the split provides.
+  // Creates the nodes of the two parts and sets all data that the split provides.
   static Halves halves(const Set& set, NodeArena& arena, const Split& split) {
     BinaryNode* pair = set.node->children = arena.allocate_pair();
     pair[0].box = split.left;
@@ -128,7 +131,8 @@ class Builder {
     return {half, other};
   }
 
-  // Splits into halves by count, if no plane separates the centroids or the depth limit is near.
+  // Splits a set into two halves of equal count, for sets whose centroids no plane separates or
+  // whose depth is near the limit.
   Halves halve(const Set& set, NodeArena& arena) {
     Split split;
     split.left_load.count = set.node->count / 2;
@@ -197,7 +201,7 @@ class Builder {
     return sets;
   }
 
-  // The recursion is at most a few levels deeper than kDepthLimit.
+  // Builds a subtree recursively. The recursion is at most a few levels deeper than kDepthLimit.
   void build_alone(const Set& set, NodeArena& arena, Bins& bins) {
     const BinaryNode& node = *set.node;
     const bool of_one_kind = node.weight == node.count || node.count <= 1;

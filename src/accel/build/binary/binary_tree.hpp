@@ -1,5 +1,5 @@
 #pragma once
-/// The binary tree that is later collapsed to wide nodes.
+/// The binary tree that is later collapsed to nodes with up to eight children.
 
 #include "accel/build/references/reference.hpp"
 #include "accel/build/worker_pool.hpp"
@@ -11,13 +11,15 @@ namespace microtrace::build {
 
 /// The optimal collapse of a node and its subtree; see collapse.hpp.
 struct CollapsePlan {
-  std::array<float, 8> cost{};            ///< [i - 1]: cost if collapsed to at most i subtrees
-  std::array<std::uint8_t, 9> to_left{};  ///< [i]: number of the i subtrees that are in the left
-                                          ///< child; 0: as for i - 1
+  std::array<float, 8> cost{};            ///< cost[i - 1] is the cost if collapsed to at most i
+                                          ///< subtrees
+  std::array<std::uint8_t, 9> to_left{};  ///< to_left[i] is the number of the i subtrees that come
+                                          ///< from the left child; 0: the same collapse as for i -
+                                          ///< 1
   bool is_leaf = true;
 };
 
-/// `count` references starting at `begin`, in the order of BinaryTree::ids.
+/// A node with `count` references, whose ids start at BinaryTree::ids[begin].
 struct BinaryNode {
   Box box;
   std::uint32_t begin = 0, count = 0, weight = 0;
@@ -28,10 +30,10 @@ struct BinaryNode {
 /// Allocates nodes with stable addresses.
 class NodeArena {
  public:
-  /// Two consecutive nodes.
+  /// Allocates two consecutive nodes and returns the first.
   [[nodiscard]] BinaryNode* allocate_pair();
 
-  /// Calls f(node) for each node, newest first: children before their parents.
+  /// Calls f(node) for each node, newest first, so children come before their parents.
   template <class F>
   void for_each_backwards(F&& f) {
     for (std::size_t i = chunks_.size(); i-- > 0;) {
@@ -52,8 +54,9 @@ struct BinaryTree {
   PageVector<PrimitiveId> ids;
 };
 
-/// Splits down to leaves with one kind of primitive and at most eight primitives. Consumes the
-/// references. The result depends only on their order. `bins` is at most kMaxBins.
+/// Splits the references until each leaf holds one kind of primitive and at most eight triangles or
+/// one other primitive. The result depends only on the references and their order. `bins` is at
+/// most kMaxBins.
 [[nodiscard]] BinaryTree build_binary_tree(PageVector<Reference> references, int bins,
                                            WorkerPool& pool);
 

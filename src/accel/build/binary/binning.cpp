@@ -3,8 +3,8 @@
 namespace microtrace::build {
 namespace {
 
-// The expected number of blocks of a set that will be split further: splits are often not at a
-// multiple of eight.
+// The expected number of blocks of a set that will be split further. It exceeds weight / 8, because
+// splits often leave blocks partly filled.
 float expected_blocks(const Load& load) {
   return static_cast<float>(blocks(load.weight)) + 0.1F * static_cast<float>(load.weight);
 }
@@ -15,7 +15,7 @@ BinMapping::BinMapping(const Box& centroids, int bins)
     : origin_(centroids.lo), last_(static_cast<float>(bins - 1)), bins_(bins) {
   for (int k = 0; k < 3; ++k) {
     const float extent = centroids.hi[k] - centroids.lo[k];
-    // Below this extent the reciprocal would overflow.
+    // For smaller extents, the reciprocal would overflow.
     if (extent > 0x1p-120F) scale_[k] = static_cast<float>(bins) * 0.9999F / extent;
   }
 }
@@ -56,7 +56,7 @@ Load Bins::load_up_to(int axis, int last_bin) const {
 void Bins::try_axis(int axis, int bins, const AreaMeasure& area, Split& best) const {
   const auto& boxes = boxes_[axis];
   const auto& loads = loads_[axis];
-  float right_cost[kMaxBins];  // of bins i and above
+  float right_cost[kMaxBins];  // right_cost[i] is the cost of bins i and above
   Box box;
   Load load;
   for (int i = bins - 1; i > 0; --i) {

@@ -1,7 +1,7 @@
 #pragma once
-/// Chooses the plane that splits a set by the surface area heuristic. The candidates are the
-/// boundaries of equal bins of the centroids: I. Wald, On fast construction of SAH-based bounding
-/// volume hierarchies, 2007.
+/// Chooses the plane that splits a set of references by the surface area heuristic. Candidate
+/// planes are the boundaries of equally spaced bins of the centroids. After I. Wald, On fast
+/// construction of SAH-based bounding volume hierarchies, 2007.
 
 #include "accel/build/area.hpp"
 #include "accel/build/references/reference.hpp"
@@ -12,12 +12,13 @@ namespace microtrace::build {
 
 inline constexpr int kMaxBins = 32;
 
-/// A quarter of the sum of a box's corners. It stays finite, and orders boxes like their centroids.
+/// Returns half of a box's centroid, which orders boxes like their centroids and always stays
+/// finite.
 [[nodiscard]] inline Float4 centroid(const Box& b) {
   return xyz(b.lo) * splat(0.25F) + xyz(b.hi) * splat(0.25F);
 }
 
-/// The bin of a reference along each axis.
+/// Maps a reference to its bin along each axis.
 class BinMapping {
  public:
   BinMapping(const Box& centroids, int bins);
@@ -27,7 +28,7 @@ class BinMapping {
     const Float4 slot = min((centroid(r.box) - origin_) * scale_, splat(last_));
     return __builtin_convertvector(slot, Int4);
   }
-  /// Whether all references are in the same bin along every axis.
+  /// True if all references are in the same bin along every axis.
   [[nodiscard]] bool is_degenerate() const {
     return scale_[0] == 0 && scale_[1] == 0 && scale_[2] == 0;
   }
@@ -38,7 +39,7 @@ class BinMapping {
   int bins_;
 };
 
-/// Number of references, and their weight.
+/// A number of references and the sum of their weights.
 struct Load {
   std::uint32_t count = 0, weight = 0;
 
@@ -49,22 +50,23 @@ struct Load {
   }
 };
 
-/// The number of blocks for a weight.
+/// Returns the number of blocks for a weight (see kTriangleWeight).
 [[nodiscard]] inline std::uint32_t blocks(std::uint32_t weight) {
   return weight / 8 + (weight % 8 != 0 ? 1 : 0);
 }
 
-/// References in bins up to `last_bin` along `axis` go left.
+/// A split of a set: references in bins up to `last_bin` along `axis` go to the left part.
 struct Split {
   int axis = -1, last_bin = 0;
-  float cost = std::numeric_limits<float>::infinity();  ///< sum of area times blocks
+  float cost = std::numeric_limits<float>::infinity();  ///< the sum of area times expected number
+                                                        ///< of blocks over both parts
   Box left, right;
   Load left_load, right_load;
 
   [[nodiscard]] bool exists() const { return axis >= 0; }
 };
 
-/// Boxes and loads of the bins.
+/// The box and the load of each bin along each axis.
 class Bins {
  public:
   void clear(int bins);

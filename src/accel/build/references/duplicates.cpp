@@ -14,8 +14,8 @@ using build::Reference;
 
 using Corner = std::array<std::uint32_t, 3>;
 
-/// The vertices in ascending order. If two of them are equal, the lesser of the two distinct ones
-/// comes twice.
+/// A triangle's vertices in ascending order of their bits. If only two of them are distinct, the
+/// lesser one comes twice, so the result does not depend on which vertex is repeated.
 using Corners = std::array<Corner, 3>;
 
 Corners corners_of(const Triangle& t) {
@@ -29,11 +29,12 @@ Corners corners_of(const Triangle& t) {
   return corners;
 }
 
-/// A set of hashes that may report a hash that it does not contain: B. Bloom, Space/time trade-offs
-/// in hash coding with allowable errors, 1970, with one bit per hash.
+/// A set of hashes whose contains() may be true for a hash that was not inserted. After B. Bloom,
+/// Space/time trade-offs in hash coding with allowable errors, 1970, with one bit per hash.
 class BloomFilter {
  public:
-  /// Sized so that at most one of sixteen hashes outside the set is reported wrongly.
+  /// Chooses the size so that contains() is wrong for at most about one in sixteen hashes outside
+  /// the set.
   explicit BloomFilter(std::size_t hashes)
       : shift_(std::max(0, std::countl_zero(16 * hashes | 64) - 32)),
         words_((~std::uint32_t{0} >> shift_) / 64 + 1, 0) {}
@@ -52,8 +53,8 @@ class BloomFilter {
   PageVector<std::uint64_t> words_;
 };
 
-/// The ascending indices of hashes that occur more than once, and of a few others. Nearly all
-/// hashes are unique, so sorting all of them would take much longer.
+/// Returns the ascending indices of all hashes that occur more than once, and of a few others. This
+/// is much faster than sorting, because nearly all hashes are unique.
 std::vector<std::uint32_t> repeated(const PageVector<std::uint32_t>& hashes) {
   BloomFilter once(hashes.size());
   std::vector<std::uint32_t> again;

@@ -1,7 +1,7 @@
 #pragma once
-/// Finds triangles that are the same set of points. Only one of them is in the tree. Otherwise a
-/// ray through a mesh with a thousand coincident copies would hit a thousand triangles at the same
-/// t, and exact arithmetic would have to decide every tie.
+/// Finds triangles that are the same set of points, so that only one of each group is stored in the
+/// tree. Otherwise a ray through a thousand coincident copies of a mesh would hit a thousand
+/// triangles at the same t, and exact arithmetic would have to decide every tie.
 
 #include "accel/build/references/reference.hpp"
 
@@ -17,39 +17,39 @@ class Duplicates {
  public:
   Duplicates() = default;
 
-  /// Removes triangles that have the same vertices as another, in any order, from the bounded
-  /// references. The triangle with the least id of each group remains.
+  /// Groups triangles that have the same vertices in any order. Removes all but the one with the
+  /// lowest id of each group from the bounded references.
   Duplicates(build::References& references, const Primitives& primitives);
 
-  /// The least id above `after` in the group that a primitive of the tree represents.
+  /// Returns the lowest id above `after` in the group of primitive `id`, which must be in the tree.
   [[nodiscard]] std::optional<PrimitiveId> above(PrimitiveId id, PrimitiveId after) const;
 
-  /// The primitive of the tree that represents this one; the primitive itself unless it is a
-  /// duplicate.
+  /// Returns the primitive in the tree that stands for this one. This is the primitive itself
+  /// unless it was removed as a duplicate.
   [[nodiscard]] PrimitiveId representative(PrimitiveId id) const {
     return id < representatives_.size() ? representatives_[id] : id;
   }
 
   [[nodiscard]] bool empty() const { return ids_.empty(); }
-  [[nodiscard]] std::size_t memory() const;  ///< bytes
+  [[nodiscard]] std::size_t memory() const;  ///< in bytes
 
-  /// Whether the same primitives represent the same duplicates.
+  /// True if the groups are the same.
   [[nodiscard]] bool operator==(const Duplicates& other) const {
     return representatives_ == other.representatives_;
   }
 
-  /// The primitives that are not in the tree.
+  /// Returns the primitives that were removed as duplicates.
   [[nodiscard]] const std::vector<PrimitiveId>& ids() const { return ids_; }
 
  private:
   struct Group {
     PrimitiveId least;
-    std::size_t first, end;  // positions in ids_, where ids ascend
+    std::size_t first, end;  // range of indices into ids_, where the group's removed ids ascend
   };
 
-  std::vector<PrimitiveId> ids_;              // in groups
-  std::vector<Group> groups_;                 // ascending
-  std::vector<PrimitiveId> representatives_;  // [id], for all primitives up to the last duplicate
+  std::vector<PrimitiveId> ids_;              // removed primitives, group by group
+  std::vector<Group> groups_;                 // in ascending order of `least`
+  std::vector<PrimitiveId> representatives_;  // by id, for all primitives up to the last duplicate
 };
 
 }  // namespace microtrace

@@ -14,18 +14,20 @@ namespace {
 
 constexpr double kMostExtra = 0.3;
 
-// The constants were found by experiment; they affect costs, never results.
+// The constants were found by experiment. They affect speed, but never results.
 //
-// A triangle is split if the useless area of its box is more than this many times the whole box's
-// area divided by the number of primitives. A triangle at this limit is split 1.5 times (rounded
-// down), others in proportion to the fourth root of the ratio. The paper uses the cube root; the
-// fourth root is slightly better and doesn't depend on the C library.
+// A triangle is split if the useless area of its box, halved once per Grid::level, exceeds a limit:
+// kManyShares times the area of the whole scene's box, divided by the number of primitives. The
+// number of splits is kCutsAtLeast times the fourth root of the ratio of this area to the limit,
+// rounded down. The paper uses the cube root; the fourth root is slightly better and doesn't depend
+// on the C library.
 constexpr float kManyShares = 8;
 constexpr float kCutsAtLeast = 1.5F;
 
-// The useless area is the part of the box's area above 2.5 times the triangle's three projections.
-// However finely an oblique triangle is split, the areas of its pieces' boxes sum to about twice
-// its projections; an axis-aligned triangle has that area without splits.
+// The useless area is the part of the box's area that exceeds kUseful times the total area of the
+// triangle's projections along the three axes. However finely an oblique triangle is split, the
+// areas of its pieces' boxes sum to about twice its projections. The box of an axis-aligned
+// triangle has that area without splits.
 constexpr float kUseful = 2.5F;
 
 float fourth_root(float x) {
@@ -37,8 +39,8 @@ int longest_axis(const Box& b) {
   return e[0] >= e[1] && e[0] >= e[2] ? 0 : e[1] >= e[2] ? 1 : 2;
 }
 
-// Planes that halve the scene's box, its halves, and so on. The upper levels of the tree will split
-// near these planes, so triangles are best split there.
+// The planes that halve the scene's box, then its halves, and so on. The upper levels of the tree
+// will split near these planes, so triangles are best split there.
 class Grid {
  public:
   explicit Grid(const Box& whole) : origin_(whole.lo) {
@@ -49,7 +51,7 @@ class Grid {
     }
   }
 
-  // The number of halvings along the axis before the first plane that intersects the box.
+  // Returns the number of halvings along the axis before the first plane that intersects the box.
   [[nodiscard]] int level(const Box& b, int axis) const {
     return std::countl_zero(cell(b.lo, axis) ^ cell(b.hi, axis)) - (32 - kLevels);
   }
@@ -57,7 +59,8 @@ class Grid {
     return std::min({level(b, 0), level(b, 1), level(b, 2)});
   }
 
-  // The plane itself, or the middle of the box if the plane would cut off too little.
+  // Returns the position of that plane, or the middle of the box if the plane would cut off too
+  // little.
   [[nodiscard]] float plane(const Box& b, int axis) const {
     const float middle = b.lo[axis] * 0.5F + b.hi[axis] * 0.5F;
     const int at = level(b, axis);
@@ -92,7 +95,7 @@ class Splitter {
   }
 
   void split_all() {
-    if (!(least_ > 0)) return;  // all triangles are points
+    if (!(least_ > 0)) return;  // the scene is a single point
     for (std::size_t i = 0; i < references_.size(); ++i) consider(i);
     if (candidates_.empty()) return;
     const float most = kCutsAtLeast / fourth_root(least_), scale = within_budget(most);
@@ -131,7 +134,7 @@ class Splitter {
     return sum;
   }
 
-  // The largest scale up to `most` for which the number of pieces is within the budget.
+  // Returns the largest scale up to `most` for which the number of pieces is within the budget.
   float within_budget(float most) const {
     const auto budget =
         static_cast<std::size_t>(kMostExtra * static_cast<double>(references_.size()));
@@ -144,7 +147,7 @@ class Splitter {
     return low;
   }
 
-  // Makes `times` splits; the larger part gets more of the remaining splits.
+  // Splits a triangle `times` times. The larger part gets more of the remaining splits.
   void split(const Triangle& t, std::size_t slot, std::size_t times) {
     if (times == 0) return;
     const Reference whole = references_[slot];

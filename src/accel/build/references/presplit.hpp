@@ -1,7 +1,7 @@
 #pragma once
 /// Splits large or oblique triangles before the build, because their boxes are mostly empty. Such a
-/// triangle is replaced by several references to it, each with the box of a piece: T. Karras, T.
-/// Aila, Fast parallel construction of high-quality bounding volume hierarchies, 2013, section 6.
+/// triangle gets several references, each with the box of one piece. After T. Karras, T. Aila, Fast
+/// parallel construction of high-quality bounding volume hierarchies, 2013, section 6.
 
 #include "accel/build/references/reference.hpp"
 
@@ -9,13 +9,13 @@
 
 namespace microtrace::build {
 
-/// Appends pieces, and shrinks the boxes of the original references. Adds at most 30 % references;
-/// none if all triangles have the same size. The union of the pieces' boxes contains every point of
-/// the triangle.
+/// Appends references to pieces and shrinks the boxes of the original references. Adds at most 30 %
+/// more references, and none if all triangles have about the same size. The boxes of a triangle's
+/// pieces together contain every point of the triangle.
 void presplit(PageVector<Reference>& references, const Primitives& primitives);
 
-/// Cuts the part of a triangle within a box by an axis-aligned plane. Each returned box contains
-/// every real point of the triangle on its side of the plane.
+/// Cuts the part of a triangle that lies in a box by an axis-aligned plane. Returns a box for each
+/// side of the plane, which contains every point of that part on this side in real arithmetic.
 [[nodiscard]] std::array<Box, 2> cut(const Triangle& triangle, const Box& box, int axis,
                                      float plane);
 

@@ -10,11 +10,11 @@
 namespace microtrace::build {
 namespace {
 
-// The maximum total weight, in eighths of a block, that leaf references can address, including room
-// for split triangles.
+// The maximum total weight (see kTriangleWeight) that leaf references can address, with room for
+// split triangles.
 constexpr std::uint64_t kMostWeight = std::uint64_t{1} << 30U;
 
-// Hash of three numbers; multipliers and shift are those of SplitMix64 (Steele, Lea, Flood: Fast
+// Hashes three numbers with the multipliers and shifts of SplitMix64 (Steele, Lea, Flood: Fast
 // splittable pseudorandom number generators, 2014).
 std::uint64_t hash_of(const Vec3& p) {
   const auto [x, y, z] = std::bit_cast<std::array<std::uint32_t, 3>>(p + 0.0F);  // -0 becomes 0
@@ -23,7 +23,7 @@ std::uint64_t hash_of(const Vec3& p) {
   return hash ^ hash >> 31U;
 }
 
-// A hash of the set of vertices, independent of their order.
+// Hashes the set of vertices, independent of their order.
 std::uint32_t hash_of(const Triangle& t) {
   std::uint64_t sum = hash_of(t.a);
   if (t.b != t.a) sum += hash_of(t.b);

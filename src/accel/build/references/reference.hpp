@@ -8,15 +8,15 @@
 
 namespace microtrace::build {
 
-/// Weights are counted in eighths of a block: one for a triangle, and eight for any other
-/// primitive, because these are tested one by one.
+/// The weight of a primitive is its cost in eighths of a block test. Eight triangles are tested at
+/// a time, but other primitives one at a time.
 inline constexpr std::uint32_t kTriangleWeight = 1;
 inline constexpr std::uint32_t kOtherWeight = 8;
 
-/// Triangles with a larger coordinate are not stored in blocks.
+/// Triangles with a coordinate of larger magnitude are not stored in blocks.
 inline constexpr float kLargestInBlocks = 0x1p38F;
 
-/// A reference to a primitive during the build: its box, with id and weight in the fourth lanes.
+/// A reference to a primitive during the build. The fourth lanes of the box hold id and weight.
 struct Reference {
   Box box;
 
@@ -38,7 +38,7 @@ struct References {
   double area = 0;  ///< half the surface area of all bounded primitives' boxes
 };
 
-/// Whether a triangle with this box may be stored in a block.
+/// True if a triangle with this box may be stored in a block.
 [[nodiscard]] bool fits_blocks(const Box& box);
 
 [[nodiscard]] inline bool is_point(const Box& box) {
@@ -46,12 +46,12 @@ struct References {
   return (differs[0] | differs[1] | differs[2]) == 0;
 }
 
-/// Divides a scene's primitives into bounded and unbounded ones, and drops empty ones. Throws Error
-/// (limit) if there are more than a tree can address.
+/// Divides a scene's primitives into bounded and unbounded ones, and omits empty ones. Throws Error
+/// (limit) if there are more primitives than a tree can address.
 [[nodiscard]] References gather(const Primitives& primitives);
 
-/// Gives triangles with three equal vertices the weight of other primitives. A float32 test can
-/// never exclude a hit with such a triangle, so each needs a box of its own.
+/// Gives triangles with three equal vertices the weight of non-triangle primitives. A float32 test
+/// can never exclude a hit with such a triangle, so each needs its own box.
 void set_points_apart(PageVector<Reference>& references);
 
 }  // namespace microtrace::build

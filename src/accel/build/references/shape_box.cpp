@@ -17,7 +17,7 @@ bool all_finite(const Vec3& v) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// The largest float32 that is certainly below the real number that x approximates.
+// Returns the largest float32 strictly below x.
 float rounded_down(double x) {
   if (x < -double{std::numeric_limits<float>::max()}) return -kInfinity;
   if (x > double{std::numeric_limits<float>::max()}) return std::numeric_limits<float>::max();
@@ -25,7 +25,8 @@ float rounded_down(double x) {
   return double{f} < x ? f : std::nextafter(f, -kInfinity);
 }
 
-// The box center +- extent, where the error of the extent is a few units of roundoff.
+// Returns a box that contains center +- reach, where `reach` may have an error of a few units of
+// roundoff.
 Box extended(const Vec3& center, const DVec3& reach) {
   Box box;
   for (int k = 0; k < 3; ++k) {
@@ -37,7 +38,8 @@ Box extended(const Vec3& center, const DVec3& reach) {
 }
 
 Float4 lanes(const Vec3& v) {
-  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, independent of vertex order
+  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, so boxes do not depend on the order
+                                               // of vertices
 }
 
 }  // namespace

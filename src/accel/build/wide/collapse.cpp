@@ -11,7 +11,7 @@ struct Distribution {
   std::uint8_t to_left;
 };
 
-// The best distribution of `parts` subtrees over the left and the right child.
+// Returns the cheapest distribution of `parts` subtrees over the left and the right child.
 Distribution best_distribution(const CollapsePlan& left, const CollapsePlan& right,
                                unsigned parts) {
   Distribution best{.cost = left.cost[0] + right.cost[parts - 2], .to_left = 1};

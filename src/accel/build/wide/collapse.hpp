@@ -1,21 +1,21 @@
 #pragma once
-/// Collapses a binary tree to nodes with up to eight children, at the least expected cost of a ray:
-/// H. Ylitie, T. Karras, S. Laine, Efficient incoherent ray traversal on GPUs through compressed
-/// wide BVHs, 2017, section 3.2.
+/// Collapses a binary tree to nodes with up to eight children, such that the expected cost of a ray
+/// is minimal. After H. Ylitie, T. Karras, S. Laine, Efficient incoherent ray traversal on GPUs
+/// through compressed wide BVHs, 2017, section 3.2.
 
 #include "accel/build/area.hpp"
 #include "accel/build/binary/binary_tree.hpp"
 
 namespace microtrace::build {
 
-/// Costs of entering a node and of testing a block of triangles.
+/// The costs of testing a node's children and of testing a block of triangles.
 inline constexpr float kNodeCost = 0.6F;
 inline constexpr float kBlockCost = 1;
 
-/// Plans a node whose children are already planned.
+/// Computes the plan of a node whose children already have plans.
 void plan_collapse(BinaryNode& node, const AreaMeasure& area);
 
-/// The children of a wide node: at most eight subtrees that together make up the given one.
+/// The children of a wide node: at most eight subtrees that together contain all of a binary node.
 class WideChildren {
  public:
   explicit WideChildren(const BinaryNode& node);

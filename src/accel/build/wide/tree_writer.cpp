@@ -13,10 +13,10 @@
 namespace microtrace::build {
 namespace {
 
-// One thread writes subtrees with up to this many references.
+// Maximum number of references of a subtree that one thread writes.
 constexpr std::uint32_t kJobSize = 1U << 13U;
 
-// Positions in the three arrays of a tree.
+// Positions in, or sizes of, the three arrays of a tree.
 struct Places {
   std::size_t nodes = 0, blocks = 0, others = 0;
 
@@ -41,7 +41,7 @@ Places size_as_child(const BinaryNode& node) {
   return node.plan.is_leaf ? leaf_size(node) : Places{.nodes = 1};
 }
 
-// The size of an inner node's subtree.
+// Returns the size of an inner node's subtree without the node itself.
 Places size_below(const BinaryNode& node) {
   Places size;
   for (const BinaryNode* child : WideChildren(node)) {
@@ -79,7 +79,7 @@ class Writer {
   }
 
  private:
-  // The subtree of a small inner node whose parent is large.
+  // The subtree of an inner node with at most kJobSize references whose parent has more.
   struct Job {
     const BinaryNode* node;
     Places size, begin;
@@ -90,8 +90,8 @@ class Writer {
     return parent.count > kJobSize && child.count <= kJobSize;
   }
 
-  // Collects the jobs in the order in which write_node visits them. Returns the size of all nodes
-  // outside jobs.
+  // Collects the jobs in the order in which write_node visits them. Returns the size of everything
+  // that is in no job.
   Places collect_jobs(const BinaryNode& node) {
     if (node.count <= kJobSize) return size_below(node);
     Places size;
@@ -115,7 +115,8 @@ class Writer {
     tree_.others.resize(size.others);
   }
 
-  // `next` has the first unused positions.
+  // Writes a node to nodes[slot] and its subtree to the positions from `next` on, which is
+  // advanced.
   void write_node(const BinaryNode& node, std::size_t slot, Places& next) {
     const WideChildren children(node);
     std::array<std::size_t, kWidth> slots{};

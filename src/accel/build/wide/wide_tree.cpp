@@ -16,7 +16,7 @@ float squared_length(const Vec3& v) {
   return v.x * v.x + v.y * v.y + v.z * v.z;
 }
 
-// Rotates the vertices so that the first is opposite the longest edge.
+// Rotates the vertices so that the first one is opposite the longest edge.
 Triangle turned(const Triangle& t) {
   const float ab = squared_length(t.b - t.a), bc = squared_length(t.c - t.b),
               ca = squared_length(t.a - t.c);

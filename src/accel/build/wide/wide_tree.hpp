@@ -11,10 +11,10 @@
 
 namespace microtrace::build {
 
-/// A node without children.
+/// Returns a node without children.
 [[nodiscard]] WideNode empty_node();
 
-/// Whether a child exists.
+/// True if child i exists.
 [[nodiscard]] inline bool has_child(const WideNode& node, std::size_t i) {
   return node.lo_x[i] <= node.hi_x[i];
 }
@@ -23,12 +23,12 @@ void set_box(WideNode& node, std::size_t i, const Box& box);
 [[nodiscard]] Box union_of_children(const WideNode& node);
 [[nodiscard]] Bounds bounds_of(const Box& box);
 
-/// The kind of a child: 0 (a node), child_ref::kTriangles or child_ref::kOthers.
+/// Returns the kind of a child: 0 (a node), child_ref::kTriangles or child_ref::kOthers.
 [[nodiscard]] inline ChildRef kind_of(ChildRef ref) {
   return ref & child_ref::kKind;
 }
 
-/// The range of a leaf's entries, in the array for its kind.
+/// The range of a leaf's entries in the array for this kind of leaf.
 struct LeafEntries {
   std::size_t begin, end;
 };
@@ -37,7 +37,7 @@ struct LeafEntries {
   return {.begin = begin, .end = begin + (leaf & 7U) + 1};
 }
 
-/// A block without triangles.
+/// Returns a block without triangles.
 [[nodiscard]] TriangleBlock empty_block();
 
 /// Stores a triangle in a slot of a block. Slots are filled in order.
@@ -46,7 +46,7 @@ void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle&
   return block.a_x[slot] == block.a_x[slot];  // unused slots have NaN
 }
 
-/// Whether two blocks have the same bits for the vertices of all triangles.
+/// True if two blocks have the same bits for the vertices of all triangles.
 [[nodiscard]] bool have_same_vertices(const TriangleBlock& a, const TriangleBlock& b);
 
 }  // namespace microtrace::build
