@@ -4,7 +4,7 @@
 
 #include "arguments.hpp"
 #include "rays.hpp"
-#include "support/architecture.hpp"
+#include "support/cases/architecture.hpp"
 #include "timing.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -32,7 +32,7 @@ using generated::ArchitectureScene;
 
 constexpr const char* kUsage =
     "usage: bench_corners [--scenes room,voxels,...] [--runs N] [--pictures SAMPLES]\n"
-    "--scenes    of tests/support/architecture.hpp; all\n"
+    "--scenes    of tests/support/cases/architecture.hpp; all\n"
     "--runs      of each scene and its turned twin, in turn; the fastest counts (5)\n"
     "--pictures  lit pictures of 320x240 pixels instead of rays\n";
 

@@ -3,7 +3,7 @@
 
 #include "arguments.hpp"
 #include "rays.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/generated_meshes.hpp"
 #include "timing.hpp"
 
 #include <microtrace/framing.hpp>

@@ -1,7 +1,7 @@
 // Measures the rendering of whole pictures without file output: rays per second for a scene's first
 // camera, for several numbers of threads.
 
-#include "support/generated_meshes.hpp"
+#include "support/cases/generated_meshes.hpp"
 
 #include <microtrace/framing.hpp>
 #include <microtrace/io.hpp>

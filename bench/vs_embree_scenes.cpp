@@ -1,7 +1,7 @@
 #include "vs_embree_scenes.hpp"
 
 #include "rays.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/generated_meshes.hpp"
 
 #include <microtrace/io.hpp>
 #include <microtrace/primitives.hpp>

@@ -21,7 +21,7 @@ namespace microtrace {
 /// To add an AOV, add a value here and in kAovs, its channels in src/render/aovs/aov.cpp, its
 /// computation in src/render/aovs/sights.cpp, its colors in 8-bit pictures in
 /// src/render/integrators/aov.cpp, its help text in src/cli/options/picture_options.cpp, a line in
-/// both tables of docs/outputs.md, and a test in tests/unit/aov_test.cpp.
+/// both tables of docs/outputs.md, and a test in tests/unit/render/aov_test.cpp.
 enum class Aov {
   depth,        ///< Z: distance from the camera along the viewing direction; for an environment
                 ///< camera, equal to distance

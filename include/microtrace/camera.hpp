@@ -4,9 +4,10 @@
 /// To add a camera, add a struct here and to the variant `Camera`, its rays in
 /// src/scene/camera.cpp, its rules in src/scene/validate/validate.cpp, its reader in
 /// src/io/scene_json/camera.cpp, its name in src/io/sidecar/describe_picture.cpp, its members in
-/// docs/scene.schema.json and docs/scene-format.md, and golden rays in tests/unit/camera_test.cpp.
-/// A lens also needs random numbers: add a parameter to RayGenerator, and a pair of dimensions to
-/// src/render/sampling/dimensions.hpp that src/render/samples/random_painter.cpp draws.
+/// docs/scene.schema.json and docs/scene-format.md, and golden rays in
+/// tests/unit/scene/camera_test.cpp. A lens also needs random numbers: add a parameter to
+/// RayGenerator, and a pair of dimensions to src/render/sampling/dimensions.hpp that
+/// src/render/samples/random_painter.cpp draws.
 
 #include <microtrace/export.hpp>
 #include <microtrace/math.hpp>

@@ -13,7 +13,8 @@ namespace microtrace {
 ///
 /// To add a tone map, add a value here and in kToneMaps, its name and its function in
 /// src/scene/tone_map.cpp, its help text in src/cli/options/light_options.cpp, a line in
-/// docs/outputs.md and docs/command-line.md, and reference values in tests/unit/tone_map_test.cpp.
+/// docs/outputs.md and docs/command-line.md, and reference values in
+/// tests/unit/math/tone_map_test.cpp.
 enum class ToneMap {
   none,                 ///< clamps components to 1
   khronos_pbr_neutral,  ///< the Khronos PBR neutral tone mapper: colors up to 0.8 change only by an

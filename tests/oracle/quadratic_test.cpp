@@ -4,7 +4,7 @@
 #include "exact/intersect.hpp"
 #include "oracle/real_roots.hpp"
 #include "oracle/rounding_check.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
 

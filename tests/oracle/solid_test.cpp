@@ -1,9 +1,9 @@
 // Compares locations and nearest points of solids with those of CGAL over exact numbers.
 
 #include "oracle/exact_numbers.hpp"
-#include "support/closed_meshes.hpp"
+#include "support/cases/closed_meshes.hpp"
+#include "support/cases/solid_cases.hpp"
 #include "support/effort.hpp"
-#include "support/solid_cases.hpp"
 
 #include <microtrace/primitives.hpp>
 #include <microtrace/queries.hpp>

@@ -5,8 +5,8 @@
 #include "exact/intersect.hpp"
 #include "oracle/cgal_intersections.hpp"
 #include "oracle/rounding_check.hpp"
-#include "support/adversarial_rays.hpp"
-#include "support/counterexamples.hpp"
+#include "support/cases/adversarial_rays.hpp"
+#include "support/cases/counterexamples.hpp"
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
 

@@ -1,7 +1,7 @@
 // Axis-aligned walls that touch and share planes are as fast as others: counts the queries that
 // reach exact arithmetic in path-traced pictures.
 
-#include "support/architecture.hpp"
+#include "support/cases/architecture.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>

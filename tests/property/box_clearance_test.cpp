@@ -4,7 +4,7 @@
 #include "accel/spawn/box_clearance.hpp"
 
 #include "exact/intersect.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 // exactly.
 
 #include "exact/intersect.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 
 #include <microtrace/bvh.hpp>
 

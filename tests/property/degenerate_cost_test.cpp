@@ -2,8 +2,8 @@
 // exact arithmetic. ctest runs this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
-#include "support/adversarial_rays.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/adversarial_rays.hpp"
+#include "support/cases/generated_meshes.hpp"
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/stage_counts.hpp>

@@ -6,7 +6,7 @@
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/triangle_hit.hpp"
-#include "support/closed_bodies.hpp"
+#include "support/cases/closed_bodies.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -3,7 +3,7 @@
 
 #include "accel/filters/shape_filter.hpp"
 #include "exact/intersect.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/reproduction.hpp"
 
 #include <cstdlib>

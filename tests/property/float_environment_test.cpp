@@ -3,8 +3,8 @@
 
 #include "float_environment.hpp"
 
-#include "support/adversarial_rays.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/adversarial_rays.hpp"
+#include "support/cases/generated_meshes.hpp"
 #include "support/source_folder.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -3,7 +3,7 @@
 // threads.
 
 #include "exact/intersect.hpp"
-#include "support/adversarial_scenes.hpp"
+#include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -2,7 +2,7 @@
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
-#include "support/closed_meshes.hpp"
+#include "support/cases/closed_meshes.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>

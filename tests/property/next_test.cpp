@@ -3,7 +3,7 @@
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/intersect.hpp"
-#include "support/adversarial_scenes.hpp"
+#include "support/cases/adversarial_scenes.hpp"
 
 #include <microtrace/bvh.hpp>
 

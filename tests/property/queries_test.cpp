@@ -5,11 +5,11 @@
 #include "exact/nearest.hpp"
 #include "queries/locator.hpp"
 #include "simd/instruction_set.hpp"
-#include "support/adversarial_scenes.hpp"
-#include "support/closed_bodies.hpp"
+#include "support/cases/adversarial_scenes.hpp"
+#include "support/cases/closed_bodies.hpp"
+#include "support/cases/generated_meshes.hpp"
+#include "support/cases/solid_cases.hpp"
 #include "support/effort.hpp"
-#include "support/generated_meshes.hpp"
-#include "support/solid_cases.hpp"
 
 #include <microtrace/error.hpp>
 #include <microtrace/queries.hpp>

@@ -3,8 +3,8 @@
 #include "accel/build/refit.hpp"
 
 #include "accel/build/tree.hpp"
-#include "support/adversarial_rays.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/adversarial_rays.hpp"
+#include "support/cases/generated_meshes.hpp"
 #include "support/tree_walk.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -2,7 +2,7 @@
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/intersect.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>

@@ -5,7 +5,7 @@
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/range.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
 

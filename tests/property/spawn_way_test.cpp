@@ -4,7 +4,7 @@
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
 #include "exact/triangle_hit.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 #include "support/effort.hpp"
 #include "support/reproduction.hpp"
 

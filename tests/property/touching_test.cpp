@@ -2,7 +2,7 @@
 
 #include "accel/build/tree.hpp"
 #include "accel/kernels/dispatch.hpp"
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 
 #include <optional>
 #include <set>

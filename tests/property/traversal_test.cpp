@@ -5,7 +5,7 @@
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_packet.hpp"
 #include "exact/intersect.hpp"
-#include "support/adversarial_scenes.hpp"
+#include "support/cases/adversarial_scenes.hpp"
 #include "support/effort.hpp"
 
 #include <microtrace/bvh.hpp>

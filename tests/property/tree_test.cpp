@@ -5,7 +5,7 @@
 
 #include "accel/build/references/presplit.hpp"
 #include "accel/build/references/shape_box.hpp"
-#include "support/generated_meshes.hpp"
+#include "support/cases/generated_meshes.hpp"
 #include "support/tree_walk.hpp"
 
 #include <algorithm>

@@ -5,8 +5,8 @@
 #include "render/bsdf/coating.hpp"
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
-#include "support/direction_pdf.hpp"
-#include "support/scattering.hpp"
+#include "support/shading/direction_pdf.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>

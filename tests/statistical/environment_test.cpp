@@ -1,6 +1,6 @@
 // Compares light from maps with quadrature by an independent float64 lookup.
 
-#include "support/scattering.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>

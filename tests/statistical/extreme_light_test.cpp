@@ -1,8 +1,8 @@
 /// Lights with extreme float32 parameters: minimum and maximum sizes, intensities and distances.
 #include "render/lights/light_tree.hpp"
 #include "render/prepared/content.hpp"
-#include "support/light_samples.hpp"
 #include "support/pictures.hpp"
+#include "support/shading/light_samples.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/prepared_scene.hpp>

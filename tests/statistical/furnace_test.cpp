@@ -2,8 +2,8 @@
 // and no object is brighter.
 
 #include "render/sampling/sobol.hpp"
-#include "support/direction_pdf.hpp"
-#include "support/scattering.hpp"
+#include "support/shading/direction_pdf.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>

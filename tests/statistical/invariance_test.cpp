@@ -1,5 +1,5 @@
 /// Changes that must not affect path-traced pictures.
-#include "support/closed_meshes.hpp"
+#include "support/cases/closed_meshes.hpp"
 #include "support/effort.hpp"
 #include "support/pictures.hpp"
 

@@ -1,6 +1,6 @@
 #include "render/sampling/sobol.hpp"
-#include "support/direction_pdf.hpp"
-#include "support/scattering.hpp"
+#include "support/shading/direction_pdf.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 #include "render/lights/light_tree.hpp"
 
-#include "support/light_samples.hpp"
+#include "support/shading/light_samples.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>

@@ -1,8 +1,8 @@
 /// Compares directions from light sampling with their pdf.
 #include "render/prepared/content.hpp"
-#include "support/chi_square.hpp"
-#include "support/light_samples.hpp"
 #include "support/pictures.hpp"
+#include "support/shading/chi_square.hpp"
+#include "support/shading/light_samples.hpp"
 
 #include <microtrace/prepared_scene.hpp>
 

@@ -1,4 +1,4 @@
-#include "support/scattering.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>

@@ -1,6 +1,6 @@
 /// Compares radiance with closed forms or quadrature, within the deviation of the estimates.
 #include "support/pictures.hpp"
-#include "support/scattering.hpp"
+#include "support/shading/scattering.hpp"
 
 #include <algorithm>
 #include <cmath>

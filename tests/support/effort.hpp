@@ -1,7 +1,7 @@
 #pragma once
 /// The numbers of cases and the random seeds of long tests.
 
-#include "support/adversarial_rays.hpp"
+#include "support/cases/adversarial_rays.hpp"
 
 #include <cstdint>
 #include <cstdlib>

@@ -5,7 +5,7 @@
 #include "render/bsdf/coating.hpp"
 #include "render/bsdf/refraction_loss.hpp"
 #include "render/bsdf/sheen.hpp"
-#include "support/scattering.hpp"
+#include "support/shading/scattering.hpp"
 #include "support/source_folder.hpp"
 #include "tables/albedos.hpp"
 #include "tables/header_text.hpp"
