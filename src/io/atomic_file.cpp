@@ -29,7 +29,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
 }
 
-/// The file descriptor N of "-", /dev/fd/N or /proc/self/fd/N, to which /dev/stdout is a link.
+/// If the path is "-" or the name of an open descriptor, returns the descriptor's number. Knows
+/// /dev/fd/N and /proc/self/fd/N, to which /dev/stdout links.
 std::optional<int> descriptor_number(const fs::path& path) {
   if (path == "-") return STDOUT_FILENO;
   const fs::path folder = path.parent_path();
@@ -41,10 +42,10 @@ std::optional<int> descriptor_number(const fs::path& path) {
   return number;
 }
 
-/// Follows symbolic links in the last component of the path, even if the final file does not exist
-/// yet.
+/// Follows symbolic links in the last component of the path. The file at the end of the links need
+/// not exist.
 fs::path follow_links(fs::path path) {
-  constexpr int kMaxLinks = 40;  // as the kernel's limit
+  constexpr int kMaxLinks = 40;  // the limit of Linux
   std::error_code ignored;
   for (int links = 0; links < kMaxLinks; ++links) {
     if (descriptor_number(path) || !fs::is_symlink(path, ignored)) return path;
@@ -71,7 +72,8 @@ bool is_stream_resolved(const fs::path& target) {
                                        !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
-/// The permissions of the file that will be replaced, if it exists.
+/// Checks that the target can be replaced. Returns the permissions of the existing file, if there
+/// is one.
 std::optional<mode_t> check_resolved(const fs::path& named, const fs::path& target) {
   if (!target.has_filename()) fail_to_write(named, EISDIR, "name a file");
   struct stat status {};
@@ -138,7 +140,7 @@ void AtomicFile::open_temporary() {
     temporary_.clear();
     fail(error, "name a file in a folder that may be written to");
   }
-  // Some file systems have no permissions; this must not make the write fail.
+  // Some file systems don't support permissions. The write must not fail there.
   if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
 }
 
@@ -157,7 +159,7 @@ void AtomicFile::close() {
   if (descriptor_ < 0) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  // After EINTR Linux has closed the descriptor, and the kernel has the data.
+  // If close() is interrupted (EINTR), Linux has closed the descriptor and the kernel has the data.
   if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
 }
 

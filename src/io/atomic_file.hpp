@@ -1,16 +1,17 @@
 #pragma once
-/// Output files that appear whole or not at all.
+/// Writes output files that appear completely or not at all.
 
 #include <filesystem>
 #include <string_view>
 
 namespace microtrace::io {
 
-/// An output file that is being written: a temporary file in the target's folder until commit()
-/// renames it; the destructor removes an uncommitted file. A target behind a symbolic link is
-/// replaced at the link's target, and keeps its permissions. Devices, pipes, "-" and the names of
-/// open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written directly. All
-/// members except the destructor throw Error(io) with the path and the system's reason.
+/// An output file that is being written. It is a temporary file in the target's folder until
+/// commit() renames it. The destructor removes an uncommitted file. If the target is a symbolic
+/// link, the file that it leads to is replaced and keeps its permissions. Devices, pipes, "-" and
+/// the names of open descriptors (/dev/stdout, /dev/fd/N) can't be replaced and are written
+/// directly. All members except the destructor throw Error(io) with the path and the system's
+/// reason.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::filesystem::path& target);
@@ -31,14 +32,14 @@ class AtomicFile {
   void discard() noexcept;
   [[noreturn]] void fail(int error, std::string_view remedy);
 
-  std::filesystem::path named_;      ///< as the caller named it, for messages
-  std::filesystem::path target_;     ///< with a final symbolic link resolved
-  std::filesystem::path temporary_;  ///< empty if written directly, or after renaming
+  std::filesystem::path named_;      ///< path as given by the caller, for messages
+  std::filesystem::path target_;     ///< path after following a final symbolic link
+  std::filesystem::path temporary_;  ///< empty if the target is written directly, or after renaming
   int descriptor_ = -1;
-  int slot_ = -1;  ///< in the list of unfinished files; -1 if not listed
+  int slot_ = -1;  ///< slot in the list of unfinished files; -1 if not listed
 };
 
-/// Throws Error(io) if an AtomicFile for this target would fail immediately. Has no side effects.
+/// Throws Error(io) if creating an AtomicFile for this target would fail now. Has no side effects.
 void check_target(const std::filesystem::path& target);
 
 /// True if the target is written directly, because it is an open descriptor or an existing file

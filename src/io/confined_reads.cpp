@@ -12,7 +12,7 @@
 namespace microtrace::io {
 namespace {
 
-/// The thread's last ConfinedReads, or null.
+/// The innermost ConfinedReads of this thread, or null.
 thread_local const ConfinedReads* confinement = nullptr;
 
 }  // namespace
@@ -45,7 +45,7 @@ void ConfinedReads::require(const std::filesystem::path& path, std::optional<int
   if (confinement == nullptr) return;
   std::error_code code;
   const std::filesystem::path real = std::filesystem::canonical(path, code);
-  if (code && !descriptor) return;  // opening it reports the reason
+  if (code && !descriptor) return;  // the attempt to open the file will report the reason
   if (!code && !lies_within(confinement->folders_, real)) {
     throw Error(ErrorKind::invalid_scene, path.string(),
                 "is a link out of the scene's folder, to " + in_quotes(real.string()) +

@@ -19,7 +19,7 @@ using Header = ElfW(Ehdr);
 using Segment = ElfW(Phdr);
 using Section = ElfW(Shdr);
 
-/// An open file, read at any offset.
+/// An open file that can be read at any offset.
 class File {
  public:
   explicit File(const std::filesystem::path& path)
@@ -45,7 +45,7 @@ class File {
     return offset <= size_ && size <= size_ - offset;
   }
 
-  /// Fills `items` from this offset on; clears them if the file is too short.
+  /// Reads `items` from this offset. Clears them if the file is too short.
   template <class T>
   void read(std::uint64_t offset, std::vector<T>& items) const {
     const std::size_t size = items.size() * sizeof(T);
@@ -79,7 +79,7 @@ std::string damage_of_elf_file(const std::filesystem::path& path) {
   if (header.empty() || !is_of_this_machine(header[0])) {
     return "it is not a shared library for this machine";
   }
-  // The section table is at the end of the file: if it is complete, nothing was cut off.
+  // The section table is at the end of the file. If it is complete, the file was not cut off.
   std::vector<Segment> segments(header[0].e_phnum);
   std::vector<Section> sections(header[0].e_shnum);
   file.read(header[0].e_phoff, segments);
@@ -90,8 +90,8 @@ std::string damage_of_elf_file(const std::filesystem::path& path) {
   const auto holds_section = [&](const Section& section) {
     return section.sh_type == SHT_NOBITS || file.holds(section.sh_offset, section.sh_size);
   };
-  // Only the first section has no type. Others without a type mean that zeros overwrote the end of
-  // the file.
+  // In a valid file, only the first section has type null. Further ones mean that zeros overwrote
+  // the end of the file.
   const auto is_null = [](const Section& section) { return section.sh_type == SHT_NULL; };
   const bool is_whole = !segments.empty() && std::ranges::all_of(segments, holds_segment) &&
                         std::ranges::count_if(sections, is_null) == 1 &&

@@ -18,9 +18,9 @@
 namespace microtrace::io {
 namespace {
 
-/// The hash of the thread's last ReadDigest, or null.
+/// The hash of the innermost ReadDigest of this thread, or null.
 thread_local Digest* digest_of_reads = nullptr;
-/// The thread's last ReadFiles, or null.
+/// The innermost ReadFiles of this thread, or null.
 thread_local ReadFiles* files_read = nullptr;
 
 std::optional<FileIdentity> identity_of(const struct stat& status) {
@@ -59,7 +59,7 @@ Descriptor open_file(const std::filesystem::path& path, int flags) {
   return Descriptor(number);
 }
 
-/// Reads until `bytes` has the size `wanted` or the file ends; returns true at its end.
+/// Reads until `bytes` has `wanted` bytes or the file ends. Returns true if the file ended.
 bool fill(int descriptor, const std::string& name, std::string& bytes, std::size_t wanted) {
   std::size_t have = bytes.size();
   take_memory(wanted - have, "the bytes of " + name);
@@ -89,7 +89,8 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   if (claimed > limit) fail_too_large(name, limit);
 
-  // Reading one byte beyond the limit, or beyond the reported size, shows whether there is more.
+  // To detect whether the file is longer than the limit or its reported size, one byte more is
+  // requested.
   std::string bytes;
   bool ended = fill(descriptor, name, bytes, std::min(kChunk, limit + 1));
   if (inspect) inspect(bytes);

@@ -12,19 +12,19 @@ namespace microtrace::io {
 /// Maximum size of an input file. Larger scenes would not fit in memory.
 inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 
-/// The bytes of a regular file, a pipe or a device. Throws Error: io for a missing file, a
+/// Returns the bytes of a regular file, a pipe or a device. Throws Error: io for a missing file, a
 /// directory or an unreadable file, limit for more than `limit` bytes. The reported size is checked
-/// before memory is allocated; for files without a size the buffer grows. `inspect` receives the
-/// first bytes (64 KiB, or all of a smaller file) before the rest is read, and may throw to reject
-/// the file early.
+/// before memory is allocated. For files without a reported size, the buffer grows. `inspect`
+/// receives the first bytes (64 KiB, or all of a smaller file) before the rest is read. It may
+/// throw to reject the file early.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect = {});
 
-/// The bytes of a regular file, for files named by other files: a pipe could block forever, and a
-/// device has no end. Throws Error: io also for other kinds of files.
+/// Returns the bytes of a file named by another file, which must be a regular file: a pipe could
+/// block forever, and a device has no end. Throws Error: io also for other kinds of files.
 [[nodiscard]] std::string read_regular_file(const std::filesystem::path& path, std::size_t limit);
 
-/// Like read_file, for the rest of an open descriptor; error messages use `name`.
+/// Like read_file, but reads the rest of an open descriptor. Error messages use `name`.
 [[nodiscard]] std::string read_descriptor(int descriptor, const std::string& name,
                                           std::size_t limit,
                                           const std::function<void(std::string_view)>& inspect);

@@ -1,5 +1,5 @@
 #pragma once
-/// Measures the stages of loading one after another.
+/// Measures the duration of successive stages of loading.
 
 #include <microtrace/io.hpp>
 
@@ -9,7 +9,7 @@ namespace microtrace::io {
 
 class LoadClock {
  public:
-  /// With null `times`, nothing is recorded.
+  /// If `times` is null, nothing is recorded.
   explicit LoadClock(LoadTimes* times) : times_(times) {}
 
   /// Adds the time since the last call, or since construction, to this stage.

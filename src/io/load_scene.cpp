@@ -28,17 +28,17 @@ std::string lower_case_extension(const std::filesystem::path& path) {
   return extension;
 }
 
-/// Extensions of other common scene formats.
+/// File extensions of other common scene formats.
 constexpr std::array<std::string_view, 17> kForeignExtensions{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
-/// The text after white space and a byte order mark.
+/// The text without leading white space and byte order mark.
 std::string_view behind_space(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size()));
 }
 
-/// Throws if the extension is that of another format and the bytes are neither JSON nor GLB.
+/// Throws if the file has the extension of another format and its bytes are neither JSON nor GLB.
 void refuse_foreign_format(const std::string& extension, std::string_view first,
                            const std::string& name) {
   if (std::ranges::find(kForeignExtensions, extension) == kForeignExtensions.end()) return;
@@ -50,11 +50,12 @@ void refuse_foreign_format(const std::string& extension, std::string_view first,
                   extension + " out.glb)");
 }
 
-/// Throws if no JSON text can start like this, so that garbage is not read to its end.
+/// Throws if no JSON text can start with these bytes. A long file that is not JSON is thus not read
+/// to its end.
 void require_start_of_json(std::string_view first, const std::string& name) {
   const std::string_view text = behind_space(first);
   if (text.empty()) return;
-  // Any other start is a token that is not JSON, and complete within a chunk.
+  // Any other first character begins an invalid token that is complete within this chunk.
   const bool may_go_on =
       std::string_view("{[\"-0123456789tfn").find(text[0]) != std::string_view::npos;
   if (!may_go_on) const io::JsonDocument document(first, name);
@@ -62,8 +63,8 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 
 using Reader = std::variant<io::JsonDocument, io::GltfFile>;
 
-/// `extension` is the file's extension in lower case; for other extensions the content selects the
-/// format.
+/// Opens a scene. `extension` is the file's extension in lower case. If it is not a known one, the
+/// content selects the format.
 Reader open(std::string_view bytes, const std::string& extension, const std::string& name,
             const std::filesystem::path& folder, const LoadOptions& options) {
   if (extension == ".gltf" || extension == ".glb" || bytes.starts_with(kGlbMagic)) {
@@ -72,7 +73,7 @@ Reader open(std::string_view bytes, const std::string& extension, const std::str
   io::LoadClock clock(options.times);
   io::JsonDocument document(bytes, name);
   clock.lap(&LoadTimes::validate);
-  // Every glTF asset has the member "asset", and no scene of our format has.
+  // Every glTF asset has the member "asset", and no scene in microtrace's own format has it.
   if (extension != ".json" && document.root().find("asset") != nullptr) {
     return io::GltfFile(bytes, name, folder, options);
   }

@@ -7,7 +7,7 @@
 #include <sys/auxv.h>
 #include <system_error>
 
-/// Defined in programs that CMake links with the static library.
+/// Defined in programs to which CMake links the static library.
 extern "C" [[gnu::weak, gnu::visibility("hidden")]] const char microtrace_module_folder[];
 
 namespace microtrace::io {
@@ -23,9 +23,9 @@ fs::path folder_of(const char* file) {
   return error ? fs::path() : path.parent_path();
 }
 
-/// A folder relative to the program or the shared library that contains this function. The dynamic
-/// linker knows the path of a shared library. For the program it uses argv, which is unreliable, so
-/// the path is taken from the kernel.
+/// The module folder relative to the program or the shared library that contains this function. The
+/// dynamic linker knows the path of a shared library. For the program it uses argv, which is
+/// unreliable. The program's path is therefore taken from the kernel.
 fs::path beside_library() {
   Dl_info info{};
   link_map* object = nullptr;

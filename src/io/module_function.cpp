@@ -18,7 +18,7 @@ std::string last_complaint(const std::string& otherwise) {
 }  // namespace
 
 Module open_module(const char* file) {
-  const FloatEnvironment environment;  // libraries compute tables when loaded
+  const FloatEnvironment environment;  // protects the tables that libraries compute when loaded
   Module result;
   for (const std::filesystem::path& folder : module_folders()) {
     const std::filesystem::path path = folder / file;

@@ -1,5 +1,5 @@
 #pragma once
-/// Functions of modules that are loaded on demand.
+/// Looks up functions in modules that are loaded on demand.
 
 #include <filesystem>
 #include <string>
@@ -7,18 +7,18 @@
 namespace microtrace::io {
 
 struct Module {
-  void* handle = nullptr;        ///< for dlsym; null if it can't be loaded
-  std::filesystem::path path{};  ///< empty if there is no such file
-  std::string complaint{};       ///< the reason why a file can't be loaded
-  std::string sought{};          ///< the searched folders, separated by commas, if there is no file
+  void* handle = nullptr;        ///< handle for dlsym; null if the module can't be loaded
+  std::filesystem::path path{};  ///< empty if no file was found
+  std::string complaint{};       ///< reason why the file can't be loaded
+  std::string sought{};          ///< searched folders, separated by commas, if no file was found
 };
 
-/// Loads the module with this file name from the first of module_folders() that has it.
+/// Loads the module with this file name from the first folder of module_folders() that contains it.
 [[nodiscard]] Module open_module(const char* file);
 
 struct ModuleFunction {
   void* address = nullptr;
-  std::string complaint{};  ///< if there is no function: the module and the searched folders
+  std::string complaint{};  ///< states the module and the searched folders if there is no function
 };
 
 /// Opens the module and looks up the function.

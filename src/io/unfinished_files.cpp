@@ -21,7 +21,7 @@ struct Slot {
 
 static_assert(std::atomic<State>::is_always_lock_free, "a signal handler reads it");
 
-// Static storage, because a signal handler may use nothing else.
+// Static, because a signal handler can't use other kinds of storage safely.
 std::array<Slot, 8> slots;
 
 }  // namespace

@@ -1,14 +1,14 @@
 #pragma once
-/// The list of existing temporary files, which remove_unfinished_files() of <microtrace/io.hpp>
-/// removes in a signal handler.
+/// Lists the temporary files that exist. The signal handler calls remove_unfinished_files() of
+/// <microtrace/io.hpp>, which removes them.
 
 namespace microtrace::io {
 
-/// Lists a path before its file is created. Returns its slot, or -1 if the list is full or the path
-/// too long; then only the AtomicFile's destructor removes the file.
+/// Adds a path to the list before its file is created. Returns its slot, or -1 if the list is full
+/// or the path is too long. In the latter case, only the AtomicFile's destructor removes the file.
 [[nodiscard]] int note_unfinished_file(const char* path) noexcept;
 
-/// Frees a slot; -1 is ignored.
+/// Frees a slot. Ignores -1.
 void forget_unfinished_file(int slot) noexcept;
 
 }  // namespace microtrace::io

@@ -11,7 +11,7 @@
 namespace microtrace {
 namespace {
 
-/// Values by name, in the order of names.
+/// Splits an identity into its entries: values by option name, sorted by name.
 std::map<std::string, std::string, std::less<>> entries_of(std::string_view identity) {
   std::map<std::string, std::string, std::less<>> entries;
   while (!identity.empty()) {
@@ -23,7 +23,7 @@ std::map<std::string, std::string, std::less<>> entries_of(std::string_view iden
   return entries;
 }
 
-/// The first entry that differs, as a message: "made with --seed 1, not with --seed 2".
+/// A message about the first entry that differs, such as "made with --seed 1, not with --seed 2".
 std::string difference(std::string_view there, std::string_view here) {
   const auto theirs = entries_of(there), ours = entries_of(here);
   for (const auto& [name, value] : theirs) {

@@ -22,7 +22,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
 
-  /// Nothing if fewer bytes are left.
+  /// Returns nothing if fewer than `size` bytes are left.
   [[nodiscard]] std::optional<std::string_view> take(std::size_t size) {
     if (bytes_.size() < size) return std::nullopt;
     const std::string_view taken = bytes_.substr(0, size);
@@ -30,7 +30,7 @@ class ByteReader {
     return taken;
   }
 
-  /// If too few bytes are left, sets is_short() and returns 0.
+  /// Reads one number. If too few bytes are left, sets is_short() and returns 0.
   template <std::unsigned_integral Number>
   [[nodiscard]] Number number() {
     const auto taken = take(sizeof(Number));

@@ -12,9 +12,9 @@
 #include <string>
 #include <string_view>
 
-// File format: magic, version, the members in the order below, the pixels, and a digest of
-// everything before it. All numbers are unsigned and little-endian; float32 are stored as their
-// bits.
+// The file contains a magic text, a version, the members in the order in which the functions below
+// read them, the pixels, and a digest of everything before it. All numbers are unsigned and
+// little-endian. Floating-point numbers are stored as their bits.
 
 namespace microtrace {
 namespace {
@@ -23,7 +23,7 @@ constexpr std::string_view kMagic = "microtrace samples\n";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kPixelBytes = 10 * 8 + 4;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
-constexpr std::uint32_t kMostSamples = 65536;  // per pixel; also limits ranges of samples
+constexpr std::uint32_t kMostSamples = 65536;  // per pixel; sample ranges end at or below it
 constexpr std::uint32_t kMaxIdentity = 1U << 20U;
 
 /// Calls f(number) for each number of a pixel, in file order.
@@ -69,7 +69,7 @@ std::string encode_head(const Checkpoint& checkpoint) {
   fail(path, "is damaged or was cut off; remove it and render its samples again");
 }
 
-/// Decodes the members between the version and the pixels; the number of pixels is then that of the
+/// Decodes the members between the version and the pixels. The result has as many pixels as its
 /// window.
 Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path) {
   const auto word = [&] { return reader.number<std::uint32_t>(); };

@@ -1,6 +1,7 @@
 #pragma once
-/// The C interface between the library and its module of image codecs. Any change requires a new
-/// number in the function's name, so that an old module is refused instead of misread.
+/// The C interface between the library and its module of image codecs. If the interface changes,
+/// the number in the functions' names must change too. An old module is then refused instead of
+/// called with the wrong arguments.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,42 +16,42 @@ struct MicrotraceImageHeader {
 
 struct MicrotraceImageSink {
   void* context;  ///< passed to the functions
-  /// Returns the buffer for the samples, row by row from the upper left; null stops decoding.
-  /// Called once.
+  /// Returns a buffer for the samples, row by row from the upper left. Null stops decoding. Called
+  /// once.
   void* (*begin)(void* context, const MicrotraceImageHeader* header);
-  /// Receives the reason of a failure, or a warning about a file that was decoded nevertheless.
+  /// Receives the reason for a failure, or a warning about a file that was decoded nevertheless.
   /// Neither function throws.
   void (*complain)(void* context, const char* text);
 };
 
-/// Decodes a PNG, JPEG, WebP or KTX2 file; returns 1 on success, else 0. ICC profiles and gamma are
-/// ignored.
+/// Decodes a PNG, JPEG, WebP or KTX2 file. Returns 1 on success, else 0. Ignores ICC profiles and
+/// gamma.
 using MicrotraceDecode = int (*)(const void* bytes, std::size_t size,
                                  const MicrotraceImageSink* sink);
 
-/// A tEXt chunk.
+/// The content of a PNG file's tEXt chunk.
 struct MicrotracePngText {
   const char* keyword;  ///< 1 to 79 Latin-1 characters
   const char* text;
 };
 
-/// A picture with 8 bits per sample, and the output callbacks. No function throws.
+/// A picture with 8 bits per sample, and the callbacks of the encoder. No callback throws.
 struct MicrotracePng {
   std::uint32_t width, height;
   std::uint32_t channels;  ///< 3: rgb, 4: rgb and unassociated alpha
-  std::uint32_t is_srgb;   ///< 0: the file has no color space
+  std::uint32_t is_srgb;   ///< if 0, the file states no color space
   const MicrotracePngText* texts;
   std::size_t text_count;
   void* context;  ///< passed to the functions
-  /// Returns the samples of a row; called once per row, from the top.
+  /// Returns the samples of row y. Called once per row, from top to bottom.
   const unsigned char* (*row)(void* context, std::uint32_t y);
-  /// Receives the next bytes of the file; returning 0 stops writing.
+  /// Receives the next bytes of the file. A result of 0 stops the encoder.
   int (*take)(void* context, const void* bytes, std::size_t size);
-  void (*complain)(void* context, const char* text);  ///< receives the reason of a failure
+  void (*complain)(void* context, const char* text);  ///< receives the reason for a failure
 };
 
-/// Writes a PNG file that depends only on the argument; returns 1 if all bytes were accepted, else
-/// 0.
+/// Writes a PNG file whose bytes depend only on the argument. Returns 1 if all bytes were accepted,
+/// else 0.
 using MicrotraceEncodePng = int (*)(const MicrotracePng* picture);
 }
 

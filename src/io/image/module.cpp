@@ -13,7 +13,7 @@
 namespace microtrace::io {
 namespace {
 
-/// log4cplus starts four threads.
+/// The number of threads that log4cplus, a dependency of OpenImageIO, starts.
 constexpr unsigned kThreadsOfLibraries = 4;
 
 void* load_module(const FormatModule& format_module, const std::string& file) {
@@ -38,8 +38,8 @@ Function find_function(void* module, const char* name, const std::string& file) 
       "its module belongs to another version of microtrace; install both from the same build");
 }
 
-/// The targets of sinks. Exceptions must not propagate through the module's frames, so they are
-/// stored here.
+/// The receivers of a module's output. Exceptions must not propagate through the module's frames,
+/// so they are stored here.
 struct Sinks {
   const std::function<void(std::string_view)>& out;
   std::string reason;
@@ -65,14 +65,13 @@ void take_reason(void* context, const char* bytes, std::size_t size) {
 void require_threads(const FormatModule& module, const std::string& file) {
   if (!module.starts_threads) return;
   const auto require = [&] {
-    // OpenImageIO itself starts one thread per processor.
+    // OpenImageIO itself starts one more thread per processor.
     if (can_start_threads(kThreadsOfLibraries + default_threads())) return true;
     throw Error(ErrorKind::limit, file,
                 "needs OpenImageIO, whose libraries start more threads than the limits on "
                 "processes and memory allow; raise these, or use .ppm, .png or .exr");
   };
-  // Checked once: threads that already run need not start again. After a failure the check is
-  // repeated.
+  // Checked only until it succeeds, because threads that run already need not start again.
   static const bool is_granted = require();
   static_cast<void>(is_granted);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// The modules of image formats other than PPM and PNG. Each is loaded when first needed:
-/// OpenImageIO and the 260 libraries it depends on take a quarter of a second and 130 MB.
+/// The modules of image formats other than PPM and PNG. Each is loaded when first needed, because
+/// OpenImageIO and the 260 libraries on which it depends take a quarter of a second and 130 MB.
 
 #include "io/image/module_abi.hpp"
 
@@ -14,10 +14,10 @@ namespace microtrace::io {
 
 struct FormatModule {
   const char* file;
-  const char* package;  ///< Debian package needed to build the module
+  const char* package;  ///< name of the Debian package that is needed to build the module
   const char* target;   ///< CMake target of the module
-  /// Libraries of the module start threads while they are loaded, and terminate the process if this
-  /// fails, as dependencies of Debian's OpenImageIO do.
+  /// True if libraries of the module start threads while they are loaded, and end the process if
+  /// they can't. Dependencies of Debian's OpenImageIO do this.
   bool starts_threads = false;
 };
 
@@ -26,20 +26,20 @@ struct FormatModule {
 [[nodiscard]] const FormatModule& module_for(std::string_view extension);
 
 /// Must be called before the module is loaded for `file`. Throws Error (limit) if the module starts
-/// threads that the system would refuse.
+/// more threads than the system allows.
 void require_threads(const FormatModule& module, const std::string& file);
 
 class ImageModule {
  public:
-  /// Loads the module for this extension, once per process. `file` is named in messages. Throws
-  /// Error(unsupported) with the searched folders.
+  /// Loads the module for this extension, once per process. Messages name `file`. Throws
+  /// Error(unsupported) that lists the searched folders.
   ImageModule(std::string file, std::string_view extension);
 
   /// The pixel format of files with this extension (lower case, no dot). Throws Error(usage) if the
   /// module can't write them.
   [[nodiscard]] MicrotraceFormat find_format(const std::string& extension) const;
 
-  /// Passes the bytes of the whole picture file to `out`. Throws Error(io).
+  /// Passes all bytes of the picture's file to `out`. Throws Error(io).
   void encode(const Film& film, const std::string& extension,
               const std::function<void(std::string_view)>& out) const;
 

@@ -1,18 +1,20 @@
 #pragma once
-/// The C interface between the library and its modules of image formats: OpenEXR for .exr,
-/// OpenImageIO for all others except PPM and PNG. Any change requires a new number in the
-/// functions' names, so that an old module is refused instead of misread.
+/// The C interface between the library and its modules of image formats: OpenEXR for .exr, and
+/// OpenImageIO for all others except PPM and PNG. If the interface changes, the number in the
+/// functions' names must change too. An old module is then refused instead of called with the wrong
+/// arguments.
 
 #include <cstddef>
 #include <cstdint>
 
 extern "C" {
 
-/// The pixel format of files with one extension.
+/// The pixel format of files with a given extension.
 struct MicrotraceFormat {
-  std::int32_t is_float;      ///< linear float32, else 8 bits
-  std::int32_t has_alpha;     ///< in addition to red, green and blue
-  std::int32_t has_channels;  ///< any number, with any names and any MicrotraceNumber
+  std::int32_t is_float;      ///< linear float32 if nonzero, else 8 bits
+  std::int32_t has_alpha;     ///< nonzero if alpha is stored with red, green and blue
+  std::int32_t has_channels;  ///< nonzero if any number of channels with any names and any
+                              ///< MicrotraceNumber is stored
 };
 
 enum MicrotraceNumber : std::int32_t {
@@ -23,9 +25,9 @@ enum MicrotraceNumber : std::int32_t {
 };
 
 struct MicrotraceChannel {
-  const char* name;    ///< R, G, B, then A if there is alpha, then others
+  const char* name;    ///< R, G, B, then A if there is alpha, then further channels
   const void* first;   ///< value of the upper left pixel
-  std::size_t stride;  ///< bytes from pixel to pixel; rows are contiguous
+  std::size_t stride;  ///< bytes between neighboring pixels; rows are contiguous
   MicrotraceNumber number;
 };
 
@@ -35,27 +37,27 @@ struct MicrotraceNote {
   const char* text;
 };
 
-/// 8-bit alpha is unassociated, float alpha is premultiplied.
+/// A picture to encode. Alpha is unassociated if it has 8 bits, and premultiplied if it is float.
 struct MicrotracePicture {
   std::uint32_t width, height;
   std::uint32_t x0, y0;  ///< position of the upper left pixel in the whole picture
   std::uint32_t whole_width, whole_height;  ///< size of the whole picture
-  std::int32_t is_color;                    ///< sRGB if 8 bits; otherwise arbitrary numbers
+  std::int32_t is_color;  ///< nonzero: 8-bit samples are sRGB; zero: samples are arbitrary numbers
   const MicrotraceChannel* channels;
   std::size_t channel_count;
   const MicrotraceNote* notes;
   std::size_t note_count;
 };
 
-/// Receives text or bytes; `context` is the caller's. Never throws.
+/// Receives text or bytes. `context` belongs to the caller. Never throws.
 using MicrotraceSink = void (*)(void* context, const char* bytes, std::size_t size);
 
-/// If pictures with this extension (lower case, no dot) can be written, describes them and returns
-/// 1, else returns 0.
+/// If pictures with this extension (lower case, no dot) can be written, sets `format` and returns
+/// 1. Otherwise returns 0.
 using MicrotraceFindFormat = int (*)(const char* extension, MicrotraceFormat* format);
 
-/// Passes the bytes of the picture's file to `out` and returns 0, or passes a reason to `error` and
-/// returns 1. The channels must match the format.
+/// Passes the bytes of the picture's file to `out` and returns 0. If it fails, passes a reason to
+/// `error` and returns 1. The channels must match the format.
 using MicrotraceEncode = int (*)(const MicrotracePicture* picture, const char* extension,
                                  MicrotraceSink out, MicrotraceSink error, void* context);
 
@@ -68,15 +70,15 @@ struct MicrotraceColors {
 
 struct MicrotraceColorSink {
   void* context;  ///< passed to the functions
-  /// Returns the buffer for the samples, row by row from the upper left; null stops decoding.
-  /// Called once.
+  /// Returns a buffer for the samples, row by row from the upper left. Null stops decoding. Called
+  /// once.
   void* (*begin)(void* context, const MicrotraceColors* colors);
-  /// Receives the reason of a failure. Neither function throws.
+  /// Receives the reason for a failure. Neither function throws.
   void (*complain)(void* context, const char* text);
 };
 
-/// Decodes the first picture of a file with this extension (lower case, no dot) without its alpha.
-/// Returns 1, or complains and returns 0.
+/// Decodes the first picture of a file with this extension (lower case, no dot), without its alpha.
+/// Returns 1 on success. Otherwise calls complain() and returns 0.
 using MicrotraceDecodeColors = int (*)(const void* bytes, std::size_t size, const char* extension,
                                        const MicrotraceColorSink* sink);
 }

@@ -20,8 +20,8 @@ namespace {
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kWhitespace = " \t\r\n";
 
-/// Builds the tree from nlohmann-json's events. The events have no positions, but between two of
-/// them are only white space and at most one comma or colon, so the start of each token follows
+/// Builds the tree from nlohmann-json's events, which have no positions. Between two events there
+/// are only white space and at most one comma or colon. The start of each token therefore follows
 /// from the end of the previous one.
 class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
  public:
@@ -63,7 +63,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return scalar(std::move(result), string_end(text_, start) - start);
   }
 
-  bool binary(binary_t& /*value*/) override { return false; }  // never occurs in JSON texts
+  bool binary(binary_t& /*value*/) override { return false; }  // never called for JSON texts
   bool start_object(std::size_t /*size*/) override { return open(JsonValue::Kind::object); }
   bool start_array(std::size_t /*size*/) override { return open(JsonValue::Kind::array); }
 
@@ -93,21 +93,22 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
       fail(ErrorKind::invalid_scene, context.token,
            "the number is out of range; the largest is about 1.8e308");
     }
-    // what() is "... syntax error while parsing value - REASON; last read: ..."
+    // what() has the form "... syntax error while parsing value - REASON; last read: ...".
     std::string_view reason = error.what();
     reason.remove_prefix(std::min(reason.find(" - ") + 3, reason.size()));
     reason = reason.substr(0, reason.find("; last read"));
     fail(explain(text_, context, reason));
   }
 
-  /// The parser treats a zero byte as the end of the text.
+  /// Throws Error if anything follows the root value. The parser would stop at a zero byte.
   void require_end() const {
     const SyntaxContext context = next_token();
     if (context.token != text_.size()) fail(explain_misplaced(text_, context));
   }
 
  private:
-  /// Memory is counted for this many values at a time, including unused capacity of their vectors.
+  /// Memory is counted in blocks of this many values. A value's size includes the unused capacity
+  /// of vectors.
   static constexpr std::size_t kBlock = 1024, kBytesOfValue = 2 * sizeof(JsonValue);
   static constexpr std::size_t kLongString = 256;
 
@@ -177,7 +178,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     const std::size_t start = next_token().token;
     JsonValue result = of_kind(JsonValue::Kind::number);
     result.is_integer = is_integer;
-    // The lexer reads -0 as the integer 0.
+    // nlohmann's lexer reads -0 as the integer 0.
     result.number = text_[start] == '-' ? -std::abs(value) : value;
     return scalar(std::move(result), number_end(text_, start) - start);
   }
@@ -185,11 +186,11 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonValue::Kind kind) {
     const std::size_t start = next_token().token;
     if (open_.size() == kMaxJsonDepth) {
-      // The pointer would be extremely long.
+      // The error has no pointer, because it would be extremely long.
       throw Error(ErrorKind::limit,
                   document_.at(start, "", "arrays and objects are nested more than 256 deep"));
     }
-    // Values are only added to the innermost open one, so the pointers remain valid.
+    // New values are only added to the innermost open one, so the other pointers remain valid.
     open_.push_back(&add(of_kind(kind), start));
     end_ = start + 1;
     last_ = Last::open;
@@ -216,8 +217,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     });
   }
 
-  /// A pointer may be as long as the text, so it is only created for a key that may be the first
-  /// one in the text; only enclosing objects can have earlier ones.
+  /// Records duplicate keys. A pointer may be as long as the text, so it is only made for a key
+  /// that may be the first duplicate in the text. Only enclosing objects can contain earlier ones.
   void note_outdone(const JsonValue& object, const std::vector<std::size_t>& offsets) {
     const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
     outdone_keys_.count += offsets.size();
@@ -228,7 +229,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     outdone_keys_.pointer = child(pointer(), first->key);
   }
 
-  /// The pointer to the innermost open value, or to the member whose key was read last.
+  /// The pointer to the innermost open value, or to the member whose key was read most recently.
   [[nodiscard]] std::string pointer() const {
     std::string out;
     for (const JsonValue* value : open_) {

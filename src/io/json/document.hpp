@@ -1,5 +1,5 @@
 #pragma once
-/// A JSON text with the position of every value, so that errors can name file, line, column and
+/// A JSON text with the position of every value. Errors can therefore state file, line, column and
 /// pointer.
 
 #include <microtrace/error.hpp>
@@ -14,9 +14,10 @@
 
 namespace microtrace::io {
 
-inline constexpr std::size_t kMaxJsonDepth = 256;                    ///< maximum nesting
-inline constexpr std::size_t kMaxJsonSize = std::size_t{1} << 30;    ///< bytes
-inline constexpr std::size_t kMaxJsonValues = std::size_t{1} << 24;  ///< total number of values
+inline constexpr std::size_t kMaxJsonDepth = 256;                  ///< maximum nesting depth
+inline constexpr std::size_t kMaxJsonSize = std::size_t{1} << 30;  ///< maximum size in bytes
+inline constexpr std::size_t kMaxJsonValues = std::size_t{1}
+                                              << 24;  ///< maximum total number of values
 
 struct JsonMember;
 
@@ -25,26 +26,26 @@ struct JsonValue {
 
   Kind kind = Kind::null;
   bool boolean = false;
-  bool is_integer = false;  ///< number written without fraction or exponent and within +-2^53
+  bool is_integer = false;  ///< true if written without fraction or exponent, and within +-2^53
   double number = 0;        ///< always finite
   std::string string;
   std::vector<JsonValue> items;     ///< elements of an array
-  std::vector<JsonMember> members;  ///< of an object, in file order, keys unique
+  std::vector<JsonMember> members;  ///< members of an object, in file order, with unique keys
   std::size_t offset = 0;           ///< byte offset of the value
-  std::size_t key_offset = 0;       ///< byte offset of its key, in an object
+  std::size_t key_offset = 0;       ///< byte offset of the value's key, if it is a member
 
   /// The member with this name, or null.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
   [[nodiscard]] JsonValue* find(std::string_view key);
 
-  /// Must be called after adding or removing members, because find() uses an index.
+  /// Rebuilds the index that find() uses. Must be called after members were added or removed.
   void index_members();
 
  private:
-  /// The index of the member with this name, or the number of members.
+  /// The index of the member with this name. Equal to the number of members if it is absent.
   [[nodiscard]] std::size_t position(std::string_view key) const;
 
-  /// The indices of the members sorted by key, if there are many.
+  /// The members' indices sorted by key. Null if there are few members.
   std::shared_ptr<const std::vector<std::uint32_t>> by_key_{};
 };
 
@@ -53,22 +54,22 @@ struct JsonMember {
   JsonValue value;
 };
 
-/// The handling of duplicate keys in an object.
+/// The treatment of duplicate keys in an object.
 enum class RepeatedKeys { are_refused, last_counts };
 
 /// The duplicate keys of a document.
 struct OutdoneKeys {
   std::size_t count = 0;
-  std::size_t offset = 0;  ///< byte offset of the first one
-  std::string pointer{};   ///< to its object and key
+  std::size_t offset = 0;  ///< byte offset of the first duplicate key
+  std::string pointer{};   ///< JSON pointer to this key's member
 };
 
 class JsonDocument {
  public:
-  /// Parses a whole text (RFC 8259); a leading UTF-8 byte order mark is skipped. Throws Error
-  /// (invalid_scene; limit if one of the maxima above is exceeded) with line, column and excerpt if
-  /// the text is not JSON, not UTF-8, has a number beyond the range of double, or a duplicate key
-  /// in an object.
+  /// Parses a whole text (RFC 8259). Skips a leading UTF-8 byte order mark. Throws Error
+  /// (invalid_scene) with line, column and excerpt if the text is not JSON, is not UTF-8, or has a
+  /// number beyond the range of double or a duplicate key in an object. Throws Error (limit) if one
+  /// of the maxima above is exceeded.
   JsonDocument(std::string_view text, std::string file, std::size_t max_values = kMaxJsonValues,
                RepeatedKeys repeated = RepeatedKeys::are_refused);
 
@@ -78,23 +79,23 @@ class JsonDocument {
   /// Keys that were replaced by later ones with the same name.
   [[nodiscard]] const OutdoneKeys& outdone_keys() const { return outdone_keys_; }
 
-  /// A message about the byte at `offset` of the text, with line, column and caret. Control
-  /// characters in the pointer are escaped as \x1b.
+  /// Makes a message about the byte at `offset`, with line, column, and a caret below the byte.
+  /// Escapes control characters in the pointer, for example as \x1b.
   [[nodiscard]] Diagnostic at(std::size_t offset, const std::string& pointer,
                               std::string message) const;
 
  private:
-  std::string_view text_;  // the caller's; must outlive the document
+  std::string_view text_;  // owned by the caller; must outlive the document
   std::string file_;
   JsonValue root_;
   OutdoneKeys outdone_keys_;
 };
 
-/// Appends one reference token to a JSON pointer, escaped according to RFC 6901.
+/// Appends one reference token to a JSON pointer and escapes it (RFC 6901).
 [[nodiscard]] std::string child(const std::string& pointer, std::string_view key);
 [[nodiscard]] std::string child(const std::string& pointer, std::size_t index);
 
-/// The unescaped reference tokens of a JSON pointer; nothing if it is malformed.
+/// The unescaped reference tokens of a JSON pointer. Nothing if the pointer is malformed.
 [[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
 
 /// The value that a JSON pointer names, or null.

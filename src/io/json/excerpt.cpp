@@ -21,7 +21,7 @@ Place place_of(std::string_view text, std::size_t offset) {
 
 std::string excerpt(std::string_view text, std::size_t offset) {
   offset = std::min(offset, text.size());
-  // Only this much of a line is examined.
+  // Only this many bytes on each side of the offset are examined.
   constexpr std::size_t kReach = 2 * kWidth;
   const std::size_t first = offset - std::min(offset, kReach);
   const std::size_t newline = text.substr(first, offset - first).rfind('\n');

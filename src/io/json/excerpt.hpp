@@ -1,5 +1,5 @@
 #pragma once
-/// The source line that a message refers to.
+/// Shows the source line to which a message refers.
 
 #include <cstddef>
 #include <string>
@@ -14,8 +14,8 @@ struct Place {
 
 [[nodiscard]] Place place_of(std::string_view text, std::size_t offset);
 
-/// The line around the byte at `offset`, truncated to 120 columns, and below it a caret under this
-/// byte. Both are printable.
+/// The line that contains the byte at `offset`, truncated to 120 columns, and below it a caret
+/// under this byte. Unprintable characters are escaped.
 [[nodiscard]] std::string excerpt(std::string_view text, std::size_t offset);
 
 }  // namespace microtrace::io

@@ -31,7 +31,7 @@ JsonValue* JsonValue::find(std::string_view key) {
 }
 
 void JsonValue::index_members() {
-  constexpr std::size_t kFew = 16;  // up to this number, linear search is faster
+  constexpr std::size_t kFew = 16;  // for at most this many members, linear search is faster
   by_key_.reset();
   if (members.size() <= kFew) return;
   std::vector<std::uint32_t> order(members.size());

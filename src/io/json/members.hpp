@@ -7,14 +7,14 @@
 
 namespace microtrace::io {
 
-/// The duplicate keys of an object, by their byte offsets.
+/// The duplicate keys of an object, as byte offsets.
 struct RepeatedMembers {
   std::vector<std::size_t> outdone{};  ///< keys that are repeated later; ascending
   std::size_t first = 0;               ///< the first key that repeats an earlier one
   std::string_view key{};              ///< the name of this key
 };
 
-/// The object's keys and their `key_offset`s must be set.
+/// Finds duplicate keys. The `key_offset` of each member must be set.
 [[nodiscard]] RepeatedMembers repeated_members(const JsonValue& object);
 
 }  // namespace microtrace::io

@@ -7,7 +7,7 @@
 namespace microtrace::io {
 namespace {
 
-/// Decodes ~1 to / and ~0 to ~. Nothing if another character follows a ~.
+/// Decodes ~1 to / and ~0 to ~. Returns nothing if a ~ is followed by any other character.
 std::optional<std::string> unescaped(std::string_view token) {
   std::string result;
   for (std::size_t i = 0; i < token.size(); ++i) {
@@ -21,7 +21,7 @@ std::optional<std::string> unescaped(std::string_view token) {
   return result;
 }
 
-/// Value is JsonValue, const or not.
+/// Finds the value that a pointer names. Value is JsonValue or const JsonValue.
 template <typename Value>
 Value* step(Value& value, const std::string& token) {
   if (value.kind != JsonValue::Kind::array) return value.find(token);

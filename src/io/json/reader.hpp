@@ -1,5 +1,6 @@
 #pragma once
-/// Typed reading of a JSON document: each value knows its pointer, and each error its position.
+/// Reads JSON values of expected types. Each value knows its pointer, and each error states a
+/// position.
 
 #include "io/json/document.hpp"
 #include "scene/validate/validate.hpp"
@@ -16,32 +17,33 @@
 
 namespace microtrace::io {
 
-/// One value of a document, which must outlive this object. All reading functions throw Error
-/// (invalid_scene) at the value if it does not have the required form.
+/// One value of a document. The document must outlive this object. If the value does not have the
+/// required form, all reading functions throw Error (invalid_scene) that points to the value.
 class JsonReader {
  public:
-  /// The root.
+  /// Makes a reader of the root.
   explicit JsonReader(const JsonDocument& document)
       : document_(&document), value_(&document.root()) {}
 
   [[nodiscard]] const JsonValue& value() const { return *value_; }
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
 
-  /// Requires an object with only these members; the error for an unknown one suggests the nearest
-  /// name.
+  /// Requires an object that has only members with these names. The error for an unknown member
+  /// suggests the most similar name.
   void require_object(std::initializer_list<std::string_view> known) const;
   void require_object() const;
-  /// The member of an object; `member` throws at the object if it is missing.
+  /// The member with this key. If it is missing, `member` throws an error that points to the
+  /// object.
   [[nodiscard]] JsonReader member(std::string_view key) const;
   [[nodiscard]] std::optional<JsonReader> find(std::string_view key) const;
   /// All members with their keys.
   [[nodiscard]] std::vector<std::pair<std::string, JsonReader>> members() const;
 
-  /// The elements of an array; exactly `count` if given.
+  /// The elements of an array. If `count` is given, there must be exactly this many.
   [[nodiscard]] std::vector<JsonReader> items(std::optional<std::size_t> count = {}) const;
 
   [[nodiscard]] std::string string() const;
-  /// A nonempty string.
+  /// A string that is not empty.
   [[nodiscard]] std::string name() const;
   /// A number that is finite in float32.
   [[nodiscard]] double number() const;
@@ -52,10 +54,12 @@ class JsonReader {
   [[nodiscard]] Vec3 vector32() const { return Vec3(vector()); }
 
   [[noreturn]] void fail(std::string message, ErrorKind kind = ErrorKind::invalid_scene) const;
-  /// Throws the error about a name in this value that is not a known one.
+  /// Throws the error for an unknown name in this value. The error suggests the most similar known
+  /// one.
   [[noreturn]] void fail_unknown(std::string_view what, std::string_view name,
                                  const std::vector<std::string_view>& known) const;
-  /// Throws if a rule is broken: at the named member, or at this value if the member is absent.
+  /// If a rule is broken, throws an error that points to the named member, or to this value if the
+  /// member is absent.
   void require(const std::optional<BrokenRule>& rule) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Short messages about syntax errors.
+/// Writes short messages about syntax errors.
 
 #include <cstddef>
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// The position and state where parsing stopped.
+/// The position and the state in which parsing stopped.
 struct SyntaxContext {
   enum class Expects {
     value,           ///< at the start, after a colon, or after a comma in an array
@@ -21,7 +21,7 @@ struct SyntaxContext {
   Expects expects = Expects::value;
   bool in_object = false;
   std::size_t token = 0;  ///< byte offset of the unexpected token
-  std::size_t comma = 0;  ///< byte offset of the comma before it, if there is one
+  std::size_t comma = 0;  ///< byte offset of the comma before the token, if there is one
   std::size_t read = 0;   ///< end of the bytes that the lexer has read
 };
 
@@ -30,12 +30,13 @@ struct SyntaxError {
   std::string message;
 };
 
-/// `reason` is the lexer's message about the token: "invalid string: ...", "invalid number; ...",
-/// "invalid literal", or anything else if the token itself is valid but misplaced.
+/// Makes the message for a syntax error. `reason` is the lexer's message about the token: "invalid
+/// string: ...", "invalid number; ...", "invalid literal". Any other text means that the token is
+/// valid but misplaced.
 [[nodiscard]] SyntaxError explain(std::string_view text, const SyntaxContext& context,
                                   std::string_view reason);
 
-/// The message about a valid token in the wrong place.
+/// Makes the message about a valid token in the wrong place.
 [[nodiscard]] SyntaxError explain_misplaced(std::string_view text, const SyntaxContext& context);
 
 }  // namespace microtrace::io

@@ -18,7 +18,7 @@ void append_number(std::string& text, double x) {
   text.append(digits.begin(), written.ptr);
 }
 
-/// Replaces the comma after the last item, if any.
+/// Replaces the comma after the last item, if there is one, by the closing bracket.
 void close(std::string& text, char bracket) {
   if (text.back() == ',') text.pop_back();
   text += bracket;

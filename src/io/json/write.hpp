@@ -7,12 +7,12 @@
 
 namespace microtrace::io {
 
-/// Appends a value as compact JSON that parses to the same value, without the members of those
-/// names at any depth. Integers within +-2^53 have no fraction and no exponent.
+/// Appends a value as compact JSON that parses to the same value. Omits members with these names at
+/// any depth. Integers within +-2^53 have no fraction and no exponent.
 void append_json(std::string& text, const JsonValue& value,
                  std::span<const std::string_view> left_out);
 
-/// Appends a string in quotes, escaped.
+/// Appends a string with quotes and escapes.
 void append_json(std::string& text, std::string_view string);
 
 }  // namespace microtrace::io

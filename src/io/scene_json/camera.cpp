@@ -44,7 +44,7 @@ EnvironmentCamera read_environment(const JsonReader& json) {
   return {.pose = read_pose(json)};
 }
 
-/// The rows of OpenCV's 4 x 4 matrix.
+/// Reads a rigid transform, given as the rows of OpenCV's 4 x 4 matrix.
 DMat4 read_rigid_transform(const JsonReader& json) {
   DMat4 out(1);
   const std::vector<JsonReader> rows = json.items(4);
@@ -61,7 +61,7 @@ DMat4 read_rigid_transform(const JsonReader& json) {
       }
     }
   }
-  // Calibrations are often stored with seven digits.
+  // Tolerates calibrations that are stored with only seven digits.
   constexpr double kTolerance = 1e-5;
   const DVec3 x(out[0]), y(out[1]), z(out[2]);
   const auto differ = [](double a, double b) { return !(std::abs(a - b) <= kTolerance); };

@@ -1,5 +1,5 @@
 #pragma once
-/// The cameras of a JSON scene.
+/// Reads the cameras of a JSON scene.
 
 #include "io/json/reader.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "cameras", defined in docs/scene-format.md. Throws Error.
+/// Reads an item of "cameras" as defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Camera read_camera(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes of pictures in a JSON scene.
+/// Reads picture sizes in a JSON scene.
 
 #include "io/json/reader.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// An object with `width` and `height`. Throws Error.
+/// Reads an object with `width` and `height`. Throws Error.
 [[nodiscard]] ImageSize read_image_size(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -1,5 +1,5 @@
 #pragma once
-/// The lights and the environment of a JSON scene.
+/// Reads the lights and the environment of a JSON scene.
 
 #include "io/json/reader.hpp"
 #include "io/scene_json/color.hpp"
@@ -12,11 +12,12 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "lights", defined in docs/scene-format.md. Throws Error.
+/// Reads an item of "lights" as defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Light read_light(const JsonReader& json, const Colors& colors);
 
-/// Reads the member "environment" and the file that it may name, relative to `folder`; appends
-/// warnings. Throws Error, with kind io and at the member "file" if the file can't be read.
+/// Reads the member "environment" and the file that it may name, relative to `folder`. Appends
+/// warnings. Throws Error. If the file can't be read, the error has kind io and points to the
+/// member "file".
 [[nodiscard]] Environment read_environment(const JsonReader& json, const Colors& colors,
                                            const std::filesystem::path& folder,
                                            std::vector<Diagnostic>& warnings);

@@ -31,7 +31,7 @@ class Members {
   const Colors& colors_;
 };
 
-/// 0 means infinity (KHR_materials_ior).
+/// Reads an index of refraction, for which 0 means infinity (KHR_materials_ior).
 float read_ior(const JsonReader& json) {
   const double ior = json.number();
   if (ior == 0 || ior >= 1) return static_cast<float>(ior);

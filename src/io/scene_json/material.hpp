@@ -1,5 +1,5 @@
 #pragma once
-/// The materials of a JSON scene.
+/// Reads the materials of a JSON scene.
 
 #include "io/json/reader.hpp"
 #include "io/scene_json/color.hpp"
@@ -8,7 +8,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "materials", defined in docs/scene-format.md. Throws Error.
+/// Reads an item of "materials" as defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Material read_material(const JsonReader& json, const Colors& colors);
 
 }  // namespace microtrace::io

@@ -16,7 +16,8 @@
 namespace microtrace::io {
 namespace {
 
-/// Rodrigues' formula: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), with a unit axis.
+/// A rotation by Rodrigues' formula: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), where
+/// axis is a unit vector.
 DMat4 rotation(const DVec3& axis, double degrees) {
   const double sine = sin_degrees(degrees), cosine = cos_degrees(degrees);
   DMat4 out(1);
@@ -88,7 +89,7 @@ DMat4 read_transform(const JsonReader& json) {
   return out;
 }
 
-/// The reader refers to the bytes.
+/// A file's bytes and the reader that refers to them.
 struct MeshFiles::File {
   explicit File(MemoryBudget* budget) : memory(budget) {}
 
@@ -102,7 +103,7 @@ MeshFiles::MeshFiles(const std::filesystem::path& folder, const LoadOptions& opt
 MeshFiles::~MeshFiles() = default;
 
 void MeshFiles::expect(const JsonReader& json) {
-  // Errors in the member are reported when it is read.
+  // An invalid member "file" is reported when it is read.
   if (const JsonValue* file = json.value().find("file")) ++uses_[file->string];
 }
 

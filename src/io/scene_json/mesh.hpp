@@ -1,5 +1,5 @@
 #pragma once
-/// Objects of a JSON scene that are read from glTF files.
+/// Reads objects of a JSON scene from glTF files.
 
 #include "io/json/reader.hpp"
 
@@ -14,19 +14,19 @@
 
 namespace microtrace::io {
 
-/// The glTF files of a scene's meshes. A file used by several meshes is read and checked once.
+/// The glTF files of a scene's meshes. If several meshes use a file, it is read and checked once.
 class MeshFiles {
  public:
-  /// Paths are relative to `folder`. Both must outlive this object.
+  /// Paths are relative to `folder`. Both arguments must outlive this object.
   MeshFiles(const std::filesystem::path& folder, const LoadOptions& options);
   ~MeshFiles();
 
-  /// Announces that read() will be called for this member of "objects".
+  /// Announces that read() will be called for this item of "objects".
   void expect(const JsonReader& json);
 
-  /// Reads a member of "objects" of type mesh and its file, posed according to the options: its
-  /// objects with their own names and colors, and its warnings. Throws Error, with kind io and at
-  /// the member "file" if the file can't be read.
+  /// Reads an item of "objects" with type mesh, and its file, posed according to the options. The
+  /// result has the file's objects with their own names and colors, and its warnings. Throws Error.
+  /// If the file can't be read, the error has kind io and points to the member "file".
   [[nodiscard]] LoadedScene read(const JsonReader& json);
 
  private:
@@ -37,11 +37,12 @@ class MeshFiles {
 
   const std::filesystem::path& folder_;
   const LoadOptions& options_;
-  std::map<std::string, std::size_t> uses_;             // remaining uses, by the member "file"
+  std::map<std::string, std::size_t> uses_;  // number of remaining uses, by the member "file"
   std::map<std::string, std::unique_ptr<File>> files_;  // files with remaining uses
 };
 
-/// Reads a member "transform": translation * rotation * scale, or a column-major affine matrix.
+/// Reads a member "transform", which is translation * rotation * scale or a column-major affine
+/// matrix.
 [[nodiscard]] DMat4 read_transform(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -1,5 +1,5 @@
 #pragma once
-/// Unique names.
+/// Reads unique names.
 
 #include "io/json/reader.hpp"
 
@@ -8,10 +8,11 @@
 
 namespace microtrace::io {
 
-/// The names within one array of a JSON scene, which must be unique.
+/// The names in one array of a JSON scene, which must be unique.
 class Names {
  public:
-  /// The member "name", or the pointer without its first slash if there is none. Throws Error.
+  /// Reads the member "name". If it is absent, returns the pointer without its first slash. Throws
+  /// Error.
   std::string read(const JsonReader& json);
 
  private:

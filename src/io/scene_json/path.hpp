@@ -1,5 +1,5 @@
 #pragma once
-/// File names in a JSON scene.
+/// Reads file names in a JSON scene.
 
 #include "io/json/reader.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// A path inside the scene's folder. Throws Error.
+/// Reads a path that stays in the scene's folder. Throws Error.
 [[nodiscard]] std::filesystem::path read_relative_path(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -47,7 +47,7 @@ void read_cameras(const JsonReader& json, Scene& scene) {
   }
 }
 
-/// The size of a picture of the default camera.
+/// The picture size for the default camera.
 ImageSize default_size(const Scene& scene) {
   if (scene.cameras.empty()) return {};
   const auto* calibrated = std::get_if<CalibratedCamera>(&scene.cameras.front().camera);
@@ -68,7 +68,7 @@ bool is_mesh(const JsonReader& json) {
   return type && type->value().kind == JsonValue::Kind::string && type->value().string == "mesh";
 }
 
-/// The scene's named materials, and one for each color of objects.
+/// The scene's named materials, and one material for each color that objects use.
 class Palette {
  public:
   Palette(const Colors& colors, Scene& scene) : colors_(colors), scene_(scene) {}
@@ -81,7 +81,8 @@ class Palette {
     }
   }
 
-  /// The material of the object's member "material" or "color", if it has one.
+  /// Reads the object's member "material" or "color", if it has one, and returns the material's
+  /// index.
   std::optional<std::uint32_t> read(const JsonReader& object) {
     const auto color = object.find("color");
     if (const auto name = object.find("material")) {
@@ -113,7 +114,8 @@ class Palette {
   std::map<std::array<float, 3>, std::uint32_t> plain_;
 };
 
-/// A material replaces those of the mesh's file.
+/// Adds the objects of a mesh. If the JSON object has a material, it replaces the materials in the
+/// mesh's file.
 void add_mesh(const JsonReader& json, const std::string& name,
               std::optional<std::uint32_t> material, MeshFiles& files, LoadedScene& out) {
   LoadedScene mesh = files.read(json);

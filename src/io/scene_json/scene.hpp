@@ -1,5 +1,5 @@
 #pragma once
-/// The scene format of docs/scene-format.md, version 1.
+/// Reads the scene format of docs/scene-format.md, version 1.
 
 #include "io/json/document.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace microtrace::io {
 
-/// Reads a scene; mesh files must be in `folder` or below, and are posed according to the options.
+/// Reads a scene. Mesh files must be in `folder` or below. They are posed according to the options.
 /// Throws Error at the first invalid value.
 [[nodiscard]] LoadedScene read_json_scene(const JsonDocument& document,
                                           const std::filesystem::path& folder,

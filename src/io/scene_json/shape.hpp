@@ -1,5 +1,5 @@
 #pragma once
-/// Shapes defined in the JSON scene itself.
+/// Reads shapes that are defined in the JSON scene itself.
 
 #include "io/json/reader.hpp"
 
@@ -7,7 +7,7 @@
 
 namespace microtrace::io {
 
-/// Reads a member of "objects" that is not a mesh, defined in docs/scene-format.md. Throws Error.
+/// Reads an item of "objects" that is not a mesh, as defined in docs/scene-format.md. Throws Error.
 [[nodiscard]] Shape read_shape(const JsonReader& json);
 
 }  // namespace microtrace::io

@@ -21,7 +21,7 @@ std::string quoted(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// null for infinity, which JSON can't express.
+/// Writes a number. Writes null for infinity, which JSON can't express.
 std::string number(double x) {
   return std::isfinite(x) ? decimal(x) : "null";
 }
@@ -48,7 +48,7 @@ std::string rows(const DMat4& m) {
   return text += ']';
 }
 
-/// The inverse of a rigid transform: the transposed rotation, without division.
+/// The inverse of a rigid transform. It is computed by transposing the rotation, without division.
 DMat4 inverse(const DMat4& rigid) {
   const glm::dmat3 back = glm::transpose(glm::dmat3(rigid));
   DMat4 result(back);

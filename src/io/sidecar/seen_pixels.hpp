@@ -1,5 +1,5 @@
 #pragma once
-/// Visible pixels and bounding boxes of objects in a picture.
+/// Finds the visible pixels and bounding boxes of objects in a picture.
 
 #include <microtrace/film.hpp>
 
@@ -12,10 +12,11 @@ namespace microtrace::io {
 
 struct SeenPixels {
   std::uint64_t count = 0;
-  PixelRect box{};  ///< in the whole picture
+  PixelRect box{};  ///< coordinates are relative to the whole picture
 };
 
-/// For each object of the scene; nothing if the film has no channel "id.instance".
+/// Returns an item for each object of the scene. Returns nothing if the film has no channel
+/// "id.instance".
 [[nodiscard]] std::optional<std::vector<SeenPixels>> find_seen_pixels(const Film& film,
                                                                       std::size_t objects);
 

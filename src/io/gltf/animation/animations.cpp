@@ -27,7 +27,7 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-/// Number of morph targets of a mesh. All primitives have as many as the first.
+/// The number of morph targets of a mesh. Each primitive has as many as the first one.
 std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
   if (!mesh) return 0;
   const auto& primitives = model.meshes[*mesh].primitives;
@@ -36,7 +36,7 @@ std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
 
 }  // namespace
 
-/// Reads channels. Decodes each accessor once.
+/// Reads channels and decodes each accessor once.
 class AnimationPlayer::Reader {
  public:
   Reader(Asset& asset, const Model& model, AccessorReader& reader)
@@ -77,8 +77,8 @@ class AnimationPlayer::Reader {
     AnimatedProperty property{};
   };
 
-  /// The node and property that a channel animates. A pointer of KHR_animation_pointer may name a
-  /// node's property, /nodes/0/rotation, or another object's.
+  /// The node and property that a channel animates. A KHR_animation_pointer may refer to a property
+  /// of a node, such as /nodes/0/rotation, or of another object.
   std::optional<Target> target_of(const Element& at) {
     const Element name = at.member("path");
     if (name.value->string == "pointer") {
@@ -128,7 +128,7 @@ class AnimationPlayer::Reader {
     return std::nullopt;
   }
 
-  /// Numbers in one value; nothing if the target can't be animated.
+  /// The number of components of one value. Returns nothing if the target can't be animated.
   std::optional<std::size_t> width_of(const Target& target) {
     const auto& [at, node, path, property] = target;
     if (is_pointed_at(path)) return property.width;
@@ -139,19 +139,20 @@ class AnimationPlayer::Reader {
       asset_.warn(at, "animates the weights of a node without morph targets; it is ignored");
       return std::nullopt;
     }
-    if (animated.matrix) {  // check_animations warned, but not of pointers
+    if (animated.matrix) {  // check_animations warned only if the channel has no pointer
       asset_.tolerate(at, "animates a node that has a matrix; it is ignored");
       return std::nullopt;
     }
     return path == Path::rotation ? 4 : 3;
   }
 
-  /// Only KHR_animation_pointer can animate these.
+  /// True for properties that only KHR_animation_pointer can animate.
   static bool is_pointed_at(Path path) {
     return path == Path::property || path == Path::visibility;
   }
 
-  /// Integers are accepted as plain numbers. Booleans must be integers with STEP interpolation.
+  /// True if the sampler's accessors fit the target. Integers are accepted even if they are not
+  /// normalized. Booleans must be integers with STEP interpolation.
   bool fits(const Element& sampler, const Target& target) const {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));
@@ -264,7 +265,7 @@ class AnimationPlayer::Reader {
   AccessorReader& reader_;
   std::unordered_map<std::size_t, Numbers> numbers_;        // by accessor
   std::unordered_map<std::size_t, bool> ascends_, finite_;  // by accessor; filled on first use
-  std::size_t count_ = 0;                                   // numbers in all samplers
+  std::size_t count_ = 0;  // total count of numbers in all samplers
 };
 
 AnimationPlayer::AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,

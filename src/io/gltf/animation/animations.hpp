@@ -1,5 +1,5 @@
 #pragma once
-/// Animations: selecting them, and evaluating them at a time.
+/// Selects animations and evaluates them at a given time.
 
 #include "io/gltf/animation/keyframes.hpp"
 #include "io/gltf/animation/posed_nodes.hpp"
@@ -14,8 +14,8 @@
 
 namespace microtrace::io::gltf {
 
-/// The indices of the animations selected by a name, an index or "all"; an empty text selects the
-/// first, if any. Throws Error (usage) that lists the existing ones.
+/// Returns the indices of the animations that a name, an index or "all" selects. An empty text
+/// selects the first one, if any. Throws Error (usage) that lists the existing animations.
 [[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
                                                          const std::string& wanted);
 
@@ -23,22 +23,22 @@ namespace microtrace::io::gltf {
 [[nodiscard]] bool animate_materials(const Asset& asset,
                                      const std::vector<std::size_t>& animations);
 
-/// Animations that are read and checked.
+/// Reads and checks animations, and evaluates them at any time.
 class AnimationPlayer {
  public:
-  /// Ignores channels without a target node. Warns of properties that can't be animated and ignores
-  /// their channels. Throws Error: invalid_scene, limit.
+  /// Ignores channels without a target node. Warns of properties that can't be animated, and
+  /// ignores their channels. Throws Error: invalid_scene, limit.
   AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                   const std::vector<std::size_t>& animations);
 
-  /// The values of all channels at a time in seconds. The last of several channels with the same
-  /// target wins.
+  /// The values of all channels at a time in seconds. If several channels have the same target, the
+  /// last one applies.
   [[nodiscard]] PosedAsset at(double time) const;
 
  private:
   enum class Path { translation, rotation, scale, weights, visibility, property };
   struct Channel {
-    std::size_t node;  ///< unless the target is `property`
+    std::size_t node;  ///< not used if `path` is `property`
     Path path;
     AnimatedProperty property{};
     Keyframes keys;
@@ -48,7 +48,7 @@ class AnimationPlayer {
   static void pose(NodePose& node, Path path, std::vector<double> value);
 
   std::vector<Channel> channels_;
-  std::optional<JsonValue> properties_;  // unmodified; only if some are animated
+  std::optional<JsonValue> properties_;  // not yet animated; present only if some will be
 };
 
 }  // namespace microtrace::io::gltf

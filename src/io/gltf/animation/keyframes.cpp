@@ -16,7 +16,7 @@ Quaternion quaternion_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-/// A value or tangent, by its index among the sampler's outputs.
+/// The value or tangent with this index among the sampler's outputs.
 std::vector<double> output(const Keyframes& keys, std::size_t number) {
   const float* first = keys.values->data() + number * keys.width;
   return {first, first + keys.width};
@@ -38,8 +38,8 @@ std::vector<double> linear(const Keyframes& keys, std::size_t key, double t) {
   return result;
 }
 
-/// Cubic Hermite spline. Tangents are per second, so they are scaled by the seconds between the
-/// keys.
+/// Interpolates by a cubic Hermite spline. Tangents are stored per second, so they are multiplied
+/// by the seconds between the keys.
 std::vector<double> cubic(const Keyframes& keys, std::size_t key, double t, double seconds) {
   std::vector<double> result = at_key(keys, key);
   const std::vector<double> next = at_key(keys, key + 1);
@@ -108,8 +108,8 @@ std::vector<double> value_at(const Keyframes& keys, double time) {
 
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
   const Quaternion near_b = glm::dot(a, b) < 0 ? -b : b;
-  // The angle between a and b, in [0, pi/2]. The arccosine of their dot product would be inaccurate
-  // for small angles.
+  // The angle between a and b, in [0, pi/2]. For small angles, the arccosine of their dot product
+  // would be inaccurate.
   const double across = glm::length(a - near_b), along = glm::length(a + near_b);
   const double angle = 2 * atan_radians(across / along);
   if (!(angle > 0)) return a;
@@ -120,7 +120,7 @@ Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
 Quaternion unit_quaternion(const Quaternion& q) {
   const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
   if (!(largest > 0)) return q;
-  const Quaternion scaled = q / largest;  // so that no square overflows
+  const Quaternion scaled = q / largest;  // keeps the squares below from overflowing
   return scaled / glm::length(scaled);
 }
 

@@ -13,20 +13,21 @@
 
 namespace microtrace::io::gltf {
 
-/// Animated properties of one node. They replace the node's own.
+/// Animated properties of one node. They replace the properties in the file.
 struct NodePose {
   std::optional<DVec3> translation{}, scale{};
-  std::optional<Quaternion> rotation{};  ///< of unit length
+  std::optional<Quaternion> rotation{};  ///< unit quaternion
   std::optional<std::vector<double>> weights{};
   std::optional<bool> visible{};  ///< of KHR_node_visibility
 };
 
-/// By node index. Nodes without an entry keep their own properties.
+/// Animated properties by node index. Nodes without an entry keep the properties in the file.
 using PosedNodes = std::unordered_map<std::size_t, NodePose>;
 
 struct PosedAsset {
   PosedNodes nodes{};
-  /// A copy of materials, cameras and root extensions, if any of their properties is animated.
+  /// A copy of the materials, cameras and root extensions with animated values. Absent if none of
+  /// their properties is animated.
   std::optional<JsonValue> properties{};
 };
 

@@ -21,12 +21,12 @@ const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   return index && *index < array.items.size() ? &array.items[*index] : nullptr;
 }
 
-/// Follows a pointer through the asset and the schema's rules in parallel.
+/// Follows a JSON pointer through the asset and, in parallel, through the schema's rules.
 class Walk {
  public:
   explicit Walk(const Asset& asset) : object_(asset.root().value) {}
 
-  /// The rule of the property that the tokens name, or null.
+  /// Returns the rule of the property that the tokens name, or null.
   const Rule* follow(std::span<const std::string> tokens) {
     while (!tokens.empty()) {
       if (tokens[0] == "extensions") {
@@ -78,7 +78,7 @@ JsonValue& make_member(JsonValue& object, const std::string& key) {
   return object.members.back().value;
 }
 
-/// The items of an array; none if the object or the array is absent.
+/// The items of an array. Empty if the object or the array is absent.
 std::span<JsonValue> items(JsonValue* object, std::string_view key) {
   JsonValue* array = object != nullptr ? object->find(key) : nullptr;
   return array != nullptr ? std::span(array->items) : std::span<JsonValue>();
@@ -183,7 +183,7 @@ void repair_properties(JsonValue& part) {
   for (JsonValue& material : items(&part, "materials")) {
     JsonValue* refraction = extension_of(material, "KHR_materials_ior");
     JsonValue* ior = refraction != nullptr ? refraction->find("ior") : nullptr;
-    // The extension gives 0 the meaning of an infinite index of refraction.
+    // In this extension, an index of refraction of 0 means infinity.
     if (ior != nullptr && ior->number > 0 && ior->number < 1) ior->number = 1;
   }
 }

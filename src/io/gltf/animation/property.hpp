@@ -15,26 +15,27 @@ struct AnimatedProperty {
   std::vector<std::string> path{};  ///< reference tokens of the JSON pointer
   bool is_boolean = false;
   bool is_array = false;
-  std::size_t width = 1;    ///< numbers in a value
-  double min = 0, max = 0;  ///< range of each number
+  std::size_t width = 1;    ///< number of components of a value
+  double min = 0, max = 0;  ///< range of each component
 };
 
-/// The property that a JSON pointer names (glTF 2.0 Asset Object Model): a number or vector of a
-/// material, its extensions or texture transforms, of a camera, of a light (KHR_lights_punctual),
-/// or a node's visibility (KHR_node_visibility). Nothing if the object is absent or the property
-/// can't be animated.
+/// Finds the property that a JSON pointer names (glTF 2.0 Asset Object Model). It may be a number
+/// or vector of a material with its extensions and texture transforms, of a camera, or of a light
+/// (KHR_lights_punctual), or the visibility of a node (KHR_node_visibility). Returns nothing if the
+/// object is absent or the property can't be animated.
 [[nodiscard]] std::optional<AnimatedProperty> find_property(const Asset& asset,
                                                             std::string_view pointer);
 
-/// A copy of the members of the root object, nodes excepted, that find_property can lead to.
+/// Copies those members of the root object in which find_property can find properties, except
+/// nodes.
 [[nodiscard]] JsonValue animated_part(const JsonValue& root);
 
 /// Writes a value, clamped to the property's range, into a copy made by animated_part.
 void set_property(JsonValue& part, const AnimatedProperty& property,
                   const std::vector<double>& value);
 
-/// Repairs contradictions between animated values: near and far planes, cone angles, and values
-/// inside a gap of their range.
+/// Repairs animated values that contradict each other or the schema: near and far planes, cone
+/// angles, and values in a gap of their valid range.
 void repair_properties(JsonValue& part);
 
 }  // namespace microtrace::io::gltf

@@ -37,7 +37,7 @@ std::uint32_t load_unsigned(const char* bytes, int component_type) {
   }
 }
 
-/// Component type and layout: rows, and columns that may be padded.
+/// The component type of an element and its layout in rows and columns. Columns may be padded.
 template <typename Element>
 struct Parts {
   static constexpr std::size_t kRows = Element::length(), kColumns = 1;
@@ -75,7 +75,8 @@ Element decode_one(const char* bytes) {
   return std::bit_cast<Element>(components);
 }
 
-/// Decodes the array elements with the indices `numbers`, or the first ones if that is null.
+/// Decodes the elements with the indices `numbers`. If `numbers` is null, decodes the first
+/// elements.
 template <typename Stored, bool normalized, typename Element>
 void decode(const char* bytes, std::size_t stride, const std::uint32_t* numbers,
             std::span<Element> result) {
@@ -118,10 +119,10 @@ Decoder<Element> decoder(const Model::Accessor& accessor) {
 
 }  // namespace
 
-/// Location of an accessor's elements.
+/// The location of an accessor's elements.
 struct AccessorReader::Source {
   const Model::Accessor& accessor;
-  std::string_view bytes{};  // starting at the first element; empty without a buffer view
+  std::string_view bytes{};  // starts at the first element; empty without a buffer view
   std::size_t stride = 0, size = 0, count = 0;
   std::string_view sparse_indices{}, sparse_values{};
   std::size_t sparse_count = 0;
@@ -131,7 +132,7 @@ struct AccessorReader::Source {
     return load_unsigned(&sparse_indices[i * component_size(type)], type);
   }
 
-  /// The first sparse element whose index is at least `index`.
+  /// The number of the first sparse element whose index is at least `index`.
   [[nodiscard]] std::size_t first_sparse(std::uint32_t index) const {
     std::size_t first = 0, last = sparse_count;
     while (first < last) {
@@ -195,7 +196,7 @@ AccessorReader::Source AccessorReader::source(std::size_t index) {
 
 void AccessorReader::check_sparse(std::size_t index, const Source& source) {
   if (sparse_is_checked_[index]) return;
-  std::uint64_t least = 0;  // least valid value of the next index
+  std::uint64_t least = 0;  // the next index must be at least this number
   for (std::size_t i = 0; i < source.sparse_count; ++i) {
     const std::uint32_t target = source.sparse_index(i);
     if (target < least || target >= source.accessor.count) {
@@ -234,7 +235,7 @@ std::vector<Element> AccessorReader::read(std::size_t accessor,
   numbers = numbers.first(
       static_cast<std::size_t>(std::ranges::partition_point(numbers, is_there) - numbers.begin()));
   if (!from.bytes.empty()) {
-    // Distinct numbers, as many as there are elements, select every element.
+    // If there are as many distinct indices as elements, they select every element.
     const bool all =
         numbers.size() == from.count && std::ranges::adjacent_find(numbers) == numbers.end();
     decode_some(from.bytes.data(), from.stride, all ? nullptr : numbers.data(),

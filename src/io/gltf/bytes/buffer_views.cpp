@@ -8,7 +8,7 @@ namespace microtrace::io::gltf {
 
 BufferViews::BufferViews(Asset& asset, const Model& model, const std::vector<Buffer>& buffers)
     : decoded_(model.buffer_views.size()), bytes_(model.buffer_views.size()) {
-  std::size_t left = kMaxBufferBytes;  // limit on decoded bytes
+  std::size_t left = kMaxBufferBytes;  // remaining limit on decoded bytes
   for (std::size_t i = 0; i < bytes_.size(); ++i) {
     const Model::BufferView& view = model.buffer_views[i];
     if (auto decoded = decode_meshopt(asset, model, i, buffers, left)) {

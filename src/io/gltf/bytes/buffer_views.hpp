@@ -1,5 +1,5 @@
 #pragma once
-/// Buffer views, decompressed.
+/// Buffer views, decompressed if necessary.
 
 #include "io/gltf/bytes/buffers.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -19,7 +19,7 @@ class BufferViews {
   /// outlive this object. Throws Error: invalid_scene, limit, unsupported.
   BufferViews(Asset& asset, const Model& model, const std::vector<Buffer>& buffers);
 
-  /// Nothing if the view's buffer has no data.
+  /// Returns nothing if the view's buffer has no data.
   [[nodiscard]] std::optional<std::string_view> bytes(std::size_t view) const {
     return bytes_[view];
   }

@@ -16,12 +16,13 @@ std::string decode(Asset& asset, const Element& uri) {
   return decode_data_uri(asset, uri);
 }
 
-/// True if the buffer's data is the BIN chunk: the first buffer of a GLB file, without a URI.
+/// True if the BIN chunk is the buffer's data: in a GLB file, this is the first buffer if it has no
+/// URI.
 bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }
 
-/// True if the views of the buffer also have compressed data, which is read instead.
+/// True for a fallback buffer: its views also have compressed data, which is read instead.
 bool is_fallback(const Element& buffer) {
   const auto compression = extension(buffer, "EXT_meshopt_compression");
   if (!compression) return false;
@@ -29,7 +30,7 @@ bool is_fallback(const Element& buffer) {
   return fallback != nullptr && fallback->boolean;
 }
 
-/// A buffer may lack data if an extension supplies it.
+/// Warns of a buffer without data. This is no error, because an extension may supply the data.
 void missing(Asset& asset, const Element& buffer, bool is_bin) {
   if (is_bin) {
     asset.tolerate(buffer, "has no uri, but the file has no BIN chunk");

@@ -1,5 +1,5 @@
 #pragma once
-/// Loading of buffers.
+/// Loads buffers.
 
 #include "io/gltf/bytes/resource.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -12,18 +12,19 @@
 
 namespace microtrace::io::gltf {
 
-/// Limit on the bytes of all buffers together and of each file that they come from.
+/// The maximum number of bytes of all buffers together, and of each file with buffer data.
 inline constexpr std::size_t kMaxBufferBytes = std::size_t{1} << 32;
 
 struct Buffer {
-  std::string storage;                    ///< data that is not part of the asset's file
-  std::optional<std::string_view> bytes;  ///< byteLength bytes; nothing if the buffer has neither
-                                          ///< URI nor BIN chunk, for extensions to fill
+  std::string storage;  ///< data that is not part of the asset's file
+  /// The first byteLength bytes. Nothing if an extension must supply the data.
+  std::optional<std::string_view> bytes;
 };
 
-/// Loads the buffers that check_schema has accepted from the GLB file's `bin`, data URIs and files
-/// within `folders`. Warns of a buffer with none of these. Throws Error with the buffer's pointer:
-/// invalid_scene for a bad URI or too few bytes, io for a file, limit.
+/// Loads buffers from the GLB file's `bin`, from data URIs and from files in `folders`. Expects
+/// buffers that check_schema has accepted. Warns of a buffer without any of these sources. Throws
+/// Error with the buffer's pointer: invalid_scene for a bad URI or too few bytes, io for a file,
+/// limit.
 [[nodiscard]] std::vector<Buffer> load_buffers(Asset& asset, std::optional<std::string_view> bin,
                                                bool is_glb, const ResourceFolders& folders);
 

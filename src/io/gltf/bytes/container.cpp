@@ -90,7 +90,8 @@ void check_header(std::string_view bytes, const std::string& name) {
   }
 }
 
-/// glTF 2.0, section 2.7, forbids a byte order mark, and other readers reject it.
+/// Throws Error if the JSON begins with a byte order mark. glTF 2.0, section 2.7, forbids it, and
+/// other readers reject it.
 void refuse_byte_order_mark(std::string_view json, const std::string& name) {
   if (!json.starts_with("\xEF\xBB\xBF")) return;
   throw Error(ErrorKind::invalid_scene, name,

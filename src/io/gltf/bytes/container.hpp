@@ -1,5 +1,5 @@
 #pragma once
-/// The containers of glTF: JSON text, and GLB, which holds JSON and a buffer in one binary file.
+/// The containers of glTF: JSON text, and GLB, a binary file that contains JSON and one buffer.
 
 #include <cstddef>
 #include <optional>
@@ -10,10 +10,10 @@ namespace microtrace::io::gltf {
 
 struct Container {
   std::string_view json;
-  std::optional<std::string_view> bin;  ///< if a GLB file has a BIN chunk
+  std::optional<std::string_view> bin;  ///< BIN chunk of a GLB file, if it has one
   bool is_glb = false;
   bool is_aligned = true;       ///< all chunk lengths are multiples of 4, as glTF requires
-  std::size_t extra_bytes = 0;  ///< after the end that the GLB header states
+  std::size_t extra_bytes = 0;  ///< number of bytes after the end that the GLB header states
 };
 
 /// Splits a file into its parts without copying (glTF 2.0, section 4, GLB file format). Skips

@@ -25,7 +25,7 @@ void require(const Asset& asset, const Element& at, bool holds, const char* mess
   if (!holds) asset.fail(at, message);
 }
 
-/// The extension's properties, checked.
+/// Reads and checks the extension's properties.
 Description describe(const Asset& asset, const Element& at, const Model::BufferView& view) {
   Description result;
   result.count = whole_number(asset, at, "count");
@@ -59,7 +59,7 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
   return result;
 }
 
-/// The range of a buffer that holds the compressed data.
+/// The bytes of the compressed data in its buffer. Nothing if the buffer has no data.
 std::optional<std::string_view> compressed(const Asset& asset, const Element& at,
                                            const std::vector<Buffer>& buffers) {
   const auto& bytes = buffers[index(asset, at, "buffer", buffers.size())].bytes;

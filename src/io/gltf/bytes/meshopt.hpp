@@ -1,5 +1,5 @@
 #pragma once
-/// EXT_meshopt_compression.
+/// Decodes EXT_meshopt_compression.
 
 #include "io/gltf/bytes/buffers.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -14,10 +14,10 @@ namespace microtrace::io::gltf {
 
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
-/// Decompresses a buffer view. Nothing for an uncompressed view, or if the compressed data is
-/// absent. `left` is the remaining limit on decompressed bytes and is reduced. If the decoder
-/// module is absent, throws Error (unsupported) if the asset requires the extension, and otherwise
-/// warns and returns nothing. Throws Error: invalid_scene, limit, unsupported.
+/// Decompresses a buffer view. Returns nothing for an uncompressed view, or if the compressed data
+/// is absent. `left` is the remaining limit on decompressed bytes, which the call reduces. If the
+/// decoder module is absent, throws Error (unsupported) if the asset requires the extension.
+/// Otherwise warns and returns nothing. Throws Error: invalid_scene, limit, unsupported.
 [[nodiscard]] std::optional<std::string> decode_meshopt(Asset& asset, const Model& model,
                                                         std::size_t view,
                                                         const std::vector<Buffer>& buffers,

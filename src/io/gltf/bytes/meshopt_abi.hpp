@@ -1,6 +1,7 @@
 #pragma once
-/// The C interface between the library and its module for meshoptimizer. Any change needs a new
-/// number in the function's name, so that an old module is refused instead of misread.
+/// The C interface between the library and its module for meshoptimizer. If the interface changes,
+/// the number in the function's name must change too. An old module is then refused instead of
+/// called with the wrong arguments.
 
 #include <cstddef>
 

@@ -11,7 +11,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Converts x in [-1, 1] to a normalized integer, rounding half away from zero; NaN gives 0.
+/// Converts x in [-1, 1] to a normalized integer. Rounds halves away from zero. Converts NaN to 0.
 template <typename Integer>
 Integer normalized(float x) {
   constexpr auto kGreatest = static_cast<float>(std::numeric_limits<Integer>::max());
@@ -28,7 +28,7 @@ void decode_octahedral(std::string& bytes) {
     const auto one = static_cast<float>(v[2]);
     float x = static_cast<float>(v[0]) / one, y = static_cast<float>(v[1]) / one;
     const float z = 1 - std::abs(x) - std::abs(y);
-    const float t = z < 0 ? z : 0;  // the lower hemisphere is folded outward
+    const float t = z < 0 ? z : 0;  // moves the lower hemisphere's folded points back
     x -= std::copysign(t, x);
     y -= std::copysign(t, y);
     const float length = std::sqrt(x * x + y * y + z * z);
@@ -39,7 +39,7 @@ void decode_octahedral(std::string& bytes) {
   }
 }
 
-/// 2^e for e in [-128, 127].
+/// Returns 2^e for e in [-128, 127].
 double power_of_two(int e) {
   return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + e) << 52U);
 }
@@ -52,7 +52,7 @@ void decode_octahedral(std::string& bytes, std::size_t stride) {
 }
 
 void decode_quaternions(std::string& bytes) {
-  constexpr float kRange = 0.70710678118654752F;  // upper bound of the three smaller components
+  constexpr float kRange = 0.70710678118654752F;  // maximum of each of the three smaller components
   std::array<std::int16_t, 4> v;
   for (std::size_t i = 0; i + sizeof v <= bytes.size(); i += sizeof v) {
     std::memcpy(v.data(), &bytes[i], sizeof v);

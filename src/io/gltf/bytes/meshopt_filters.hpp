@@ -1,18 +1,18 @@
 #pragma once
-/// The filters of EXT_meshopt_compression, appendix B. They use only + - * / and sqrt in float32,
-/// and so give the same bytes on every platform.
+/// The filters of EXT_meshopt_compression, appendix B. They give the same bytes on every platform,
+/// because they use only + - * / and sqrt in float32.
 
 #include <string>
 
 namespace microtrace::io::gltf {
 
-/// Decodes unit vectors of 4 or 8 bytes from octahedral coordinates.
+/// Decodes unit vectors of 4 or 8 bytes, stored as octahedral coordinates.
 void decode_octahedral(std::string& bytes, std::size_t stride);
 
-/// Decodes unit quaternions of 8 bytes from their three smaller components.
+/// Decodes unit quaternions of 8 bytes, stored as their three smaller components.
 void decode_quaternions(std::string& bytes);
 
-/// Decodes float32 numbers from an exponent of 8 bits and a mantissa of 24 bits.
+/// Decodes float32 numbers, stored as an exponent of 8 bits and a mantissa of 24 bits.
 void decode_exponential(std::string& bytes);
 
 }  // namespace microtrace::io::gltf

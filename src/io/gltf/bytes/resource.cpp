@@ -39,7 +39,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(path, code)) {
     const bool missing = !std::filesystem::exists(path, code);
-    // A missing file means an incomplete asset, not a failing machine.
+    // If a file is missing, the asset is incomplete. This is not a failure of the machine.
     const ErrorKind kind = missing ? ErrorKind::invalid_scene : ErrorKind::io;
     asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
   }

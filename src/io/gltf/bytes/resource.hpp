@@ -1,5 +1,5 @@
 #pragma once
-/// The data that an asset's URIs refer to.
+/// Reads the data to which an asset's URIs refer.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -15,18 +15,18 @@ namespace microtrace::io::gltf {
 
 /// The folders from which an asset may load files.
 struct ResourceFolders {
-  std::filesystem::path own;  ///< the asset's own folder, the base of relative URIs
-  std::vector<std::filesystem::path> allowed;  ///< further folders that URIs may lead to
+  std::filesystem::path own;  ///< the asset's own folder, to which URIs are relative
+  std::vector<std::filesystem::path> allowed;  ///< other folders in which URIs may name files
 };
 
 /// Reads a file in one of the folders or below. `what` names the kind of file in error messages,
-/// "buffer". Throws Error: invalid_scene for a refused URI, io, and limit for a larger file than
-/// `most`.
+/// for example "buffer". Throws Error: invalid_scene for a refused URI, io, and limit for a file
+/// larger than `max_bytes`.
 [[nodiscard]] std::string read_resource(const Asset& asset, const Element& uri,
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
-/// Records a file that a URI names but that is not read, so that no output overwrites it.
+/// Records a file that a URI names but that is not read. Outputs must not overwrite it either.
 void note_unread_resource(const Element& uri, const ResourceFolders& folders);
 
 }  // namespace microtrace::io::gltf

@@ -32,7 +32,7 @@ int hex_digit(char c) {
   return l >= 'a' && l <= 'f' ? l - 'a' + 10 : -1;
 }
 
-/// scheme = ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":"
+/// True if the URI begins with a scheme: ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":".
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');
@@ -86,7 +86,7 @@ std::optional<std::string> decode_base64(std::string_view text) {
     const int digit = base64_digit(text[i]);
     if (digit < 0) return std::nullopt;
     bits = bits << 6U | static_cast<std::uint32_t>(digit);
-    // Each digit but the first of a group of four completes a byte.
+    // In each group of four digits, every digit after the first completes a byte.
     if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xFFU);
   }
   return bytes;
@@ -105,7 +105,7 @@ RelativePath relative_path(std::string_view uri) {
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};
   }
-  // Resolves "." and "..", so that the path checked here is the path opened later.
+  // Resolves "." and "..". The path that is checked here is then the path that is opened later.
   const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
   if (*plain.begin() == "..") {
     return {*path, "leaves the asset's folder by \"..\"", true};

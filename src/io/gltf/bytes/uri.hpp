@@ -1,5 +1,5 @@
 #pragma once
-/// The two kinds of URI in glTF: data embedded in the JSON, and a file beside it.
+/// The two kinds of URI in glTF: embedded data, and a relative path of a file.
 
 #include <optional>
 #include <string>
@@ -9,32 +9,32 @@ namespace microtrace::io::gltf {
 
 /// A data URI (RFC 2397).
 struct DataUri {
-  std::string_view media_type;  ///< without parameters
-  bool is_base64 = false;       ///< otherwise the data is percent-encoded
-  std::string_view data;        ///< still encoded
+  std::string_view media_type;  ///< media type without parameters
+  bool is_base64 = false;       ///< if false, the data is percent-encoded
+  std::string_view data;        ///< data, not yet decoded
 };
 
 [[nodiscard]] bool is_data_uri(std::string_view uri);
 
-/// Nothing if the URI has no comma or an empty parameter.
+/// Splits a data URI. Returns nothing if the URI has no comma or an empty parameter.
 [[nodiscard]] std::optional<DataUri> split_data_uri(std::string_view uri);
 
-/// Decodes padded base64 (RFC 4648, section 4). Nothing if the text is not base64.
+/// Decodes padded base64 (RFC 4648, section 4). Returns nothing if the text is not base64.
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view text);
 
-/// Decodes percent-encoding. Nothing if two hexadecimal digits don't follow a %.
+/// Decodes percent-encoding. Returns nothing if a % is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> decode_percent(std::string_view text);
 
 /// A path made from a file URI, or the reason for refusing it.
 struct RelativePath {
-  std::string path{};      ///< percent-decoded; without "." and ".." unless refused
-  std::string refusal{};   ///< empty if the path is accepted
-  bool leads_out = false;  ///< refused only because it leaves, or may leave, the folder
+  std::string path{};      ///< percent-decoded; contains "." and ".." only if refused
+  std::string refusal{};   ///< reason; empty if the path is accepted
+  bool leads_out = false;  ///< refused only because the path leaves, or may leave, the folder
 };
 
-/// Accepts relative paths (RFC 3986, section 4.2, path-noscheme) that stay in the asset's folder
-/// after "." and ".." are resolved by name, and that contain no backslash or control character,
-/// even percent-encoded.
+/// Accepts relative paths (RFC 3986, section 4.2, path-noscheme). After "." and ".." are resolved
+/// by name, the path must stay in the asset's folder. It must not contain backslashes or control
+/// characters, not even percent-encoded.
 [[nodiscard]] RelativePath relative_path(std::string_view uri);
 
 }  // namespace microtrace::io::gltf

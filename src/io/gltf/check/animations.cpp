@@ -17,7 +17,7 @@ std::string text(double number) {
   return std::to_string(static_cast<unsigned long long>(number));
 }
 
-/// The accessor formats that glTF 2.0, section 3.11, allows for a path.
+/// True if glTF 2.0, section 3.11, allows this accessor format for a path.
 bool is_allowed(const std::string& path, const Format& f) {
   if (path == "translation" || path == "scale") return f == Format{"VEC3", kFloat32};
   const char* type = path == "rotation" ? "VEC4" : "SCALAR";
@@ -59,10 +59,10 @@ class AnimationCheck {
     return interpolation != nullptr && interpolation->string == "CUBICSPLINE";
   }
 
-  /// Readers ignore a channel without a target (glTF 2.0, section 3.11).
+  /// Removes the channel's target. Readers ignore a channel without one (glTF 2.0, section 3.11).
   void leave_out(const Element& target) { asset_.drop(target, {"node", "extensions"}); }
 
-  /// Warns of a violation that keeps the channel from playing. Returns false.
+  /// Warns of a violation that makes the channel unplayable. Returns false.
   bool wrong(const Element& at, const std::string& message) {
     asset_.tolerate(at, message + "; the channel is ignored");
     return false;
@@ -93,7 +93,8 @@ class AnimationCheck {
     if (extension(at, kPointerExtension) || path == "pointer") return pointer(at);
     const bool known =
         path == "translation" || path == "rotation" || path == "scale" || path == "weights";
-    if (index == nullptr || !known) return true;  // ignored (section 3.11), or an extension's
+    if (index == nullptr || !known)
+      return true;  // ignored (section 3.11), or defined by an extension
     const auto number = static_cast<std::size_t>(index->number);
     const JsonValue& node = asset_.array("nodes")[number];
     if (path != "weights" && node.find("matrix") != nullptr) {
@@ -115,7 +116,7 @@ class AnimationCheck {
     const std::optional<Element> own = extension(at, kPointerExtension);
     const Element path = at.member("path");
     if (!own) {
-      // Without the extension, "pointer" is an unknown path like any other.
+      // If the extension is not used, "pointer" is an unknown path.
       if (!asset_.uses(kPointerExtension)) return true;
       return wrong(path, "is \"pointer\" without an object of KHR_animation_pointer");
     }
@@ -162,7 +163,7 @@ class AnimationCheck {
   Asset& asset_;
   AccessorHeads& accessors_;
   std::vector<bool> are_good_;               // by sampler of the animation
-  std::unordered_set<std::string> targets_;  // of the animation's earlier channels
+  std::unordered_set<std::string> targets_;  // targets of earlier channels
 };
 
 }  // namespace

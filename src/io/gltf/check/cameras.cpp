@@ -6,7 +6,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Removes an unusable camera from the asset. check_nodes then removes it from its nodes.
+/// Removes the type of an unusable camera from the asset. check_nodes then removes references to
+/// it.
 void leave_out(Asset& asset, const Element& camera, const Element& at, const std::string& why) {
   asset.tolerate(at, why + "; the camera is left out");
   asset.drop(camera, {"type"});
@@ -63,7 +64,7 @@ void check_camera(Asset& asset, const Element& at) {
 void check_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("cameras").size(); ++i) {
     const Element at = asset.element("cameras", i);
-    // check_schema has warned of an unknown type.
+    // If the type is missing, check_schema has removed it with a warning because it was unknown.
     if (at.value->find("type") != nullptr) check_camera(asset, at);
   }
 }

@@ -18,7 +18,7 @@ Support support_of(std::string_view name) {
 
 using Version = std::pair<unsigned, unsigned>;
 
-/// Parses major.minor in decimal digits.
+/// Parses a version of the form major.minor in decimal digits.
 std::optional<Version> parse_version(std::string_view text) {
   Version version;
   const char* end = text.data() + text.size();
@@ -79,7 +79,8 @@ void check_extension(Asset& asset, const Element& at) {
   }
 }
 
-/// Readers without this extension can't read the asset, so it must be required.
+/// Warns if the extension for quantized meshes is used but not required. Readers without it can't
+/// read such an asset.
 void check_quantization(Asset& asset) {
   constexpr std::string_view kName = "KHR_mesh_quantization";
   if (asset.requires_extension(kName)) return;

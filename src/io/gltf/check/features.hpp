@@ -1,5 +1,5 @@
 #pragma once
-/// The features that an asset requires or uses, compared with the supported ones.
+/// Compares the features that an asset requires or uses with the supported ones.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -7,12 +7,12 @@
 
 namespace microtrace::io::gltf {
 
-/// Checks the glTF version and the required extensions. Comes before check_schema, because both may
-/// change the schema. Throws Error: invalid_scene, unsupported.
+/// Checks the glTF version and the required extensions. Must run before check_schema, because the
+/// version and the extensions may change the schema. Throws Error: invalid_scene, unsupported.
 void check_requirements(Asset& asset);
 
-/// Adds one warning for each kind of feature that is used but ignored. Flat pictures ignore
-/// emission.
+/// Adds one warning for each kind of feature that is used but ignored. `detail` matters because
+/// flat pictures ignore emission.
 void warn_of_ignored_features(Asset& asset, SurfaceDetail detail);
 
 }  // namespace microtrace::io::gltf

@@ -13,8 +13,8 @@ inline constexpr std::size_t kMaxNodes = std::size_t{1} << 20;
 
 class NodeForest {
  public:
-  /// Throws Error: invalid_scene if the nodes are not disjoint trees (glTF 2.0, section 3.5.2)
-  /// because of a second parent or a cycle; limit for more than kMaxNodes.
+  /// Throws Error: invalid_scene if a second parent or a cycle keeps the nodes from being disjoint
+  /// trees (glTF 2.0, section 3.5.2), limit for more than kMaxNodes.
   explicit NodeForest(const Asset& asset);
 
   [[nodiscard]] std::optional<std::size_t> parent(std::size_t node) const;
@@ -28,7 +28,8 @@ class NodeForest {
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
 
-  /// Preorder numbers: a node and its descendants have those from `first` to `end`, exclusive.
+  /// A range of preorder numbers. The node and its descendants have the numbers from `first` to
+  /// `end`, exclusive.
   struct Place {
     std::size_t parent = kNone, root = kNone, first = 0, end = 0;
   };

@@ -1,5 +1,5 @@
 #pragma once
-/// The declared formats of accessors, and the purposes they are used for.
+/// The declared formats of accessors, and the purposes for which they are used.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -19,21 +19,21 @@ struct Format {
   bool normalized = false;
 
   bool operator==(const Format&) const = default;
-  /// For example "VEC3 of componentType 5126".
+  /// The format in words, for example "VEC3 of componentType 5126".
   [[nodiscard]] std::string text() const;
 };
 
 struct AccessorHead {
   Format format;
   double count = 0;
-  bool has_bounds = false;  ///< both min and max
+  bool has_bounds = false;  ///< true if both min and max are present
   std::optional<std::size_t> view{};
   std::size_t offset = 0;  ///< from the start of the view
-  std::size_t stride = 0;  ///< of the view; 0 if absent
+  std::size_t stride = 0;  ///< stride of the view; 0 if absent
   std::size_t start = 0;   ///< from the start of the buffer
 };
 
-/// The purpose of a buffer view or accessor. Each serves one purpose only (glTF 2.0, section
+/// The purpose of a buffer view or accessor. Each must serve only one purpose (glTF 2.0, section
 /// 3.6.2.1).
 enum class Purpose {
   none,
@@ -57,9 +57,9 @@ class AccessorHeads {
     return heads_[static_cast<std::size_t>(index.number)];
   }
 
-  /// Records that the index `at` uses an accessor, and its view, for this purpose. Warns if either
-  /// has another purpose already, if the view's target contradicts it, if the purpose allows no
-  /// stride, or if two vertex attributes share a view without a stride.
+  /// Records that the index `at` uses an accessor and its view for this purpose. Warns if either
+  /// already has a different purpose, if the view's target contradicts the purpose, if the purpose
+  /// allows no stride, or if two vertex attributes share a view without a stride.
   void use(const Element& at, Purpose purpose);
   void use_view(const Element& at, std::size_t view, Purpose purpose);
 

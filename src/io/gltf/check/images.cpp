@@ -13,7 +13,8 @@ void check_uri(const Asset& asset, const Element& at) {
   if (is_data_uri(uri)) {
     if (!split_data_uri(uri)) asset.fail(at, "is not a data URI of the form data:TYPE;base64,DATA");
   } else if (const RelativePath path = relative_path(uri);
-             !path.refusal.empty() && !path.leads_out) {  // read_resource reports these
+             !path.refusal.empty() &&
+             !path.leads_out) {  // read_resource reports paths that lead out
     asset.fail(at, path.refusal);
   }
 }
@@ -41,7 +42,7 @@ void check_image(Asset& asset, const Element& at, AccessorHeads& accessors) {
   accessors.use_view(view, static_cast<std::size_t>(view.value->number), Purpose::image);
 }
 
-/// Warns if the image's declared type is not allowed for the property that refers to it.
+/// Warns if the property that refers to an image does not allow the image's declared type.
 void check_source(Asset& asset, const Element& texture, std::string_view type,
                   std::string_view other_type) {
   const JsonValue* index = texture.value->find("source");

@@ -30,7 +30,7 @@ void check_light(Asset& asset, const Element& at) {
   asset.set(inner, std::nextafter(outer, 0));
 }
 
-/// Checks KHR_materials_variants: each variant must select one material.
+/// Checks the mappings of KHR_materials_variants. Each variant must select only one material.
 void check_mappings(Asset& asset, const Element& at) {
   std::unordered_set<double> seen;
   for (std::size_t i = 0; i < at.value->items.size(); ++i) {

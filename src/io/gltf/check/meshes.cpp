@@ -29,7 +29,8 @@ bool is_one_of(int value, std::initializer_list<int> values) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// The attribute formats of glTF 2.0, section 3.7.2.1; for morph targets section 3.7.2.2.
+/// True if glTF 2.0 allows the format for the attribute: section 3.7.2.1, or 3.7.2.2 for morph
+/// targets.
 bool is_standard(std::string_view name, const Format& f, bool of_target) {
   const bool is_float = f.component_type == kFloat32 && !f.normalized;
   const bool is_unit = f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
@@ -44,10 +45,10 @@ bool is_standard(std::string_view name, const Format& f, bool of_target) {
   if (name == "JOINTS") {
     return f.type == "VEC4" && !f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
   }
-  return f.component_type != kUint32;  // application-specific
+  return f.component_type != kUint32;  // application-specific attribute
 }
 
-/// The additional formats of KHR_mesh_quantization.
+/// True for the additional formats of KHR_mesh_quantization.
 bool is_quantized(std::string_view name, const Format& f, bool of_target) {
   const bool is_signed = is_one_of(f.component_type, {kInt8, kInt16});
   const bool is_short = is_signed || is_one_of(f.component_type, {kUint8, kUint16});
@@ -118,7 +119,8 @@ class MeshCheck {
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// Requires consecutive set numbers from 0, and as many JOINTS as WEIGHTS.
+  /// Requires that set numbers are consecutive from 0, and that JOINTS and WEIGHTS have equally
+  /// many sets.
   void sets(const Element& at) const {
     std::size_t joints = 0, weights = 0;
     for (const std::string_view name : {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}) {
@@ -162,7 +164,7 @@ class MeshCheck {
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// False if the attribute's format can't be read.
+  /// Returns false if the attribute's format can't be read.
   [[nodiscard]] bool format(const Element& at, std::string_view name, bool of_target) const {
     const Format& format = accessors_[*at.value].format;
     if (is_standard(name, format, of_target)) return true;
@@ -211,7 +213,8 @@ class MeshCheck {
     attributes(at, true);
   }
 
-  /// Empty if the morph target's attribute fits the primitive's.
+  /// Returns the reason why a morph target's attribute does not fit the primitive's, or an empty
+  /// text.
   [[nodiscard]] std::string why_not_morphed(const JsonMember& target, const JsonValue* base) const {
     if (target.key.starts_with("JOINTS_") || target.key.starts_with("WEIGHTS_")) {
       return "can't be morphed";

@@ -8,10 +8,10 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Properties of a mesh that constrain its nodes.
+/// Properties of a mesh that restrict the nodes that use it.
 struct MeshParts {
   std::size_t targets = 0;
-  bool has_joints = false;  ///< every primitive has joints
+  bool has_joints = false;  ///< true if every primitive has joints
 };
 
 std::vector<MeshParts> mesh_parts(const Asset& asset) {
@@ -83,7 +83,7 @@ void check_mesh(Asset& asset, const Element& at, const std::vector<MeshParts>& m
   check_weights(asset, at, parts.targets);
 }
 
-/// Drops a reference to a camera whose type is unknown to check_schema.
+/// Drops a reference to a camera whose type check_schema does not know.
 void drop_unknown_camera(Asset& asset, const Element& at) {
   const JsonValue* index = at.value->find("camera");
   if (index == nullptr) return;

@@ -1,7 +1,8 @@
 #pragma once
-/// Rules between the objects of an asset, one function for each kind of object. All expect an asset
-/// that check_schema has accepted, throw Error (invalid_scene) at the first violation that can't be
-/// repaired, and warn of the others after they remove invalid values from the asset's JSON.
+/// Rules for relations between the objects of an asset, with one function for each kind of object.
+/// The functions expect an asset that check_schema has accepted. They throw Error (invalid_scene)
+/// at the first violation that can't be repaired. For each of the others, they remove the invalid
+/// values from the asset's JSON and warn.
 
 #include "io/gltf/check/forest.hpp"
 #include "io/gltf/check/heads.hpp"
@@ -14,7 +15,7 @@ namespace microtrace::io::gltf {
 /// Runs all functions below.
 void check_semantics(Asset& asset);
 
-/// Checks the declarations of buffer views and accessors; check_accessors checks their ranges.
+/// Checks the declarations of buffer views and accessors. check_accessors checks their ranges.
 void check_storage(Asset& asset);
 void check_cameras(Asset& asset);
 void check_lights(Asset& asset);

@@ -46,7 +46,7 @@ void check_matrices(const Asset& asset, const Element& at, AccessorHeads& access
   }
 }
 
-/// For each node: true if it is a root and some scene contains it.
+/// For each node, true if it is a root and belongs to some scene.
 std::vector<bool> roots_in_scenes(const Asset& asset, const NodeForest& forest) {
   std::vector<bool> result(asset.array("nodes").size());
   for (const JsonValue& scene : asset.array("scenes")) {

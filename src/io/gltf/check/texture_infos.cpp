@@ -5,7 +5,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The set of texture coordinates. KHR_texture_transform may override the texture info's own.
+/// The number of the texture coordinate set. KHR_texture_transform may override the number in the
+/// texture info.
 double set_of(const JsonValue& info) {
   const JsonValue* transform = extension(info, "KHR_texture_transform");
   const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;
@@ -13,8 +14,8 @@ double set_of(const JsonValue& info) {
   return set != nullptr ? set->number : 0;
 }
 
-/// By check_schema's rules, every object in a material whose key ends in "Texture" is a texture
-/// info.
+/// Collects the texture infos in an object. By check_schema's rules, these are the objects whose
+/// key ends in "Texture".
 void collect(const JsonValue& object, std::vector<std::pair<std::string, double>>& sets) {
   for (const JsonMember& member : object.members) {
     if (member.key == "extras" || member.value.kind != JsonValue::Kind::object) continue;

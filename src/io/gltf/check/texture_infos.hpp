@@ -10,11 +10,12 @@
 namespace microtrace::io::gltf {
 
 struct MaterialTextures {
-  std::vector<std::pair<std::string, double>> sets;  ///< the key of a texture, and its TEXCOORD set
-  bool needs_tangents = false;  ///< needs TANGENT, as no normal texture defines tangents
+  std::vector<std::pair<std::string, double>> sets;  ///< each texture's key and TEXCOORD set
+  /// True if the vertices need TANGENT because no normal texture defines tangents.
+  bool needs_tangents = false;
 };
 
-/// For each material, its extensions included.
+/// The texture infos of each material and its extensions.
 [[nodiscard]] std::vector<MaterialTextures> texture_infos(const Asset& asset);
 
 }  // namespace microtrace::io::gltf

@@ -81,7 +81,7 @@ void Asset::note(const Element& at, const std::string& message, Severity severit
 }
 
 std::vector<Diagnostic> Asset::warnings() const {
-  constexpr std::size_t kShown = 100;  // finding each line takes time
+  constexpr std::size_t kShown = 100;  // limited because finding a warning's line takes time
   std::vector<std::pair<std::string, Warning>> sorted(warnings_.begin(), warnings_.end());
   std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second.offset, a.first) < std::pair(b.second.offset, b.first);

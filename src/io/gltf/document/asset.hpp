@@ -1,5 +1,5 @@
 #pragma once
-/// The JSON of one glTF asset, with its warnings and errors.
+/// The JSON of one glTF asset. Collects warnings and throws errors about it.
 
 #include "io/json/document.hpp"
 
@@ -14,28 +14,30 @@
 
 namespace microtrace::io::gltf {
 
-/// A value in the asset's JSON, with its pointer.
+/// A value in the asset's JSON, with its JSON pointer.
 struct Element {
   const JsonValue* value;
   std::string pointer;
 
-  /// The member with that key; this element with the member's pointer if it is absent.
+  /// The member with this key. If it is absent, the result has this element's value and the absent
+  /// member's pointer.
   [[nodiscard]] Element member(std::string_view key) const;
-  /// The item at that index; likewise.
+  /// The item with this index. If it is absent, the result is as for member().
   [[nodiscard]] Element item(std::size_t index) const;
 };
 
 class Asset {
  public:
-  /// The document must outlive the asset. Only drop and set modify it. Warns of duplicate keys.
+  /// The document must outlive the asset, which modifies it only in drop and set. Warns of
+  /// duplicate keys.
   explicit Asset(JsonDocument& json);
 
   [[nodiscard]] Element root() const { return {&json_.root(), {}}; }
   [[nodiscard]] const std::string& file() const { return json_.file(); }
 
-  /// The items of an array in the root object; none if it is absent.
+  /// The items of an array in the root object. Empty if the array is absent.
   [[nodiscard]] const std::vector<JsonValue>& array(std::string_view name) const;
-  /// Item `index` of that array, which must exist.
+  /// Item `index` of the root object's array `name`. The item must exist.
   [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
 
   /// The value that a JSON pointer names, or null.
@@ -45,22 +47,23 @@ class Asset {
   /// True if extensionsRequired contains the extension.
   [[nodiscard]] bool requires_extension(std::string_view extension) const;
 
-  /// Removes invalid members of an object from the asset's JSON, so that no reader sees them. The
-  /// caller warns first. Invalidates Elements within the object.
+  /// Removes invalid members of an object from the asset's JSON, so no reader sees them. The caller
+  /// must warn first. Invalidates Elements within the object.
   void drop(const Element& object, const std::unordered_set<std::string_view>& keys);
-  /// Replaces a number. The caller warns first.
+  /// Replaces a number. The caller must warn first.
   void set(const Element& at, double number);
 
   [[noreturn]] void fail(const Element& at, std::string message,
                          ErrorKind kind = ErrorKind::invalid_scene) const;
 
-  /// Adds a warning. Warnings with the same text become one, with the first place in the file and
-  /// the number of places.
+  /// Adds a warning. Warnings with the same text are merged into one, which states the first place
+  /// in the file and the number of places.
   void warn(const Element& at, const std::string& message);
-  /// Reports a violation of glTF 2.0 that doesn't prevent rendering: a warning when rendering, an
-  /// error when validating.
+  /// Reports a violation of glTF 2.0 that doesn't prevent rendering. Rendering reports it as a
+  /// warning, validation as an error.
   void tolerate(const Element& at, const std::string& message);
-  /// All warnings in file order. Beyond 100 different texts, a last one counts those left out.
+  /// All warnings in file order. If there are more than 100 different texts, a last warning states
+  /// how many are omitted.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
  private:
@@ -70,7 +73,7 @@ class Asset {
     Severity severity = Severity::warning;
   };
 
-  /// `at` is the first of `places` places.
+  /// Adds `places` places, of which `at` is the first.
   void note(const Element& at, const std::string& message, Severity severity, std::size_t places);
 
   JsonDocument& json_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Extension objects and their properties.
+/// Reads extension objects and their properties.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -10,28 +10,28 @@
 
 namespace microtrace::io::gltf {
 
-/// The object that an extension adds to `object`, if any.
+/// The object of this extension in `object`, if any.
 [[nodiscard]] std::optional<Element> extension(const Element& object, std::string_view name);
-/// The same without a pointer; null if absent.
+/// The same object without its pointer, or null.
 [[nodiscard]] const JsonValue* extension(const JsonValue& object, std::string_view name);
 
-/// A number in [least, most]; `standard` if the property is absent. Throws Error (invalid_scene),
-/// as do all functions below.
+/// Reads a number in [least, most]. Returns `standard` if the property is absent. Throws Error
+/// (invalid_scene), like all functions below.
 [[nodiscard]] double number(const Asset& asset, const Element& object, std::string_view key,
                             double standard,
                             double least = -std::numeric_limits<double>::infinity(),
                             double most = std::numeric_limits<double>::infinity());
 
-/// A required integer from 0 to most.
+/// Reads a required integer from 0 to `most`.
 [[nodiscard]] std::size_t whole_number(const Asset& asset, const Element& object,
                                        std::string_view key,
                                        std::size_t most = std::size_t{1} << 53U);
 
-/// A required index into an array of `size` items.
+/// Reads a required index into an array of `size` items.
 [[nodiscard]] std::size_t index(const Asset& asset, const Element& object, std::string_view key,
                                 std::size_t size);
 
-/// A required string.
+/// Reads a required string.
 [[nodiscard]] const std::string& string(const Asset& asset, const Element& object,
                                         std::string_view key);
 

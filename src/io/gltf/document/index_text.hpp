@@ -1,5 +1,5 @@
 #pragma once
-/// Indices written as text.
+/// Parses indices written as text.
 
 #include <charconv>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace microtrace::io::gltf {
   return value;
 }
 
-/// The set number of a vertex attribute: 1 for TEXCOORD_1.
+/// The set number of a vertex attribute, for example 1 for TEXCOORD_1.
 [[nodiscard]] inline std::optional<std::size_t> set_in(std::string_view attribute) {
   return index_in(attribute.substr(attribute.find('_') + 1));
 }

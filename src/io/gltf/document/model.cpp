@@ -17,20 +17,21 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Root members passed to tinygltf. URIs, images, extensions and extras are left out.
+/// Members of the root object that tinygltf parses. None of them contains URIs or images.
 constexpr std::array<std::string_view, 7> kParsedMembers = {
     "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
 
-/// Indices and sparse parts are read from the JSON instead: tinygltf 2.7.0 refuses index accessors
-/// without a buffer view, which glTF allows, and stores sparse offsets as int.
+/// Members omitted from the text that tinygltf parses. Indices and sparse parts are read from the
+/// JSON instead, because tinygltf 2.7.0 refuses index accessors without a buffer view, which glTF
+/// allows, and stores sparse offsets as int.
 constexpr std::array<std::string_view, 4> kLeftOut = {"extensions", "extras", "indices", "sparse"};
 
-/// True for an accessor of unknown type.
+/// True if check_schema has removed the type of an accessor because it was unknown.
 bool is_unknown(const JsonValue& accessor) {
   return accessor.find("type") == nullptr || accessor.find("componentType") == nullptr;
 }
 
-/// The part of the repaired JSON that tinygltf parses.
+/// The part of the repaired JSON that tinygltf parses, as text.
 std::string parsed_part(const JsonValue& root) {
   std::string text = "{";
   const auto separate = [&text] {
@@ -48,7 +49,7 @@ std::string parsed_part(const JsonValue& root) {
     text += '[';
     for (const JsonValue& accessor : member.value.items) {
       separate();
-      if (is_unknown(accessor)) {  // tinygltf would reject the whole asset
+      if (is_unknown(accessor)) {  // otherwise tinygltf would reject the whole asset
         text += R"({"type":"SCALAR","componentType":5121,"count":1})";
       } else {
         append_json(text, accessor, kLeftOut);
@@ -59,7 +60,7 @@ std::string parsed_part(const JsonValue& root) {
   return text + '}';
 }
 
-/// A parser without file access and image decoding.
+/// A parser that accesses no files and decodes no images.
 tinygltf::TinyGLTF make_parser() {
   tinygltf::TinyGLTF parser;
   tinygltf::FsCallbacks none{};
@@ -99,13 +100,13 @@ std::size_t index_of(const JsonValue& value) {
   return static_cast<std::size_t>(value.number);
 }
 
-/// An optional number.
+/// The index in an optional member.
 std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   return value != nullptr ? std::optional(index_of(*value)) : std::nullopt;
 }
 
-/// tinygltf uses -1 for an absent index.
+/// Converts an index of tinygltf, which uses -1 for an absent index.
 std::optional<std::size_t> index_of(int index) {
   return index >= 0 ? std::optional(static_cast<std::size_t>(index)) : std::nullopt;
 }
@@ -205,8 +206,8 @@ Model::Node node_of(tinygltf::Node& node) {
   return result;
 }
 
-/// Reads the JSON, because tinygltf 2.7.0 refuses skins without inverse bind matrices, which glTF
-/// allows.
+/// Makes a skin from the JSON, because tinygltf 2.7.0 refuses skins without inverse bind matrices,
+/// which glTF allows.
 Model::Skin skin_of(const JsonValue& json) {
   Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
   for (const JsonValue& joint : json.find("joints")->items) {
@@ -222,7 +223,8 @@ std::size_t count_values(const JsonValue& value) {
   return result;
 }
 
-/// Counts the memory of the model per item of the asset's arrays; `parts` estimates small members.
+/// Counts the model's memory by the number of items in the asset's arrays. kParts estimates the
+/// size of small members.
 void count_model(const Asset& asset) {
   const auto count = [](std::size_t items, std::size_t bytes) {
     take_memory(items * bytes, "the asset's model");
@@ -244,7 +246,7 @@ void count_model(const Asset& asset) {
 }  // namespace
 
 Model parse_model(const Asset& asset) {
-  // Memory of the text, of tinygltf's own JSON and of its result.
+  // Memory for the text, for tinygltf's own JSON, and for its result.
   constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
   const JsonValue& root = *asset.root().value;
   std::size_t work_bytes = count_values(root) * kBytesOfValue;

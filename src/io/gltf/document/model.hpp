@@ -1,9 +1,9 @@
 #pragma once
-/// The structure of an asset as plain data: what its geometry is made of and how it is placed.
+/// The structure of an asset as plain data: the parts of its geometry and their placement.
 ///
-/// The checks read and repair the asset's JSON; after them, scenes, nodes, meshes, skins, accessors
-/// and buffer views are read here. Animations, materials, textures, cameras, lights and the objects
-/// of extensions are read from the JSON, because animations may change them.
+/// After the checks have repaired the asset's JSON, scenes, nodes, meshes, skins, accessors and
+/// buffer views are read from this model. Animations, materials, textures, cameras, lights and the
+/// objects of extensions are read from the JSON, because animations may change them.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/element_types.hpp"
@@ -27,7 +27,7 @@ struct Model {
     std::size_t stride = 0;  ///< 0 means tightly packed
   };
 
-  /// Replacements for some elements of an accessor.
+  /// Replacements for some of an accessor's elements.
   struct Sparse {
     std::size_t count = 0;
     std::size_t indices_view = 0, indices_offset = 0;
@@ -35,7 +35,7 @@ struct Model {
     std::size_t values_view = 0, values_offset = 0;
   };
 
-  /// An accessor of unknown type keeps these default values. Nothing that is drawn uses it.
+  /// An accessor of unknown type keeps these default values and is not used by any drawn object.
   struct Accessor {
     ElementType type = ElementType::scalar;
     int component_type = kUint8;  ///< OpenGL constant
@@ -52,7 +52,7 @@ struct Model {
 
   struct Primitive {
     Attributes attributes{};
-    std::optional<std::size_t> indices{};  ///< accessor index
+    std::optional<std::size_t> indices{};  ///< index of the accessor with the indices
     std::optional<std::size_t> material{};
     Mode mode = Mode::triangles;
     std::vector<Attributes> targets{};
@@ -68,7 +68,7 @@ struct Model {
     std::string name{};
     std::vector<std::size_t> children{};
     std::optional<std::size_t> mesh{}, skin{}, camera{};
-    std::optional<DMat4> matrix{};  ///< replaces the three properties below
+    std::optional<DMat4> matrix{};  ///< if present, replaces the three properties below
     DVec3 translation{0}, scale{1};
     glm::dvec4 rotation{0, 0, 0, 1};  ///< (x, y, z, w), not necessarily of unit length
     std::vector<double> weights{};
@@ -85,10 +85,10 @@ struct Model {
   std::vector<Node> nodes{};
   std::vector<Skin> skins{};
   std::vector<std::vector<std::size_t>> scenes{};  ///< root nodes of each scene
-  std::size_t scene = 0;                           ///< the scene to draw, if there are any
+  std::size_t scene = 0;  ///< index of the scene to draw, if there are any scenes
 };
 
-/// Makes the model of an asset that passed the checks. Throws Error (limit).
+/// Makes the model of an asset that has passed the checks. Throws Error (limit).
 [[nodiscard]] Model parse_model(const Asset& asset);
 
 }  // namespace microtrace::io::gltf

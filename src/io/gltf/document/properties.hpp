@@ -1,5 +1,5 @@
 #pragma once
-/// Properties of objects that check_schema has accepted. Reading them can't fail.
+/// Reads properties of objects that check_schema has accepted. Reading can't fail.
 
 #include "io/json/document.hpp"
 
@@ -10,12 +10,12 @@
 
 namespace microtrace::io::gltf {
 
-/// The nearest finite float32.
+/// The finite float32 nearest to x.
 [[nodiscard]] float finite_float(double x);
 
 [[nodiscard]] float number(const JsonValue& object, std::string_view key, float standard);
 
-/// A vector with as many components as the schema requires.
+/// Reads a vector, which has as many components as the schema requires.
 template <typename Vector>
 [[nodiscard]] Vector vector(const JsonValue& object, std::string_view key, const Vector& standard) {
   const JsonValue* value = object.find(key);
@@ -27,10 +27,10 @@ template <typename Vector>
   return result;
 }
 
-/// 0 if absent; at most 2^32 - 1.
+/// Reads an index of at most 2^32 - 1. Returns 0 if it is absent.
 [[nodiscard]] std::uint32_t index(const JsonValue& object, std::string_view key);
 
-/// Empty if absent.
+/// The object's name. Empty if absent.
 [[nodiscard]] std::string name_of(const JsonValue& object);
 
 }  // namespace microtrace::io::gltf

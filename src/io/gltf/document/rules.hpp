@@ -1,5 +1,5 @@
 #pragma once
-/// Rules for the properties of JSON objects, with which check_schema validates glTF 2.0 and its
+/// Rules for the properties of JSON objects. check_schema uses them to validate glTF 2.0 and its
 /// extensions.
 
 #include <cstddef>
@@ -14,23 +14,23 @@ enum class Form {
   integer,
   number,
   string,
-  index,    ///< into the root array `target`
+  index,    ///< an index into the root array `target`
   indices,  ///< an array of distinct indices
   numbers,
   strings,              ///< an array of distinct strings
-  object,               ///< described by `members`
+  object,               ///< an object described by `members`
   objects,              ///< an array of objects
   attributes,           ///< attribute names mapped to accessor indices
-  targets,              ///< an array of the above: morph targets
-  instance_attributes,  ///< the same with the attribute names of EXT_mesh_gpu_instancing
+  targets,              ///< an array of `attributes`, one for each morph target
+  instance_attributes,  ///< attribute names of EXT_mesh_gpu_instancing mapped to accessor indices
   draco_attributes,     ///< attribute names mapped to integers
   anything,
 };
 
-/// The kinds of objects that extensions extend.
+/// The kinds of objects that can have extensions.
 enum class Place {
   other,
-  nowhere,   ///< for extensions that add no object
+  nowhere,   ///< for extensions that add no objects
   anywhere,  ///< for extensions whose objects are not checked
   root,
   asset,
@@ -48,32 +48,32 @@ enum class Place {
   texture_info,
 };
 
-/// How a value outside its rule's range or list is repaired.
+/// The repair of a value that is outside its rule's range or list.
 enum class Repair {
-  none,   ///< not at all: the asset is refused
+  none,   ///< no repair: the asset is refused
   clamp,  ///< replaced by the nearest number in range
-  drop,   ///< removed, as if absent
-  keep,   ///< kept; readers handle it
+  drop,   ///< removed, which gives the default
+  keep,   ///< kept, because readers handle it
 };
 
 struct Rule {
   std::string_view key;
   Form form;
   bool required = false;
-  double min = -std::numeric_limits<double>::infinity();  ///< of each number
+  double min = -std::numeric_limits<double>::infinity();  ///< minimum of each number
   double max = std::numeric_limits<double>::infinity();
-  bool above_min = false;  ///< exclusive minimum
-  std::size_t fewest = 0;  ///< least number of array items
+  bool above_min = false;  ///< true if min itself is invalid
+  std::size_t fewest = 0;  ///< minimum number of array items
   std::size_t most = ~std::size_t{0};
   std::string_view target = {};  ///< name of a root array, or a pointer into the root's extensions
   std::span<const Rule> members = {};
-  Place place = Place::other;                      ///< kind of the object or objects
-  std::span<const double> values = {};             ///< valid numbers; empty allows all
+  Place place = Place::other;           ///< kind of the object, or of the array's objects
+  std::span<const double> values = {};  ///< valid numbers; empty allows all
   std::span<const std::string_view> strings = {};  ///< valid strings; empty allows all
-  Repair repair = Repair::none;  ///< in arrays, clamp and keep apply to each number
+  Repair repair = Repair::none;  ///< clamp and keep apply to each number of an array
 };
 
-/// The properties of a texture info, and of one with a scale.
+/// The properties of a texture info, without and with a scale.
 inline constexpr Rule kTextureInfoRules[] = {
     {.key = "index", .form = Form::index, .required = true, .target = "textures"},
     {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp},
@@ -94,7 +94,7 @@ constexpr Rule factor(std::string_view key) {
 constexpr Rule at_least(std::string_view key, double min) {
   return {.key = key, .form = Form::number, .min = min, .repair = Repair::clamp};
 }
-/// A number above 0. Absent or invalid values give the default.
+/// A number above 0. If it is absent or invalid, the default applies.
 constexpr Rule positive(std::string_view key) {
   return {.key = key, .form = Form::number, .min = 0, .above_min = true, .repair = Repair::drop};
 }
@@ -113,7 +113,7 @@ constexpr Rule color(std::string_view key, double max = 1, std::size_t channels 
           .most = channels,
           .repair = Repair::clamp};
 }
-/// One of several numbers. Invalid values count as absent.
+/// One of several numbers. An invalid number counts as absent.
 constexpr Rule choice(std::string_view key, std::span<const double> values) {
   return {.key = key, .form = Form::integer, .values = values, .repair = Repair::drop};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Selection of material variants (KHR_materials_variants).
+/// Selects material variants (KHR_materials_variants).
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -8,8 +8,9 @@
 
 namespace microtrace::io::gltf {
 
-/// Assigns to primitives the materials of a variant, given by name or by index from 0. Empty text
-/// keeps the file's materials. Throws Error (usage) that lists the existing variants.
+/// Assigns the materials of a variant to primitives. The variant is given by name or by index from
+/// 0. An empty text keeps the materials that the file assigns. Throws Error (usage) that lists the
+/// existing variants.
 void choose_variant(const Asset& asset, const std::string& variant, Model& model);
 
 }  // namespace microtrace::io::gltf

@@ -1,10 +1,10 @@
 #pragma once
-/// The list of extensions: all that the reader, the schema and the documentation know of them.
+/// The list of extensions, with everything that the reader and the schema need to know about them.
 ///
-/// To add KHR_materials_example: its properties in <microtrace/material.hpp>, their textures in
-/// scene/material_textures.hpp, its rules, its reader and its row in material_extensions.cpp, what
-/// it does in render/shading, and its name in docs/gltf.md. The compiler or extension_test names
-/// what is forgotten. Other extensions have their rows in other_extensions.cpp.
+/// To add KHR_materials_example, add its properties to <microtrace/material.hpp>, their textures to
+/// scene/material_textures.hpp, its rules, reader and row to material_extensions.cpp, its effect to
+/// render/shading, and its name to docs/gltf.md. The compiler or extension_test names anything that
+/// you forget. Other extensions have their rows in other_extensions.cpp.
 
 #include "io/gltf/document/rules.hpp"
 #include "io/json/document.hpp"
@@ -20,8 +20,8 @@ namespace microtrace::io::gltf {
 /// How an asset that uses an extension is handled.
 enum class Support {
   full,      ///< rendered as the extension specifies
-  harmless,  ///< ignored with a warning; the picture is right without it
-  none,      ///< ignored with a warning, but refused if the asset requires it
+  harmless,  ///< ignored with a warning; the picture is correct without it
+  none,      ///< ignored with a warning; refused if the asset requires it
 };
 
 /// The object that an extension adds to objects of one kind.
@@ -34,19 +34,20 @@ struct Extension {
   std::string_view name{};
   Support support = Support::none;
   std::array<ExtensionObject, 8> objects{};
-  /// Reads the extension's object of a material; null if it adds none to materials.
+  /// Reads the extension's object in a material. Null if the extension adds none to materials.
   void (*read_material)(const JsonValue& object, Material& material) = nullptr;
-  /// Media type of the images that textures can refer to through this extension; otherwise empty.
+  /// The media type of images to which textures can refer only by this extension. Empty if there is
+  /// none.
   std::string_view image_type{};
 
-  /// The object that the extension adds to objects of that kind, or null.
+  /// The object that the extension adds to objects of this kind, or null.
   [[nodiscard]] const ExtensionObject* object_in(Place place) const;
 };
 
-/// All known extensions, by name. Unknown ones are ignored with a warning.
+/// All known extensions, sorted by name. Unknown extensions are ignored with a warning.
 [[nodiscard]] std::span<const Extension> extensions();
 
-/// The extension with that name, or null.
+/// The extension with this name, or null.
 [[nodiscard]] const Extension* find_extension(std::string_view name);
 
 /// The parts of the list.

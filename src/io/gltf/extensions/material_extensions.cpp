@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-// Material extensions: for each the rules from the JSON schema that the Khronos Group has ratified,
-// the reader, and its row in the list below.
+// Each material extension has its rules, from the JSON schema that the Khronos Group has ratified,
+// its reader, and a row in the list below.
 
 namespace microtrace::io::gltf {
 namespace {
@@ -85,7 +85,7 @@ Iridescence iridescence(const JsonValue& json) {
 constexpr Rule kSpecularGlossinessRules[] = {
     color("diffuseFactor", 1, 4), texture("diffuseTexture"), color("specularFactor"),
     factor("glossinessFactor"), texture("specularGlossinessTexture")};
-/// Replaces pbrMetallicRoughness, which is a fallback for readers without this extension.
+/// Overrides pbrMetallicRoughness, which is a fallback for readers without this extension.
 void read_specular_glossiness(const JsonValue& json, Material& material) {
   material.base_color = vector(json, "diffuseFactor", Vec4(1));
   material.base_color_texture = texture_use(json, "diffuseTexture");
@@ -93,7 +93,7 @@ void read_specular_glossiness(const JsonValue& json, Material& material) {
       SpecularGlossiness{.specular = vector(json, "specularFactor", Vec3(1)),
                          .glossiness = number(json, "glossinessFactor", 1),
                          .texture = texture_use(json, "specularGlossinessTexture")};
-  // Approximates the material by metallic-roughness.
+  // Approximates the material by the metallic-roughness model.
   material.metallic_roughness_texture.reset();
   material.metallic = 0;
   material.roughness = 1 - material.specular_glossiness->glossiness;
@@ -125,7 +125,7 @@ Transmission transmission(const JsonValue& json) {
           .texture = texture_use(json, "transmissionTexture")};
 }
 
-/// Only the base color is visible.
+/// Reads an unlit material, which shows only its base color.
 void read_unlit(const JsonValue&, Material& material) {
   material.unlit = true;
   material.emissive = Vec3(0);
@@ -138,7 +138,7 @@ Volume volume(const JsonValue& json) {
   Volume result{.thickness = number(json, "thicknessFactor", 0),
                 .texture = texture_use(json, "thicknessTexture"),
                 .attenuation_color = vector(json, "attenuationColor", Vec3(1))};
-  // A positive number in the file stays positive after rounding.
+  // A positive distance in the file must stay positive after rounding to float32.
   result.attenuation_distance =
       std::max(number(json, "attenuationDistance", result.attenuation_distance),
                std::numeric_limits<float>::min());
@@ -159,8 +159,8 @@ constexpr Extension row(std::string_view name, std::span<const Rule> rules,
           .read_material = read};
 }
 
-/// Sorted by name. No two change the same property, so their order doesn't matter, except that one
-/// scales the emission and another removes it.
+/// The material extensions, sorted by name. They change different properties, so their order
+/// doesn't matter. The exception is emission, which one extension scales and another removes.
 constexpr Extension kList[] = {
     row("KHR_materials_anisotropy", kAnisotropyRules,
         read_layer<&Material::anisotropy, anisotropy>),

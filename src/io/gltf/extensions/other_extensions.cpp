@@ -2,8 +2,8 @@
 
 #include <numbers>
 
-// All other extensions: rules from the JSON schemas that the Khronos Group has ratified, and of
-// some common vendor extensions.
+// All other extensions. Their rules come from JSON schemas that the Khronos Group has ratified, and
+// from some common vendor extensions.
 
 namespace microtrace::io::gltf {
 namespace {
@@ -23,7 +23,7 @@ constexpr Rule image(string_view key) {
   return index_of(key, "images");
 }
 
-// Variants of materials.
+// Variants of materials
 constexpr Rule kVariantRules[] = {{.key = "name", .form = Form::string, .required = true}};
 constexpr Rule kVariants[] = {
     {.key = "variants", .form = Form::objects, .required = true, .members = kVariantRules}};
@@ -34,7 +34,7 @@ constexpr Rule kMappingRules[] = {
 constexpr Rule kMappings[] = {
     {.key = "mappings", .form = Form::objects, .required = true, .members = kMappingRules}};
 
-// Textures and images.
+// Textures and images
 constexpr Rule kTextureTransform[] = {
     vector("offset", 2),
     number("rotation"),
@@ -42,7 +42,7 @@ constexpr Rule kTextureTransform[] = {
     {.key = "texCoord", .form = Form::integer, .min = 0, .repair = Repair::clamp}};
 constexpr Rule kTextureSource[] = {image("source")};
 
-// Lights.
+// Lights
 constexpr Rule kSpotRules[] = {{.key = "innerConeAngle",
                                 .form = Form::number,
                                 .min = 0,
@@ -63,7 +63,7 @@ constexpr Rule kLights[] = {
     {.key = "lights", .form = Form::objects, .required = true, .members = kLightRules}};
 constexpr Rule kLightReference[] = {index_of("light", kLightsArray, true)};
 
-// Geometry and nodes.
+// Geometry and nodes
 constexpr Rule kDraco[] = {
     index_of("bufferView", "bufferViews", true),
     {.key = "attributes", .form = Form::draco_attributes, .required = true, .min = 0}};
@@ -83,11 +83,11 @@ constexpr Rule kInstancing[] = {{.key = "attributes",
 constexpr Rule kVisibility[] = {{.key = "visible", .form = Form::boolean}};
 constexpr Rule kAnimationPointer[] = {{.key = "pointer", .form = Form::string, .required = true}};
 
-// Metadata.
+// Metadata
 constexpr Rule kPackets[] = {{.key = "packets", .form = Form::anything, .required = true}};
 constexpr Rule kPacket[] = {index_of("packet", kPacketsArray, true)};
 
-/// An extension that adds an image format.
+/// The row of an extension that adds an image format.
 constexpr Extension image_row(string_view name, Support support, string_view image_type) {
   return {.name = name,
           .support = support,

@@ -1,5 +1,5 @@
 #pragma once
-/// References from materials to textures (KHR_texture_transform).
+/// References from materials to textures, with KHR_texture_transform.
 
 #include "io/json/document.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The textureInfo with that key, if the object has one.
+/// The textureInfo with this key, if the object has one.
 [[nodiscard]] std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key);
 
 }  // namespace microtrace::io::gltf

@@ -21,9 +21,9 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Limit on the bytes of one image file.
+/// The maximum size of an image file in bytes.
 constexpr std::size_t kMaxImageBytes = std::size_t{1} << 30U;
-/// Limit on the bytes of all images. Images that share a file or a buffer view count each time.
+/// The maximum size of all images in bytes. If images share a file or a buffer view, each counts.
 constexpr std::uint64_t kMaxBytesOfImages = std::uint64_t{1} << 32U;
 
 std::string_view media_type(ImageFormat format) {
@@ -32,7 +32,7 @@ std::string_view media_type(ImageFormat format) {
   return kTypes[static_cast<std::size_t>(format)];
 }
 
-/// The declared media type of an image; empty if undeclared.
+/// The declared media type of an image. Empty if undeclared.
 std::string_view declared_type(const Element& at) {
   if (const JsonValue* type = at.value->find("mimeType")) return type->string;
   const JsonValue* uri = at.value->find("uri");
@@ -47,8 +47,9 @@ std::string small_letters(std::string_view text) {
   return result;
 }
 
-/// True if a data URI declares the right media type (glTF 2.0, section 2.8; the Khronos validator
-/// checks it too). image/jpg is no media type, but common.
+/// Returns true if a data URI declares the right media type, and warns otherwise (glTF 2.0, section
+/// 2.8; the Khronos validator does too). image/jpg is not a registered media type, but it is
+/// common.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
@@ -119,8 +120,8 @@ class ImageLoader {
     return storage;
   }
 
-  /// Warns if an image's format needs an undeclared extension. check_images has checked declared
-  /// media types.
+  /// Warns if an image's format needs an extension that the asset does not declare. check_images
+  /// has already checked declared media types.
   void check_extension(const Element& at, ImageFormat format) {
     const auto known = std::ranges::find(extensions(), media_type(format), &Extension::image_type);
     if (known == extensions().end() || asset_.uses(known->name)) return;
@@ -128,7 +129,7 @@ class ImageLoader {
                             std::string(known->name));
   }
 
-  /// Warns of violations of KHR_texture_basisu that don't prevent decoding. The decoder refuses the
+  /// Warns of violations of KHR_texture_basisu that don't prevent decoding. The decoder refuses all
   /// others.
   void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
                   ImageUse use) {
@@ -140,7 +141,8 @@ class ImageLoader {
     if (colors->is_premultiplied) {
       asset_.tolerate(at, "declares premultiplied alpha; the colors are used as they are");
     }
-    // An image may hold colors in RGB and other data in alpha, which is linear in either encoding.
+    // An image may contain colors in RGB and other data in alpha. Alpha is linear in either
+    // encoding.
     const bool is_srgb = colors->encoding == ColorEncoding::srgb;
     if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;
     asset_.tolerate(at, std::string("declares its values ") +

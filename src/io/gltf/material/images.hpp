@@ -1,5 +1,5 @@
 #pragma once
-/// Loading and decoding of images.
+/// Loads and decodes images.
 
 #include "io/gltf/bytes/buffer_views.hpp"
 #include "io/gltf/bytes/resource.hpp"
@@ -16,23 +16,23 @@
 
 namespace microtrace::io::gltf {
 
-/// The encodings in which drawn materials are read from an image; none if nothing reads it.
+/// The encodings in which drawn materials read an image. Both are false if no material reads it.
 struct ImageUse {
   bool srgb = false, linear = false;
 
   [[nodiscard]] bool is_wanted() const { return srgb || linear; }
 };
 
-/// The uses of each image by the drawn materials, with this detail.
+/// The uses of each image by the drawn materials in a picture with this detail.
 [[nodiscard]] std::vector<ImageUse> image_uses(std::span<const Material> materials,
                                                const std::vector<bool>& drawn,
                                                std::span<const Texture> textures,
                                                std::size_t images, SurfaceDetail detail);
 
-/// The pixels of each wanted image that can be decoded, null for the others. Examines all images.
-/// Warns of unsupported formats. Throws Error: invalid_scene for a damaged header or, in a wanted
-/// image, damaged data; those of read_resource; limit if the wanted images have more than
-/// kMaxTexturePixels together.
+/// Returns the decoded pixels of each wanted image. The result is null for an image that is not
+/// wanted or can't be decoded. Examines all images. Warns of unsupported formats. Throws the errors
+/// of read_resource, and Error: invalid_scene for a damaged header or, in a wanted image, damaged
+/// data; limit if the wanted images have more than kMaxTexturePixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
     Asset& asset, const BufferViews& views, const ResourceFolders& folders,
     const std::vector<ImageUse>& uses);

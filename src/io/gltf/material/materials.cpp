@@ -39,7 +39,7 @@ void read_extensions(const JsonValue& json, Material& material) {
   }
 }
 
-/// Removes layers with a factor of 0, and their textures.
+/// Removes layers whose factor is 0, and their textures.
 void leave_out_unused_layers(Material& material) {
   const auto leave_out = [](auto& layer, auto&& factor) {
     if (layer && factor(*layer) == 0) layer.reset();

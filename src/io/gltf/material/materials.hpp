@@ -1,5 +1,5 @@
 #pragma once
-/// Materials of an asset.
+/// Reads the materials of an asset.
 
 #include "io/json/document.hpp"
 
@@ -10,15 +10,15 @@
 
 namespace microtrace::io::gltf {
 
-/// Handling of layers that a factor of 0 makes invisible, and of their textures.
+/// Treatment of layers that are invisible because their factor is 0, and of their textures.
 enum class UnusedLayers { left_out, kept };
 
-/// The root object's materials in file order, followed by the default material of primitives
-/// without one (glTF 2.0, section 3.9.7).
+/// The materials of `root` in file order, followed by the default material, which primitives
+/// without a material use (glTF 2.0, section 3.9.7).
 [[nodiscard]] std::vector<Material> make_materials(const JsonValue& root,
                                                    UnusedLayers unused = UnusedLayers::left_out);
 
-/// Appends unlit copies of these materials.
+/// Appends an unlit copy of each of the materials `originals`.
 void add_unlit_copies(std::vector<Material>& materials,
                       const std::vector<std::uint32_t>& originals);
 

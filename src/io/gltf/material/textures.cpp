@@ -17,8 +17,8 @@ Wrap wrap(const JsonValue& sampler, std::string_view key) {
   return mode->number == 33071 ? Wrap::clamp_to_edge : Wrap::mirrored_repeat;
 }
 
-/// OpenGL constants: odd ones filter the image linearly. From 9984 on they use mip maps, from 9986
-/// on interpolating linearly between levels.
+/// Converts a sampler's OpenGL constants. Odd filters are linear within an image. Those from 9984
+/// on use mip maps, and those from 9986 on interpolate between mip levels.
 Sampler make_sampler(const JsonValue& json) {
   Sampler sampler{.wrap_s = wrap(json, "wrapS"), .wrap_t = wrap(json, "wrapT")};
   const auto filter = [](int name) { return name % 2 == 0 ? Filter::nearest : Filter::linear; };

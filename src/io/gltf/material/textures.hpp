@@ -1,5 +1,5 @@
 #pragma once
-/// Textures of an asset.
+/// Reads the textures of an asset.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -9,9 +9,9 @@
 
 namespace microtrace::io::gltf {
 
-/// All textures in file order. A texture with several images uses WebP (EXT_texture_webp) rather
-/// than KTX2 (KHR_texture_basisu), and KTX2 rather than PNG or JPEG. Warns of textures without an
-/// image.
+/// All textures in file order. If a texture has several images, WebP (EXT_texture_webp) takes
+/// precedence over KTX2 (KHR_texture_basisu), and KTX2 over PNG and JPEG. Warns of textures without
+/// an image.
 [[nodiscard]] std::vector<Texture> make_textures(Asset& asset);
 
 }  // namespace microtrace::io::gltf

@@ -19,15 +19,15 @@ namespace microtrace::io::gltf {
 namespace {
 
 constexpr const char* kExtensionName = "KHR_draco_mesh_compression";
-/// Limit on the compression ratio: regular grids take a hundredth of a bit per triangle.
+/// The maximum compression ratio. Regular grids need only a hundredth of a bit per triangle.
 constexpr std::size_t kMaxTrianglesPerByte = 1024;
 constexpr std::size_t kIdOfIndices = ~std::size_t{0};
 
-/// Converts indices to an accessor's component size.
+/// Converts indices to the component size of an accessor.
 std::string narrowed(const std::vector<std::uint32_t>& indices, std::size_t size) {
   std::string result(indices.size() * size, '\0');
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    std::memcpy(&result[i * size], &indices[i], size);  // little-endian: the low bytes come first
+    std::memcpy(&result[i * size], &indices[i], size);  // copies the low bytes, which come first
   }
   return result;
 }
@@ -40,7 +40,7 @@ const ModuleFunction& draco_function() {
 
 }  // namespace
 
-/// One mesh to decode: its target accessors and the result.
+/// One mesh to decode: its accessors and the decoded data.
 struct DracoDecoder::Job {
   Element at;
   std::size_t view = 0;
@@ -63,7 +63,7 @@ struct DracoDecoder::Job {
     return true;
   }
 
-  /// Reserves memory for the decoded mesh. False if it is too large.
+  /// Allocates the decoded mesh. Returns false if it is too large.
   bool prepare(std::size_t triangles, std::size_t points) {
     std::size_t bytes = triangles * kBytesOfTriangle;
     for (const std::size_t size : sizes) bytes += points * size;
@@ -79,7 +79,7 @@ struct DracoDecoder::Job {
     return true;
   }
 
-  /// Three indices, as decoded and as stored for the accessor.
+  /// The bytes of three indices: as decoded, and as stored for the accessor.
   static constexpr std::size_t kBytesOfTriangle = 3 * 2 * sizeof(std::uint32_t);
 };
 
@@ -106,13 +106,13 @@ int reserve_for_job(void* job, std::size_t triangles) {
   }
 }
 
-/// Copies the text, which may belong to an exception.
+/// Stores a copy of the text, which may belong to an exception.
 template <typename Job>
 void keep_complaint(void* job, const char* text) {
   try {
     static_cast<Job*>(job)->complaint = text;
   } catch (const std::bad_alloc&) {
-    // The failure is reported even without a reason.
+    // The failure is reported even if there is no memory for its reason.
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// KHR_draco_mesh_compression.
+/// Decodes KHR_draco_mesh_compression.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/bytes/buffer_views.hpp"
@@ -18,14 +18,15 @@ class DracoDecoder {
   DracoDecoder(Asset& asset, const Model& model, const BufferViews& views, AccessorReader& reader)
       : asset_(asset), model_(model), views_(views), reader_(reader) {}
 
-  /// Decodes a compressed primitive and replaces the elements and counts of its accessors in the
-  /// reader. False if the primitive is not compressed or, with a warning, if it can't be decoded
-  /// and the asset doesn't require it. Decoded indices form triangles, whatever the primitive's
-  /// mode. Throws Error: invalid_scene, limit, unsupported.
+  /// Decodes a compressed primitive. In the reader, replaces the elements and counts of its
+  /// accessors. Returns false if the primitive is not compressed. Also returns false, with a
+  /// warning, if it can't be decoded and the asset doesn't require the extension. Decoded indices
+  /// form triangles, whatever the primitive's mode. Throws Error: invalid_scene, limit,
+  /// unsupported.
   bool decode(const Element& at, const Model::Primitive& primitive);
 
  private:
-  using Source = std::pair<std::size_t, std::size_t>;  // buffer view, Draco's id
+  using Source = std::pair<std::size_t, std::size_t>;  // buffer view, Draco's attribute id
   struct Job;
 
   [[nodiscard]] bool has_module(const Element& at);
@@ -38,7 +39,7 @@ class DracoDecoder {
   const Model& model_;
   const BufferViews& views_;
   AccessorReader& reader_;
-  std::map<std::size_t, Source> sources_;  // source of each replaced accessor
+  std::map<std::size_t, Source> sources_;  // source of each replaced accessor's elements
   std::size_t left_ = kMaxBufferBytes;     // remaining limit on decoded bytes
 };
 

@@ -19,7 +19,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The set of texture coordinates that defines the material's tangents, if it needs any.
+/// The texture coordinate set that defines the material's tangents, if the material needs tangents.
 std::optional<std::uint32_t> tangent_set(const Material& material) {
   if (material.normal_texture) return material.normal_texture->uv_set;
   if (material.clearcoat && material.clearcoat->normal_texture) {
@@ -34,8 +34,8 @@ std::size_t bytes_of_topology(Model::Mode mode, std::size_t vertices) {
   return vertices * sizeof(std::uint32_t) * (one_for_each ? 3 : 1);
 }
 
-/// Removes triangles and segments with non-finite vertices, and these vertices. Returns whether
-/// there were any.
+/// Removes vertices that are not finite, and the triangles and segments that use them. Returns true
+/// if there were any.
 bool leave_out_infinite(Surface& surface) {
   Mesh& mesh = surface.mesh;
   const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };
@@ -111,13 +111,14 @@ class SurfaceMaker {
   }
 
  private:
-  /// make_materials appends the default material.
+  /// The index of the primitive's material. Primitives without one use the default material, which
+  /// make_materials appends.
   std::uint32_t material_of(const Model::Primitive& primitive) const {
     if (primitive.material) return static_cast<std::uint32_t>(*primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
-  /// The index of a material's unlit copy, which add_unlit_copies will make.
+  /// The index of a material's unlit copy, which add_unlit_copies will make later.
   std::uint32_t unlit(std::uint32_t material) {
     auto found = std::ranges::find(unlit_, material);
     if (found == unlit_.end()) found = unlit_.insert(found, material);
@@ -132,7 +133,7 @@ class SurfaceMaker {
     const std::optional<std::uint32_t> set = tangent_set(materials_[surface.material]);
     if (!set || !mesh.tangents.empty() || mesh.triangles.empty()) return;
     if (*set >= mesh.uv_sets.size() || mesh.uv_sets[*set].empty()) return;
-    // Memory while tangents are generated, and for the result: up to three new vertices per
+    // Memory for generating tangents, and for the result: generating may add three vertices per
     // triangle.
     constexpr std::size_t kBytesOfWork = 300, kBytesOfTangents = sizeof(Vec4) / 2;
     const MemoryAccount work =
@@ -193,7 +194,7 @@ class SurfaceMaker {
   std::span<const Material> materials_;
   std::vector<std::uint32_t>& unlit_;
   SurfaceDetail detail_;
-  std::size_t elements_ = 0;  // compared with kMaxElements
+  std::size_t elements_ = 0;  // total count, limited by kMaxElements
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Triangles and segments of mesh primitives, in mesh space.
+/// Converts mesh primitives to triangles and segments in mesh space.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -17,21 +17,21 @@
 
 namespace microtrace::io::gltf {
 
-/// One primitive of a mesh, with only the vertices that it uses, in file order. Generating tangents
-/// may have duplicated some.
+/// One primitive of a mesh. It has only the vertices that its triangles and segments use, in file
+/// order. Generating tangents may have duplicated some of them.
 struct Surface {
   Mesh mesh{};
-  /// For each vertex of the mesh its index in the primitive's accessors, never descending.
-  /// AccessorReader::read uses them to read other attributes.
+  /// The index of each vertex in the primitive's accessors. Never descending. AccessorReader::read
+  /// uses these indices to read other attributes.
   std::vector<std::uint32_t> vertices{};
   std::uint32_t material = 0;  ///< index among the results of make_materials and add_unlit_copies
-  std::size_t number = 0;      ///< index among the mesh's primitives
+  std::size_t number = 0;      ///< index of the primitive in its mesh
 };
 
-/// The surfaces of each mesh. Adds to `unlit` the materials of points and lines without normals;
-/// these get the indices of the copies that add_unlit_copies appends later. Primitives without
-/// POSITION or data give no surface, with a warning. Throws Error: invalid_scene for accessors of
-/// the wrong type or indices out of range, limit.
+/// Makes the surfaces of each mesh. Adds to `unlit` the materials of points and lines without
+/// normals. These points and lines get the indices of the copies that add_unlit_copies appends
+/// later. Primitives without POSITION or data give no surface, with a warning. Throws Error:
+/// invalid_scene for accessors of the wrong type or indices out of range, limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const Model& model,
                                                               AccessorReader& reader,
                                                               std::span<const Material> materials,

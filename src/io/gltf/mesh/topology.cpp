@@ -5,7 +5,7 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Adds the primitives of one sequence of vertices without restarts.
+/// Adds the triangles or segments of one run of vertices without restarts.
 bool add_run(Model::Mode mode, std::span<const std::uint32_t> v, Mesh& mesh) {
   const std::size_t n = v.size();
   switch (mode) {
@@ -47,7 +47,7 @@ void for_each_index(Mesh& mesh, Visit&& visit) {
   }
 }
 
-/// Marks the used vertices.
+/// Finds the used vertices by marking them.
 std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std::size_t uses) {
   std::vector<bool> used(vertex_count);
   for_each_index(mesh, [&](std::uint32_t index) { used[index] = true; });
@@ -59,8 +59,8 @@ std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std
   return result;
 }
 
-/// Sorts the indices. The cost is independent of the accessor's length, which many primitives may
-/// share.
+/// Finds the used vertices by sorting the indices. The cost is independent of the accessor's
+/// length, because many primitives may share a long accessor.
 std::vector<std::uint32_t> used_of_many(Mesh& mesh, std::size_t uses) {
   std::vector<std::uint32_t> result;
   result.reserve(uses);

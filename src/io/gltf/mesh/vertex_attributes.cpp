@@ -35,7 +35,7 @@ class AttributeReader {
     return accessor ? reader_.read_finite<Vec2>(*accessor, vertices_) : std::vector<Vec2>();
   }
 
-  /// Colors without alpha are opaque.
+  /// Reads colors. Colors without alpha are opaque.
   [[nodiscard]] std::vector<Vec4> colors() {
     const std::optional<std::size_t> accessor =
         find("COLOR_0", {ElementType::vec3, ElementType::vec4});
@@ -103,7 +103,7 @@ void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
   }
   if (wish.detail == SurfaceDetail::color) return;
   mesh.normals = attribute.normals();
-  // Tangents are ignored without normals (glTF 2.0, section 3.7.2.1).
+  // Without normals, tangents are ignored (glTF 2.0, section 3.7.2.1).
   if (!mesh.normals.empty()) mesh.tangents = attribute.tangents();
 }
 

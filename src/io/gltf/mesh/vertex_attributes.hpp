@@ -1,5 +1,5 @@
 #pragma once
-/// Vertex attributes other than positions.
+/// Reads vertex attributes other than positions.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -14,19 +14,19 @@
 
 namespace microtrace::io::gltf {
 
-/// Limit on sets of texture coordinates; glTF 2.0 requires two.
+/// The maximum number of texture coordinate sets. glTF 2.0 requires support for two.
 inline constexpr std::uint32_t kMaxUvSets = 16;
 
 /// The attributes that the vertices of a primitive need.
 struct AttributeWish {
-  const Material& material;  ///< of the primitive
+  const Material& material;  ///< material of the primitive
   SurfaceDetail detail;
 };
 
-/// Reads normals, tangents, texture coordinates and colors of the vertices with these ascending
-/// indices into the mesh. Replaces numbers that are not finite by 0. Omits attributes without data.
-/// Throws Error (invalid_scene) for an accessor of a type that neither glTF 2.0 nor
-/// KHR_mesh_quantization allows.
+/// Reads normals, tangents, texture coordinates and colors into the mesh. Reads only vertices with
+/// the indices `vertices`, which must ascend. Replaces numbers that are not finite by 0. Omits
+/// attributes without data. Throws Error (invalid_scene) for an accessor of a type that neither
+/// glTF 2.0 nor KHR_mesh_quantization allows.
 void read_attributes(Asset& asset, const Model& model, AccessorReader& reader,
                      const Element& attributes, const Model::Primitive& primitive,
                      std::span<const std::uint32_t> vertices, const AttributeWish& wish,

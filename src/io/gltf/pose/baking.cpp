@@ -10,22 +10,23 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Unit vector; zero if v is zero or not finite.
+/// Returns v scaled to unit length, or zero if v is zero or not finite.
 DVec3 direction_of(const DVec3& v) {
   const double greatest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(greatest > 0) || !std::isfinite(greatest)) return DVec3(0);
-  const DVec3 scaled = v / greatest;  // its square neither overflows nor underflows
+  const DVec3 scaled = v / greatest;  // prevents overflow and underflow of the squares
   return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
-/// A positive multiple of the inverse transpose. Exists for singular matrices too.
+/// Returns a positive multiple of the inverse transpose of m, which exists even for singular
+/// matrices.
 glm::dmat3 normal_matrix(const glm::dmat3& m, bool mirrored) {
   const glm::dmat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]),
                              glm::cross(m[0], m[1]));
   return mirrored ? -cofactors : cofactors;
 }
 
-/// Transform of one vertex.
+/// The transforms of one vertex and of its normal.
 struct VertexTransform {
   explicit VertexTransform(const DMat4& m)
       : world_from_mesh(m),
@@ -37,13 +38,13 @@ struct VertexTransform {
   glm::dmat3 normals;
 };
 
-/// The morphed vector if there is one, otherwise the mesh's.
+/// Returns the morphed vector if there is one, otherwise the mesh's own.
 template <typename Own>
 DVec3 vector_of(const Array<Own>& own, const std::vector<DVec3>& morphed, std::size_t i) {
   return morphed.empty() ? DVec3(own[i]) : morphed[i];
 }
 
-/// transform_of(i) is the VertexTransform of vertex i.
+/// Bakes a mesh. transform_of(i) must return the VertexTransform of vertex i.
 template <typename TransformOf>
 Mesh baked_by(const Mesh& mesh, const Morphed& morphed, const TransformOf& transform_of) {
   Mesh result;

@@ -1,5 +1,5 @@
 #pragma once
-/// EXT_mesh_gpu_instancing.
+/// Reads EXT_mesh_gpu_instancing.
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -12,7 +12,7 @@
 
 namespace microtrace::io::gltf {
 
-/// Limit on the instances of all nodes.
+/// The maximum number of instances of all nodes together.
 inline constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
 class Instances {
@@ -20,7 +20,7 @@ class Instances {
   /// Throws Error: invalid_scene, limit.
   Instances(Asset& asset, const Model& model, AccessorReader& reader);
 
-  /// The transforms from each instance of a node's mesh to the node. Null for a node without
+  /// The transform from each instance of a node's mesh to the node. Null for a node without
   /// instancing.
   [[nodiscard]] const std::vector<DMat4>* of(std::size_t node) const;
 

@@ -13,7 +13,7 @@ std::vector<To> converted(const Array<From>& from) {
   return {from.begin(), from.end()};
 }
 
-/// Adds weight * delta to the sums, which start as the base vectors.
+/// Adds weight * delta to the sums. Empty sums first get the base vectors.
 template <typename Sum, typename Base, typename Delta>
 void add_weighted(std::vector<Sum>& sum, const Array<Base>& base, double weight,
                   const std::vector<Delta>& deltas) {
@@ -68,7 +68,8 @@ Morphed Morpher::morphed(std::size_t mesh, const Surface& surface,
 
 void Morpher::add(std::size_t accessor, const std::string& name, double weight,
                   const Surface& surface, Morphed& result) {
-  // The data read here is freed on return; the float64 sums live until the mesh is baked.
+  // The memory of the data read here is released on return. The float64 sums live until the mesh is
+  // baked.
   MemoryAccount deltas_memory(memory_account().budget());
   const MemoryScope scope(deltas_memory);
   const Mesh& mesh = surface.mesh;

@@ -1,5 +1,5 @@
 #pragma once
-/// Morph targets (glTF 2.0, section 3.7.2.2).
+/// Applies morph targets (glTF 2.0, section 3.7.2.2).
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -15,13 +15,13 @@
 
 namespace microtrace::io::gltf {
 
-/// Limit on the vertex displacements that one pose adds.
+/// The maximum number of vertex displacements in one pose.
 inline constexpr std::size_t kMaxDisplacements = std::size_t{1} << 29;
-/// Each target of a primitive counts as at least this many displacements, for the time to examine
-/// it.
+/// The minimum number of displacements that each target of a primitive counts as, because examining
+/// a target takes time too.
 inline constexpr std::size_t kLeastDisplacements = 64;
 
-/// Morphed attributes, which replace the mesh's own. Empty if no target changes them.
+/// Morphed attributes, which replace the mesh's own. An attribute is empty if no target changes it.
 struct Morphed {
   std::vector<DVec3> positions{}, normals{}, tangents{};  ///< not normalized
   std::vector<Array<Vec2>> uv_sets{};
@@ -35,8 +35,8 @@ class Morpher {
   Morpher(Asset& asset, const Model& model, AccessorReader& reader)
       : asset_(asset), model_(model), reader_(reader) {}
 
-  /// `weights` are by target; targets beyond them are not applied. Throws Error: invalid_scene,
-  /// limit.
+  /// Returns the morphed attributes of a surface. `weights` has one number per target. Targets
+  /// beyond its end are not applied. Throws Error: invalid_scene, limit.
   [[nodiscard]] Morphed morphed(std::size_t mesh, const Surface& surface,
                                 const std::vector<double>& weights);
 
@@ -47,7 +47,7 @@ class Morpher {
   Asset& asset_;
   const Model& model_;
   AccessorReader& reader_;
-  std::size_t displacements_ = 0;  // compared with the limit
+  std::size_t displacements_ = 0;  // limited by kMaxDisplacements
 };
 
 }  // namespace microtrace::io::gltf

@@ -17,7 +17,7 @@ bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-/// The node's own visibility, possibly animated.
+/// True if the node itself is visible. The pose may animate this.
 bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
   if (posed != pose.end() && posed->second.visible) return *posed->second.visible;
@@ -55,7 +55,7 @@ DMat4 NodeTree::local(std::size_t index) const {
   if (!node.matrix) return composed(node.translation, unit_quaternion(node.rotation), node.scale);
   DMat4 result = *node.matrix;
   for (int i = 0; i < 4; ++i)
-    result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns of a different last row
+    result[i][3] = i < 3 ? 0 : 1;  // check_nodes warns if the last row differs
   return result;
 }
 
@@ -80,8 +80,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   } else {
     first = model_.scenes[model_.scene];
   }
-  // A child node listed as a root of the scene, which is invalid, is placed under its parent if the
-  // parent is drawn.
+  // A scene that lists a child node as a root is invalid. If the child's parent is drawn, the child
+  // is placed under it.
   std::stable_partition(first.begin(), first.end(),
                         [this](std::size_t node) { return !parents_[node]; });
   std::vector<bool> placed(parents_.size());
@@ -163,7 +163,7 @@ std::string UniqueNames::make(const std::string& name) {
     uses_.emplace(name, 1);
     return name;
   }
-  std::size_t& use = first->second;  // valid even after further insertions
+  std::size_t& use = first->second;  // the reference stays valid when names are inserted
   std::string result;
   do {
     result = name + " (" + std::to_string(++use) + ")";

@@ -1,5 +1,5 @@
 #pragma once
-/// The node tree: traversal and transforms.
+/// The node tree, its traversal, and its transforms.
 
 #include "io/gltf/animation/posed_nodes.hpp"
 #include "io/gltf/check/forest.hpp"
@@ -23,15 +23,15 @@ namespace microtrace::io::gltf {
 struct PlacedNode {
   std::size_t node;
   DMat4 world_from_node;
-  bool visible = true;  ///< its own and its ancestors' visibility (KHR_node_visibility); irrelevant
-                        ///< for cameras
+  bool visible = true;  ///< product of its own and its ancestors' visibility (KHR_node_visibility);
+                        ///< irrelevant for cameras
 };
 
-/// translation * rotation * scale. The rotation is a unit quaternion (x, y, z, w).
+/// Returns translation * rotation * scale. The rotation must be a unit quaternion (x, y, z, w).
 [[nodiscard]] DMat4 composed(const DVec3& translation, const glm::dvec4& rotation,
                              const DVec3& scale);
 
-/// The unit vector in the direction of v; nothing if v has zero or infinite length.
+/// Returns the unit vector in the direction of v, or nothing if v has zero or infinite length.
 [[nodiscard]] std::optional<DVec3> normalized(const DVec3& v);
 
 class NodeTree {
@@ -39,17 +39,17 @@ class NodeTree {
   /// Expects nodes that check_nodes has accepted.
   explicit NodeTree(const Model& model);
 
-  /// The nodes of the default scene, else of the first, else all nodes: parents before children,
-  /// children in file order.
+  /// Returns the nodes of the default scene. Without a default scene, returns those of the first
+  /// scene, and without scenes, all nodes. Parents precede their children, which are in file order.
   [[nodiscard]] std::vector<PlacedNode> place(Asset& asset, const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
-  /// The same transforms for all nodes, even outside the scene.
+  /// Returns the transforms of all nodes, including those outside the scene.
   [[nodiscard]] std::vector<DMat4> everywhere(const DMat4& world_from_asset,
                                               const PosedNodes& pose) const;
 
-  /// The names of the node's ancestors and of the node, separated by slashes; at most the last 256
-  /// bytes. Nodes without a name are called node0, node1 and so on, by index.
+  /// The names of the node's ancestors and of the node, separated by slashes. Keeps at most the
+  /// last 256 bytes. Nodes without a name are called node0, node1 and so on, by index.
   [[nodiscard]] std::string path(std::size_t node) const;
   [[nodiscard]] std::string name(std::size_t node) const;
 
@@ -59,11 +59,11 @@ class NodeTree {
   [[nodiscard]] DMat4 parent_from_node(std::size_t node, const PosedNodes& pose) const;
 
   const Model& model_;
-  std::vector<std::optional<std::size_t>> parents_;  // of each node; nothing for roots
+  std::vector<std::optional<std::size_t>> parents_;  // parent of each node; nothing for roots
   std::vector<DMat4> parent_from_node_;
 };
 
-/// Makes names unique: the second "Cube" becomes "Cube (2)".
+/// Makes names unique. For example, the second "Cube" becomes "Cube (2)".
 class UniqueNames {
  public:
   [[nodiscard]] std::string make(const std::string& name);
@@ -72,7 +72,7 @@ class UniqueNames {
  private:
   struct Hash {
     using is_transparent = void;
-    // Not noexcept: libstdc++ then stores the hashes, which avoids most string comparisons.
+    // Not noexcept, so that libstdc++ stores the hashes. This avoids most string comparisons.
     std::size_t operator()(std::string_view name) const {
       return std::hash<std::string_view>{}(name);
     }
@@ -83,7 +83,7 @@ class UniqueNames {
   std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };
 
-/// At most `size` bytes from the start of UTF-8 text, never splitting a character.
+/// Returns at most `size` bytes from the start of UTF-8 text. Never splits a character.
 [[nodiscard]] std::string head(std::string_view text, std::size_t size);
 
 }  // namespace microtrace::io::gltf

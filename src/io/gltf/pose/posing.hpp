@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces in world space in one pose of the asset.
+/// Transforms surfaces to world space for one pose of the asset.
 
 #include "io/gltf/animation/posed_nodes.hpp"
 #include "io/gltf/bytes/accessors.hpp"
@@ -24,13 +24,13 @@ class Poser {
   Poser(Asset& asset, const Model& model, AccessorReader& reader, const NodeTree& tree,
         const PosedNodes& pose, const DMat4& world_from_asset);
 
-  /// True if joints, not the node's transform, place the surface.
+  /// True if joints place the surface, and not the node's transform.
   [[nodiscard]] bool has_skin(std::size_t node) const {
     return model_.nodes[node].skin.has_value();
   }
 
-  /// A surface of the node's mesh in world space: morphed, then transformed by the skin's joints
-  /// or, without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
+  /// Returns a surface of the node's mesh in world space. Morphs it, and transforms it by the
+  /// skin's joints or, without a skin, by `world_from_mesh`. Throws Error: invalid_scene, limit.
   [[nodiscard]] Mesh posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh);
 
  private:
@@ -38,7 +38,7 @@ class Poser {
 
   const Model& model_;
   const PosedNodes& pose_;
-  std::vector<DMat4> world_from_node_;  // of all nodes; empty without skins
+  std::vector<DMat4> world_from_node_;  // transforms of all nodes; empty without skins
   Morpher morpher_;
   Skins skins_;
 };

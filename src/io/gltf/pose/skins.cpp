@@ -40,7 +40,7 @@ const std::vector<DMat4>& Skins::matrices(std::size_t skin) {
   for (std::size_t i = 0; i < result.size(); ++i) {
     DMat4 joint_from_mesh(inverse[i]);
     for (glm::length_t column = 0; column < 4; ++column) {
-      joint_from_mesh[column][3] = column == 3 ? 1 : 0;  // glTF 2.0 requires this row
+      joint_from_mesh[column][3] = column == 3 ? 1 : 0;  // the last row that glTF 2.0 requires
     }
     result[i] *= joint_from_mesh;
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Skins: vertices moved by joints (glTF 2.0, section 3.7.3).
+/// Reads skins, whose joints move vertices (glTF 2.0, section 3.7.3).
 
 #include "io/gltf/bytes/accessors.hpp"
 #include "io/gltf/document/asset.hpp"
@@ -17,7 +17,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The weighted joints of each vertex of a surface.
+/// The joints and weights of each vertex of a surface.
 class JointBlend {
  public:
   /// The weighted mean of the matrices of the vertex's joints, in float64.
@@ -26,7 +26,7 @@ class JointBlend {
  private:
   friend class Skins;
   struct Influences {
-    std::vector<glm::uvec4> joints;  // by vertex; less than the number of matrices
+    std::vector<glm::uvec4> joints;  // by vertex; each is less than the number of matrices
     std::vector<glm::vec4> weights;
   };
   const std::vector<DMat4>* world_from_mesh_ = nullptr;  // by joint
@@ -36,15 +36,16 @@ class JointBlend {
 /// The skins of an asset in one pose.
 class Skins {
  public:
-  /// `world_from_node` holds all nodes, even outside the scene. The arguments must outlive the
-  /// skins.
+  /// `world_from_node` has the transforms of all nodes, including those outside the scene. The
+  /// arguments must outlive the skins.
   Skins(Asset& asset, const Model& model, AccessorReader& reader,
         const std::vector<DMat4>& world_from_node)
       : asset_(asset), model_(model), reader_(reader), world_from_node_(world_from_node) {}
 
-  /// Nothing if the skin has no joints or the primitive no JOINTS_0; the node's transform then
-  /// places it. Scales weights that don't add up to 1, with a warning. Vertices without weights
-  /// follow their first joint. Throws Error (invalid_scene) for a joint missing from the skin.
+  /// Reads the joints and weights of a surface. Returns nothing if the skin has no joints or the
+  /// primitive has no JOINTS_0. The node's transform then places the surface. Scales weights that
+  /// don't sum to 1, with a warning. Vertices without weights follow their first joint. Throws
+  /// Error (invalid_scene) for a joint missing from the skin.
   [[nodiscard]] std::optional<JointBlend> blend(std::size_t skin, std::size_t mesh,
                                                 const Surface& surface);
 

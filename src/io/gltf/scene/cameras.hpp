@@ -1,5 +1,5 @@
 #pragma once
-/// Cameras of nodes.
+/// Makes cameras from nodes.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -11,8 +11,8 @@
 
 namespace microtrace::io::gltf {
 
-/// The cameras of these nodes in their order, with the properties given in `root`. Leaves out, with
-/// a warning, a camera whose node has no valid position and orientation, because of a zero scale or
+/// Returns the cameras of these nodes in order, with the properties in `root`. Omits, with a
+/// warning, cameras whose node has no valid position and orientation because of a zero scale or
 /// numbers beyond float64.
 [[nodiscard]] std::vector<NamedCamera> make_cameras(Asset& asset, const JsonValue& root,
                                                     const Model& model, const NodeTree& tree,

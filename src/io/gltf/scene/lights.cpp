@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kExtensionName = "KHR_lights_punctual";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Properties of all kinds of lights.
+/// Properties common to all kinds of lights.
 struct Common {
   Vec3 color{1};
   float intensity = 1;
@@ -41,7 +41,8 @@ Cone cone_of(const JsonValue& light) {
   return result;
 }
 
-/// Nothing if the light has no valid position or direction.
+/// Returns the light at its place in the world, or nothing if its position or direction is not
+/// valid.
 std::optional<Light> placed(const JsonValue& light, const DMat4& world_from_node) {
   const std::string& type = light.find("type")->string;
   const auto [color, intensity, range] = common_of(light);

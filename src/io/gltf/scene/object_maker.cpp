@@ -14,7 +14,7 @@ bool is_finite(const Mesh& mesh) {
                              [](const Vec3& p) { return microtrace::is_finite(p); });
 }
 
-/// An object and its name, which is also stored in UniqueNames.
+/// The size of an object and its name, including the name's copy in UniqueNames.
 constexpr std::size_t kBytesOfObject = sizeof(Object) + 512;
 
 }  // namespace
@@ -29,8 +29,7 @@ void ObjectMaker::make_room(const std::vector<PlacedNode>& nodes) {
     const std::size_t times = instances != nullptr ? instances->size() : 1;
     objects += times * surfaces_[*mesh].size();
     for (const Surface& surface : surfaces_[*mesh]) {
-      const std::size_t segments =
-          surface.mesh.segments.size();  // each is drawn as a quadrilateral
+      const std::size_t segments = surface.mesh.segments.size();  // drawn as quadrilaterals
       triangles += times * (surface.mesh.triangles.size() + 2 * segments);
       vertices += times * (surface.mesh.positions.size() + 4 * segments);
       bytes += times * (kBytesOfObject + memory_of(surface.mesh));
@@ -78,7 +77,8 @@ void ObjectMaker::add_mesh(std::size_t node, const DMat4& world_from_mesh,
 }
 
 Mesh ObjectMaker::posed(std::size_t node, const Surface& surface, const DMat4& world_from_mesh) {
-  MemoryAccount work(memory_account().budget());  // make_room has counted the mesh itself
+  // For temporary data. make_room has counted the mesh itself.
+  MemoryAccount work(memory_account().budget());
   const MemoryScope scope(work);
   return poser_.posed(node, surface, world_from_mesh);
 }

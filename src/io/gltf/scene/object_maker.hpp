@@ -1,5 +1,5 @@
 #pragma once
-/// Conversion of nodes to the objects of a scene.
+/// Converts nodes to the objects of a scene.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -18,7 +18,7 @@ namespace microtrace::io::gltf {
 
 class ObjectMaker {
  public:
-  /// The arguments must outlive the object.
+  /// The arguments must outlive this object.
   ObjectMaker(Asset& asset, const Model& model, const NodeTree& tree,
               const std::vector<std::vector<Surface>>& surfaces, const Instances& instances,
               Poser& poser)
@@ -29,7 +29,7 @@ class ObjectMaker {
         instances_(instances),
         poser_(poser) {}
 
-  /// Counts the memory of all objects. Throws Error (limit) before any is allocated if there are
+  /// Counts the memory of all objects before any is allocated. Throws Error (limit) if there are
   /// too many instances.
   void make_room(const std::vector<PlacedNode>& nodes);
 

@@ -9,8 +9,8 @@
 
 namespace microtrace::io::gltf {
 
-/// Approximate bounds of all visible surfaces and of the cameras. Ignores morph targets, and places
-/// skinned surfaces by their nodes.
+/// Returns approximate bounds of all visible surfaces and of the cameras. Ignores morph targets,
+/// and places skinned surfaces by their nodes' transforms.
 [[nodiscard]] PointBounds bounds_of(const Model& model, const std::vector<PlacedNode>& nodes,
                                     const std::vector<std::vector<Surface>>& surfaces,
                                     const Instances& instances);

@@ -56,7 +56,7 @@ auto guarded(const std::string& name, Part&& part) {
 
 }  // namespace
 
-/// Everything but poses, in the order of reading and checking.
+/// All data of the file except poses. The members are in the order of reading and checking.
 struct GltfFile::Content {
   Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
           const LoadOptions& options)
@@ -115,7 +115,8 @@ struct GltfFile::Content {
       if (animations.empty()) {
         asset.warn(asset.root(), "the asset has no animation; the time has no effect");
       }
-      const MemoryScope scope(memory);  // its memory belongs to the file, not to a pose
+      // Charges the player's memory to the file, which all poses share.
+      const MemoryScope scope(memory);
       player.emplace(asset, model, reader, animations);
     }
     return player->at(time);
@@ -127,7 +128,7 @@ struct GltfFile::Content {
 
   LoadedScene scene(const gltf::PosedAsset& pose, const DMat4& world_from_asset) {
     LoadClock lap(times);
-    Asset own = asset;  // each pose adds its own warnings
+    Asset own = asset;  // a copy, because each pose adds its own warnings
     const gltf::Element root{pose.properties ? &*pose.properties : own.root().value, {}};
     const std::vector<PlacedNode> nodes = tree.place(own, world_from_asset, pose.nodes);
     gltf::Poser poser(own, model, reader, tree, pose.nodes, world_from_asset);
@@ -155,7 +156,8 @@ struct GltfFile::Content {
     return result;
   }
 
-  /// Keeps layers that are invisible now if an animation may show them.
+  /// Returns the materials with all layers that a pose may need. If animations may change
+  /// materials, layers that are now invisible are kept.
   [[nodiscard]] std::vector<Material> needed_materials() const {
     const bool may_change = gltf::animate_materials(asset, animations);
     return gltf::make_materials(
@@ -177,7 +179,7 @@ struct GltfFile::Content {
     return gltf::image_uses(materials, drawn, textures, asset.array("images").size(), detail);
   }
 
-  MemoryAccount& memory = memory_account();  // of the file, not of a pose
+  MemoryAccount& memory = memory_account();  // memory of the file, which all poses share
   SurfaceDetail detail;
   LoadTimes* times;
   LoadClock clock;
@@ -191,14 +193,14 @@ struct GltfFile::Content {
   std::vector<gltf::Buffer> buffers;
   gltf::BufferViews views;
   gltf::AccessorReader reader;
-  std::vector<std::size_t> animations;  // the selected ones
-  std::vector<Material> materials;      // including everything that some pose needs
-  std::vector<std::uint32_t> unlit;     // materials that have unlit copies
+  std::vector<std::size_t> animations;  // indices of the selected animations
+  std::vector<Material> materials;      // with all layers that a pose may need
+  std::vector<std::uint32_t> unlit;     // indices of the materials that have unlit copies
   std::vector<Texture> textures;
   std::vector<std::vector<Surface>> surfaces;
   std::vector<std::shared_ptr<const Image>> images;
   gltf::Instances instances;
-  std::optional<gltf::AnimationPlayer> player;  // made when a pose first needs it
+  std::optional<gltf::AnimationPlayer> player;  // made for the first pose that needs it
 };
 
 GltfFile::GltfFile(std::string_view bytes, const std::string& name,

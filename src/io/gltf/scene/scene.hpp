@@ -13,24 +13,24 @@
 
 namespace microtrace::io {
 
-/// An asset that is read and checked once and can be posed at any number of times.
+/// An asset that is read and checked once, and can then be posed for many different times.
 class GltfFile {
  public:
-  /// Reads the bytes of a .gltf or .glb file, distinguished by their first four. They must outlive
-  /// this object. Error messages name the file `name`. External files are loaded from `folder` or
-  /// below. Throws Error: invalid_scene, unsupported (a required extension, another version), io
-  /// (an external file), limit, usage (an unknown animation).
+  /// Reads the bytes of a .gltf or .glb file, whose kind is detected by the first four bytes. The
+  /// bytes must outlive this object. Error messages name the file `name`. External files are loaded
+  /// from `folder` or below. Throws Error: invalid_scene, unsupported (a required extension,
+  /// another version), io (an external file), limit, usage (an unknown animation).
   GltfFile(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
            const LoadOptions& options = {});
   ~GltfFile();
   GltfFile(GltfFile&& other) noexcept;
   GltfFile& operator=(GltfFile&& other) noexcept;
 
-  /// The scene at a time (see LoadOptions). Transforms are composed in float64; each vertex is
-  /// rounded to float32 once, relative to Scene::origin. Throws Error.
+  /// Returns the scene at a time (see LoadOptions). Transforms are composed in float64. Each vertex
+  /// is rounded to float32 once, relative to Scene::origin. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time);
 
-  /// The same as part of another scene that has its own origin. The affine transform
+  /// Returns the scene as a part of another scene that has its own origin. The affine transform
   /// `world_from_asset` is applied last.
   [[nodiscard]] LoadedScene placed(std::optional<double> time, const DMat4& world_from_asset);
 

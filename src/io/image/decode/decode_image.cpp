@@ -13,15 +13,16 @@
 namespace microtrace::io {
 namespace {
 
-/// Exceptions must not propagate through the module's frames, so failures are stored here.
+/// The decoder's output. It also stores failures, because exceptions must not propagate through the
+/// module's frames.
 struct Decoding {
   DecodedImage result{};
   MemoryAccount work{memory_account().budget()};
   std::exception_ptr failure{};
 };
 
-/// Upper bound of a decoder's memory per pixel, in addition to the pixels: coefficients of a
-/// progressive JPEG, colors of a WebP.
+/// An upper bound of a decoder's working memory per pixel, for example coefficients of a
+/// progressive JPEG or colors of a WebP. The decoded pixels are counted separately.
 constexpr std::uint64_t kWorkOfPixel = 6;
 
 void* begin(void* context, const MicrotraceImageHeader* header) {

@@ -28,10 +28,11 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at, std::size_t 
 struct Size {
   std::uint32_t width, height;
 };
-// 0 x 0 marks an invalid header. The functions below return nothing if the file ends too early.
+// A size of 0 x 0 marks an invalid header. The functions below return nothing if the file ends too
+// early.
 constexpr Size kNoSize{0, 0};
 
-/// PNG (ISO/IEC 15948), section 11.2.2: the chunk IHDR comes first.
+/// Reads a PNG header (ISO/IEC 15948, section 11.2.2). The chunk IHDR comes first.
 std::optional<Size> png_size(std::string_view bytes) {
   constexpr std::string_view kFirstChunk = "\0\0\0\x0dIHDR"sv;
   if (!bytes.substr(8, 8).starts_with(kFirstChunk.substr(0, bytes.size() - 8))) return kNoSize;
@@ -39,9 +40,9 @@ std::optional<Size> png_size(std::string_view bytes) {
   return Size{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
 }
 
-/// JPEG (ITU-T T.81), annex B: segments up to the frame header, SOFn. Bytes between segments are
-/// skipped as libjpeg does, but a file that does not start with a segment and has no frame is
-/// invalid.
+/// Reads a JPEG header (ITU-T T.81, annex B) by following segments up to the frame header SOFn.
+/// Skips bytes between segments, like libjpeg. A file that does not start with a segment and has no
+/// frame is invalid.
 std::optional<Size> jpeg_size(std::string_view bytes) {
   for (std::size_t at = 2; at + 4 <= bytes.size();) {
     const std::uint32_t marker = byte(bytes, at + 1);
@@ -63,7 +64,8 @@ std::optional<Size> jpeg_size(std::string_view bytes) {
   return std::nullopt;
 }
 
-/// WebP (RFC 9649), section 2.5 to 2.7: simple lossy, simple lossless, extended.
+/// Reads a WebP header (RFC 9649, sections 2.5 to 2.7) in one of its three forms: simple lossy,
+/// simple lossless, or extended.
 std::optional<Size> webp_size(std::string_view bytes) {
   if (bytes.size() < 30) return std::nullopt;
   const std::string_view kind = bytes.substr(12, 4);
@@ -78,7 +80,8 @@ std::optional<Size> webp_size(std::string_view bytes) {
   return kNoSize;
 }
 
-/// KTX File Format Specification 2.0, section 2: the header and the first entry of the level index.
+/// Reads a KTX2 header and the first entry of the level index (KTX File Format Specification 2.0,
+/// section 2).
 std::optional<Size> ktx2_size(std::string_view bytes) {
   if (bytes.size() < 104) return std::nullopt;
   return Size{little_endian(bytes, 20, 4), little_endian(bytes, 24, 4)};

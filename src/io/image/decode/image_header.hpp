@@ -10,13 +10,13 @@ enum class ImageFormat { unknown, png, jpeg, webp, ktx2 };
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::unknown;
-  /// The header is complete, the file ends within it, or it is invalid; only a complete header has
-  /// a size.
+  /// Whether the header is complete, is cut off because the file ends within it, or is invalid.
+  /// Only a complete header has a size.
   enum class State { whole, cut_off, damaged } state = State::whole;
   std::uint32_t width = 0, height = 0;
 };
 
-/// Expects the whole file.
+/// Reads the header of an image. `bytes` must be the whole file.
 [[nodiscard]] ImageHeader read_image_header(std::string_view bytes);
 
 }  // namespace microtrace::io

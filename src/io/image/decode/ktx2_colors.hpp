@@ -10,11 +10,11 @@ namespace microtrace::io {
 
 struct Ktx2Colors {
   std::optional<ColorEncoding> encoding{};  ///< nothing if it is neither sRGB nor linear
-  bool is_premultiplied = false;            ///< premultiplied by alpha
+  bool is_premultiplied = false;            ///< true if colors are premultiplied by alpha
 };
 
 /// Reads the data format descriptor (KTX File Format Specification 2.0, section 3.10) of a file
-/// that read_image_header recognizes as KTX2; nothing if it is damaged.
+/// that read_image_header recognizes as KTX2. Returns nothing if the descriptor is damaged.
 [[nodiscard]] std::optional<Ktx2Colors> read_ktx2_colors(std::string_view bytes);
 
 }  // namespace microtrace::io

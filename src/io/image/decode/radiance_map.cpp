@@ -24,8 +24,8 @@ namespace {
 constexpr std::uint32_t kMaxSide = 65536;
 constexpr std::uint64_t kMaxPixels = std::uint64_t{1} << 27U;
 
-/// A file's samples. Exceptions must not propagate through the module's frames, so failures are
-/// stored here.
+/// The samples of a file. Also stores failures, because exceptions must not propagate through the
+/// module's frames.
 struct Decoded {
   std::optional<MicrotraceColors> colors{};
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> samples{};
@@ -114,7 +114,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   return decoded;
 }
 
-/// A table from all numbers of this width to linear light.
+/// A table that converts all sRGB values of this integer type to linear light.
 template <class Number>
 std::vector<float> srgb_table() {
   constexpr std::size_t kCount = std::size_t{std::numeric_limits<Number>::max()} + 1;
@@ -125,7 +125,7 @@ std::vector<float> srgb_table() {
   return table;
 }
 
-/// value(i) must return sample i in linear light.
+/// Fills the pixels. value(i) must return sample i in linear light.
 template <class Value>
 void fill(const MicrotraceColors& colors, Value&& value, std::vector<Vec3>& pixels) {
   const std::size_t channels = colors.channels;
@@ -135,7 +135,7 @@ void fill(const MicrotraceColors& colors, Value&& value, std::vector<Vec3>& pixe
   }
 }
 
-/// Returns the number of changed pixels.
+/// Clamps radiance to the valid range. Returns the number of changed pixels.
 std::size_t clamp_pixels(std::vector<Vec3>& pixels) {
   std::size_t changed = 0;
   for (Vec3& pixel : pixels) {

@@ -9,13 +9,13 @@
 namespace microtrace::io {
 namespace {
 
-/// round(255 v) for v in [0, 1]; values outside are clamped, NaN gives 0.
+/// Returns round(255 v) for v in [0, 1]. Clamps values outside. Converts NaN to 0.
 std::uint8_t encode_linear(float v) {
   if (!(v > 0)) return 0;
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);
 }
 
-/// shown(color) is the color that encode(color, channel) expects.
+/// Encodes a row. shown(color) must return the color that encode(color, channel) expects.
 template <class Show, class Encode>
 void encode_all(const Film& film, std::uint32_t y, std::uint8_t* out, Show&& shown,
                 Encode&& encode) {

@@ -23,7 +23,7 @@ class ModulePicture {
   void add_byte_colors(const Film& film);
   void add_channels(const Film& film);
 
-  std::vector<std::uint8_t> bytes_;  // converted pixels, if the format needs them
+  std::vector<std::uint8_t> bytes_;  // converted pixels, if the format needs conversion
   std::vector<MicrotraceChannel> channels_;
   std::vector<Note> notes_;
   std::vector<MicrotraceNote> note_views_;

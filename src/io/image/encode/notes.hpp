@@ -12,8 +12,8 @@ struct Note {
   std::string name, text;
 };
 
-/// The display transforms applied to the colors, if any were requested. For formats that store
-/// linear light the note says that none was applied.
+/// Notes about the display transforms that were requested, if any. If the format stores linear
+/// light, the note says that none was applied.
 [[nodiscard]] std::vector<Note> notes_of(const Display& display, bool holds_light);
 
 }  // namespace microtrace::io

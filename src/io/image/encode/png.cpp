@@ -15,13 +15,13 @@
 namespace microtrace::io {
 namespace {
 
-/// The encoder's input and output. Exceptions must not propagate through the module's frames, so
-/// they are stored here.
+/// The encoder's input and output. It also stores failures, because exceptions must not propagate
+/// through the module's frames.
 struct Streams {
   const Film& film;
   const std::function<void(std::string_view)>& out;
   std::vector<std::uint8_t> row;
-  std::string bytes{};  // not yet passed on
+  std::string bytes{};  // bytes that were not yet passed on
   std::string reason{};
   std::exception_ptr thrown{};
 };

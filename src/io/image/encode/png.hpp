@@ -1,5 +1,5 @@
 #pragma once
-/// PNG (ISO/IEC 15948), written by the codec module, which is loaded when needed.
+/// Writes PNG (ISO/IEC 15948) by the codec module, which is loaded when needed.
 
 #include "io/image/codec_abi.hpp"
 
@@ -13,12 +13,12 @@ namespace microtrace::io {
 
 class PngEncoder {
  public:
-  /// Loads the module. `file` is named in messages. Throws Error(unsupported) with the searched
+  /// Loads the module. Messages name `file`. Throws Error(unsupported) that lists the searched
   /// folders.
   explicit PngEncoder(std::string file);
 
-  /// Passes the file to `out` in parts: 8 bits per sample according to the film's display settings,
-  /// with alpha if the film has it. Throws what `out` throws, and Error(io).
+  /// Passes the file to `out` in parts. It has 8 bits per sample according to the film's display
+  /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error(io).
   void encode(const Film& film, const std::function<void(std::string_view)>& out) const;
 
  private:

@@ -12,7 +12,7 @@ namespace microtrace {
 namespace {
 
 void append_ascii(const std::vector<std::uint8_t>& row, std::string& out) {
-  constexpr std::size_t kNumbersPerLine = 15;  // "255 " fifteen times is 59 characters
+  constexpr std::size_t kNumbersPerLine = 15;  // at most 60 of the allowed 70 characters
   for (std::size_t i = 0; i < row.size(); ++i) {
     out += std::to_string(row[i]);
     out += (i + 1 == row.size() || (i + 1) % kNumbersPerLine == 0) ? '\n' : ' ';

@@ -1,5 +1,5 @@
 #pragma once
-/// PPM, the portable pixmap of Netpbm: https://netpbm.sourceforge.net/doc/ppm.html
+/// Writes PPM, the portable pixmap of Netpbm: https://netpbm.sourceforge.net/doc/ppm.html
 
 #include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
@@ -9,7 +9,8 @@
 
 namespace microtrace::io {
 
-/// Magic number, width and height, and 255, each on a line, without comments.
+/// The magic number, width and height, and the maximum 255, each on a line of its own, without
+/// comments.
 [[nodiscard]] std::string ppm_header(ImageSize size, PpmEncoding encoding);
 
 /// Appends row y of the picture, which must not have alpha. Lines of P3 have at most 70 characters,

@@ -15,8 +15,8 @@
 namespace microtrace {
 namespace {
 
-/// The name's extension in lower case without the dot. Standard output and streams without an
-/// extension use PPM. Throws Error(usage) if there is none.
+/// The name's extension in lower case without the dot. Returns "ppm" for standard output, and for
+/// streams without an extension. Throws Error(usage) if there is no extension.
 std::string format_extension(const std::filesystem::path& path) {
   if (path == "-") return "ppm";
   std::string extension = path.extension().string();
@@ -55,8 +55,8 @@ void require(const FilmContents& contents, const MicrotraceFormat& format,
     refuse(" has no alpha; write .png or .exr, or give the background a color");
 }
 
-/// The writer for files with one extension; loads its module if necessary. Formats that need no
-/// library are written here, as PPM is; their capabilities are in format_.
+/// The writer for files with a given extension. Loads its module if necessary. Formats that need no
+/// library, such as PPM, are written here, and format_ states their capabilities.
 class Writer {
  public:
   Writer(const std::filesystem::path& path, const std::string& extension) : extension_(extension) {
@@ -83,7 +83,7 @@ class Writer {
   std::string extension_;
   std::optional<io::PngEncoder> png_;
   std::optional<io::ImageModule> others_;
-  MicrotraceFormat format_{};  // PPM's: 8 bits, no alpha, no channels
+  MicrotraceFormat format_{};  // initially PPM's: 8 bits, no alpha, no channels
 };
 
 }  // namespace

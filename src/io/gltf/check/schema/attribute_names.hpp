@@ -5,11 +5,11 @@
 
 namespace microtrace::io::gltf {
 
-/// True for standard names like JOINTS_0 and TEXCOORD_12, and for application-specific ones, which
-/// begin with an underscore.
+/// True for standard names such as JOINTS_0 and TEXCOORD_12, and for application-specific names,
+/// which begin with an underscore.
 [[nodiscard]] bool is_attribute_name(std::string_view name);
 
-/// The same for instance attributes (EXT_mesh_gpu_instancing).
+/// Like is_attribute_name, for the attributes of instances (EXT_mesh_gpu_instancing).
 [[nodiscard]] bool is_instance_attribute_name(std::string_view name);
 
 }  // namespace microtrace::io::gltf

@@ -1,5 +1,5 @@
 #pragma once
-/// Descriptions of rules for error messages.
+/// Describes rules in error messages.
 
 #include "io/gltf/document/rules.hpp"
 
@@ -7,13 +7,13 @@
 
 namespace microtrace::io::gltf {
 
-/// The number with all digits needed to identify it.
+/// The number with enough digits to identify it.
 [[nodiscard]] std::string text_of(double number);
 
-/// For example " of at least 0 and at most 1"; empty without a range.
+/// The range of valid numbers, for example " of at least 0 and at most 1". Empty without a range.
 [[nodiscard]] std::string range_of(const Rule& rule);
 
-/// For example "OPAQUE", "MASK", "BLEND".
+/// The list of valid values, for example "OPAQUE", "MASK", "BLEND".
 [[nodiscard]] std::string values_of(const Rule& rule);
 
 }  // namespace microtrace::io::gltf

@@ -53,7 +53,8 @@ class Checker {
     if (!holds) asset_.fail(at, message);
   }
 
-  /// glTF 2.0 forbids null, but some exporters write it for absent values.
+  /// True if the value is null, with a warning. glTF 2.0 forbids null, but some exporters write it
+  /// for absent values.
   bool is_null(const Element& at) const {
     if (at.value->kind != Kind::null) return false;
     asset_.tolerate(at, "is null, which glTF 2.0 forbids; it is treated as absent");
@@ -120,7 +121,7 @@ class Checker {
     return unknown(at, rule, text_of(number));
   }
 
-  /// Handles a number out of its range. Returns false if it must be dropped.
+  /// Handles a number that is out of range. Returns false if it must be dropped.
   bool repaired(const Element& at, const Rule& rule, const std::string& message) const {
     switch (rule.repair) {
       case Repair::none:
@@ -267,7 +268,7 @@ class Checker {
   }
 
   Asset& asset_;
-  bool lacks_other_part_ = false;  // the current extension refers to an absent array
+  bool lacks_other_part_ = false;  // true if the current extension object refers to an absent array
 };
 
 }  // namespace

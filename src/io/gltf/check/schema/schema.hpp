@@ -8,14 +8,15 @@
 
 namespace microtrace::io::gltf {
 
-/// The root object's rules, which refer to those of all other objects.
+/// The rules of the root object, which refer to the rules of all other objects.
 [[nodiscard]] std::span<const Rule> gltf_rules();
 
 /// Checks the asset against the rules. Throws Error (invalid_scene) at the first violation that
-/// can't be repaired. Repairs the others in the asset's JSON, with a warning, so that later code
-/// can rely on the schema. Values are repaired as their rules' `repair` says. Null values,
-/// attributes of unknown names, and extensions that are undeclared, misplaced or lack one they
-/// depend on are removed. Properties unknown to glTF 2.0, repeated items and empty arrays stay.
+/// can't be repaired. Repairs the others in the asset's JSON, with a warning, so later code can
+/// rely on the schema. Invalid values are repaired as the `repair` of their rule requires. Null
+/// values and attributes with unknown names are removed. Extensions are removed if they are
+/// undeclared, misplaced, or lack an extension on which they depend. Properties unknown to glTF
+/// 2.0, repeated items and empty arrays stay.
 void check_schema(Asset& asset);
 
 }  // namespace microtrace::io::gltf

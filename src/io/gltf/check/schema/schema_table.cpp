@@ -2,10 +2,10 @@
 
 #include <array>
 
-// glTF 2.0, section 5, Properties Reference, and the JSON schemas in its appendix A. `extensions`,
-// `extras` and `name` are allowed in every object and have no row. Empty arrays cause a warning,
-// not an error. "pointer" is the animation path of KHR_animation_pointer; the last two media types
-// of images belong to EXT_texture_webp and KHR_texture_basisu.
+// Source: glTF 2.0, section 5, Properties Reference, and the JSON schemas in its appendix A.
+// `extensions`, `extras` and `name` are allowed in every object and have no row. Empty arrays cause
+// a warning, not an error. "pointer" is the animation path of KHR_animation_pointer. The last two
+// media types of images belong to EXT_texture_webp and KHR_texture_basisu.
 
 namespace microtrace::io::gltf {
 

@@ -6,7 +6,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-using Size = std::uint64_t;  // no sum or product overflows: numbers are at most 2^53, strides 252
+// Sums and products can't overflow: numbers are at most 2^53, strides at most 252.
+using Size = std::uint64_t;
 
 class Checker {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-/// Range checks of buffer views and accessors.
+/// Checks the ranges of buffer views and accessors.
 
 #include "io/gltf/document/asset.hpp"
 #include "io/gltf/document/model.hpp"
@@ -8,7 +8,7 @@ namespace microtrace::io::gltf {
 
 /// Checks that each buffer view and accessor of the model stays in range, that strides are wide
 /// enough, and that sparse parts are well formed (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws
-/// Error (invalid_scene); warns of misaligned ones.
+/// Error (invalid_scene). Warns of misaligned accessors.
 void check_accessors(Asset& asset, const Model& model);
 
 }  // namespace microtrace::io::gltf

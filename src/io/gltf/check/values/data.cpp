@@ -30,7 +30,7 @@ Bounds bounds_of(const Elements& elements) {
     for (std::size_t k = 0; k < components; ++k) {
       least[k] = element[k] < least[k] ? element[k] : least[k];
       greatest[k] = element[k] > greatest[k] ? element[k] : greatest[k];
-      // 0 times x is 0 unless x is infinite or NaN.
+      // x * 0 is 0 unless x is infinite or NaN.
       if constexpr (std::is_floating_point_v<Number>) doubt[k] += element[k] * Number(0);
     }
   }
@@ -41,7 +41,7 @@ Bounds bounds_of(const Elements& elements) {
   return result;
 }
 
-/// True if no exponent is that of infinity or NaN.
+/// True if no number is infinite or NaN. Such numbers have an exponent of all ones.
 bool all_finite(const Elements& elements) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   const std::size_t components = elements.components();
@@ -190,7 +190,7 @@ class DataCheck {
     });
   }
 
-  /// In a cubic spline, every second of three elements is a rotation; the others are tangents.
+  /// In a cubic spline, the middle one of three elements is a rotation, the others are tangents.
   void quaternions(bool spline) const {
     each(spline ? 3 : 1, spline ? 1 : 0, " of its rotations are not unit quaternions",
          [this](std::size_t i) { return std::abs(square_of(i, 4) - 1) <= 0.01F; });
@@ -221,7 +221,7 @@ class DataCheck {
   const Elements& elements_;
 };
 
-/// Checks the indices of primitives without positions. make_surfaces checks those of the others.
+/// Checks the indices of primitives without positions. make_surfaces checks all others.
 class IndexCheck {
  public:
   IndexCheck(Asset& asset, const Model& model, const BufferViews& views)
@@ -246,7 +246,7 @@ class IndexCheck {
     return model_.accessors[static_cast<std::size_t>(attributes.members[0].value.number)].count;
   }
 
-  /// Nothing if Elements::of can't read the accessor.
+  /// The greatest index in an accessor. Nothing if Elements::of can't read the accessor.
   std::optional<double> greatest(std::size_t accessor) {
     std::optional<double>& result = greatest_[accessor];
     if (result) return result;
@@ -258,10 +258,10 @@ class IndexCheck {
   Asset& asset_;
   const Model& model_;
   const BufferViews& views_;
-  std::vector<std::optional<double>> greatest_;  // by accessor, once it was asked for
+  std::vector<std::optional<double>> greatest_;  // by accessor; empty until first needed
 };
 
-/// Overlapping accessors could make a small file expensive to read.
+/// Limits the total size, because a small file with overlapping accessors could take long to read.
 void check_size(const Asset& asset, const Model& model) {
   double bytes = 0;
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of the numbers in accessors.
+/// Checks the numbers in accessors.
 
 #include "io/gltf/bytes/accessors.hpp"
 
@@ -7,10 +7,10 @@ namespace microtrace::io::gltf {
 
 /// Examines the numbers of each accessor whose data is available. Throws Error (invalid_scene) for
 /// sparse indices out of order or range and for joints missing from the skin, and (limit) if the
-/// accessors hold more than kMaxBufferBytes together. Warns of floats that are not finite;
-/// animation times that don't ascend; a wrong min or max; vectors, quaternions, colors, weights and
-/// matrices that are invalid for their use; and vertex indices out of range in primitives that are
-/// not drawn because they have no positions.
+/// accessors have more than kMaxBufferBytes together. Warns of floats that are not finite,
+/// animation times that don't ascend, and a wrong min or max. Warns of vectors, quaternions,
+/// colors, weights and matrices that are invalid for their use. In primitives that are not drawn
+/// because they have no positions, also warns of vertex indices out of range.
 void check_data(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf

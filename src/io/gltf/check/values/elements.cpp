@@ -5,11 +5,11 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// Limit on the bytes of a sparse accessor that is assembled for checking.
+/// The maximum size in bytes of a sparse accessor that is assembled for checking.
 constexpr std::size_t kMaxSparseBytes = std::size_t{1} << 26;
 
 std::uint32_t unsigned_at(std::string_view bytes, std::size_t number, std::size_t size) {
-  std::uint32_t result = 0;  // little-endian, as glTF's numbers are
+  std::uint32_t result = 0;  // little-endian, like the numbers of glTF
   std::memcpy(&result, &bytes[number * size], size);
   return result;
 }
@@ -29,7 +29,7 @@ class SparseParts {
   [[nodiscard]] bool has_data() const { return count_ > 0; }
 
   void check(const Asset& asset, std::size_t accessor) const {
-    std::uint64_t least = 0;  // least valid value of the next index
+    std::uint64_t least = 0;  // the next index must be at least this number
     for (std::size_t i = 0; i < count_; ++i) {
       const std::uint32_t target = unsigned_at(indices_, i, index_size_);
       if (target < least || target >= accessor_.count) {
@@ -67,7 +67,7 @@ std::optional<Elements> Elements::of(const Asset& asset, const Model& model,
   result.components_ = component_count(accessor.type);
   result.stride_ = size;
   if (size != result.components_ * component_size(accessor.component_type)) {
-    return std::nullopt;  // matrices of small integers have padded columns, but no check reads them
+    return std::nullopt;  // no check reads matrices of small integers, which have padded columns
   }
   if (accessor.view) {
     const std::optional<std::string_view> bytes = views.bytes(*accessor.view);

@@ -1,5 +1,5 @@
 #pragma once
-/// Direct access to an accessor's elements, for fast checks.
+/// Accesses an accessor's elements directly, for fast checks.
 
 #include "io/gltf/bytes/accessors.hpp"
 
@@ -14,18 +14,18 @@ namespace microtrace::io::gltf {
 
 class Elements {
  public:
-  /// Nothing for an accessor without data, a compressed one, or a sparse one that is too large to
-  /// assemble. Throws Error (invalid_scene) if sparse indices are out of order or range.
+  /// Returns nothing for an accessor without data, a compressed one, or a sparse one that is too
+  /// large to assemble. Throws Error (invalid_scene) if sparse indices are out of order or range.
   [[nodiscard]] static std::optional<Elements> of(const Asset& asset, const Model& model,
                                                   const BufferViews& views, std::size_t accessor);
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t components() const { return components_; }
-  /// Bytes between the starts of neighboring elements.
+  /// The number of bytes between the starts of neighboring elements.
   [[nodiscard]] std::size_t stride() const { return stride_; }
   [[nodiscard]] int component_type() const { return component_type_; }
 
-  /// Number may be a std::array.
+  /// Reads one component as Number, or several as a std::array.
   template <typename Number>
   [[nodiscard]] Number at(std::size_t element, std::size_t component) const {
     Number value;

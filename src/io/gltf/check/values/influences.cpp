@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
-/// For each mesh, the number of joints of the smallest skin applied to it, or `none`.
+/// For each mesh, the number of joints of the smallest skin applied to it, or kNone.
 std::vector<std::size_t> joint_counts(const Asset& asset) {
   std::vector<std::size_t> result(asset.array("meshes").size(), kNone);
   for (const JsonValue& node : asset.array("nodes")) {
@@ -84,8 +84,8 @@ class InfluenceCheck {
   }
 
   void check_weights(const Element& at) const {
-    // glTF 2.0, section 3.7.3.3, allows this error of the sum for each weight that is not 0.
-    // Integers that are off by one exceed it.
+    // glTF 2.0, section 3.7.3.3, allows the sum to differ from 1 by this number for each nonzero
+    // weight. For integer weights, a sum that is off by one unit exceeds this tolerance.
     constexpr double kTolerance = 2e-7;
     bool negative = false, twice = false;
     std::size_t unequal = 0;
@@ -117,8 +117,8 @@ class InfluenceCheck {
   Asset& asset_;
   const Model& model_;
   const BufferViews& views_;
-  std::vector<std::pair<Elements, Elements>> sets_;  // joints and weights
-  std::size_t vertices_ = 0;                         // counted against kMaxElements
+  std::vector<std::pair<Elements, Elements>> sets_;  // joints and weights of each set
+  std::size_t vertices_ = 0;                         // checked vertices, limited by kMaxElements
 };
 
 }  // namespace

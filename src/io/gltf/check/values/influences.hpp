@@ -1,5 +1,5 @@
 #pragma once
-/// Checks of the joints and weights of vertices.
+/// Checks the joints and weights of vertices.
 
 #include "io/gltf/bytes/accessors.hpp"
 
@@ -7,7 +7,7 @@ namespace microtrace::io::gltf {
 
 /// Checks JOINTS_n and WEIGHTS_n of skinned meshes. Throws Error (invalid_scene) for a joint
 /// missing from the skin. Warns of negative weights, of joints that occur twice in a vertex, and of
-/// weights that don't add up to 1.
+/// weights that don't sum to 1.
 void check_influences(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf

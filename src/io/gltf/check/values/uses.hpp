@@ -1,5 +1,5 @@
 #pragma once
-/// The requirements of an accessor's users on its elements.
+/// The requirements on an accessor's elements that follow from its uses.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -10,10 +10,10 @@ namespace microtrace::io::gltf {
 struct AccessorUses {
   bool normals = false, tangents = false, colors = false, times = false, matrices = false;
   bool quaternions = false;
-  bool spline = false;  ///< quaternions of a cubic spline
+  bool spline = false;  ///< true if the quaternions belong to a cubic spline
 };
 
-/// By accessor index.
+/// The uses of each accessor, by accessor index.
 [[nodiscard]] std::vector<AccessorUses> accessor_uses(const Asset& asset);
 
 }  // namespace microtrace::io::gltf
