@@ -1,6 +1,6 @@
 #pragma once
-/// The floating-point settings that exactness and equal bits need: round to nearest, keep subnormal
-/// numbers, raise no signals. A host program may have changed them for its threads. Flushing to
+/// Sets the floating-point environment that exactness and equal bits require: rounding to nearest,
+/// no flushing of subnormal numbers, no traps. The host program may use other settings. Flushing to
 /// zero is common in audio and graphics, and GCC enables it at startup in programs linked with
 /// -ffast-math.
 
@@ -20,7 +20,8 @@ class FloatControl {
     return now;
   }
   void set() const {
-    // A pending exception that the previous settings masked must not be raised by the new ones.
+    // Clears pending exceptions, because those that the previous settings masked would otherwise be
+    // raised under the new settings.
     if ((x87_ & kX87Masks) != kX87Masks) __asm__ volatile("fnclex");
     __asm__ volatile("fldcw %0" : : "m"(x87_));
     __builtin_ia32_ldmxcsr(mxcsr_);
@@ -81,9 +82,9 @@ class FloatControl {
 #error "Write here how this processor's rounding mode and flushing of subnormals are read and set."
 #endif
 
-/// Applies these settings to the calling thread, and restores the previous ones when destroyed.
-/// Takes a few cycles if they already apply. Every public function that computes creates one, and
-/// so does every thread of the library.
+/// Applies these settings to the calling thread, and restores the previous settings when destroyed.
+/// Takes only a few cycles if the settings already apply. Every public function that computes
+/// creates such an object, and so does every thread of the library.
 class FloatEnvironment {
  public:
   FloatEnvironment() : former_(FloatControl::get()) {

@@ -1,6 +1,7 @@
 #pragma once
 /// The memory layout of the tree that the builder writes and the kernels read. Kernels for several
-/// instruction sets include this header, so it has no functions of external linkage.
+/// instruction sets include this header, so it has no functions of external linkage, whose copies
+/// the linker would merge.
 
 #include <cstdint>
 

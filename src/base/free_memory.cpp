@@ -17,14 +17,14 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
-/// The first word of a file if it is a number; cgroups write "max" for no limit.
+/// Returns the first word of a file if it is a number. A cgroup without a limit has the word "max".
 std::optional<std::uint64_t> number_in(const fs::path& file) {
   std::uint64_t number = 0;
   if (!(std::ifstream(file) >> number)) return std::nullopt;
   return number;
 }
 
-/// The number after `name` in a file whose lines are pairs of a name and a number.
+/// Returns the number after `name` in a file whose lines are pairs of a name and a number.
 std::optional<std::uint64_t> number_of(const std::string& name, const fs::path& file) {
   std::ifstream lines(file);
   for (std::string line; std::getline(lines, line);) {
@@ -36,10 +36,10 @@ std::optional<std::uint64_t> number_of(const std::string& name, const fs::path& 
   return std::nullopt;
 }
 
-/// File names of the same quantities in cgroups version 1 and 2.
+/// The names under which a version of cgroups stores these quantities.
 struct GroupFiles {
   const char *limit, *usage;
-  const char* cache;  ///< in memory.stat: page cache, which can be reclaimed at any time
+  const char* cache;  ///< name in memory.stat of page cache that can be reclaimed at any time
 };
 
 std::uint64_t left_in_group(const fs::path& group, const GroupFiles& names) {
@@ -51,8 +51,8 @@ std::uint64_t left_in_group(const fs::path& group, const GroupFiles& names) {
   return *limit - std::min(*limit, in_use);
 }
 
-/// The least memory left in the group and its ancestors. In a container they may be at the root of
-/// the mount.
+/// Returns the least memory left in the group and its ancestors. Includes the root of the mount,
+/// which may be the group itself in a container.
 std::uint64_t left_in_groups(const fs::path& mount, const fs::path& path, const GroupFiles& names) {
   std::uint64_t least = left_in_group(mount, names);
   fs::path group = mount;
@@ -67,7 +67,7 @@ std::uint64_t left_in_all_groups(const fs::path& root) {
   std::uint64_t least = kUnlimited;
   std::ifstream groups(root / "proc/self/cgroup");
   for (std::string line; std::getline(groups, line);) {
-    // "number:controllers:path"; version 2 has number 0 and no controllers.
+    // Lines are "number:controllers:path"; version 2 has number 0 and no controllers.
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";

@@ -4,8 +4,9 @@
 
 namespace microtrace {
 
-/// Bytes that this process can still allocate before the system or one of its control groups
-/// (cgroups version 1 or 2) runs out of memory. `root` is the folder that contains /proc and /sys.
+/// Returns the number of bytes that this process can still allocate before the system or one of the
+/// process's control groups (cgroups version 1 or 2) runs out of memory. `root` is the folder that
+/// contains proc and sys.
 [[nodiscard]] std::uint64_t free_memory(const std::filesystem::path& root = "/");
 
 }  // namespace microtrace

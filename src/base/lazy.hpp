@@ -5,12 +5,13 @@
 
 namespace microtrace {
 
-/// A value that is made when it is first needed. Any number of threads may call get(); one of them
-/// makes the value.
+/// A value that is made on first use. Any number of threads may call get(); one of them makes the
+/// value.
 template <class T>
 class Lazy {
  public:
-  /// make() returns a std::unique_ptr<T>. If it throws, the next call tries again.
+  /// Returns the value. make() must return a std::unique_ptr<T>. If make() throws, the next call
+  /// tries again.
   template <class Make>
   const T& get(const Make& make) const {
     if (const T* made = value_.load(std::memory_order_acquire)) return *made;

@@ -12,7 +12,7 @@ namespace {
 
 thread_local MemoryAccount* current = nullptr;
 
-/// For example "1.5 GiB".
+/// Formats a size, for example as "1.5 GiB".
 std::string readable(std::uint64_t bytes) {
   constexpr std::array<const char*, 4> kUnits = {"KiB", "MiB", "GiB", "TiB"};
   double number = static_cast<double>(bytes) / 1024;

@@ -1,5 +1,5 @@
 #pragma once
-/// Accounting of a MemoryBudget by owner.
+/// Accounts for the memory that the owners of data take from a MemoryBudget.
 
 #include <microtrace/memory.hpp>
 
@@ -9,10 +9,10 @@
 
 namespace microtrace {
 
-/// The memory of one owner, released with it.
+/// The memory of one owner, which is given back to the budget when the account is destroyed.
 class MemoryAccount {
  public:
-  /// The budget must outlive the account. With null nothing is counted.
+  /// The budget must outlive the account. If the budget is null, nothing is counted.
   explicit MemoryAccount(MemoryBudget* budget) : budget_(budget) {}
   ~MemoryAccount() { clear(); }
   MemoryAccount(const MemoryAccount&) = delete;
@@ -21,9 +21,9 @@ class MemoryAccount {
       : budget_(other.budget_), taken_(std::exchange(other.taken_, 0)) {}
   MemoryAccount& operator=(MemoryAccount&&) = delete;
 
-  /// As MemoryBudget::take.
+  /// Charges memory to this account, see MemoryBudget::take.
   void take(std::uint64_t bytes, std::string_view what);
-  /// Releases all memory.
+  /// Gives all memory of this account back to the budget.
   void clear();
 
   [[nodiscard]] MemoryBudget* budget() const { return budget_; }
@@ -33,7 +33,7 @@ class MemoryAccount {
   std::uint64_t taken_ = 0;
 };
 
-/// During its lifetime, memory taken by this thread is charged to the account.
+/// During its lifetime, take_memory() on this thread charges the given account.
 class MemoryScope {
  public:
   explicit MemoryScope(MemoryAccount& account);
@@ -45,15 +45,15 @@ class MemoryScope {
   MemoryAccount* former_;
 };
 
-/// The account of the thread's innermost scope, or an account that counts nothing.
+/// Returns the account of the thread's innermost MemoryScope, or an account that counts nothing.
 [[nodiscard]] MemoryAccount& memory_account();
 
-/// Must be called before a potentially large allocation.
+/// Charges memory to memory_account(). Must be called before a potentially large allocation.
 inline void take_memory(std::uint64_t bytes, std::string_view what) {
   memory_account().take(bytes, what);
 }
 
-/// Charges memory that is released earlier than the account: with the returned object.
+/// Charges memory that is given back when the returned object is destroyed, for temporary data.
 [[nodiscard]] inline MemoryAccount temporary_memory(std::uint64_t bytes, std::string_view what) {
   MemoryAccount account(memory_account().budget());
   account.take(bytes, what);

@@ -10,10 +10,10 @@
 namespace microtrace {
 namespace {
 
-constexpr std::size_t kMaxListed = 20;  // maximum number of names
+constexpr std::size_t kMaxListed = 20;  // maximum number of names in a suggestion
 
-/// Levenshtein distance: the number of insertions, deletions and replacements of bytes that turn a
-/// into b (Levenshtein 1966), by the table of Wagner and Fischer.
+/// Returns the least number of insertions, deletions and replacements of bytes that turn a into b
+/// (V. Levenshtein, 1966), computed by the algorithm of R. Wagner and M. Fischer (1974).
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -35,8 +35,8 @@ std::size_t difference(std::size_t a, std::size_t b) {
 }  // namespace
 
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
-  // Distances up to 2, or a third of the length of a long name. A larger difference of lengths
-  // exceeds that.
+  // Only distances up to 2, or up to a third of the length of a long name, count. The distance is
+  // at least the difference of the lengths.
   std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
   std::string_view nearest;
   for (const std::string_view candidate : known) {

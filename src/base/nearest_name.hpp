@@ -7,13 +7,13 @@
 
 namespace microtrace {
 
-/// The known name with the least edit distance, if this is at most 2 or a third of the length of
-/// `name`; else an empty string.
+/// Returns the known name with the least edit distance from `name`, or an empty string if that
+/// distance exceeds both 2 and a third of the length of `name`.
 [[nodiscard]] std::string_view nearest_name(std::string_view name,
                                             std::span<const std::string_view> known);
 
-/// Text to append to a message about `name`: `; did you mean "radius"?` if a known name is similar,
-/// else `; known are "a", "b"`, or nothing if no names are known.
+/// Returns text to append to a message about an unknown name: `; did you mean "radius"?` if a known
+/// name is similar, otherwise `; known are "a", "b"`, or an empty string if no names are known.
 [[nodiscard]] std::string suggestion(std::string_view name,
                                      std::span<const std::string_view> known);
 

@@ -10,7 +10,7 @@ struct CodePoint {
   std::size_t length = 0;  ///< in bytes; 0 if the bytes are not UTF-8
 };
 
-/// The first code point of `text`, which must not be empty.
+/// Decodes the first code point of `text`, which must not be empty.
 CodePoint decode(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return {lead, 1};
@@ -27,7 +27,7 @@ CodePoint decode(std::string_view text) {
   return {value, length};
 }
 
-/// Control characters, zero-width characters and bidirectional formatting characters.
+/// True for control characters, zero-width characters and bidirectional formatting characters.
 bool is_dangerous(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || (c >= 0x200B && c <= 0x200F) ||
          (c >= 0x2028 && c <= 0x202E) || (c >= 0x2060 && c <= 0x206F) || c == 0xFEFF;

@@ -1,6 +1,6 @@
 #pragma once
-/// Makes untrusted text safe to print on a terminal: it can't move the cursor or change the reading
-/// order.
+/// Makes untrusted text safe to print on a terminal, so that it can neither move the cursor nor
+/// change the reading order.
 
 #include <cstddef>
 #include <string>
@@ -10,23 +10,23 @@ namespace microtrace {
 
 struct PrintableText {
   std::string text;
-  std::size_t columns = 0;  ///< on a terminal, with one column per character
+  std::size_t columns = 0;  ///< width on a terminal, assuming one column per character
 };
 
-/// Replaces tabs by spaces, and escapes control characters, invisible and bidirectional formatting
-/// characters, and bytes that are not UTF-8 as \x1b.
+/// Replaces tabs by spaces. Escapes control characters, invisible and bidirectional formatting
+/// characters, and bytes that are not UTF-8, byte by byte in the form \x1b.
 [[nodiscard]] PrintableText make_printable(std::string_view text);
 
-/// The text of make_printable().
+/// Returns the text of make_printable().
 [[nodiscard]] std::string printable(std::string_view text);
 
-/// `name` in double quotes, printable and truncated to 60 bytes.
+/// Returns `name` truncated to 60 bytes, made printable, and in double quotes.
 [[nodiscard]] std::string in_quotes(std::string_view name);
 
-/// True if this is a continuation byte of a UTF-8 character.
+/// Returns true if c is a continuation byte of a UTF-8 character.
 [[nodiscard]] bool continues_character(char c);
 
-/// `text` without an incomplete UTF-8 character at its end.
+/// Returns `text` without an incomplete UTF-8 character at the end.
 [[nodiscard]] std::string_view whole_characters(std::string_view text);
 
 }  // namespace microtrace

@@ -7,14 +7,14 @@
 
 namespace microtrace {
 
-/// The numbers from 0 to below `count`, which threads take in runs of consecutive ones. Any number
-/// of threads may call take(), end() and is_ended().
+/// The numbers from 0 to count - 1, which several threads process in runs of consecutive numbers.
+/// Any number of threads may call take(), end() and is_ended().
 class SharedRange {
  public:
   SharedRange(std::uint64_t count, std::uint64_t run) : count_(count), run_(run) {}
 
-  /// Calls f(first, last) for runs [first, last) that no other call takes, until none is left or
-  /// the range is ended. An exception of f ends the range, too.
+  /// Calls f(first, last) for runs [first, last) that no other thread has taken, until none is left
+  /// or the range is ended. An exception thrown by f ends the range.
   template <typename F>
   void take(const F& f) {
     try {
@@ -27,11 +27,12 @@ class SharedRange {
     }
   }
 
-  /// No more runs are taken.
+  /// Ends the range, so that no more runs are taken.
   void end() { ended_ = true; }
   [[nodiscard]] bool is_ended() const { return ended_; }
 
-  /// Throws the first exception of f, when all threads are done.
+  /// Rethrows the first exception thrown by f, if there was one. Must be called after all threads
+  /// have returned from take().
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }

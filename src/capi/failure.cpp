@@ -10,7 +10,7 @@ namespace {
 
 thread_local std::string message;
 
-/// Without a message if there is no memory for it.
+/// Stores a message, or an empty one if memory runs out.
 void keep(const char* text) noexcept {
   try {
     message = text;

@@ -1,5 +1,5 @@
 #pragma once
-/// The contents of the C API's opaque handles, and the error handling of its functions.
+/// The contents of the opaque handles of the C API, and the error handling of its functions.
 
 #include <microtrace/error.hpp>
 #include <microtrace/film.hpp>
@@ -23,10 +23,11 @@ struct mt_film {
 
 namespace microtrace::capi {
 
-/// Sets the message of mt_last_error() from the exception that is being handled.
+/// Stores the message of the exception that is being handled for mt_last_error(), and returns the
+/// exception's status.
 mt_status failed() noexcept;
 
-/// Runs f, which throws the library's exceptions, and returns the status.
+/// Runs f and returns MT_OK, or the status of an exception that f throws.
 template <class F>
 mt_status guarded(const F& f) noexcept {
   try {
@@ -42,8 +43,8 @@ inline void require(const void* argument, const char* name) {
   if (argument == nullptr) throw Error(ErrorKind::usage, "", std::string(name) + " is NULL");
 }
 
-/// The options, with defaults for the members that the caller's version of the header lacks; null:
-/// all defaults.
+/// Returns the options, with defaults for members that the caller's version of the header lacks. If
+/// `options` is null, returns the defaults.
 template <class Options>
 [[nodiscard]] Options complete(const Options* options, void (*init)(Options*)) {
   Options result;

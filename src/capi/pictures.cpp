@@ -42,7 +42,7 @@ IntegratorOptions integrator_of(const mt_render_options& options, SceneFormat fo
   return integrator;
 }
 
-/// The camera in the scene's own coordinates.
+/// Returns the camera in scene coordinates.
 Camera camera_of(const mt_render_options& options, const Scene& scene, ImageSize size) {
   if (options.camera == nullptr) return default_camera(scene, size);
   const mt_camera& from = *options.camera;
@@ -69,7 +69,7 @@ std::vector<Aov> aovs_of(const char* names) {
   return aovs;
 }
 
-/// Copies the values of a channel, which must have this number type.
+/// Copies the values of a channel, whose numbers must be of type Number.
 template <class Number>
 mt_status copy_channel(const mt_film* film, std::size_t channel, Number* values) {
   return guarded([&] {

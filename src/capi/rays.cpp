@@ -29,7 +29,7 @@ mt_hit hit_of(const std::optional<Hit>& hit) {
   return {.primitive = hit->id, .t = hit->t};
 }
 
-/// Calls f(first, last) for blocks that cover [0, count), on several threads.
+/// Calls f(first, last) for blocks [first, last) that cover [0, count), on several threads.
 template <class F>
 void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   SharedRange blocks(count, kBlock);
@@ -40,7 +40,7 @@ void for_each_block(std::size_t count, std::uint32_t threads, const F& f) {
   blocks.rethrow();
 }
 
-/// Checks the arguments of a function on rays, then calls f(scene, first, last) for blocks of them.
+/// Checks the arguments of an API function, then calls f(scene, first, last) for blocks of rays.
 template <class F>
 mt_status for_rays(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                    std::uint32_t threads, const void* results, const F& f) {
@@ -54,7 +54,7 @@ mt_status for_rays(const mt_scene* scene, const mt_ray* rays, std::size_t count,
   });
 }
 
-/// Calls f(scene, i) for each ray.
+/// Calls f(scene, i) for each ray index i.
 template <class F>
 mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                        std::uint32_t threads, const void* results, const F& f) {
@@ -64,7 +64,8 @@ mt_status for_each_ray(const mt_scene* scene, const mt_ray* rays, std::size_t co
   return for_rays(scene, rays, count, threads, results, answer);
 }
 
-/// Calls f(scene, rays, first) for batches of rays.
+/// Calls f(scene, rays, first) for batches of consecutive rays, where `first` is the index of the
+/// first ray.
 template <class F>
 mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t count,
                          std::uint32_t threads, const void* results, const F& f) {
@@ -77,7 +78,7 @@ mt_status for_each_batch(const mt_scene* scene, const mt_ray* rays, std::size_t 
   return for_rays(scene, rays, count, threads, results, answer);
 }
 
-/// Converts the caller's hit, which must be a hit of this ray.
+/// Converts a hit from the caller. Throws Error (usage) if the scene does not have the primitive.
 Hit known_hit(const PreparedScene& scene, const mt_hit& hit) {
   if (hit.primitive < scene.bvh().primitives().count()) return {.id = hit.primitive, .t = hit.t};
   throw Error(

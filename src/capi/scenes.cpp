@@ -33,7 +33,7 @@ mt_scene* prepared(LoadedScene loaded, std::uint32_t threads) {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// A member of a mesh: `count` elements, or none if it is NULL.
+/// Returns a mesh attribute with `count` elements, or an empty array if `first` is NULL.
 template <class T, class Number>
 Array<T> array_of(const Number* first, std::size_t count, std::size_t stride, bool borrow) {
   if (first == nullptr) return {};

@@ -9,7 +9,7 @@
 namespace microtrace::exact {
 namespace {
 
-/// The corners are relative to the ray's origin.
+/// Classifies the ray t d, t >= 0. The vertices are relative to the ray's origin.
 template <class Number>
 Crossing crossing(const CornersOf<Number>& corners, const VectorOf<Number>& d) {
   const auto stretch = meet(d, corners);
@@ -23,7 +23,7 @@ Crossing crossing(const CornersOf<Number>& corners, const VectorOf<Number>& d) {
   return is_inside ? Crossing::proper : Crossing::grazing;
 }
 
-/// Nothing if the grid can't represent the numbers.
+/// Returns nothing if the grid can't represent the numbers.
 template <int Limbs>
 std::optional<Crossing> crossing_on_grid(const Triangle& triangle, const Vec3& o, const Vec3& d) {
   ++queries.grid;

@@ -1,5 +1,6 @@
 #pragma once
-/// Classifies how a ray from a point crosses a triangle, to count crossings.
+/// Classifies how a ray crosses a triangle, for the inside test of closed surfaces by the parity of
+/// crossings.
 
 #include <microtrace/math.hpp>
 #include <microtrace/shape.hpp>
@@ -8,8 +9,8 @@ namespace microtrace::exact {
 
 enum class Crossing {
   none,     ///< the ray and the triangle have no common point
-  proper,   ///< the ray crosses at one point that is on no edge
-  grazing,  ///< the ray meets an edge or a vertex, or runs within the triangle's plane
+  proper,   ///< the ray crosses the triangle at one point, which is not on an edge
+  grazing,  ///< the ray meets an edge or a vertex, or lies in the triangle's plane
   origin,   ///< the ray's origin is in the triangle
 };
 

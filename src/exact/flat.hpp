@@ -15,15 +15,15 @@ struct CornersOf {
   VectorOf<Number> a, b, c;
 };
 
-/// The type of a form of degree three in numbers of this type.
+/// The type of polynomials of degree three in numbers of this type.
 template <class Number>
 using Volume = decltype(Number() * Number() * Number());
 
-/// The interval [lo, hi] of t for which a line o + t d is in a triangle.
+/// The interval [lo, hi] of t for which the point o + t d of a line is in a triangle.
 template <class Number>
 struct StretchOf {
   Ratio<Volume<Number>> lo, hi;
-  bool is_point;  ///< lo = hi
+  bool is_point;  ///< true if lo = hi
 
   /// Extends the interval to contain t.
   void add(const Ratio<Volume<Number>>& t) {
@@ -33,7 +33,7 @@ struct StretchOf {
   }
 };
 
-/// x widened to the width of another number.
+/// Returns x widened to the width of the first argument.
 [[nodiscard]] inline const Dyadic& as_wide_as(const Dyadic&, const Dyadic& x) {
   return x;
 }
@@ -42,37 +42,43 @@ template <int More, int Limbs>
   return x.template widened<More>();
 }
 
-/// The t for which t d lies on the segment from p to q, given det(d, p, q) = 0.
+/// Calls add(numerator, denominator) for each t that bounds the part of the line t d on the segment
+/// from p to q, given det(d, p, q) = 0. There is one t for a crossing, two if the segment lies on
+/// the line, and none for a miss.
 template <class Number, class Add>
 void for_each_end(const VectorOf<Number>& d, const VectorOf<Number>& p, const VectorOf<Number>& q,
                   const Add& add) {
-  // Offsets of p and q from the line, rotated by 90 degrees. They are parallel because d, p and q
-  // are coplanar.
+  // Offsets of p and q from the line times |d|, rotated by 90 degrees. They are parallel because d,
+  // p and q are coplanar.
   const auto offset_p = cross(d, p);
   const auto offset_q = cross(d, q);
   const auto along = offset_q - offset_p;  // d x (q - p)
   const int k = nonzero_component(along);
   if (k < 0) {
-    if (nonzero_component(offset_p) >= 0) return;  // parallel to the line, not on it
+    if (nonzero_component(offset_p) >= 0)
+      return;  // the segment is parallel to the line, but not
+               // on it
     const int i = nonzero_component(d);
     add(p[i], d[i]);
     add(q[i], d[i]);
     return;
   }
-  if (offset_p[k].sign() * offset_q[k].sign() > 0) return;  // on the same side of the line
+  if (offset_p[k].sign() * offset_q[k].sign() > 0)
+    return;  // both ends are on the same side of the
+             // line
   // t d = p + s (q - p): taking the cross product with q - p leaves t d x (q - p) = p x q.
   add(cross(p, q)[k], along[k]);
 }
 
-/// The interval in which the line t d meets a triangle whose vertices are relative to the line's
-/// origin; nothing if it misses.
+/// Returns the interval of t in which the line t d meets a triangle, or nothing if it misses. The
+/// vertices are relative to the line's origin.
 template <class Number>
 [[nodiscard]] std::optional<StretchOf<Number>> meet(const VectorOf<Number>& d,
                                                     const CornersOf<Number>& corners) {
   using Form = Volume<Number>;
   const auto& [a, b, c] = corners;
-  // The line's signed volumes with the edges: the intersection with the plane has barycentric
-  // coordinates u : v : w.
+  // u, v and w are the signed volumes spanned by the line and the edges. The intersection with the
+  // plane has the barycentric coordinates u : v : w.
   const auto b_cross_c = cross(b, c);
   const Form u = dot(d, b_cross_c);
   const Form v = dot(d, cross(c, a));
@@ -84,8 +90,8 @@ template <class Number>
     const auto t = ratio<Form>(dot(a, b_cross_c), u + v + w);
     return StretchOf<Number>{.lo = t, .hi = t, .is_point = true};
   }
-  // The line lies in the triangle's plane, or the triangle is degenerate. The line then enters and
-  // leaves the convex hull of the vertices on its edges.
+  // The line lies in the triangle's plane, or the triangle is degenerate. In both cases the line
+  // enters and leaves the triangle at points of its edges.
   std::optional<StretchOf<Number>> stretch;
   const auto add = [&](const auto& p, const auto& r) {
     const auto t = ratio<Form>(as_wide_as(u, p), as_wide_as(u, r));
@@ -100,21 +106,21 @@ template <class Number>
   return stretch;
 }
 
-/// A triangle's normal (b - a) x (c - a).
+/// Returns a triangle's normal (b - a) x (c - a).
 template <class Number>
 [[nodiscard]] auto normal_of(const CornersOf<Number>& t) {
   return cross(t.b - t.a, t.c - t.a);
 }
 
-/// The sign of x + t y.
+/// Returns the sign of x + t y.
 template <class Number>
 [[nodiscard]] int sign_of_sum(const Number& x, const Ratio<Number>& t, const Number& y) {
   return (x * t.r + y * t.p).sign();
 }
 
-/// True if a triangle with an area has a point on the segment from the origin to o + t d, all in
-/// one plane. If not, the line of an edge or of the segment separates them strictly. side_at(x, y)
-/// is the sign of x + t y.
+/// Returns true if a triangle of nonzero area has a common point with the segment from (0, 0, 0) to
+/// o + t d, which lies in the triangle's plane. If they have none, the line of an edge or of the
+/// segment separates them strictly. side_at(x, y) must return the sign of x + t y.
 template <class Number>
 [[nodiscard]] bool meets_segment_of_plane(const CornersOf<Number>& triangle,
                                           const VectorOf<Number>& o, const VectorOf<Number>& d,
@@ -135,9 +141,10 @@ template <class Number>
   return first == 0 || side(b) != first || side(c) != first;
 }
 
-/// True if a triangle with an area has a point on the segment from the origin to o + t d, given
-/// that the segment's ends are not both strictly on one side of its plane. Decided by the sides on
-/// which the segment's line passes the edges.
+/// Returns true if a triangle of nonzero area has a common point with the segment from (0, 0, 0) to
+/// o + t d. The ends of the segment must not both be strictly on the same side of the triangle's
+/// plane. The result follows from the sides on which the segment's line passes the edges.
+/// side_at(x, y) must return the sign of x + t y.
 template <class Number>
 [[nodiscard]] bool meets_segment_to(const CornersOf<Number>& triangle, const VectorOf<Number>& o,
                                     const VectorOf<Number>& d, const auto& side_at) {

@@ -14,12 +14,11 @@ namespace {
 
 constexpr int kMantissaBits = 24;
 
-/// Coordinates are below 2^kCoordinateBits units: see Integer.
+/// Coordinates are below 2^kCoordinateBits units, as Integer requires.
 template <int Limbs>
 constexpr int kCoordinateBits = 64 * Limbs - 8;
 
-/// Binary digits of room for neighboring triangles that are larger than the triangle that a ray
-/// hits.
+/// Number of spare high bits, which allow queries about other triangles with larger coordinates.
 constexpr int kSpare = 16;
 
 /// The number p / r 2^exponent.
@@ -30,19 +29,19 @@ struct ScaledRatio {
 
   [[nodiscard]] Enclosure bounds() const {
     if (value.p.sign() == 0) return {0, 0};
-    // Two truncations with an error of 2 u each, and one rounding.
+    // Two truncations have an error of 2 u each, and the division adds one rounding.
     const Leading p = value.p.leading(), r = value.r.leading();
     return exact::bounds(value.p.sign(),
                          {p.mantissa / r.mantissa, p.exponent - r.exponent + exponent});
   }
 
-  /// The order against a nonzero number; nothing if their scales differ too much.
+  /// Compares this number with a nonzero x; nothing if their magnitudes differ too much.
   [[nodiscard]] std::optional<std::strong_ordering> compare(double x) const {
     int x_exponent = 0;
     const double mantissa = std::frexp(x, &x_exponent) * 0x1p53;  // an integer
     x_exponent -= 53;
     const auto m = Integer<2>::shifted(x < 0, static_cast<std::uint64_t>(std::abs(mantissa)), 0);
-    // Compares p 2^shift with m r. The factors 2^53 and 2^255 need five more limbs.
+    // Compares p 2^shift with m r. Five more limbs hold the factors m < 2^53 and 2^255.
     const int shift = exponent - x_exponent;
     if (std::abs(shift) > 255) return std::nullopt;
     auto left = value.p.template widened<Limbs + 5>();
@@ -61,7 +60,7 @@ struct ScaledRatio {
   }
 };
 
-/// True if t is within the ray's interval; nothing if the bounds can't decide it.
+/// Returns true if t is within the ray's interval, or nothing if the bounds of t can't decide.
 std::optional<bool> is_in_range(const Enclosure& t, const Ray& ray) {
   if (t.hi < ray.t_min || t.lo > ray.t_max) return false;
   if (t.lo >= ray.t_min && t.hi <= ray.t_max) return true;
@@ -88,7 +87,7 @@ auto Grid<Limbs>::operator()(const Vec3& v) const -> std::optional<GridVector> {
     if (mantissa == 0) continue;
     int shift = exponent - exponent_;
     if (shift < 0) {
-      // Trailing zero bits need no room.
+      // Trailing zero bits of the mantissa may be below the unit.
       if (std::countr_zero(mantissa) < -shift) return std::nullopt;
       mantissa >>= static_cast<unsigned>(-shift);
       shift = 0;
@@ -175,7 +174,7 @@ void GridHit<Limbs>::find(const Triangle& triangle, const Ray& ray) {
   if (is_hit.value_or(false))
     found_ = Found::hit;
   else if (!is_hit || !stretch->is_point)
-    found_ = Found::unknown;  // the stretch may begin before the interval and reach into it
+    found_ = Found::unknown;  // the stretch may begin before the ray's interval and reach into it
 }
 
 template <int Limbs>
@@ -202,7 +201,8 @@ std::optional<std::strong_ordering> GridHit<Limbs>::order(const Triangle& other)
   const auto corners = points_(other, o_);
   if (!corners) return std::nullopt;
   const auto stretch = meet(d_, *corners);
-  // Otherwise the hit may be at the start of the ray's interval.
+  // If the stretch is not a point, the hit may be at the start of the ray's interval instead of
+  // stretch->lo.
   if (!stretch || !stretch->is_point) return std::nullopt;
   return compare(t_, stretch->lo);
 }

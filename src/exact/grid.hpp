@@ -1,11 +1,12 @@
 #pragma once
-/// Exact queries about triangles in fixed-width integers, for coordinates on a common grid. Nearly
-/// all scenes fit.
+/// Exact queries about triangles in fixed-width integers, for coordinates on a common grid. The
+/// coordinates of nearly all scenes fit on such a grid.
 ///
-/// A float32 is a 24-bit integer times a power of two. With two limbs, the coordinates of a query
-/// may differ by a factor of 2^80: for example 500 and 1e-17, the remainder of a zero after a
-/// rotation. With three limbs they may differ by 2^144: 1e-45, the least float32, and 10^8, which
-/// occur for rays that leave a wall at coordinate 0.
+/// Represents float32 vectors as integer multiples of a power of two; a float32 number is a 24-bit
+/// integer times a power of two. With two limbs, the coordinates of a query may differ by a factor
+/// of 2^80, such as 500 and 1e-17, which a rotation may leave instead of 0. With three limbs they
+/// may differ by a factor of 2^144, such as 10^8 and 1e-45, the least float32 number, at which rays
+/// may start that leave a wall at coordinate 0.
 
 #include "exact/flat.hpp"
 #include "exact/numbers/integer.hpp"
@@ -26,17 +27,18 @@ class Grid {
   using GridVector = VectorOf<Integer<Limbs>>;
   using GridCorners = CornersOf<Integer<Limbs>>;
 
-  /// The finest grid for vectors whose components are below 2^spare times the largest component of
-  /// these.
+  /// Chooses the finest grid that can represent components up to 2^spare times the largest
+  /// component of these vectors.
   Grid(std::initializer_list<Vec3> vectors, int spare);
 
-  /// The unit is 2^exponent.
+  /// The unit of the grid is 2^exponent().
   [[nodiscard]] int exponent() const { return exponent_; }
 
-  /// In units of the grid; nothing if a component is not a multiple of the unit, is too large or
-  /// not finite.
+  /// Returns a vector in units of the grid. Returns nothing if a component is not a multiple of the
+  /// unit, is too large, or is not finite.
   [[nodiscard]] std::optional<GridVector> operator()(const Vec3& v) const;
-  /// The vertices relative to a vector on the grid.
+  /// Returns a triangle's vertices relative to `from` in units of the grid, or nothing if the grid
+  /// can't represent them.
   [[nodiscard]] std::optional<GridCorners> operator()(const Triangle& t,
                                                       const GridVector& from) const;
 
@@ -44,7 +46,7 @@ class Grid {
   int exponent_;
 };
 
-/// A triangle's plane.
+/// Queries about a triangle's plane.
 template <int Limbs>
 class GridPlane {
  public:
@@ -52,11 +54,11 @@ class GridPlane {
 
   // All functions return nothing if the grid can't represent the numbers they need.
 
-  /// The side of the plane on which q is: the sign of (b - a) x (c - a) . (q - a).
+  /// Returns the side of the plane on which q is: the sign of (b - a) x (c - a) . (q - a).
   [[nodiscard]] std::optional<int> side(const Vec3& q) const;
-  /// The sign of (b - a) x (c - a) . e.
+  /// Returns the sign of (b - a) x (c - a) . e.
   [[nodiscard]] std::optional<int> slope(const Vec3& e) const;
-  /// (b - a) x (c - a), rounded.
+  /// Returns (b - a) x (c - a), rounded to float64.
   [[nodiscard]] std::optional<DVec3> normal() const;
   [[nodiscard]] std::optional<bool> has_area() const;
 
@@ -68,7 +70,7 @@ class GridPlane {
 
 enum class Found { unknown, miss, hit };
 
-/// The hit of a ray with a triangle.
+/// Queries about the hit of a ray with a triangle.
 template <int Limbs>
 class GridHit {
  public:
@@ -76,19 +78,20 @@ class GridHit {
 
   [[nodiscard]] Found found() const { return found_; }
 
-  // Queries about a hit. They return nothing if the grid can't represent the numbers they need.
+  // The following queries require found() == Found::hit. They return nothing if the grid can't
+  // represent the numbers that they need.
 
-  /// Bounds of its t.
+  /// Returns bounds of the hit's t.
   [[nodiscard]] const Enclosure& bounds() const { return bounds_; }
-  /// t rounded to the nearest float32.
+  /// Returns t rounded to the nearest float32.
   [[nodiscard]] std::optional<float> t() const;
-  /// o + t d with each coordinate rounded to nearest.
+  /// Returns o + t d with each coordinate rounded to the nearest float32.
   [[nodiscard]] std::optional<Vec3> point() const;
-  /// The order of t and the t of the ray's hit with another triangle, which must exist.
+  /// Compares t with the t of the ray's hit with another triangle, which must exist.
   [[nodiscard]] std::optional<std::strong_ordering> order(const Triangle& other) const;
-  /// The side of another triangle's plane on which the point o + t d is.
+  /// Returns the side of another triangle's plane on which the hit point o + t d is.
   [[nodiscard]] std::optional<int> side(const Triangle& other) const;
-  /// meets_segment() with another triangle.
+  /// See exact::meets_segment().
   [[nodiscard]] std::optional<bool> meets_segment(const Triangle& other, const Vec3& q) const;
 
  private:
@@ -97,7 +100,7 @@ class GridHit {
   Grid<Limbs> points_, directions_;
   VectorOf<Integer<Limbs>> o_{}, d_{};
   Found found_ = Found::unknown;
-  Ratio<Integer<3 * Limbs>> t_{};  // in units of points per unit of directions
+  Ratio<Integer<3 * Limbs>> t_{};  // in units of points_ divided by units of directions_
   Enclosure bounds_{};
 };
 

@@ -7,7 +7,7 @@
 namespace microtrace::exact {
 namespace {
 
-/// m + t l.
+/// Returns m + t l.
 Root linear_in(const Root& t, const Dyadic& m, const Dyadic& l) {
   return {m * t.r + l * t.p, square(l) * t.q, t.r, t.sign * l.sign()};
 }
@@ -66,7 +66,8 @@ Dyadic Implicit::bilinear(const Vector& p, const Vector& e) const {
 int Implicit::sign_at(const Ray& ray, const Root& t) const {
   const Vector o = vector(ray.o), d = vector(ray.d);
   const Dyadic alpha = quadratic(d), beta = slope(o, d), gamma = value(o);
-  // alpha t^2 + beta t + gamma multiplied by r^2, with t = (p + s sqrt(q)) / r.
+  // With t = (p + s sqrt(q)) / r, (alpha t^2 + beta t + gamma) r^2 is rational_part + s factor
+  // sqrt(q).
   const Dyadic rational_part = alpha * (square(t.p) + (t.sign == 0 ? Dyadic() : t.q)) +
                                beta * t.p * t.r + gamma * square(t.r);
   if (t.sign == 0) return rational_part.sign();
@@ -76,7 +77,7 @@ int Implicit::sign_at(const Ray& ray, const Root& t) const {
 
 int Implicit::sign_behind(const Ray& ray, const Root& t, const Vec3& e) const {
   const Vector direction = vector(e);
-  // The slope at o + t d is linear in t. If it vanishes, F grows like s^2 Q(e).
+  // The slope at o + t d is linear in t. If the slope vanishes, F(o + t d + s e) = s^2 Q(e).
   const int first =
       sign(linear_in(t, slope(vector(ray.o), direction), bilinear(vector(ray.d), direction)));
   return first != 0 ? first : quadratic(direction).sign();
@@ -84,11 +85,11 @@ int Implicit::sign_behind(const Ray& ray, const Root& t, const Vec3& e) const {
 
 int Implicit::zeros_ahead(const Vec3& p, const Vec3& e) const {
   const Vector origin = vector(p), direction = vector(e);
-  // alpha s^2 + beta s + gamma.
+  // F(p + s e) = alpha s^2 + beta s + gamma.
   const Dyadic alpha = quadratic(direction), beta = slope(origin, direction), gamma = value(origin);
   const int side = gamma.sign();
   if (alpha.sign() * side < 0) return 1;  // one zero ahead, one behind
-  if (beta.sign() * side >= 0) return 0;  // it grows away from zero
+  if (beta.sign() * side >= 0) return 0;  // |F| does not decrease ahead
   if (alpha.sign() == 0) return 1;
   const auto roots = quadratic_roots(twice(alpha), beta, twice(gamma));
   if (!roots) return 0;

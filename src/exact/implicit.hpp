@@ -1,5 +1,5 @@
 #pragma once
-/// The implicit function of a surface, in exact arithmetic.
+/// The implicit function of a surface, evaluated exactly.
 
 #include "exact/numbers/root.hpp"
 #include "exact/numbers/vector.hpp"
@@ -9,9 +9,10 @@
 
 namespace microtrace::exact {
 
-/// F(x) = Q(x) + linear . x + constant with a quadratic form Q. For a quadric F is its polynomial,
-/// for a sphere |x - center|^2 - radius^2, for flat shapes normal . (x - point), where a triangle
-/// has the normal (b - a) x (c - a). All numbers of the shape must be finite.
+/// The function F(x) = Q(x) + linear . x + constant, where Q is a quadratic form. F is the
+/// polynomial of a quadric, |x - center|^2 - radius^2 for a sphere, and normal . (x - point) for
+/// flat shapes. The normal of a triangle is (b - a) x (c - a). All numbers of the shape must be
+/// finite.
 class Implicit {
  public:
   explicit Implicit(const Triangle& triangle);
@@ -20,24 +21,24 @@ class Implicit {
   explicit Implicit(const Sphere& sphere);
   explicit Implicit(const Quadric& quadric);
 
-  /// The coefficients of degree one; for a flat surface its normal.
+  /// Returns the coefficients of degree one, which are the normal of a flat shape.
   [[nodiscard]] const Vector& linear() const { return linear_; }
-  /// F(p).
+  /// Returns F(p).
   [[nodiscard]] Dyadic value(const Vector& p) const;
-  /// The derivative of F at p along e.
+  /// Returns the derivative of F at p along e.
   [[nodiscard]] Dyadic slope(const Vector& p, const Vector& e) const;
-  /// Q(e).
+  /// Returns Q(e).
   [[nodiscard]] Dyadic quadratic(const Vector& e) const;
 
-  /// The sign of F(o + t d).
+  /// Returns the sign of F(o + t d).
   [[nodiscard]] int sign_at(const Ray& ray, const Root& t) const;
 
-  /// The sign of F(o + t d + s e) for all small s > 0, where F(o + t d) = 0. Returns 0 if it stays
-  /// zero.
+  /// Returns the sign of F(o + t d + s e) for all sufficiently small s > 0, given F(o + t d) = 0.
+  /// The sign is 0 if F stays zero along e.
   [[nodiscard]] int sign_behind(const Ray& ray, const Root& t, const Vec3& e) const;
 
-  /// The number of zeros of F(p + s e) for s >= 0, given F(p) != 0: 0 to 2, a double zero counts
-  /// once.
+  /// Returns the number of zeros of F(p + s e) with s >= 0, given F(p) != 0. The number is 0, 1 or
+  /// 2; a double zero counts once.
   [[nodiscard]] int zeros_ahead(const Vec3& p, const Vec3& e) const;
 
  private:
@@ -51,12 +52,12 @@ class Implicit {
   Dyadic constant_;
 };
 
-/// True if a triangle with an area has a point on the segment from q to o + t d, given that the
-/// segment's ends are not both strictly on one side of its plane.
+/// Returns true if a triangle of nonzero area has a common point with the segment from q to o + t
+/// d. The ends of the segment must not both be strictly on the same side of the triangle's plane.
 [[nodiscard]] bool meets_segment(const Triangle& triangle, const Vec3& q, const Ray& ray,
                                  const Root& t);
 
-/// o + t d with each coordinate rounded to the nearest float32, ties to even.
+/// Returns o + t d with each coordinate rounded to the nearest float32, ties to even.
 [[nodiscard]] Vec3 round_point(const Ray& ray, const Root& t);
 
 }  // namespace microtrace::exact

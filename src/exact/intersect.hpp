@@ -1,7 +1,7 @@
 #pragma once
-/// The first hit of a ray with a shape, decided by arbitrary-width numbers: slow, scalar, and
-/// always right. Filters decide nearly all hits; most other hits of triangles are decided by
-/// triangle_hit.hpp without this code.
+/// Computes the first hit of a ray with a shape by arbitrary-width numbers. This is slow, but
+/// always exact. Filters decide nearly all hits without this code, and triangle_hit.hpp decides
+/// most of the remaining hits of triangles.
 
 #include "exact/numbers/root.hpp"
 
@@ -12,12 +12,13 @@
 
 namespace microtrace::exact {
 
-/// True if the ray is valid (see Ray); invalid rays hit nothing.
+/// Returns true if the ray is valid (see Ray). Invalid rays hit nothing.
 [[nodiscard]] bool is_valid(const Ray& ray);
 
-/// The least t in the closed [t_min, t_max] for which o + t d lies in the shape's closed point set;
-/// nothing if there is none, or if the ray or the shape is invalid. A ray within a plane, a flat
-/// shape or a quadric hits where it enters the shape.
+/// Returns the least t in the closed interval [t_min, t_max] for which o + t d lies in the shape's
+/// closed point set. Returns nothing if there is none, if the ray is invalid, or if the shape is
+/// empty. A ray that lies within a flat shape or a quadric hits at the first point of the shape in
+/// its interval.
 [[nodiscard]] std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Plane& plane, const Ray& ray);
 [[nodiscard]] std::optional<Root> first_hit(const Disc& disc, const Ray& ray);

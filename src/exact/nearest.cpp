@@ -8,15 +8,16 @@
 namespace microtrace::exact {
 namespace {
 
-/// x / y for x >= 0, y > 0 within the range of float64: two truncations with an error of 2 u each,
-/// and one rounding.
+/// Returns x / y for x >= 0 and y > 0 if the quotient is within the range of float64. Two
+/// truncations have an error of 2 u each, and the division adds one rounding.
 double quotient(const Dyadic& x, const Dyadic& y) {
   if (x.sign() == 0) return 0;
   const Leading p = x.leading(), r = y.leading();
   return std::ldexp(p.mantissa / r.mantissa, p.exponent - r.exponent);
 }
 
-/// The nearest point of the segment from vertex i to vertex j; the vertices are relative to p.
+/// Returns the nearest point of the edge from vertex i to vertex j. The vertices are relative to
+/// the given point.
 Nearest nearest_of_side(const std::array<Vector, 3>& vertices, std::size_t i, std::size_t j) {
   const Vector edge = vertices[j] - vertices[i];
   const Dyadic length = dot(edge, edge), along = -dot(vertices[i], edge);
@@ -47,7 +48,8 @@ Nearest nearest(const Triangle& triangle, const Vec3& p) {
                                 vector(triangle.c) - from};
   const Vector normal = cross(v[1] - v[0], v[2] - v[0]);
   if (nonzero_component(normal) >= 0) {
-    // The barycentric coordinates of the projection on the plane, times normal . normal.
+    // a, b and c are the barycentric coordinates of the point's projection onto the plane, times
+    // normal . normal.
     const Dyadic a = dot(normal, cross(v[1], v[2]));
     const Dyadic b = dot(normal, cross(v[2], v[0]));
     const Dyadic c = dot(normal, cross(v[0], v[1]));
@@ -69,7 +71,8 @@ Nearest nearest(const Triangle& triangle, const Vec3& p) {
 double distance(const Nearest& nearest) {
   const auto& [p, r] = nearest.squared_distance;
   if (p.sign() == 0) return 0;
-  // Takes an even power of two out of the root, so that squares may exceed the range of float64.
+  // Takes an even power of two out of the square root, because squared distances may exceed the
+  // range of float64.
   const Leading x = p.leading(), y = r.leading();
   const int exponent = x.exponent - y.exponent, odd = exponent & 1;
   return std::ldexp(std::sqrt(std::ldexp(x.mantissa / y.mantissa, odd)), (exponent - odd) / 2);

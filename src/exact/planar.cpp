@@ -37,14 +37,14 @@ std::optional<Root> first_hit(const Disc& disc, const Ray& ray) {
   const Dyadic distance = -dot(n, m);
   const Dyadic speed = dot(n, d);
   if (speed.sign() != 0) {
-    // |m + (distance / speed) d| <= r, multiplied by |speed| and squared.
+    // Tests |m + (distance / speed) d| <= r, multiplied by |speed| and squared.
     const Vector offset = speed * m + distance * d;
     if (compare(dot(offset, offset), r_squared * square(speed)) > 0) return std::nullopt;
     return first_in_range(rational(distance, speed), ray);
   }
   if (distance.sign() != 0) return std::nullopt;
-  // The ray lies in the plane: the hit is the part of the line in the ball with the same center and
-  // radius.
+  // The ray lies in the plane. The disc then contains the part of the line that lies in the ball
+  // with the same center and radius.
   const auto roots = quadratic_roots(dot(d, d), dot(d, m), dot(m, m) - r_squared);
   if (!roots) return std::nullopt;
   return first_in_range(roots->lo, roots->hi, ray);

@@ -10,7 +10,7 @@
 namespace microtrace::exact {
 namespace {
 
-/// The first root of a t^2 + 2 b t + c in the ray's interval; a is not zero.
+/// Returns the first root of a t^2 + 2 b t + c in the ray's interval. a must not be zero.
 std::optional<Root> first_root(const Dyadic& a, const Dyadic& b, const Dyadic& c, const Ray& ray) {
   const auto roots = quadratic_roots(a, b, c);
   if (!roots) return std::nullopt;
@@ -22,18 +22,19 @@ bool is_finite(const Quadric& q) {
   return std::ranges::all_of(coefficients, [](float x) { return std::isfinite(x); });
 }
 
-/// The quadric's terms of degree two at p: a x^2 + b y^2 + c z^2 + d xy + e xz + f yz.
+/// Returns the sum of the quadric's terms of degree two at p: a x^2 + b y^2 + c z^2 + d xy + e xz +
+/// f yz.
 Dyadic quadratic_part(const Quadric& q, const Vector& p) {
   return q.a * square(p.x) + q.b * square(p.y) + q.c * square(p.z) +  //
          q.d * (p.x * p.y) + q.e * (p.x * p.z) + q.f * (p.y * p.z);
 }
 
-/// Its terms of degree one: g x + h y + i z.
+/// Returns the sum of the quadric's terms of degree one at p: g x + h y + i z.
 Dyadic linear_part(const Quadric& q, const Vector& p) {
   return q.g * p.x + q.h * p.y + q.i * p.z;
 }
 
-/// Twice the symmetric bilinear form of the terms of degree two: B(p, p) = 2 quadratic_part(p).
+/// Returns B(p, r), where B is the symmetric bilinear form with B(p, p) = 2 quadratic_part(p).
 Dyadic bilinear_part(const Quadric& q, const Vector& p, const Vector& r) {
   return twice(q.a * (p.x * r.x) + q.b * (p.y * r.y) + q.c * (p.z * r.z)) +
          q.d * (p.x * r.y + p.y * r.x) + q.e * (p.x * r.z + p.z * r.x) +

@@ -1,13 +1,14 @@
 #pragma once
-/// Counts this thread's exact queries in the functions that decide them, so that none is missed.
+/// Counts the exact queries of each thread. The functions that decide queries increment the
+/// counters themselves, so that no query is missed.
 
 #include <cstdint>
 
 namespace microtrace::exact {
 
 struct Queries {
-  std::uint64_t grid = 0;    ///< queries decided by Grid: fixed-width integers
-  std::uint64_t dyadic = 0;  ///< queries decided by Dyadic: arbitrary width
+  std::uint64_t grid = 0;    ///< queries of Grid, by fixed-width integers
+  std::uint64_t dyadic = 0;  ///< queries of Dyadic, by arbitrary-width numbers
 };
 
 inline thread_local Queries queries;

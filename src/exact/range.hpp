@@ -1,6 +1,6 @@
 #pragma once
-/// Steps shared by all shapes: validity, the ray's closed interval, roots of a quadratic
-/// polynomial.
+/// Functions that several shapes share: tests for finite numbers and for the ray's closed interval,
+/// and the roots of a quadratic polynomial.
 
 #include "exact/numbers/root.hpp"
 
@@ -12,20 +12,21 @@ namespace microtrace::exact {
 
 [[nodiscard]] bool is_finite(const Vec3& v);
 
-/// True if t_min <= t <= t_max.
+/// Returns true if t_min <= t <= t_max.
 [[nodiscard]] bool in_range(const Root& t, const Ray& ray);
 
-/// t itself if it is in range.
+/// Returns t if it is in the ray's interval, otherwise nothing.
 [[nodiscard]] std::optional<Root> first_in_range(const Root& t, const Ray& ray);
 
-/// The least number in both [lo, hi] and [t_min, t_max].
+/// Returns the least number that is in both [lo, hi] and [t_min, t_max], or nothing if there is
+/// none.
 [[nodiscard]] std::optional<Root> first_in_range(const Root& lo, const Root& hi, const Ray& ray);
 
 struct RootPair {
   Root lo, hi;  ///< lo <= hi
 };
 
-/// The real roots of a t^2 + 2 b t + c, a not zero; nothing if there are none.
+/// Returns the real roots of a t^2 + 2 b t + c, or nothing if there are none. a must not be zero.
 [[nodiscard]] std::optional<RootPair> quadratic_roots(const Dyadic& a, const Dyadic& b,
                                                       const Dyadic& c);
 

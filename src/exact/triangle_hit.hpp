@@ -1,6 +1,6 @@
 #pragma once
 /// Exact queries about a ray's hit with a triangle and about a triangle's plane. They use
-/// fixed-width integers if these can represent all numbers, else Dyadic.
+/// fixed-width integers if these can represent all numbers, otherwise Dyadic.
 
 #include "exact/grid.hpp"
 #include "exact/numbers/root.hpp"
@@ -20,23 +20,23 @@ class TriangleHit {
   TriangleHit(const Triangle& triangle, const Ray& ray)
       : triangle_(triangle), ray_(&ray), narrow_(triangle, ray) {}
 
-  /// True if the ray hits the triangle, as first_hit() defines it. The other functions require a
-  /// hit.
+  /// Returns true if the ray hits the triangle, as defined by first_hit(). The other functions
+  /// require a hit.
   [[nodiscard]] bool exists();
 
-  /// Bounds of its t.
+  /// Returns bounds of the hit's t.
   [[nodiscard]] Enclosure bounds();
-  /// t rounded to the nearest float32.
+  /// Returns t rounded to the nearest float32.
   [[nodiscard]] float t();
-  /// o + t d with each coordinate rounded to nearest.
+  /// Returns o + t d with each coordinate rounded to the nearest float32.
   [[nodiscard]] Vec3 point();
-  /// The order of its t and the t of the ray's hit with another triangle.
+  /// Compares t with the t of the ray's hit with another triangle, which must exist.
   [[nodiscard]] std::strong_ordering order(const Triangle& other);
-  /// The side of another triangle's plane on which the point o + t d is.
+  /// Returns the side of another triangle's plane on which the hit point o + t d is.
   [[nodiscard]] int side(const Triangle& other);
   /// See exact::meets_segment().
   [[nodiscard]] bool meets_segment(const Triangle& other, const Vec3& q);
-  /// The exact t.
+  /// Returns the exact t.
   [[nodiscard]] const Root& root();
 
  private:
@@ -57,13 +57,13 @@ class TrianglePlane {
  public:
   explicit TrianglePlane(const Triangle& triangle) : triangle_(triangle), narrow_(triangle) {}
 
-  /// The side of the plane on which q is: the sign of (b - a) x (c - a) . (q - a).
+  /// Returns the side of the plane on which q is: the sign of (b - a) x (c - a) . (q - a).
   [[nodiscard]] int side(const Vec3& q);
-  /// The sign of (b - a) x (c - a) . e.
+  /// Returns the sign of (b - a) x (c - a) . e.
   [[nodiscard]] int slope(const Vec3& e);
-  /// (b - a) x (c - a), rounded.
+  /// Returns (b - a) x (c - a), rounded to float64.
   [[nodiscard]] DVec3 normal();
-  /// True if the normal is not zero.
+  /// Returns true if the normal is not zero.
   [[nodiscard]] bool has_area();
 
  private:

@@ -3,7 +3,8 @@
 
 namespace microtrace {
 
-/// Calls f with a primitive of the tree and with all that it represents, in ascending order.
+/// Calls f(id) for a primitive of the tree and for all its duplicates (see
+/// accel/build/references/duplicates.hpp), in ascending order.
 template <class F>
 void for_each_duplicate(const Duplicates& duplicates, PrimitiveId id, const F& f) {
   f(id);

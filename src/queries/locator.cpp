@@ -14,8 +14,8 @@
 namespace microtrace {
 namespace {
 
-/// Random bits: SplitMix64, after Steele, Lea and Flood, "Fast splittable pseudorandom number
-/// generators", OOPSLA 2014.
+/// Returns random bits by SplitMix64 (G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom
+/// number generators, OOPSLA 2014).
 std::uint64_t scrambled(std::uint64_t x) {
   x = (x + 1) * 0x9E3779B97F4A7C15ULL;
   x = (x ^ x >> 30U) * 0xBF58476D1CE4E5B9ULL;
@@ -25,9 +25,9 @@ std::uint64_t scrambled(std::uint64_t x) {
 
 }  // namespace
 
-/// Along the axis of the shortest way out of the tree's bounds, where there is least to cross, and
-/// slightly turned, by other random numbers in each attempt, because many meshes have edges
-/// parallel to the axes.
+/// The direction follows the axis of the shortest way out of the tree's bounds, where the ray
+/// crosses the fewest triangles. It is turned slightly away from the axis, because many meshes have
+/// edges parallel to the axes. Each attempt uses different random numbers.
 Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attempt) {
   int axis = 0;
   bool is_negative = false;
@@ -40,7 +40,7 @@ Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attem
   Vec3 d{0};
   d[axis] = is_negative ? -1.0F : 1.0F;
   const std::uint64_t bits = scrambled(attempt);
-  // Odd numbers of 24 bits, between 1/64 and 1/16.
+  // Returns an odd integer times 2^-28 with a random sign and a magnitude between 1/64 and 1/16.
   const auto turn = [](std::uint64_t from) {
     constexpr std::uint64_t kLow = (1U << 22U) - 1;
     const std::uint64_t odd = (1U << 22U) + 3 * (from & kLow);
@@ -59,7 +59,7 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
   const auto test = [&](PrimitiveId id, const Triangle& triangle) {
     if (is_on_boundary) return;
     if (filterable && is_filterable(triangle)) {
-      // A certain hit is in the interior of the triangle, and after the origin.
+      // A certain hit is in the interior of the triangle and at t > 0.
       const FilterResult filtered =
           TriangleFilter(triangle, p)(DVec3(d), {.t_min = 0, .t_max = kInfinity});
       if (filtered.certainty == Certainty::miss) return;
@@ -90,7 +90,7 @@ std::optional<Location> Locator::locate_along(const Vec3& p, const Vec3& d, Poll
       });
   if (is_on_boundary) return Location::boundary;
   if (is_grazing) return std::nullopt;
-  // A triangle that was split among leaves is found several times.
+  // A triangle with references in several leaves is found several times.
   std::ranges::sort(crossed_);
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end()), crossed_.end());
   std::uint64_t count = 0;

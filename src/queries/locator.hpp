@@ -1,5 +1,5 @@
 #pragma once
-/// The location of a point relative to closed surfaces, by the parity of crossings.
+/// Finds the location of a point relative to closed surfaces by the parity of a ray's crossings.
 
 #include "queries/runs.hpp"
 #include "queries/selection.hpp"
@@ -13,7 +13,8 @@
 
 namespace microtrace {
 
-/// The direction of the ray that decides the location of p in an attempt, the first of which is 0.
+/// Returns the direction of the ray from p for an attempt to decide the location of p. The first
+/// attempt has number 0.
 [[nodiscard]] Vec3 crossing_direction(const Bounds& bounds, const Vec3& p, std::uint64_t attempt);
 
 class Locator {
@@ -24,12 +25,13 @@ class Locator {
   [[nodiscard]] Location locate(const Vec3& p, Poll& poll);
 
  private:
-  /// Nothing if a ray in this direction can't decide.
+  /// Returns nothing if the ray in this direction can't decide, because it meets an edge or a
+  /// vertex.
   [[nodiscard]] std::optional<Location> locate_along(const Vec3& p, const Vec3& d, Poll& poll);
 
   TreeTarget target_;
   Selection selection_;
-  std::vector<PrimitiveId> crossed_;  // triangles of the tree
+  std::vector<PrimitiveId> crossed_;  // triangles of the tree that the ray crosses
 };
 
 }  // namespace microtrace

@@ -15,19 +15,19 @@
 namespace microtrace {
 namespace {
 
-/// Relative errors of results that float64 may have.
+/// The relative errors up to which results of float64 are accepted.
 constexpr double kDistanceError = 0x1p-40, kPositionError = 0x1p-42;
 
 constexpr double kInfinitelyFar = std::numeric_limits<double>::infinity();
 
-/// One number for each lane of a node or a block.
+/// The squared distance of each child of a node or each triangle of a block.
 using Distances = std::array<double, kWidth>;
 
 bool suits_float64(const Triangle& triangle, const Vec3& p) {
   return is_filterable(p) && is_filterable(triangle);
 }
 
-/// Bounds of the distance of exact::nearest.
+/// Returns bounds of a distance computed by exact::nearest.
 TriangleDistance distance_of(const exact::Nearest& nearest) {
   const double distance = exact::distance(nearest);
   return {.lo = distance * (1 - kDistanceError),
@@ -83,7 +83,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       const std::size_t first = size;
       for (std::size_t i = 0; i < kWidth; ++i) {
         if (!(distances[i] <= limit_) || distances[i] == kInfinitelyFar) continue;
-        // The nearest is on top.
+        // Sorts the children, the nearest on top.
         std::size_t k = size++;
         for (; k > first && stack[k - 1].squared_distance < distances[i]; --k)
           stack[k] = stack[k - 1];
@@ -122,7 +122,7 @@ std::optional<NearestPoint> NearestSearch::nearest(const Vec3& p, Poll& poll) {
   if (!target_.tree.blocks.empty() || !target_.tree.others.empty()) search_tree(p, poll);
   if (!best_) return std::nullopt;
 
-  // From the scene's own triangle, so that the result does not depend on the tree.
+  // Uses the scene's own triangle, because the order of vertices in a block differs.
   const Triangle triangle = *target_.primitives.triangle(best_->id);
   NearestPoint result{.id = best_->id};
   TriangleDistance distance{};

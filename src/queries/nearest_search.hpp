@@ -1,5 +1,5 @@
 #pragma once
-/// The nearest triangle to a point, by branch and bound over the tree.
+/// Finds the triangle nearest to a point by branch and bound over the tree.
 
 #include "exact/nearest.hpp"
 #include "queries/runs.hpp"
@@ -19,11 +19,12 @@ class NearestSearch {
   NearestSearch(const TreeTarget& target, Selection selection)
       : target_(target), selection_(selection) {}
 
-  /// p is in scene coordinates, and so is the result.
+  /// Returns the nearest point, or nothing if there are no triangles. p and the result are in scene
+  /// coordinates.
   [[nodiscard]] std::optional<NearestPoint> nearest(const Vec3& p, Poll& poll);
 
  private:
-  /// A triangle; of duplicates `id` is the least that is selected.
+  /// A triangle and its distance. If the triangle has duplicates, `id` is the lowest selected id.
   struct Candidate {
     PrimitiveId id;
     Triangle triangle;
@@ -32,16 +33,15 @@ class NearestSearch {
 
   void search_tree(const Vec3& p, Poll& poll);
   void consider(PrimitiveId id, const Triangle& triangle, const Vec3& p);
-  /// Whether a candidate is nearer than the best so far, or as near with a lower id; the bounds of
-  /// their distances overlap.
+  /// Returns true if a candidate is nearer than the best so far, or equally near with a lower id.
+  /// For candidates whose bounds of the distance overlap those of the best.
   [[nodiscard]] bool precedes(const Candidate& candidate, const Vec3& p);
 
   TreeTarget target_;
   Selection selection_;
-  std::optional<Candidate> best_;             // the nearest so far
-  std::optional<exact::Nearest> exact_best_;  // its exact distance, computed when first needed
-  /// Boxes whose squared distance, computed with a few roundings, is above this are farther away
-  /// than the best.
+  std::optional<Candidate> best_;             // the nearest triangle so far
+  std::optional<exact::Nearest> exact_best_;  // its exact distance, computed on first use
+  /// Boxes whose rounded squared distance exceeds this limit are certainly farther away than best_.
   double limit_ = std::numeric_limits<double>::infinity();
 };
 

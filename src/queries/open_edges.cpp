@@ -15,7 +15,7 @@
 namespace microtrace {
 namespace {
 
-/// Numbers the vertices, with the same number for equal positions.
+/// Assigns numbers to vertices; vertices at equal positions get the same number.
 class Vertices {
  public:
   explicit Vertices(std::size_t most) : table_(std::bit_ceil(2 * most + 1), kFree) {}
@@ -35,7 +35,7 @@ class Vertices {
  private:
   static constexpr std::uint32_t kFree = ~std::uint32_t{0};
 
-  /// -0 and 0 have the same hash.
+  /// Gives -0 and 0 the same hash.
   static std::size_t hash(const Vec3& p) {
     std::uint64_t hash = 0;
     for (int k = 0; k < 3; ++k) {
@@ -51,7 +51,7 @@ class Vertices {
 
 /// One side of a triangle.
 struct Side {
-  std::uint32_t lesser, greater;  // vertices
+  std::uint32_t lesser, greater;  // numbers of its vertices
   PrimitiveId triangle;
   std::uint32_t index;
 };

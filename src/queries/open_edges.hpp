@@ -8,9 +8,9 @@
 
 namespace microtrace {
 
-/// The edges of an odd number of the selected triangles, in the order of their triangles and sides;
-/// vertices at equal positions are one vertex. Positions are in scene coordinates. An edge between
-/// equal vertices doesn't count.
+/// Returns the edges that belong to an odd number of the selected triangles, ordered by triangle
+/// and side. Vertices at equal positions count as one vertex, and an edge between equal vertices
+/// doesn't count. Positions are in scene coordinates.
 [[nodiscard]] std::vector<OpenEdge> open_edges(const Primitives& primitives, Selection selection);
 
 }  // namespace microtrace

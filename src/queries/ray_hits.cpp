@@ -20,13 +20,14 @@
 namespace microtrace {
 namespace {
 
-/// A primitive of the tree that the ray hits, and bounds of its t. It may represent duplicates.
+/// A primitive of the tree that the ray hits, and bounds of t at the hit. The primitive may have
+/// duplicates.
 struct BoundedHit {
   PrimitiveId id;
   double lo, hi;
 };
 
-/// All hits of one ray at a time.
+/// Finds all hits of one ray at a time.
 class HitFinder {
  public:
   HitFinder(const PreparedScene& scene, const QueryKernels& kernels)
@@ -40,7 +41,7 @@ class HitFinder {
     return count;
   }
 
-  /// Appends the hits in their order.
+  /// Appends the ray's hits in the order (t, PrimitiveId).
   void append(const Ray& world_ray, std::vector<Hit>& hits, Poll& poll) {
     find(world_ray, poll);
     const ExactHits exactly(primitives_, ray_);
@@ -60,7 +61,7 @@ class HitFinder {
       for (const BoundedHit& hit : found_) hits.push_back({.id = hit.id, .t = rounded_t(hit)});
       return;
     }
-    // The ids of duplicates interleave with those of other primitives at the same t.
+    // Ids of duplicates may interleave with ids of other primitives at the same t.
     for (std::size_t i = 0; i < found_.size();) {
       const std::size_t first = hits.size();
       const float t = rounded_t(found_[i]);
@@ -112,7 +113,7 @@ class HitFinder {
           poll();
           add(id, resolver.filtered(id));
         });
-    // A triangle that was split among leaves is found several times.
+    // A triangle with references in several leaves is found several times.
     std::ranges::sort(found_, {}, &BoundedHit::id);
     const auto is_same = [](const BoundedHit& a, const BoundedHit& b) { return a.id == b.id; };
     found_.erase(std::unique(found_.begin(), found_.end(), is_same), found_.end());
@@ -127,7 +128,7 @@ class HitFinder {
   std::vector<BoundedHit> found_;
 };
 
-/// Rays that a thread takes at a time.
+/// The number of rays that a thread takes at a time.
 constexpr std::uint64_t kRaysOfRun = 64;
 
 }  // namespace

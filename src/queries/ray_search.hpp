@@ -1,5 +1,5 @@
 #pragma once
-/// Visits the leaves of a tree that a ray may meet, in no particular order, for queries that need
+/// Visits all leaves of a tree that a ray may meet, in no particular order, for queries that need
 /// all hits.
 
 #include "accel/layout.hpp"
@@ -14,9 +14,9 @@
 
 namespace microtrace {
 
-/// Calls on_block(block, lanes) with the lanes that the ray may hit of each block of triangles, and
-/// on_other(id) for each other primitive, that is in a box which the ray meets, or in no box.
-/// Primitives may be visited several times.
+/// Calls on_block(block, lanes) for blocks of triangles in boxes that the ray meets, where `lanes`
+/// are the triangles that the ray may hit. Calls on_other(id) for other primitives in such boxes,
+/// and for primitives outside of the tree's boxes. Primitives may be visited several times.
 template <class OnBlock, class OnOther>
 void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock& on_block,
                         const OnOther& on_other) {
@@ -49,7 +49,8 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
   }
 }
 
-/// The triangle in a lane of a block, with the vertices in another order than the scene's.
+/// Returns the triangle in a lane of a block. The order of its vertices may differ from the
+/// scene's.
 [[nodiscard]] inline Triangle triangle_in(const TriangleBlock& block, std::size_t lane) {
   return {.a = {block.a_x[lane], block.a_y[lane], block.a_z[lane]},
           .b = {block.b_x[lane], block.b_y[lane], block.b_z[lane]},

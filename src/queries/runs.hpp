@@ -1,5 +1,5 @@
 #pragma once
-/// Runs the work of a query on threads that can be canceled.
+/// Runs a query on several threads, which report progress and can be canceled.
 
 #include <microtrace/error.hpp>
 #include <microtrace/queries.hpp>
@@ -11,10 +11,10 @@
 
 namespace microtrace {
 
-/// Lets a thread report progress, and stops it when the query is canceled.
+/// Lets a thread report progress, and stops the thread when the query is canceled.
 class Poll {
  public:
-  /// report() throws if the thread must stop.
+  /// report() must throw if the thread must stop.
   explicit Poll(const std::function<void()>& report) : report_(report) {}
 
   /// Must be called after every few microseconds of work. Throws Error (canceled).
@@ -33,7 +33,7 @@ class Poll {
   Clock::time_point last_ = Clock::now();
 };
 
-/// Calls f() and converts std::bad_alloc to Error (limit).
+/// Returns the result of f(), and converts std::bad_alloc to Error (limit).
 template <class F>
 auto limiting_memory(const F& f) {
   try {
@@ -43,8 +43,9 @@ auto limiting_memory(const F& f) {
   }
 }
 
-/// Calls f(first, last, poll) for consecutive runs [first, last) of the numbers from 0 to below
-/// `count`, on several threads at the same time. Throws the first exception of f; Error (canceled).
+/// Calls f(first, last, poll) for runs [first, last) of `run` numbers that together cover 0 to
+/// count - 1, on several threads at the same time. Rethrows the first exception thrown by f. Throws
+/// Error (canceled) if options.progress returns false.
 void for_each_run(
     std::uint64_t count, std::uint64_t run, const QueryOptions& options,
     const std::function<void(std::uint64_t first, std::uint64_t last, Poll& poll)>& f);

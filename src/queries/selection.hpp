@@ -8,20 +8,20 @@
 
 namespace microtrace {
 
-/// The primitives that a query considers: those from first to end - 1.
+/// The primitives that a query considers, with ids from first to end - 1.
 struct Selection {
   std::uint64_t first, end;
 
   [[nodiscard]] bool contains(PrimitiveId id) const { return id >= first && id < end; }
 
-  /// The number of selected primitives among a primitive of the tree and its duplicates.
+  /// Returns the number of selected primitives among a primitive of the tree and its duplicates.
   [[nodiscard]] std::uint64_t count(const Duplicates& duplicates, PrimitiveId id) const {
     std::uint64_t count = 0;
     for_each_duplicate(duplicates, id, [&](PrimitiveId k) { count += contains(k) ? 1 : 0; });
     return count;
   }
 
-  /// The lowest selected id among them.
+  /// Returns the lowest selected id among a primitive of the tree and its duplicates.
   [[nodiscard]] std::optional<PrimitiveId> least(const Duplicates& duplicates,
                                                  PrimitiveId id) const {
     if (contains(id)) return id;

@@ -18,7 +18,7 @@
 namespace microtrace {
 namespace {
 
-/// Points that a thread takes at a time.
+/// The number of points that a thread takes at a time.
 constexpr std::uint64_t kPointsOfRun = 64;
 
 Selection selection_of(const Primitives& primitives, std::optional<std::size_t> object) {

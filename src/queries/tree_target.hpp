@@ -6,7 +6,8 @@
 
 namespace microtrace {
 
-/// What queries search. All must outlive the searches.
+/// The tree that a query searches, with its primitives and kernels. All members must outlive the
+/// query.
 struct TreeTarget {
   const Primitives& primitives;
   const Tree& tree;

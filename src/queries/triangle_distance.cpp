@@ -17,9 +17,9 @@ double largest(const DVec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The triangle relative to the point, with error bounds of the numbers that determine the region
-/// of the point. u is the unit roundoff; the bounds allow more roundings than there are, which
-/// covers second-order terms and the roundings of the bounds.
+/// The triangle relative to the point p, and the numbers that determine the feature nearest to p,
+/// with error bounds. The bounds allow more roundings than there are, which covers second-order
+/// terms and the roundings of the bounds themselves.
 class Regions {
  public:
   Regions(const Triangle& t, const Vec3& p)
@@ -28,10 +28,11 @@ class Regions {
     for (const DVec3& v : vertices) size = std::max(size, largest(v));
     for (const DVec3& e : edges) edge = std::max(edge, largest(e));
     normal = glm::cross(edges[0], -edges[2]);
-    // e.A: three terms with two roundings of the factors, one of the product, two of the sum.
+    // e.A has three terms. Each has five roundings: two of the factors, one of the product, and two
+    // of the sum.
     along_error = 3 * 8 * kRoundoff * edge * size;
-    // (n x e).A: twelve terms of at most edge^3 size with eleven roundings: four of n, one each of
-    // e, the product, the difference, A, the product, and two of the sum.
+    // (n x e).A has twelve terms of at most edge^3 size. Each has eleven roundings: four of n, one
+    // each of e, the product, the difference, A and the second product, and two of the sum.
     side_error = 12 * 16 * kRoundoff * edge * edge * edge * size;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
@@ -41,11 +42,12 @@ class Regions {
     }
   }
 
-  std::array<DVec3, 3> vertices, edges;  // A, B, C; ab, bc, ca
+  std::array<DVec3, 3> vertices, edges;  // vectors A, B, C from p to the vertices; edges ab, bc, ca
   DVec3 normal{0};
   double size = 0, edge = 0;
-  /// For each edge e from A to B: -e.A is positive if p is beyond A along the edge, e.B if it is
-  /// before B, and -(n x e).A if it is inside of the edge.
+  /// For each edge e from A to B: from_start = -e.A is positive if p is beyond A along the edge,
+  /// from_end = e.B is positive if p is before B, and side = -(n x e).A is positive if p is on the
+  /// inner side of the edge.
   std::array<double, 3> from_start{}, from_end{}, side{};
   double along_error, side_error;
 };
@@ -61,8 +63,8 @@ bool is_negative(double x, double error) {
 void find_nearest(const Regions& r, TriangleDistance& result) {
   result.is_certain = false;
   result.position_error = std::numeric_limits<double>::infinity();
-  // The point is nearest to vertex i if it is before it along the edge that starts there, and
-  // beyond it along the edge that ends there.
+  // Vertex i is the nearest feature if p is not beyond it along the edge that starts there, and not
+  // before it along the edge that ends there.
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t before = (i + 2) % 3;
     if (!(r.from_start[i] <= 0 && r.from_end[before] <= 0)) continue;
@@ -74,7 +76,7 @@ void find_nearest(const Regions& r, TriangleDistance& result) {
     result.position_error = 0;
     return;
   }
-  // The point is nearest to an edge if it is outside of the edge and between its ends. If roundings
+  // An edge is the nearest feature if p is on its outer side and between its ends. If roundings
   // make this true for several edges, any of them is accurate enough.
   for (std::size_t i = 0; i < 3; ++i) {
     if (!(r.side[i] <= 0 && r.from_start[i] >= 0 && r.from_end[i] >= 0)) continue;
@@ -88,18 +90,18 @@ void find_nearest(const Regions& r, TriangleDistance& result) {
     result.is_certain = is_negative(r.side[i], r.side_error) &&
                         is_positive(r.from_start[i], r.along_error) &&
                         is_positive(r.from_end[i], r.along_error);
-    // t has the errors of both numbers relative to the length.
+    // The error of t is the sum of the errors of from_start and `length`, relative to `length`.
     if (result.is_certain)
       result.position_error = 4 * r.along_error / length * 2 * r.edge + 8 * kRoundoff * r.edge;
     return;
   }
   const double total = r.side[0] + r.side[1] + r.side[2];
   result.feature = Feature::face;
-  if (!(total > 0)) {  // the triangle has no area
+  if (!(total > 0)) {  // the triangle has zero area
     result.weights = DVec3(1, 0, 0);
     return;
   }
-  // The weight of a vertex is the side of the opposite edge.
+  // The weight of a vertex is proportional to `side` of the opposite edge.
   const double b = std::clamp(r.side[2] / total, 0.0, 1.0);
   const double c = std::clamp(r.side[0] / total, 0.0, 1 - b);
   result.weights = DVec3(1 - b - c, b, c);
@@ -112,9 +114,9 @@ void find_nearest(const Regions& r, TriangleDistance& result) {
 
 }  // namespace
 
-/// The upper bound is the distance of a point of the triangle. For any vector G, no vertex and so
-/// no point of the triangle is nearer than the least of A.G / |G|, B.G / |G|, C.G / |G|, the lower
-/// bound; for the vector G to the nearest point both are equal.
+/// The upper bound is the distance of a point of the triangle. For any vector G, no vertex and
+/// therefore no point of the triangle is nearer than the least of A.G / |G|, B.G / |G|, C.G / |G|,
+/// which is the lower bound. If G is the vector to the nearest point, both bounds are equal.
 TriangleDistance triangle_distance(const Triangle& triangle, const Vec3& p) {
   const Regions regions(triangle, p);
   TriangleDistance result{};
@@ -123,9 +125,10 @@ TriangleDistance triangle_distance(const Triangle& triangle, const Vec3& p) {
   const auto& [a, b, c] = regions.vertices;
   const DVec3 g = result.weights.x * a + result.weights.y * b + result.weights.z * c;
   const double length = std::sqrt(glm::dot(g, g));
-  // A component of g has three terms, whose weights add up to 1 within 2 u, with five roundings; a
-  // length is at most twice its largest component, and four roundings follow. A.G has three terms
-  // with four roundings; |G| and the quotient have five.
+  // A component of g has three terms with five roundings, whose weights add up to 1 within 2 u,
+  // where u is the unit roundoff. A vector's length is at most twice its largest component, and
+  // computing the length adds four roundings. A.G has three terms with four roundings; |G| and the
+  // quotient have five.
   const double error = 32 * kRoundoff * regions.size;
   result.hi = length + error;
   const double least = std::min({glm::dot(a, g), glm::dot(b, g), glm::dot(c, g)});

@@ -1,7 +1,7 @@
 #pragma once
-/// Powers and logarithms for N lanes of float64. Only + - * / and integer operations: the bits
-/// depend on nothing but IEEE 754. Errors are below two units in the last place; the error of a
-/// logarithm less than 1 is below 2^-52.
+/// Powers and logarithms for N lanes of float64. They use only + - * / and integer operations, so
+/// their bits depend on nothing but IEEE 754. Errors are below two units in the last place, unless
+/// stated otherwise. For logarithms with a magnitude below 1, the absolute error is below 2^-52.
 
 #include "simd/vectors.hpp"
 
@@ -21,23 +21,24 @@ inline Double<N> floor_of(const Double<N>& a) {
   return result;
 }
 
-/// Added to an integer below 2^51 in magnitude, leaves its two's complement in the lowest bits.
+/// Adding this number to an integer of magnitude below 2^51 leaves the integer's two's complement
+/// in the lowest bits.
 constexpr double kIntegerBits = 0x1.8p52;
 
-/// 2^x for x in [-1000, 1000].
+/// Returns 2^x for x in [-1000, 1000].
 template <int N>
 inline Double<N> power_of_two(const Double<N>& x) {
   constexpr double kLn2 = 0x1.62e42fefa39efp-1;
   const Double<N> whole = floor_of<N>(x + 0.5);
   const Double<N> y = (x - whole) * kLn2;  // in [-0.347, 0.347]
-  // Taylor polynomial of e^y: the first omitted term is below 2^-57.
+  // Taylor polynomial of e^y, whose first omitted term is below 2^-57.
   Double<N> sum = Double<N>{} + 1;
   for (int k = 13; k > 0; --k) sum = 1 + y * sum / k;
   const auto exponent = reinterpreted<Long<N>>(Double<N>(whole + (kIntegerBits + 1023)));
   return sum * reinterpreted<Double<N>>(Long<N>(exponent << 52));
 }
 
-/// x must be a finite normal number above 0.
+/// Returns the binary logarithm of x, which must be a positive, normal and finite number.
 template <int N>
 inline Double<N> binary_logarithm(const Double<N>& x) {
   constexpr double kSqrt2 = 0x1.6a09e667f3bcdp+0, kLn2 = 0x1.62e42fefa39efp-1;
@@ -49,14 +50,15 @@ inline Double<N> binary_logarithm(const Double<N>& x) {
   const auto is_high = m > kSqrt2;
   m = is_high ? m / 2 : m;
   exponent = is_high ? exponent + 1 : exponent;
-  // ln m = 2 artanh s with |s| <= 0.1716; the first omitted term is below 2^-60.
+  // ln m = 2 artanh s with |s| <= 0.1716. The first omitted term of the series is below 2^-60.
   const Double<N> s = (m - 1) / (m + 1), z = s * s;
   Double<N> sum{};
   for (int k = 21; k > 0; k -= 2) sum = 1.0 / k + z * sum;
   return exponent + 2 / kLn2 * (s * sum);
 }
 
-/// e^x for x <= 690, with a relative error of 2^-50 per unit of |x|; 0 below -690.
+/// Returns e^x for x <= 690, and 0 for x < -690. The relative error is at most 2^-50 per unit of
+/// |x|.
 template <int N>
 inline Double<N> exponential(const Double<N>& x) {
   constexpr double kLog2e = 0x1.71547652b82fep+0;
@@ -64,8 +66,8 @@ inline Double<N> exponential(const Double<N>& x) {
   return is_zero ? Double<N>{} : power_of_two<N>(is_zero ? Double<N>{} : x * kLog2e);
 }
 
-/// x^y for x in [0, 1] and y > 0, with the same relative error in terms of the exponent; 0 below
-/// 2^-1000.
+/// Returns x^y for x in [0, 1] and y > 0, and 0 for results below 2^-1000. The relative error is at
+/// most 2^-50 per unit of |y log2 x|.
 template <int N>
 inline Double<N> power(const Double<N>& x, const Double<N>& y) {
   const auto is_normal = x >= 0x1p-1000;

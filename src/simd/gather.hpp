@@ -8,7 +8,7 @@
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
 
-/// table[index] for each lane.
+/// Returns table[index] for each lane.
 template <int N>
 inline Float<N> gathered(const float* table, const Int<N>& index) {
 #if defined(__AVX512F__)
@@ -28,7 +28,7 @@ inline Float<N> gathered(const std::int16_t* table, const Int<N>& index) {
   for (int i = 0; i < N; ++i) set_lane(result, i, static_cast<float>(table[lane(index, i)]));
   return result;
 }
-/// columns[index] for each lane; each column has one value per lane.
+/// Returns lane i of columns[index[i]] for each lane i.
 template <int N>
 inline Float<N> picked(const Float<N>* columns, const Int<N>& index) {
   Int<N> offset = index * N;

@@ -1,6 +1,6 @@
 #pragma once
-/// Sine and cosine for N lanes of float64. Only + - * / and integer operations: the bits depend on
-/// nothing but IEEE 754. Errors are below two units in the last place.
+/// Sine and cosine for N lanes of float64. They use only + - * / and integer operations, so their
+/// bits depend on nothing but IEEE 754. Errors are below two units in the last place.
 
 #include "simd/exponential.hpp"
 #include "simd/vectors.hpp"
@@ -8,7 +8,7 @@
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
 
-// Taylor polynomials on [-pi/4, pi/4]: the first omitted term is below 2^-63.
+// Taylor polynomials for [-pi/4, pi/4], whose first omitted terms are below 2^-63.
 template <int N>
 inline Double<N> sin_polynomial(const Double<N>& x) {
   const Double<N> z = x * x;
@@ -36,11 +36,11 @@ inline Double<N> cos_polynomial(const Double<N>& x) {
   return 1.0 - (0.5 * z - z * z * c);
 }
 
-/// An angle reduced to the quadrant around the nearest multiple of pi/2.
+/// An angle as a multiple of pi/2 plus a remainder.
 template <int N>
 struct ReducedAngle {
-  Double<N> angle;   ///< radians, in [-pi/4, pi/4]
-  Long<N> quadrant;  ///< modulo 4
+  Double<N> angle;   ///< the remainder in radians, in [-pi/4, pi/4]
+  Long<N> quadrant;  ///< the multiple of pi/2; only its value modulo 4 counts
 
   [[nodiscard]] Double<N> sine() const {
     const Double<N> value =
@@ -50,8 +50,8 @@ struct ReducedAngle {
   [[nodiscard]] Double<N> cosine() const { return ReducedAngle{angle, quadrant + 1}.sine(); }
 };
 
-/// Cody and Waite's reduction for |x| <= 2^20 radians: pi/2 in three parts of 33 bits, so that the
-/// first two products with n are exact.
+/// Reduces |x| <= 2^20 radians by the method of W. Cody and W. Waite. pi/2 is split into three
+/// parts, of which the first two have 33 bits, so their products with n are exact.
 template <int N>
 inline ReducedAngle<N> reduced_radians(const Double<N>& x) {
   constexpr double kTwoByPi = 0x1.45f306dc9c883p-1;
@@ -67,10 +67,11 @@ inline Double<N> cos_radians(const Double<N>& x) {
   return reduced_radians<N>(x).cosine();
 }
 
-/// fmod(x, 2 pi), where 2 pi is rounded, for x >= 0.
+/// Returns fmod(x, 2 pi) for x >= 0, where 2 pi is rounded to float64.
 template <int N>
 inline Double<N> within_revolution(const Double<N>& x) {
-  // Each difference is exact while n has at most 20 bits: `high` has 33 bits, `low` 20.
+  // kHigh has 33 bits and kLow has 20, so all products and differences are exact while n has at
+  // most 20 bits.
   constexpr double kWhole = 0x1.921fb54442d18p+2, kHigh = 0x1.921fb544p+2, kLow = kWhole - kHigh;
   const Double<N> n = floor_of<N>(x * (1 / kWhole));
   if (any(n > 0x1p20)) {

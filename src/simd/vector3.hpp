@@ -1,6 +1,6 @@
 #pragma once
-/// Vectors of lanes. They perform the same operations as GLM in the same order, so that bits are
-/// the same; those of one lane are GLM's.
+/// Two- and three-component vectors of lanes. They perform the same operations as GLM in the same
+/// order, so results have the same bits. For one lane, GLM's own types are used.
 
 #include "simd/vectors.hpp"
 
@@ -11,7 +11,7 @@
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
 
-/// The result of std::max and std::min: the first argument if they are equal or one is NaN.
+/// Return the results of std::max and std::min: the first argument if both are equal or one is NaN.
 template <class V>
 inline V larger_of(const V& a, const V& b) {
   return a < b ? b : a;
@@ -21,7 +21,7 @@ inline V smaller_of(const V& a, const V& b) {
   return b < a ? b : a;
 }
 
-/// a limited to [low, high].
+/// Returns a clamped to [low, high].
 template <class V>
 inline V clamped(const V& a, const V& low, const V& high) {
   return a < low ? low : high < a ? high : a;
@@ -71,7 +71,7 @@ template <class F>
 inline Vector3<F> operator/(const Vector3<F>& a, const Vector3<F>& b) {
   return {a.x / b.x, a.y / b.y, a.z / b.z};
 }
-/// Lanes or a number.
+/// A vector of lanes or a number, as opposed to a Vector3.
 template <class S>
 concept Scalar = !requires(const S& s) {
   s.x;
@@ -148,12 +148,12 @@ template <class V>
 inline V greatest_components(const V& a, const V& b) {
   return {larger_of(a.x, b.x), larger_of(a.y, b.y), larger_of(a.z, b.z)};
 }
-/// The lanes in which all components are zero.
+/// Returns a mask of the lanes in which all components are zero.
 template <class V>
 inline auto is_zero(const V& v) {
   return (v.x == 0) & (v.y == 0) & (v.z == 0);
 }
-/// 1 - v, of a vector's components or a number.
+/// Returns 1 - v, for each component if v is a Vector3.
 template <class V>
 inline V complement(const V& v) {
   if constexpr (requires { v.x; })
@@ -166,7 +166,7 @@ inline V mixed(const V& a, const V& b, const F& share) {
   return a * (1 - share) + b * share;
 }
 
-/// Equal components.
+/// Returns a vector whose three components are x.
 template <int N>
 inline Floats3<N> all3(const Float<N>& x) {
   return {x, x, x};
@@ -181,7 +181,7 @@ inline Floats3<N> unit(const Floats3<N>& v) {
   return v / square_root<N>(dot(v, v));
 }
 
-/// Vectors of one precision in the other; rounded if narrower.
+/// Convert between float32 and float64; the conversion to float32 rounds.
 template <int N>
 inline Doubles3<N> to_double3(const Floats3<N>& v) {
   return {to_double<N>(v.x), to_double<N>(v.y), to_double<N>(v.z)};
@@ -191,7 +191,7 @@ inline Floats3<N> to_single3(const Doubles3<N>& v) {
   return {to_single<N>(v.x), to_single<N>(v.y), to_single<N>(v.z)};
 }
 
-/// Loads float32 as float64, and the reverse.
+/// Loads float32 components as float64; narrowed3 rounds and stores them.
 template <int N, int width>
 inline Doubles3<N> widened3(const float (&v)[3][width], int i) {
   return {widened<N>(v[0] + i), widened<N>(v[1] + i), widened<N>(v[2] + i)};

@@ -1,12 +1,12 @@
 #pragma once
-/// SIMD vectors of float32 and float64. `Float<N>` is the vector extension of GCC and Clang: N
-/// lanes, with + - * / and ?: per lane. N is at most the register width of the instruction set for
-/// which the including file is compiled: 4, 8 or 16; `Float<1>` is float, so that scalar code is
-/// an instance of the same templates. All widths give the same bits, because every operation is
-/// defined by IEEE 754. A set of lanes is an integer with one bit per lane.
+/// SIMD vectors of float32 and float64. `Float<N>` uses the vector extension of GCC and Clang: it
+/// has N lanes, with + - * / and ?: per lane. N is 4, 8 or 16, at most the register width of the
+/// instruction set for which the including file is compiled. `Float<1>` is float, so scalar code is
+/// an instance of the same templates. The bits of results do not depend on N, because IEEE 754
+/// defines every operation. Type Lanes is a set of lanes: an integer with one bit per lane.
 ///
-/// Each set of kernels has a namespace of its own (kernel_sources in src/simd/CMakeLists.txt), so
-/// that the linker can't merge code of different instruction sets.
+/// Each set of kernels has its own namespace (see kernel_sources in src/simd/CMakeLists.txt), so
+/// that the linker can't merge code for different instruction sets.
 
 #include <cstdint>
 
@@ -58,7 +58,7 @@ using Double = typename DoubleVector<N>::type;
 template <int N>
 using Long = typename DoubleVector<N>::bits_type;
 
-/// The lanes of float64 in a register that has N lanes of float32.
+/// The number of float64 lanes in a register with N lanes of float32.
 template <int N>
 constexpr int kDoubleLanes = N == 1 ? 1 : N / 2;
 
@@ -67,7 +67,7 @@ using Lanes = std::uint32_t;
 template <int N>
 constexpr Lanes kAllLanes = (Lanes{1} << N) - 1;
 
-/// The same bits as another type of the same size.
+/// Returns the same bits as a different type of the same size.
 template <class To, class From>
 inline To reinterpreted(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
@@ -80,7 +80,7 @@ template <class V>
 constexpr bool kIsScalar = __is_same(V, float) || __is_same(V, double) ||
                            __is_same(V, std::int32_t) || __is_same(V, bool);
 
-/// Lane i of a vector or scalar.
+/// Returns lane i of a vector, or the scalar itself.
 template <class V>
 inline auto lane(const V& v, int i) {
   if constexpr (kIsScalar<V>)

@@ -1,5 +1,5 @@
 #pragma once
-/// Functions of vectors: see vector_types.hpp.
+/// Functions on the SIMD vectors of vector_types.hpp.
 
 #include "simd/vector_types.hpp"
 
@@ -39,10 +39,11 @@ inline void store(float* p, const Float<N>& v) {
 
 template <int N>
 inline Float<N> all(float x) {
-  return x - Float<N>{};  // x - 0 is x, including -0 and NaN
+  return x - Float<N>{};  // x - 0 is x, even for -0 and NaN
 }
 
-/// a where a < b, else b. If one of them is NaN the result is b, like x86's min instruction.
+/// Returns a where a < b, otherwise b. If one of them is NaN, the result is b, as with the min
+/// instruction of x86.
 template <class V>
 inline V lesser(const V& a, const V& b) {
   return a < b ? a : b;
@@ -51,7 +52,7 @@ template <class V>
 inline V greater(const V& a, const V& b) {
   return a > b ? a : b;
 }
-/// |a|, and 0 for -0: clears the sign bit.
+/// Returns |a| by clearing the sign bit, so -0 becomes 0.
 template <class V>
 inline V magnitude(const V& a) {
   if constexpr (sizeof(lane(a, 0)) == 4)
@@ -60,13 +61,13 @@ inline V magnitude(const V& a) {
     return reinterpreted<V>(reinterpreted<Long<sizeof(V) / 8>>(a) & 0x7fffffffffffffff);
 }
 
-/// Lanes of a, negated where b is negative or -0.
+/// Returns a, negated in lanes in which b is negative or -0.
 template <int N>
 inline Float<N> with_sign_of(const Float<N>& a, const Float<N>& b) {
   return reinterpreted<Float<N>>(reinterpreted<Int<N>>(a) ^ (reinterpreted<Int<N>>(b) & INT32_MIN));
 }
 
-/// Integers rounded toward zero; each lane must be in range.
+/// Rounds toward zero to integers. Each lane must be in the range of int32.
 template <int N>
 inline Int<N> truncated(const Float<N>& a) {
   if constexpr (N == 1)
@@ -82,7 +83,7 @@ inline Float<N> to_float(const Int<N>& a) {
     return __builtin_convertvector(a, Float<N>);
 }
 
-/// Loads N float32 as float64.
+/// Loads N float32 numbers as float64.
 template <int N>
 inline Double<N> widened(const float* p) {
   Float<N> v;
@@ -93,7 +94,7 @@ inline Double<N> widened(const float* p) {
     return __builtin_convertvector(v, Double<N>);
 }
 
-/// Rounds to float32 and stores.
+/// Rounds to float32 and stores the result.
 template <int N>
 inline void narrowed(const Double<N>& v, float* p) {
   if constexpr (N == 1) {
@@ -104,7 +105,7 @@ inline void narrowed(const Double<N>& v, float* p) {
   }
 }
 
-/// Lanes of one precision in the other; rounded if narrower.
+/// Convert between float32 and float64; the conversion to float32 rounds.
 template <int N>
 inline Double<N> to_double(const Float<N>& a) {
   if constexpr (N == 1)
@@ -120,7 +121,7 @@ inline Float<N> to_single(const Double<N>& a) {
     return __builtin_convertvector(a, Float<N>);
 }
 
-/// A comparison of float64, to select float32.
+/// Converts the result of a float64 comparison to a mask that selects float32 lanes.
 template <int N, class Mask>
 inline auto single_mask(const Mask& mask) {
   return to_single<N>(mask ? Double<N>{} + 1 : Double<N>{}) != 0;
@@ -133,7 +134,7 @@ inline Float<N> moved_by_ulps(const Float<N>& a, int n) {
   return (Float<N>)((Bits)a + n);
 }
 
-/// The lanes in which a <= b; false for NaN.
+/// Returns the lanes in which a <= b; none for NaN.
 template <int N>
 inline Lanes less_equal(const Float<N>& a, const Float<N>& b) {
 #if defined(__AVX512VL__)
@@ -151,7 +152,7 @@ inline Lanes less_equal(const Float<N>& a, const Float<N>& b) {
   return lanes;
 }
 
-/// The lanes in which a < b; false for NaN.
+/// Returns the lanes in which a < b; none for NaN.
 template <int N>
 inline Lanes less(const Float<N>& a, const Float<N>& b) {
 #if defined(__AVX512VL__)
@@ -169,7 +170,7 @@ inline Lanes less(const Float<N>& a, const Float<N>& b) {
   return lanes;
 }
 
-/// Integer lanes with all bits set in the given lanes, zero in the others.
+/// Returns integer lanes with all bits set in the given lanes and zero in the others.
 template <int N>
 inline auto mask_of(Lanes lanes) {
   using Bits = typename FloatVector<N>::bits_type;
@@ -178,7 +179,7 @@ inline auto mask_of(Lanes lanes) {
   return (bit & static_cast<std::int32_t>(lanes)) != 0;
 }
 
-/// a in the given lanes, b in the others.
+/// Returns a in the given lanes and b in the others.
 template <int N>
 inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
 #if defined(__AVX512VL__)
@@ -188,7 +189,7 @@ inline Float<N> select(Lanes lanes, const Float<N>& a, const Float<N>& b) {
   return mask_of<N>(lanes) ? a : b;
 }
 
-/// Square roots, correctly rounded by IEEE 754.
+/// Returns square roots, correctly rounded as IEEE 754 requires.
 template <int N>
 inline Float<N> square_root(const Float<N>& a) {
 #if defined(__AVX512F__)
@@ -220,7 +221,7 @@ inline Double<N> square_root(const Double<N>& a) {
   return result;
 }
 
-/// Whether a comparison's result is true in any lane.
+/// Returns true if the result of a comparison is true in any lane.
 template <class Mask>
 inline bool any(const Mask& mask) {
   if constexpr (sizeof mask <= sizeof(int)) {

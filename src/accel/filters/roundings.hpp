@@ -1,7 +1,7 @@
 #pragma once
 /// The numbers of roundings in float64 formulas for triangles. Filters use them, and so do kernels
 /// that evaluate the same formulas for several triangles at a time. This header may contain only
-/// plain constants; see simd/vectors.hpp for the reason.
+/// plain constants, because kernels for several instruction sets include it.
 
 namespace microtrace {
 

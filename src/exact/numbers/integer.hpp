@@ -1,6 +1,6 @@
 #pragma once
-/// Fixed-width integers for exact queries about coordinates on a common grid, without loops over
-/// variable lengths: a product is as wide as its factors together, a sum as wide as its terms.
+/// Fixed-width integers for exact queries about coordinates on a common grid. Widths are known at
+/// compile time: a product is as wide as its factors together, and a sum is as wide as its terms.
 
 #include "exact/numbers/limbs.hpp"
 
@@ -12,15 +12,16 @@ namespace microtrace::exact {
 
 /// An integer of 64 * Limbs bits in two's complement, lowest limb first.
 ///
-/// Overflow can't happen if all numbers start as Integer<L> below 2^(64 L - 8) in magnitude: a form
-/// of degree k has 64 L k bits and is below c 2^(k (64 L - 8)), where c is the sum of the
-/// magnitudes of its coefficients, and all evaluated forms have c < 2^(8 k - 1).
+/// No overflow occurs if all initial numbers are of type Integer<L> with magnitudes below 2^(64 L -
+/// 8). A polynomial of degree k then has a magnitude below c 2^(k (64 L - 8)), where c is the sum
+/// of the magnitudes of its coefficients, and is stored in 64 L k bits. All evaluated polynomials
+/// have c < 2^(8 k - 1), so they fit.
 template <int Limbs>
 class Integer {
  public:
   constexpr Integer() = default;  ///< zero
 
-  /// magnitude 2^shift with this sign. The result must fit; shift >= 0.
+  /// Returns magnitude 2^shift with this sign. The result must fit, and shift must not be negative.
   static Integer shifted(bool is_negative, std::uint64_t magnitude, int shift) {
     const std::uint64_t flipped = is_negative ? ~std::uint64_t{0} : 0;
     Integer result;
@@ -39,7 +40,7 @@ class Integer {
 
   [[nodiscard]] bool is_negative() const { return limbs_[Limbs - 1] >> 63U != 0; }
 
-  /// -1, 0 or 1.
+  /// Returns -1, 0 or 1.
   [[nodiscard]] int sign() const {
     if (is_negative()) return -1;
     std::uint64_t any = 0;
@@ -71,8 +72,8 @@ class Integer {
 
   template <int Others>
   friend Integer<Limbs + Others> operator*(const Integer& x, const Integer<Others>& y) {
-    // Multiplies as unsigned numbers. If a factor is negative, the product is then too large by
-    // 2^64Limbs times the other factor.
+    // Multiplies as if both factors were unsigned. If a factor of n limbs is negative, the product
+    // is then too large by 2^(64 n) times the other factor.
     Integer<Limbs + Others> product;
     for (std::size_t i = 0; i < Limbs; ++i) {
       Wide carry = 0;
@@ -88,7 +89,7 @@ class Integer {
     return product;
   }
 
-  /// The same number with a larger width.
+  /// Returns the same number with a larger width.
   template <int More>
   [[nodiscard]] Integer<More> widened() const {
     static_assert(More >= Limbs);
@@ -98,7 +99,7 @@ class Integer {
     return result;
   }
 
-  /// Multiplies by 2^shift; the result must fit: 0 <= shift < 64 Limbs.
+  /// Multiplies by 2^shift, 0 <= shift < 64 Limbs. The result must fit.
   [[nodiscard]] Integer operator<<(int shift) const {
     const auto whole = static_cast<std::size_t>(shift / 64);
     const int part = shift % 64;
@@ -111,7 +112,7 @@ class Integer {
     return result;
   }
 
-  /// See Leading. Must not be zero.
+  /// Returns the leading bits of the magnitude. The number must not be zero.
   [[nodiscard]] Leading leading() const {
     const Integer size = is_negative() ? -*this : *this;
     std::size_t top = Limbs - 1;

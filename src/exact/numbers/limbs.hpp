@@ -1,6 +1,7 @@
 #pragma once
-/// Shared by fixed-width and arbitrary-width exact numbers: 64-bit limbs, and the leading bits of a
-/// magnitude, from which float64 bounds are computed.
+/// Functions that fixed-width and arbitrary-width exact numbers share: decoding of floating-point
+/// numbers into 64-bit limbs, and the leading bits of a magnitude, from which float64 bounds are
+/// computed.
 
 #include <bit>
 #include <concepts>
@@ -10,11 +11,11 @@
 
 namespace microtrace::exact {
 
-/// Two limbs.
+/// An unsigned integer of two limbs.
 __extension__ using Wide = unsigned __int128;
 
-/// A finite float32 or float64: |x| = mantissa 2^exponent. Infinities and NaN are decoded as if
-/// they had the next exponent.
+/// The parts of a finite float32 or float64 number: |x| = mantissa 2^exponent. Infinities and NaN
+/// are decoded as if finite numbers continued with the next larger exponent.
 struct Decoded {
   bool negative;
   std::uint64_t mantissa;
@@ -40,8 +41,8 @@ struct Leading {
   int exponent;
 };
 
-/// For a magnitude whose highest limb is `first`, which is nonzero, followed by `second`; `top` is
-/// the exponent just above `first`.
+/// Returns the leading bits of a magnitude whose highest limb is `first`, which must be nonzero,
+/// and whose next limb is `second`. 2^top is the weight of the bit just above `first`.
 [[nodiscard]] inline Leading leading_of(std::uint64_t first, std::uint64_t second, int top) {
   const int zeros = std::countl_zero(first);
   const std::uint64_t bits = zeros == 0 ? first : first << zeros | second >> (64 - zeros);

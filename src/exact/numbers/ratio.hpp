@@ -1,5 +1,6 @@
 #pragma once
-/// Fractions of exact numbers, which are never divided, and their bounds and roundings.
+/// Quotients of exact numbers, kept as numerator and denominator, with float64 bounds and rounding
+/// to float32.
 
 #include "exact/numbers/limbs.hpp"
 
@@ -11,55 +12,56 @@
 
 namespace microtrace::exact {
 
-/// The number p / r, r > 0.
+/// The number p / r, where r > 0.
 template <class Number>
 struct Ratio {
   Number p, r;
 };
 
-/// p / r for r != 0.
+/// Returns p / r, where r must not be zero.
 template <class Number>
 [[nodiscard]] Ratio<Number> ratio(const Number& p, const Number& r) {
   if (r.sign() < 0) return {-p, -r};
   return {p, r};
 }
 
-/// The order of two quotients.
+/// Compares two quotients exactly.
 template <class Number>
 [[nodiscard]] std::strong_ordering compare(const Ratio<Number>& x, const Ratio<Number>& y) {
   return (x.p * y.r - y.p * x.r).sign() <=> 0;
 }
 
-/// Doubles lo <= x <= hi around a number x.
+/// Bounds of a number x: lo <= x <= hi.
 struct Enclosure {
   double lo, hi;
 };
 
-/// A positive number mantissa 2^exponent. The relative error is stated by the function that returns
-/// it.
+/// A positive number mantissa 2^exponent. The function that returns it documents the relative
+/// error.
 struct Scaled {
   double mantissa;
   int exponent;
 };
 
-/// Bounds of a number with this sign and magnitude, whose mantissa is in [1/8, 8] with an error of
-/// at most 9 u, u = 2^-53. The bounds allow 16 u, which covers their own rounding and second-order
-/// terms. Beyond 2^1000 or below 2^-1000 they extend to the range of double.
+/// Returns bounds of a number with this sign and magnitude. The mantissa must be in [1/8, 8] with a
+/// relative error of at most 9 u, u = 2^-53. The bounds allow 16 u, which covers their own rounding
+/// and second-order terms. For magnitudes beyond 2^1000 or below 2^-1000, they extend to infinity
+/// or 0.
 [[nodiscard]] Enclosure bounds(int sign, const Scaled& size);
 
-/// A double close to a number of this sign and magnitude: the middle of its bounds, so that x and
-/// -x give opposite results.
+/// Returns a double close to a number with this sign and magnitude. This is the middle of its
+/// bounds, so x and -x give opposite results.
 [[nodiscard]] double middle(int sign, const Leading& size);
 
-/// The float32 nearest to a number within the bounds, ties to even, overflow to infinity (IEEE 754
-/// roundTiesToEven). compare(x) is the order of the number and x.
+/// Returns the float32 nearest to a number within the bounds, with ties to even and overflow to
+/// infinity (IEEE 754 roundTiesToEven). compare(x) must return the order of the number and x.
 template <std::invocable<double> Compare>
 [[nodiscard]] float round_to_float(const Enclosure& e, const Compare& compare) {
   const auto below = static_cast<float>(e.lo);
   const auto above = static_cast<float>(e.hi);
   if (std::bit_cast<std::uint32_t>(below) == std::bit_cast<std::uint32_t>(above)) return below;
-  // The enclosure contains the midpoint of two neighboring floats. IEEE 754 rounds as if 2^128
-  // followed the largest float.
+  // The bounds enclose the midpoint of two neighboring floats. IEEE 754 rounds as if 2^128 were the
+  // number after the largest float.
   const auto value = [](float f) { return std::isinf(f) ? std::copysign(0x1p128, f) : double{f}; };
   const std::strong_ordering order = compare((value(below) + value(above)) / 2);
   if (order != 0) return order < 0 ? below : above;

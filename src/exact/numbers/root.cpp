@@ -7,33 +7,34 @@
 namespace microtrace::exact {
 namespace {
 
-/// The sign of x + s sqrt(a): s is -1, 0 or 1, a >= 0.
+/// Returns the sign of x + s sqrt(a), where s is -1, 0 or 1 and a >= 0.
 int sign_of_sum(const Dyadic& x, int s, const Dyadic& a) {
   if (s == 0 || a.sign() == 0) return x.sign();
   if (x.sign() == 0 || x.sign() == s) return s;
-  // The terms have opposite signs: the one with the larger square decides.
+  // The terms have opposite signs, so the one with the larger square decides.
   return x.sign() * compare(square(x), a);
 }
 
-/// The sign of x + s sqrt(a) + t sqrt(b): s and t are -1, 0 or 1, a and b >= 0.
+/// Returns the sign of x + s sqrt(a) + t sqrt(b), where s and t are -1, 0 or 1, a >= 0 and b >= 0.
 int sign_of_sum(const Dyadic& x, int s, const Dyadic& a, int t, const Dyadic& b) {
   if (s == 0 || a.sign() == 0) return sign_of_sum(x, t, b);
   if (t == 0 || b.sign() == 0) return sign_of_sum(x, s, a);
   const int roots = s == t ? s : s * compare(a, b);
   if (roots == 0) return x.sign();
   if (x.sign() == 0 || x.sign() == roots) return roots;
-  // Opposite signs again: x^2 - (s sqrt(a) + t sqrt(b))^2 = x^2 - a - b - 2 s t sqrt(a b).
+  // x and the sum of the roots have opposite signs, so the larger square decides: x^2 - (s sqrt(a)
+  // + t sqrt(b))^2 = x^2 - a - b - 2 s t sqrt(a b).
   return x.sign() * sign_of_sum(square(x) - a - b, -s * t, twice(twice(a * b)));
 }
 
-/// |x|, x not zero: 53 bits truncated, error 2 u with u = 2^-53.
+/// Returns |x| for x != 0, truncated to 53 bits. The relative error is at most 2 u with u = 2^-53.
 Scaled magnitude(const Dyadic& x) {
   const Leading leading = x.leading();
   return {leading.mantissa, leading.exponent};
 }
 
-/// |p| + sqrt(q), not zero: error 3 u, of which the square root contributes (2 u) / 2 + u and the
-/// sum u.
+/// Returns |p| + sqrt(q), which must not be zero. The relative error is at most 3 u: the square
+/// root has (2 u) / 2 + u, and the sum adds u.
 Scaled magnitude_plus_sqrt(const Dyadic& p, const Dyadic& q) {
   if (q.sign() == 0) return magnitude(p);
   Scaled root = magnitude(q);
@@ -60,7 +61,7 @@ Root rational(float t) {
 }
 
 std::strong_ordering operator<=>(const Root& x, const Root& y) {
-  // x - y multiplied by x.r y.r, which is positive.
+  // Computes the sign of (x - y) x.r y.r, where x.r y.r is positive.
   const Dyadic difference = x.p * y.r - y.p * x.r;
   int sign = difference.sign();
   if (x.sign != 0 || y.sign != 0) {
@@ -83,8 +84,8 @@ Enclosure enclose(const Root& t) {
   int sign = t.p.sign() != 0 ? t.p.sign() : t.sign;
   Scaled numerator, denominator;
   if (cancels) {
-    // p + s sqrt(q) = (p^2 - q) / (p - s sqrt(q)): the numerator is exact, and the terms of the
-    // denominator have the same sign.
+    // Uses p + s sqrt(q) = (p^2 - q) / (p - s sqrt(q)), where the numerator is exact and the terms
+    // of the denominator have equal signs.
     const Dyadic product = square(t.p) - q;
     if (product.sign() == 0) return {0, 0};
     sign *= product.sign();

@@ -1,5 +1,5 @@
 #pragma once
-/// Vectors of exact numbers of any type, with operators.
+/// Vectors of exact numbers, generic over the number type.
 
 #include "exact/numbers/dyadic.hpp"
 
@@ -46,7 +46,7 @@ template <class Number>
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The index of the first nonzero component, or -1.
+/// Returns the index of the first nonzero component, or -1 if all components are zero.
 template <class Number>
 [[nodiscard]] int nonzero_component(const VectorOf<Number>& a) {
   for (int k = 0; k < 3; ++k) {

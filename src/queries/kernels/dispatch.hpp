@@ -1,5 +1,6 @@
 #pragma once
-/// The kernels of all instruction sets. Not to be included by the kernels' own translation units.
+/// The kernels for all instruction sets. The kernels' own translation units must not include this
+/// header.
 
 #include "queries/kernels/kernel.hpp"
 #include "simd/kernel_tables.hpp"

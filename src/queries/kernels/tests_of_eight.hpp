@@ -1,5 +1,5 @@
 #pragma once
-/// The functions of QueryKernels for N lanes of float64.
+/// The functions of QueryKernels, which process N lanes of float64 at a time.
 
 #include "accel/filters/roundings.hpp"
 #include "queries/kernels/kernel.hpp"
@@ -8,7 +8,7 @@
 namespace microtrace {
 namespace {
 
-/// The lanes in which a <= b; false for NaN.
+/// Returns the lanes in which a <= b; none for NaN.
 template <int N>
 inline unsigned lanes_at_most(const Double<N>& a, const Double<N>& b) {
 #if defined(__AVX512VL__)
@@ -30,12 +30,14 @@ inline Double<N> all_doubles(double x) {
   return x - Double<N>{};
 }
 
-/// A distance (plane - o) / d has three roundings, and no result under- or overflows. A box is met
-/// if the greatest entry is at most the least exit; the entry is not negative, so enlarging the
-/// exit by 16 units is enough for the roundings of both.
+/// A ray meets a box if the greatest of the entry distances is at most the least of the exit
+/// distances. A distance (plane - o) / d has three roundings, and no result under- or overflows.
+/// The entry distance is not negative, so enlarging the exit distance by 16 units of roundoff
+/// covers the roundings of both.
 template <int N>
 unsigned entered(const WideNode& node, const LineInterval& ray) {
-  const float *const lo = node.lo_x, *const hi = node.hi_x;  // the arrays of the axes follow
+  const float *const lo = node.lo_x, *const hi = node.hi_x;  // the arrays for y and z follow in
+                                                             // memory
   unsigned lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     Double<N> enter = all_doubles<N>(ray.t_min), leave = all_doubles<N>(ray.t_max);
@@ -58,10 +60,11 @@ unsigned entered(const WideNode& node, const LineInterval& ray) {
   return lanes;
 }
 
-/// With A, B, C from the origin to the vertices, two of d.(B x C), d.(C x A), d.(A x B) with
-/// opposite signs are a miss. Each has six terms of at most |d_k| m^2, where m is the largest
-/// |component| of A, B, C. A term has seven roundings: two of its factors, two products, the
-/// difference, two sums. The bound allows eight, which covers its own roundings.
+/// Let A, B, C be the vectors from the ray's origin to the vertices. The ray misses if two of d.(B
+/// x C), d.(C x A), d.(A x B) have opposite signs. Each of these has six terms of at most |d_k|
+/// m^2, where m is the largest |component| of A, B, C. A term has seven roundings: two of its
+/// factors, two of products, one of the difference and two of sums. The bound allows eight, which
+/// covers its own roundings.
 template <int N>
 unsigned passed(const TriangleBlock& block, const LineInterval& ray) {
   using V = Double<N>;
@@ -85,7 +88,7 @@ unsigned passed(const TriangleBlock& block, const LineInterval& ray) {
     const V u = volume(q, r), v = volume(r, p), w = volume(p, q);
     const V error = 2 * 8 * kRoundoff * d_sum * (size * size);
     const V greatest = greater(greater(u, v), w), least = lesser(lesser(u, v), w);
-    const unsigned is_used = lanes_at_most<N>(p[0], p[0]);  // not NaN
+    const unsigned is_used = lanes_at_most<N>(p[0], p[0]);  // unused lanes have NaN
     lanes |= (is_used & (lanes_at_most<N>(greatest, error) | lanes_at_most<N>(-error, least))) << i;
   }
   return lanes;
@@ -106,10 +109,11 @@ void box_distances(const WideNode& node, const double* p, double* squared) {
   }
 }
 
-/// The larger of two bounds: the distance of the bounding box, which is good near the triangle; and
-/// for G = A + B + C, with A, B, C from p to the vertices, the least of A.G / |G|, B.G / |G|, C.G /
-/// |G|, which is good far away. A.G has three terms of at most 3 m^2, where m is the largest
-/// |component| of A, B, C, with six roundings.
+/// Computes the larger of two lower bounds. The first is the distance of the bounding box, which is
+/// a good bound near the triangle. Let A, B, C be the vectors from p to the vertices and G = A + B
+/// + C. The second bound is the least of A.G / |G|, B.G / |G|, C.G / |G|, which is a good bound far
+/// away. A.G has three terms of at most 3 m^2 with six roundings, where m is the largest
+/// |component| of A, B, C.
 template <int N>
 void triangle_distances(const TriangleBlock& block, const double* p, double* squared) {
   using V = Double<N>;
@@ -131,7 +135,7 @@ void triangle_distances(const TriangleBlock& block, const double* p, double* squ
       squared_g += g * g;
     }
     const V from = lesser(from_a, lesser(from_b, from_c)) - 3 * 3 * 8 * kRoundoff * size * size;
-    // If G is 0, so is `from` at most.
+    // If G is 0, `from` is at most 0.
     const V bound = from > V{} ? from * from / squared_g : V{};
     const V result = greater(bound, sum);
     __builtin_memcpy(squared + i, &result, sizeof result);
