@@ -13,8 +13,8 @@
 
 namespace microtrace {
 
-/// The rays of a camera in the open interval (scene.epsilon, infinity). Rays have closed intervals,
-/// so t_min is the next float32.
+/// The rays of a camera, limited to the open interval (scene.epsilon, infinity). Because a ray's
+/// interval is closed, t_min is the next float32 above epsilon.
 class CameraRays {
  public:
   /// The camera must outlive this object.
@@ -22,7 +22,7 @@ class CameraRays {
       : camera_(camera),
         t_min_(std::nextafter(scene.epsilon, std::numeric_limits<float>::infinity())) {}
 
-  /// The ray through pixel coordinates, as in RayGenerator.
+  /// The ray through the pixel coordinates (x, y), as in RayGenerator.
   [[nodiscard]] Ray operator()(double x, double y) const {
     Ray ray = camera_(x, y);
     ray.t_min = std::max(ray.t_min, t_min_);

@@ -3,7 +3,7 @@
 
 namespace microtrace {
 
-/// For the times of RenderTimes.
+/// The clock that measures RenderTimes.
 using Clock = std::chrono::steady_clock;
 
 inline double seconds(Clock::time_point from, Clock::time_point to) {

@@ -6,8 +6,8 @@
 
 namespace microtrace {
 
-/// Sets a pixel of the film to a premultiplied color; composites it over the background if the film
-/// has no alpha.
+/// Sets a pixel of the film to a premultiplied color. If the film has no alpha, first composites
+/// the color over the background.
 inline void set_pixel(Film& film, std::uint32_t x, std::uint32_t y, const Vec3& color, float alpha,
                       const Vec3& background) {
   if (film.has_alpha()) {

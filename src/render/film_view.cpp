@@ -19,7 +19,7 @@ float greatest(const Vec3& color) {
   return std::max({color.x, color.y, color.z});
 }
 
-/// True for colors that 8-bit formats show as 0 or 1 of 255.
+/// Returns true for colors that 8-bit formats store as 0 or 1.
 class Blackness {
  public:
   explicit Blackness(const Display& display)
@@ -39,7 +39,7 @@ bool is_most(std::size_t black, std::size_t lit) {
   return black > 3 * lit;
 }
 
-/// For each pixel: true if there is a surface at its center.
+/// For each pixel, true if a surface is visible at the pixel's center.
 std::vector<bool> occupied(const Scene& scene, const Camera& camera, ImageSize whole,
                            const RenderOptions& options) {
   RenderOptions exact;
@@ -62,7 +62,7 @@ FilmView view_of(const Film& film, const Scene& scene, const Camera& camera,
                          options.integrator != nullptr && options.integrator->is_random();
   FilmView view;
   std::size_t lit = 0, black = 0;
-  std::vector<std::size_t> doubtful;  // pixels that show the background or its color
+  std::vector<std::size_t> doubtful;  // pixels that have the background's color
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
     const std::span<const Vec3> colors = film.row(y);
     for (std::size_t x = 0; x < colors.size(); ++x) {

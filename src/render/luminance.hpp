@@ -3,7 +3,7 @@
 
 namespace microtrace {
 
-/// Maximum radiance, so that products with reflectances stay finite. A sample is clamped to 2^46
+/// Maximum radiance, which keeps products with reflectances finite. Samples are clamped to 2^46
 /// anyway.
 inline constexpr float kBrightest = 0x1p100F;
 

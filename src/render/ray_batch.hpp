@@ -9,12 +9,12 @@
 
 namespace microtrace {
 
-/// A batch of rays for the integrator, and the pixel of each.
+/// A batch of rays for the integrator, and each ray's pixel.
 template <std::size_t Size>
 class RayBatch {
  public:
-  /// Places where the camera has no ray are opaque and black, or transparent if the film has alpha.
-  /// Integrators of data tell themselves what they store for rays that hit nothing.
+  /// Samples for which the camera has no ray are opaque black, or transparent if the film has
+  /// alpha. Integrators whose results are data determine the values of these samples themselves.
   RayBatch(const Integrator& integrator, bool has_alpha)
       : integrator_(integrator),
         no_ray_{.color = Vec3(0), .alpha = has_alpha ? 0.0F : 1.0F},
@@ -22,8 +22,8 @@ class RayBatch {
 
   [[nodiscard]] bool is_full() const { return count_ == Size; }
 
-  /// make_ray() creates the ray in place, because copying a value that was just written in parts is
-  /// slow.
+  /// Adds the ray that make_ray() returns. The ray is created in place, because copying a struct
+  /// that was just written in parts is slow.
   template <class MakeRay>
   void add(std::size_t pixel, const SampleId& id, const MakeRay& make_ray) {
     ::new (&rays_[count_]) Ray(make_ray());
@@ -31,7 +31,7 @@ class RayBatch {
     pixels_[count_++] = pixel;
   }
 
-  /// Calls f(pixel, sample) in the order of the rays, and clears the batch.
+  /// Traces the rays, calls f(pixel, sample) in the order of the rays, and clears the batch.
   template <class F>
   void trace(const World& world, F&& f) {
     integrator_.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),

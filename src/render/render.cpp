@@ -29,7 +29,7 @@ namespace {
 /// actual number is not known in advance.
 constexpr std::uint32_t kSamplesOfRandomTextures = 16;
 
-/// 32-bit numbers per pixel of a film, including its channels.
+/// The number of 32-bit numbers per pixel of a film, including its channels.
 std::uint64_t numbers_of_pixel(const RenderOptions& options) {
   constexpr std::uint64_t kMostOfAov = 4;
   return 4 + kMostOfAov * (options.aovs.size() + options.sampled_aovs.size());

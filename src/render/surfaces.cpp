@@ -63,12 +63,10 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
   const auto& m = use.texture_from_uv;
   const auto linear = [&m](const DVec2& v) { return DVec2(m[0]) * v.x + DVec2(m[1]) * v.y; };
 
-  // The points where the rays of the neighboring samples meet the plane of the surface (H. Igehy,
-  // Tracing ray differentials, 1999).
+  // Intersects the rays of the neighboring samples with the plane of the surface (H. Igehy, Tracing
+  // ray differentials, 1999).
   const RayDifferential step = world.camera.differential(ray);
-  const double sample_width =
-      1 / std::sqrt(static_cast<double>(world.samples));  // distance of samples in
-                                                          // pixels
+  const double sample_width = 1 / std::sqrt(static_cast<double>(world.samples));  // in pixels
   const DVec3 d(ray.d);
   const double t = glm::dot(at.p - DVec3(ray.o), d) / glm::dot(d, d);
   const double slant = glm::dot(d, at.n);

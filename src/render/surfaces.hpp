@@ -22,10 +22,10 @@ class SurfaceFinder;
 struct SurfaceInteraction;
 struct World;
 
-/// From where World::first_visible returns the hits of an object.
+/// The cases in which World::first_visible returns the hits of an object.
 enum class Visibility : std::uint8_t {
   always,
-  in_front,  ///< if the ray arrives at the front
+  in_front,  ///< only if the ray arrives at the front side
   varies,    ///< depends on the point
 };
 
@@ -44,8 +44,8 @@ class Surfaces {
   /// See World::base_color.
   [[nodiscard]] Vec4 base_color(const World& world, const Ray& ray, const Hit& hit) const;
 
-  /// The same for surfaces without textures and vertex colors, the most common case, and faster.
-  /// Null for others.
+  /// A faster base_color() for surfaces without textures and vertex colors, which are the most
+  /// common ones. Null for other surfaces.
   [[nodiscard]] const Vec3* plain_color(const Ray& ray, const Hit& hit) const {
     const Entry& entry = entries_[primitives_.object_index(hit.id)];
     if (entry.kind == Kind::various) return nullptr;
@@ -53,8 +53,8 @@ class Surfaces {
     return &entry.color;
   }
 
-  /// True if two hits of a ray are the same point of one surface, on an edge or vertex shared by
-  /// two triangles of a mesh that show the ray the same side.
+  /// True if two hits of a ray are the same point of one surface. This happens on an edge or vertex
+  /// shared by two triangles of a mesh that both face the ray with the same side.
   [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;
 
   /// See World::first_visible.
@@ -77,8 +77,9 @@ class Surfaces {
   const Scene& scene_;
   const Primitives& primitives_;
   const SurfaceFinder& finder_;
-  std::vector<Entry> entries_;                     // by object
-  std::vector<std::optional<TextureMap>> colors_;  // by texture; nothing: white, or not needed
+  std::vector<Entry> entries_;  // by object
+  // By texture; nothing for textures that are white or not needed.
+  std::vector<std::optional<TextureMap>> colors_;
 };
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// Estimated noise of tiles.
+/// Estimates the noise of tiles.
 
 #include <microtrace/sample_sums.hpp>
 
@@ -7,14 +7,13 @@
 
 namespace microtrace {
 
-/// For each tile, in order: the mean over its pixels of s / ((L + M) / 2), where s is the estimated
-/// standard error of the pixel's displayed luminance, L this luminance and M its mean over the
-/// window. 0 if all pixels are black. Summed in a fixed order.
+/// Returns for each tile, in order, the mean over the tile's pixels of s / ((L + M) / 2). L is the
+/// pixel's displayed luminance, s the estimated standard error of L, and M the mean of L over the
+/// window. The result is 0 if all pixels are black. Sums have a fixed order.
 [[nodiscard]] std::vector<double> tile_errors(const SampleSums& sums);
 
-/// For each tile: true if it has converged, because its error and those of its eight neighbors are
-/// at most `target`. The condition on neighbors continues tiles that have not sampled a bright spot
-/// yet.
+/// Returns true for each tile that has converged: its error and the errors of its eight neighbors
+/// are at most `target`. The neighbors count because a tile may not have sampled a bright spot yet.
 [[nodiscard]] std::vector<bool> good_tiles(const std::vector<double>& errors,
                                            const PixelRect& window, double target);
 

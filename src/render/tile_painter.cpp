@@ -13,8 +13,8 @@ namespace {
 
 static_assert(kTilePixels <= kMaxBatch);
 
-/// Float64, so that equal samples give exactly their own color: a sum of 65536 equal float32 is
-/// exact.
+/// Sums are float64, so that the mean of equal samples is exactly their color: a sum of 65536 equal
+/// float32 numbers is exact.
 struct Sum {
   DVec3 color{0};
   double alpha = 0;
@@ -48,8 +48,8 @@ TilePainter::TilePainter(const World& world, const Integrator& integrator,
                                        : options.background.value_or(world.scene.background)),
       block_width_(kTileEdge),
       block_height_(kTileEdge) {
-  // The rays of a batch should be coherent, so if pixels have many samples, few pixels form a
-  // batch.
+  // The rays of a batch should be coherent, so batches consist of few pixels if pixels have many
+  // samples.
   while (block_width_ * block_height_ > 1 &&
          std::size_t{block_width_} * block_height_ * pattern_.size() > kMaxBatch) {
     (block_height_ == block_width_ ? block_height_ : block_width_) /= 2;

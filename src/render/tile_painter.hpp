@@ -15,11 +15,11 @@ namespace microtrace {
 /// Any number of threads may paint disjoint tiles.
 class TilePainter {
  public:
-  /// All arguments must outlive this object; the film has the pixels of `window`.
+  /// All arguments must outlive this object. The film must have the pixels of `window`.
   TilePainter(const World& world, const Integrator& integrator, const RenderOptions& options,
               const PixelRect& window, Film& film);
 
-  /// A tile of the window, at most kTileEdge pixels per side.
+  /// Renders a tile of the window. The tile has at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:

@@ -41,8 +41,8 @@ void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<bool(double)>& progress) {
   const std::uint64_t count = tile_count(window);
-  // A thread takes several consecutive tiles at a time: enough to avoid contention on the counter,
-  // few enough to balance the load.
+  // A thread takes several consecutive tiles at a time: enough to avoid contention for the counter,
+  // and few enough to balance the load.
   const std::uint64_t run =
       std::clamp<std::uint64_t>(count / (std::uint64_t{threads.wanted} * 32), 1, 64);
   SharedRange tiles(count, run);

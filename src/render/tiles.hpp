@@ -1,5 +1,5 @@
 #pragma once
-/// Division of a picture into tiles, and their distribution to threads.
+/// Divides a picture into tiles, and distributes the tiles to threads.
 
 #include "base/start_threads.hpp"
 
@@ -16,11 +16,11 @@ namespace microtrace {
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
-/// The number of tiles of the window, and of tiles per row.
+/// The number of tiles in the window, and in each row of tiles.
 [[nodiscard]] std::size_t tile_count(const PixelRect& window);
 [[nodiscard]] std::size_t tile_columns(const PixelRect& window);
 
-/// The tile with this index: row by row from the upper left.
+/// The tile with this index. Tiles are numbered row by row from the upper left.
 [[nodiscard]] PixelRect tile_at(std::size_t index, const PixelRect& window);
 
 /// The index of a tile of the window.
@@ -37,9 +37,9 @@ struct Threads {
   StageCounts stages{};  ///< counts of the rendered tiles
 };
 
-/// Calls draw once for every tile of the window, on those threads; then progress with the fraction
-/// done. The first exception that draw throws stops the work and is thrown here; so is Error
-/// (canceled) if progress returns false.
+/// Calls `draw` once for every tile of the window on `threads`, and `progress` with the finished
+/// fraction after tiles. The first exception that `draw` throws stops the work and is rethrown. If
+/// `progress` returns false, the work stops with Error (canceled).
 void for_each_tile(const PixelRect& window, Threads& threads,
                    const std::function<void(const PixelRect&)>& draw,
                    const std::function<bool(double)>& progress);

@@ -1,5 +1,5 @@
 #pragma once
-/// What a picture shows: a scene, a camera, and a part of the picture.
+/// The content of a picture: a scene, a camera, and the part of the picture to render.
 
 #include "render/prepared/content.hpp"
 
@@ -15,15 +15,16 @@
 
 namespace microtrace {
 
-/// The part of the picture to render. Throws Error (usage) if the crop is empty or not inside.
+/// The part of the picture to render. Throws Error (usage) if the crop is empty or not inside the
+/// picture.
 [[nodiscard]] PixelRect window_of(ImageSize size, const std::optional<PixelRect>& crop);
 
-/// The scene as this camera sees it, with widened points and lines.
+/// The scene with points and lines widened for this camera.
 [[nodiscard]] std::shared_ptr<const PreparedScene::Content> content_for(
     std::shared_ptr<const PreparedScene::Content> content, const Camera& camera, ImageSize size);
 
-/// The rendered scene: the prepared one, or a variant with widened points and lines or a translated
-/// origin.
+/// The scene that is rendered: the prepared scene, or a variant with widened points and lines or a
+/// translated origin.
 struct SceneView {
   std::shared_ptr<const PreparedScene::Content> content;
   RayGenerator camera;

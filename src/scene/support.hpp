@@ -33,8 +33,8 @@ struct DiscSupport {
   double radius;
 
   double operator()(const DVec3& u) const {
-    const DVec3 in_plane =
-        glm::cross(normal, u);  // has the length of u's projection onto the plane
+    // Has the length of u's projection onto the plane.
+    const DVec3 in_plane = glm::cross(normal, u);
     return glm::dot(u, center) + radius * std::sqrt(glm::dot(in_plane, in_plane));
   }
 };

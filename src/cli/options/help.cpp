@@ -7,9 +7,8 @@
 namespace microtrace::cli {
 namespace {
 
-constexpr std::size_t kLeft = 27,
-                      kRight =
-                          72;  // widths in characters of the columns for names and descriptions
+// Widths in characters of the columns for names and descriptions.
+constexpr std::size_t kLeft = 27, kRight = 72;
 
 constexpr std::string_view kRenderUsage =
     R"(microtrace: renders JSON and glTF scenes with exact visibility, the same bytes everywhere

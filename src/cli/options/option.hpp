@@ -40,8 +40,8 @@ struct Option {
   std::string_view implied_value{};  ///< used if no value is given; empty: a value is required
   Samples samples = Samples::undecided;
   Completion completion = Completion::none;
-  std::vector<std::string> (*words)() =
-      nullptr;  ///< returns the named values; null if there are none
+  /// Returns the named values; null if there are none.
+  std::vector<std::string> (*words)() = nullptr;
   bool is_required = false;
   bool is_repeatable = false;
   std::string_view needs{};     ///< an option that must also be given

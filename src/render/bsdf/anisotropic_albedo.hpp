@@ -7,7 +7,7 @@
 namespace microtrace::bsdf {
 
 /// The directional albedo of anisotropic distributions, which also depends on the azimuth.
-/// Otherwise as GgxAlbedo; mostly accurate to half a percent.
+/// Otherwise like GgxAlbedo. Errors are mostly below half a percent.
 template <int N>
 class AnisotropicGgxAlbedo {
  public:
@@ -20,7 +20,7 @@ class AnisotropicGgxAlbedo {
     const F x = 2 * smaller_ - 1, y = 2 * (smaller_ + range_) - 1;
     insert<N, 5>(kTables.anisotropic_loss, x, y, loss_);
     insert<N, 3>(kTables.anisotropic_schlick, x, y, edge_);
-    // the most by which the polynomial may be too small
+    // upper bound of the amount by which the polynomial is too small
     constexpr float margin = 0.0015F;
     mean_ = {1 - value<N, 7, 7>(kTables.mean_anisotropic_loss, x, y) - margin,
              value<N, 7, 7>(kTables.mean_anisotropic_schlick, x, y)};
@@ -31,7 +31,7 @@ class AnisotropicGgxAlbedo {
 
   /// The mean over all azimuths.
   [[nodiscard]] Albedo<N> around(const F& z) const {
-    // Gauss quadrature over the azimuth, for even functions of twice the angle.
+    // Averages over the azimuth by Gauss quadrature for even functions of twice the angle.
     const F a = ggx_.along_alpha() * ggx_.along_alpha();
     const F b = ggx_.across_alpha() * ggx_.across_alpha();
     constexpr float near = 0.853553391F;  // cos(22.5 degrees)^2
@@ -55,7 +55,7 @@ class AnisotropicGgxAlbedo {
   }
 
   AnisotropicGgx<N> ggx_;
-  F smaller_, range_;  // square roots of the alphas: the smaller one, and the difference
+  F smaller_, range_;  // square root of the smaller alpha, and the difference of the square roots
   F loss_[5 * 8], edge_[3 * 4];
   Albedo<N> mean_;
 };

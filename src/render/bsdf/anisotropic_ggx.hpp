@@ -1,6 +1,6 @@
 #pragma once
 /// The distribution of ggx.hpp, stretched along one direction (E. Heitz, Understanding the
-/// masking-shadowing function, 2014, section 5.4). It has the same member functions.
+/// masking-shadowing function, 2014, section 5.4). The class has the same member functions as Ggx.
 
 #include "render/bsdf/ggx.hpp"
 
@@ -12,8 +12,8 @@ class AnisotropicGgx {
   using F = Float<N>;
   using V = Floats3<N>;
 
-  /// Defined as in KHR_materials_anisotropy: the unit vector `along` is the direction of the larger
-  /// alpha, which increases with strength from the alpha of the roughness to 1.
+  /// Parameters are those of KHR_materials_anisotropy. The unit vector `along` is the direction of
+  /// the larger alpha. This alpha increases with `strength` from the roughness's alpha to 1.
   AnisotropicGgx(const F& roughness, const F& strength, const Floats2<N>& along)
       : along_(along), across_alpha_(Ggx<N>(roughness).alpha()) {
     alpha_ = across_alpha_ + (1 - across_alpha_) * strength * strength;
@@ -45,7 +45,7 @@ class AnisotropicGgx {
     return {along_.x * h.x - along_.y * h.y, along_.y * h.x + along_.x * h.y, h.z};
   }
 
-  /// The alpha along the direction, the alpha across it, and the alpha at the azimuth of w.
+  /// The alpha along the direction `along`, perpendicular to it, and at the azimuth of w.
   [[nodiscard]] const F& along_alpha() const { return alpha_; }
   [[nodiscard]] const F& across_alpha() const { return across_alpha_; }
   [[nodiscard]] F alpha(const V& w) const {
@@ -55,7 +55,7 @@ class AnisotropicGgx {
   }
 
  private:
-  /// The vector in coordinates whose x axis is the direction.
+  /// Transforms a vector to coordinates whose x axis is `along`.
   [[nodiscard]] V turned(const V& v) const {
     return {along_.x * v.x + along_.y * v.y, along_.x * v.y - along_.y * v.x, v.z};
   }

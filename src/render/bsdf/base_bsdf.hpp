@@ -1,5 +1,5 @@
 #pragma once
-/// The BSDF below the layers, for N lanes. Local coordinates as in surface.hpp.
+/// The BSDF below the layers, for N lanes, in the local coordinates of surface.hpp.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
 #include "render/bsdf/anisotropic_ggx.hpp"
@@ -13,23 +13,24 @@
 
 namespace microtrace::bsdf {
 
-/// The metallic-roughness model of glTF 2.0, appendix B, and the material extensions. Diffuse
-/// reflection lies below specular reflection by GGX with Schlick's Fresnel term. It differs in two
-/// points from the formulas of section B.3, which lose energy on rough metals and gain energy on
-/// dielectrics at grazing angles: multiple scattering between microfacets is compensated (C. Kulla
-/// and A. Conty, Revisiting physically based shading at Imageworks, 2017), and the diffuse part is
-/// scaled by the energy that the specular part does not reflect, for both wo and wi (C. Kelemen and
-/// L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with importance sampling,
-/// 2001). The result is reciprocal and conserves energy.
+/// The metallic-roughness model of glTF 2.0, appendix B, with the material extensions. Diffuse
+/// reflection lies below specular reflection by GGX with Schlick's Fresnel term. The formulas of
+/// section B.3 lose energy on rough metals and gain energy on dielectrics at grazing angles. This
+/// class differs from them in two ways. It compensates multiple scattering between microfacets (C.
+/// Kulla and A. Conty, Revisiting physically based shading at Imageworks, 2017). It scales the
+/// diffuse part by the energy that the specular part does not reflect, for both wo and wi (C.
+/// Kelemen and L. Szirmay-Kalos, A microfacet based coupled specular-matte BRDF model with
+/// importance sampling, 2001). The result is reciprocal and conserves energy.
 ///
-/// The multiple-scattering lobe of transmission through thin walls is cosine-distributed, as that
-/// of reflection. Together the two lobes compensate all energy that single scattering loses.
+/// The multiple-scattering lobes of reflection and of transmission through thin walls are
+/// cosine-distributed. Together they compensate all energy that single scattering loses.
 ///
-/// Refraction (B. Walter et al., Microfacet models for refraction, 2007) omits the squared index of
-/// refraction: radiance divided by it is the same before entering and after leaving.
+/// Refraction (B. Walter et al., Microfacet models for refraction, 2007) does not scale radiance by
+/// the squared relative index of refraction, because the factors for entering and leaving a volume
+/// cancel.
 ///
-/// Parts is a struct of the types FeaturesType (Features or PlainFeatures), Microfacets (Ggx<N> or
-/// AnisotropicGgx<N>) and MicrofacetAlbedo.
+/// Parts is a struct with the member types FeaturesType (Features or PlainFeatures), Microfacets
+/// (Ggx<N> or AnisotropicGgx<N>) and MicrofacetAlbedo.
 template <int N, class Parts>
 class BaseBsdf {
  public:
@@ -38,15 +39,15 @@ class BaseBsdf {
   using FeaturesType = typename Parts::FeaturesType;
   using Microfacets = typename Parts::Microfacets;
 
-  /// wo.z > 0. `coating` is the coating above the surface if there is one on both sides, otherwise
+  /// wo.z must be positive. `coating` is the surface's coating if it is on both sides, otherwise
   /// null.
   BaseBsdf(const FeaturesType& features, const Surface<N>& surface, const Microfacets& microfacets,
            const Coating<N>* coating, const V& wo);
 
-  /// h is half_vector(wi).
+  /// `h` must be half_vector(wi).
   [[nodiscard]] Evaluation<N> evaluate(const Coating<N>* coating, const V& wi, const V& h) const;
 
-  /// The unit half vector of wo and wi, mirrored to the upper side if it is below the surface.
+  /// The unit half vector of wo and wi. A wi below the surface is first mirrored to the upper side.
   [[nodiscard]] V half_vector(const V& wi) const {
     return unit<N>(wo_ + V{wi.x, wi.y, magnitude(wi.z)});
   }
@@ -55,14 +56,15 @@ class BaseBsdf {
     V wi;  ///< zero if the sample is absorbed
     V h;   ///< half_vector(wi)
   };
-  /// u selects the direction, and `lobe`, in [0, 1), the lobe. evaluate() returns the pdf.
+  /// Samples a direction. `lobe`, in [0, 1), selects the lobe, and `u` the direction. evaluate()
+  /// returns the pdf.
   [[nodiscard]] Direction sample(const Floats2<N>& u, const F& lobe) const;
 
  private:
   static constexpr bool kIsPlain = __is_same(FeaturesType, PlainFeatures);
 
   /// The energy that single scattering loses for F = 1, and the energy that the dielectric's
-  /// microfacets leave for the diffuse part.
+  /// microfacets pass on to the diffuse part.
   struct Left {
     F f1, diffuse;
   };
@@ -83,15 +85,16 @@ class BaseBsdf {
                         const F& several);
   void add_refraction_loss(const Surface<N>& surface);
 
-  /// The fractions of light that microfacets reflect at this cosine, and that enter the dielectric.
+  /// The fractions of light that microfacets reflect, and that enter the dielectric.
   struct Shares {
     V reflected, entering;
   };
   [[nodiscard]] Shares shares(const F& cosine) const;
   [[nodiscard]] V reflectance(const Schlick<N>& schlick, const F& cosine) const;
-  /// The probability of reflection after a microfacet normal is sampled.
+  /// The probability of sampling reflection, given a sampled microfacet normal.
   [[nodiscard]] F reflection_probability(const Shares& shares) const;
-  /// Sets the base of the film, and returns the film's approximate reflectance at normal incidence.
+  /// Sets the reflectances below the film, and returns the film's approximate reflectance at normal
+  /// incidence.
   V add_film(const Schlick<N>& schlick);
   /// The transmittance of the coating for wo or wi, whichever is smaller.
   [[nodiscard]] F transmittance(const Coating<N>& coating, const V& wi) const {
@@ -102,12 +105,12 @@ class BaseBsdf {
   V wo_;
   Microfacets ggx_;
   typename Parts::MicrofacetAlbedo albedo_;
-  Schlick<N> specular_;          ///< of metal and dielectric combined
-  GreatestSchlick<N> greatest_;  ///< of the dielectric
-  F multiply_reflected_;         ///< its multiple-scattering factor
+  Schlick<N> specular_;          ///< Fresnel term of metal and dielectric combined
+  GreatestSchlick<N> greatest_;  ///< Fresnel term of the dielectric
+  F multiply_reflected_;         ///< multiple-scattering factor of the dielectric
   V diffuse_, multiple_;         ///< products of all factors that do not depend on wi
-  F facet_probability_;          ///< probability of sampling a facet normal
-  // Not set without the feature:
+  F facet_probability_;          ///< probability of sampling a microfacet normal
+  // // The members below are set only if their feature is present.
   F transmittance_;  ///< transmittance of the coating
   Schlick<N> dielectric_, metal_;
   ThinFilm<N> film_;

@@ -1,17 +1,17 @@
 #pragma once
-/// The values, pdfs and samples of a BaseBsdf.
+/// Evaluates and samples a BaseBsdf.
 
 #include "render/bsdf/base_bsdf.hpp"
 
 namespace microtrace::bsdf {
 
-/// The direction mirrored at the surface, for transmission.
+/// Mirrors a direction at the surface, for transmission.
 template <class V>
 V mirrored(const V& w) {
   return {w.x, w.y, -w.z};
 }
 
-// Schlick's term uses the angle in the medium with the lower index.
+// Schlick's term uses the angle in the medium with the lower index of refraction.
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::reflectance(const Schlick<N>& schlick, const F& cosine) const -> V {
   if (!features_.has_film) return schlick(cosine);
@@ -33,8 +33,8 @@ auto BaseBsdf<N, Parts>::shares(const F& angle_cosine) const -> Shares {
   const V entering = complement(reflected) * transmitted_;
   const auto is_mixed = (metallic_ != 0) & negated(is_opaque);
   if (any(is_mixed)) {
-    // The reflectances of metal and dielectric below a film do not follow from those without a
-    // film.
+    // With a film, the reflectance must be computed separately for metal and dielectric: it is not
+    // linear in the reflectance below the film.
     const V both = features_.has_film ? mixed(reflected, reflectance(metal_, cosine), metallic_)
                                       : specular_(cosine);
     reflected = select3(is_mixed, both, reflected);
@@ -101,13 +101,13 @@ void BaseBsdf<N, Parts>::refract(const V& wi, Evaluation<N>& e) const {
   const F cos_o = dot(wo_, h), cos_i = dot(wi, h);
   const F denominator = cos_o + eta_ * cos_i;
   const Shares facet = shares(smaller_of(cos_o, all<N>(1)));
-  // The Jacobian of the map from microfacet normals to directions, and the visibility of
-  // microfacets from each direction, 2 / (z + root) = G1 / z.
+  // `spreading` is the Jacobian of the map from microfacet normals to directions. `here` and
+  // `there` are G1 / z = 2 / (z + root) for wo and wi.
   const F spreading = eta_ * eta_ * -cos_i / (denominator * denominator);
   const F here = 2 / (wo_.z + ggx_.root(wo_)), there = 2 / (-wi.z + ggx_.root(wi));
   const F seen = ggx_.distribution(h) * cos_o * here * spreading;
-  // The masking terms are combined so that only the lower visibility counts: a boundary between
-  // equal indices is then invisible.
+  // The masking term is the smaller G1 of the two directions. This makes a boundary between equal
+  // indices of refraction invisible.
   const F unmasked = smaller_of(all<N>(1), F(there * -wi.z / (here * wo_.z)));
   const auto refracts =
       (square > 0) & (cos_o > 0) & (cos_i < 0) & (seen < 1e30F) & negated(is_zero(transmitted_));
@@ -146,7 +146,7 @@ auto BaseBsdf<N, Parts>::sample(const Floats2<N>& u, const F& lobe) const -> Dir
   }
   V through = select3(mirror.z > 0, mirrored(mirror), none);
   if (features_.refracts) {
-    // Total reflection has no transmitted sample.
+    // Under total reflection, there is no transmitted sample.
     const F along = 1 - (1 - cosine * cosine) / (eta_ * eta_);
     const V refracted = (cosine / eta_ - square_root<N>(larger_of(along, F{}))) * h - wo_ / eta_;
     through = select3(refracted.z < 0, refracted, none);

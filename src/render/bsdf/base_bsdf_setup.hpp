@@ -1,5 +1,5 @@
 #pragma once
-/// Computes the parts of a BaseBsdf that depend on wo only.
+/// Computes the parts of a BaseBsdf that depend only on wo.
 
 #include "render/bsdf/base_bsdf.hpp"
 
@@ -37,7 +37,7 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
   if (features_.transmits) {
     opaque = 1 - p.transmission;
     if (features_.refracts) {
-      // From inside, the diffuse part is not visible.
+      // The diffuse part is not visible from inside.
       opaque = p.eta < 1 ? F{} : opaque;
       // Refracted light has its own energy compensation.
       multiple_ *= 1 - dielectric * p.transmission;
@@ -51,8 +51,8 @@ BaseBsdf<N, Parts>::BaseBsdf(const FeaturesType& features, const Surface<N>& p,
     add_transmission(p, f0, white_mean.f1, several);
   }
 
-  // Lobes are sampled in proportion to their approximate albedo, with a minimum probability for
-  // lobes that are not negligible.
+  // Samples lobes in proportion to their approximate albedos, with a minimum probability for lobes
+  // that are not negligible.
   F facets = luminance(f0 * (there.f1 - there.schlick)) + specular_.f90 * there.schlick;
   F spread = luminance(diffuse_) * mean_diffuse + luminance(multiple_) * mean.f1;
   if (features_.transmits) {
@@ -87,12 +87,12 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
         least_components(V(complement(kept) * transmitted_), complement(returned)) * several;
     return;
   }
-  // Indices of refraction closer to 1 than this do not refract.
+  // Relative indices of refraction must differ from 1 by at least this much.
   constexpr float kLeast = 0.003F;
   const auto is_usable = magnitude(F(p.eta - 1)) >= kLeast;
   eta_ = is_usable ? p.eta : p.eta < 1 ? all<N>(1 - kLeast) : all<N>(1 + kLeast);
-  // The base color of a volume applies once to entering and leaving together, as in renderers
-  // without walls.
+  // Uses the square root of the base color, so that entering and leaving a volume together multiply
+  // light by the base color once.
   const V root{square_root<N>(p.base_color.x), square_root<N>(p.base_color.y),
                square_root<N>(p.base_color.z)};
   transmitted_ = (dielectric * p.transmission) * root;
@@ -102,12 +102,12 @@ void BaseBsdf<N, Parts>::add_transmission(const Surface<N>& p, const V& f0, cons
 
 template <int N, class Parts>
 void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
-  // There are no tables for films and anisotropic facets.
+  // There are no tables for films and anisotropic microfacets.
   if (features_.has_film || features_.is_anisotropic) return;
   loss_ = RefractionLoss<N>(p.roughness, eta_, greatest_);
   const F through = loss_.through(), here = loss_.above(wo_.z) * kInversePi;
   const F entering = (1 - p.metallic) * p.transmission;
-  // Light that never enters the volume keeps its color.
+  // Light that never enters the volume is not tinted by the base color.
   const F inside = larger_of(F(1 - through - multiply_reflected_), F{});
   const V reflected = entering * multiply_reflected_ + transmitted_ * inside;
   const auto is_opaque = is_zero(transmitted_);
@@ -118,8 +118,8 @@ void BaseBsdf<N, Parts>::add_refraction_loss(const Surface<N>& p) {
 
 template <int N, class Parts>
 auto BaseBsdf<N, Parts>::add_film(const Schlick<N>& schlick) -> V {
-  // The film's reflectance oscillates with the angle. The base gets the energy that the film leaves
-  // at the brightest of these angles, with a margin for the angles between them.
+  // The film's reflectance oscillates with the angle. The base receives the energy that the film
+  // doesn't reflect at the brightest of these angles, minus a margin for the angles in between.
   constexpr float kCosines[] = {1.0F, 0.8F, 0.6F, 0.42F, 0.28F, 0.17F, 0.09F, 0.03F};
   constexpr int kOfMean = 4;
   constexpr float kMargin = 0.05F;

@@ -1,5 +1,5 @@
 #pragma once
-/// The BSDF of any surface, with or without layers, for N lanes. Local coordinates as in
+/// The BSDF of any surface, with or without layers, for N lanes, in the local coordinates of
 /// surface.hpp.
 
 #include "render/bsdf/base_bsdf.hpp"
@@ -30,8 +30,8 @@ struct AnisotropicParts {
   using MicrofacetAlbedo = AnisotropicGgxAlbedo<N>;
 };
 
-/// A BaseBsdf below a sheen layer below a clear coat. Refracting surfaces have the layers only on
-/// the outside, where they also absorb part of the light from inside.
+/// A BaseBsdf below a sheen layer, which is below a clear coat. Refracting surfaces have layers
+/// only on the outside. These layers also absorb part of the light that comes from inside.
 template <int N, class Parts>
 class Bsdf {
  public:
@@ -39,7 +39,8 @@ class Bsdf {
   using V = Floats3<N>;
   using FeaturesType = typename Parts::FeaturesType;
 
-  /// wo.z > 0. `coating` must outlive this; null if the features have no layers.
+  /// wo.z must be positive. `coating` must outlive this object; it is null if the features include
+  /// no layers.
   Bsdf(const FeaturesType& features, const Surface<N>& surface, const Coating<N>* coating,
        const V& wo);
 
@@ -51,7 +52,8 @@ class Bsdf {
     V wi;  ///< zero if the sample is absorbed
     Evaluation<N> evaluation;
   };
-  /// u selects the direction, `lobe`, in [0, 1), the lobe. The pdf is 0 if the sample is absorbed.
+  /// Samples a direction. `lobe`, in [0, 1), selects the lobe, and `u` the direction. The pdf is 0
+  /// if the sample is absorbed.
   [[nodiscard]] Sample sample(const Floats2<N>& u, const F& lobe) const;
 
  private:
@@ -67,7 +69,7 @@ class Bsdf {
   [[nodiscard]] const Coating<N>* base_coating() const {
     return features_.layers == LayerSide::both ? coating_ : nullptr;
   }
-  /// Whether there are layers on the side of wo.
+  /// True if there are layers on the side of wo.
   [[nodiscard]] bool has_layers_above() const {
     return features_.layers == LayerSide::both || features_.layers == LayerSide::above;
   }
@@ -80,11 +82,12 @@ class Bsdf {
   V wo_;
   const Coating<N>* coating_;
   Base base_;
-  // Not set without layers above:
+  // // The members below are set only if there are layers on the side of wo, unless noted
+  // otherwise.
   V sheen_;
   F coat_;
-  F coat_transmittance_;                    // for wo
-  F transmittance_;                         // of all layers for wo; set if they are only above
+  F coat_transmittance_;  // for wo
+  F transmittance_;       // of all layers, for wo; set only if all layers are above
   F sheen_probability_, coat_probability_;  // sampling probabilities
 };
 
@@ -100,7 +103,7 @@ Bsdf<N, Parts>::Bsdf(const FeaturesType& features, const Surface<N>& surface,
   coat_ = surface.coat;
   coat_transmittance_ = coating->coat_transmittance(wo);
   if (features_.layers == LayerSide::above) transmittance_ = coating->transmittance(wo);
-  // Layers are sampled in proportion to their approximate albedo, with a minimum probability.
+  // Samples layers in proportion to their approximate albedos, with a minimum probability.
   const F greatest = coating->greatest_sheen(), least = all<N>(0.1F);
   const F of_sheen = larger_of(F(0.5F * greatest * coating->sheen().albedo(wo.z)), least);
   const F of_coat = larger_of(F(0.8F * (1 - coat_transmittance_)), least);
@@ -127,8 +130,8 @@ void Bsdf<N, Parts>::add_coat(const V& wi, const V& h, Evaluation<N>& e) const {
   const Ggx<N>& facets = coating_->coat();
   const F d = facets.distribution(frame.to_local(h));
   const F reflected = Coating<N>::fresnel()(smaller_of(dot(wo_, h), all<N>(1))).x;
-  // For both directions, the smaller of the cosines with the two normals. This is reciprocal and
-  // never exceeds the coat's albedo.
+  // Uses, for each direction, the smaller of its cosines with the shading normal and the coat's
+  // normal. This is reciprocal and never exceeds the coat's albedo.
   const F cosines = wi.z * smaller_of(smaller_of(all<N>(1), F(i.z / wi.z)), F(o.z / wo_.z));
   const F value = coat_ * reflected * d * facets.visibility(o.z, i.z) * cosines;
   e.value = select3(has_coat, V(e.value + all3<N>(value)), e.value);

@@ -1,5 +1,5 @@
 #pragma once
-/// Transmittance of coatings, for N lanes. Local coordinates as in surface.hpp.
+/// Transmittance of coatings, for N lanes, in the local coordinates of surface.hpp.
 
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/ggx_albedo.hpp"
@@ -8,17 +8,17 @@
 
 namespace microtrace::bsdf {
 
-/// Sheen below a clear coat. The base is scaled by the fraction of light that the layers do not
-/// reflect, for wo or wi, whichever is smaller (as in KHR_materials_sheen). This loses energy where
-/// microfacets scatter light into directions of lower transmittance. deficit() is this energy
-/// deficit; the base compensates it in other directions.
+/// Sheen below a clear coat. The layers' transmittance is the fraction of light that they do not
+/// reflect. The base is scaled by the smaller transmittance of wo and wi, as in
+/// KHR_materials_sheen. This loses energy where microfacets scatter light into directions of lower
+/// transmittance. deficit() returns the lost energy, which the base adds in other directions.
 template <int N>
 class Coating {
  public:
   using F = Float<N>;
   using V = Floats3<N>;
 
-  /// Index of refraction 1.5.
+  /// Fresnel reflectance of the coat, whose index of refraction is 1.5.
   static Schlick<N> fresnel() { return {}; }
 
   explicit Coating(const Surface<N>& surface)
@@ -36,12 +36,12 @@ class Coating {
       const F z = all<N>(kTables.coating_node[k]);
       node_transmittance_[k] = coat_transmittance(is_turned ? one : z) * sheen_transmittance(z);
     }
-    // The tabulated deficit is too large for anisotropic microfacets, and for sheen that is
-    // narrower than the spacing of the nodes.
+    // Reduces the tabulated deficit where it is too large: for anisotropic microfacets, and for
+    // sheen peaks narrower than the spacing of the nodes.
     F trust = surface.anisotropy > 0 ? all<N>(0.4F) : one;
     const F wide = clamped(F(5 * surface.sheen_roughness - 0.25F), F{}, one);
     trust = greatest_sheen_ > 0 ? trust * wide : trust;
-    // Coats with their own normal get no compensation.
+    // Coats with their own normal are not compensated.
     trust = is_turned ? F{} : trust;
     const int rows = kCoatingRows;
     const Cell<N> row(square_root<N>(surface.roughness) * static_cast<float>(rows - 1), rows);
@@ -51,7 +51,7 @@ class Coating {
     }
   }
 
-  /// The transmittance of the coat, or of all layers, for a direction above.
+  /// The transmittance of the coat, or of all layers, for a direction above the surface.
   [[nodiscard]] F coat_transmittance(const V& w) const {
     return coat_transmittance(clamped(coat_frame_.to_local(w).z, F{}, all<N>(1)));
   }
@@ -59,7 +59,7 @@ class Coating {
     return coat_transmittance(w) * sheen_transmittance(w.z);
   }
 
-  /// The energy deficit for light to or from z = cos(theta): the albedo of the microfacets if all
+  /// The energy deficit for light to or from z = cos(theta). It is the microfacets' albedo if all
   /// directions had the transmittance of z, minus the actual albedo.
   [[nodiscard]] Albedo<N> deficit(const F& z) const {
     const Cell<N> cell(square_root<N>(z) * (kColumns - 1), kColumns);
@@ -101,7 +101,7 @@ class Coating {
     return larger_of(row.mixed(upper, lower) * kDeficitUnit, F{});
   }
 
-  F coat_weight_, greatest_sheen_;  // greatest_sheen_: maximum over the channels
+  F coat_weight_, greatest_sheen_;  // greatest_sheen_ is the maximum over the color channels
   SheenLobe<N> sheen_;
   Ggx<N> coat_;
   GgxAlbedo<N> coat_albedo_;

@@ -1,5 +1,5 @@
 #pragma once
-/// The kinds of BSDFs. All lanes of a kernel have the same kind.
+/// The kinds of BSDFs. All lanes of a kernel call have the same kind.
 
 #include <cstdint>
 
@@ -17,12 +17,12 @@ enum class LayerSide : std::uint8_t {
 /// instruction sets.
 struct Features {
   bool is_anisotropic = false, has_film = false;
-  bool transmits = false;  ///< light may leave below the surface
-  bool refracts = false;   ///< transmits to another index of refraction
+  bool transmits = false;  ///< light may cross the surface
+  bool refracts = false;   ///< light that crosses the surface is refracted
   LayerSide layers = LayerSide::none;
 
   static constexpr int kCount = 64;
-  /// A number below kCount; 0 without features.
+  /// A unique number below kCount for each combination of features; 0 if there are none.
   [[nodiscard]] int index() const {
     return int{is_anisotropic} + 2 * int{has_film} + 4 * int{transmits} + 8 * int{refracts} +
            16 * static_cast<int>(layers);

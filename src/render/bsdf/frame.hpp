@@ -1,5 +1,5 @@
 #pragma once
-/// Local shading coordinates: z is the shading normal.
+/// Local shading coordinates, in which z is the shading normal.
 
 #include "simd/vector3.hpp"
 
@@ -12,9 +12,10 @@ struct Frame {
   using F = Float<N>;
   using V = Floats3<N>;
 
-  V s, t, n;  ///< orthonormal, world space
+  V s, t, n;  ///< orthonormal axes in world space
 
-  /// A frame around a unit vector (T. Duff et al., Building an orthonormal basis, revisited, 2017).
+  /// The frame whose z axis is a unit vector (T. Duff et al., Building an orthonormal basis,
+  /// revisited, 2017).
   static Frame about(const V& n) {
     const F sign = with_sign_of<N>(all<N>(1), n.z);
     const F a = -1 / (sign + n.z), b = n.x * n.y * a;

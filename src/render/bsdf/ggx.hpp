@@ -1,7 +1,7 @@
 #pragma once
 /// The microfacet distribution of B. Walter et al. (Microfacet models for refraction, 2007; "GGX")
 /// with the masking of E. Heitz (Understanding the masking-shadowing function, 2014), for N lanes.
-/// Local coordinates: z is the normal; directions are unit vectors above the surface.
+/// In local coordinates, z is the normal. Directions are unit vectors above the surface.
 
 #include "render/bsdf/tables/tables.hpp"
 #include "render/sampling/warps.hpp"
@@ -13,12 +13,12 @@ namespace microtrace::bsdf {
 
 inline constexpr float kInversePi = static_cast<float>(std::numbers::inv_pi);
 
-/// Minimum alpha: reflections sharper than a twentieth of a degree are indistinguishable in a
-/// picture, and float32 is precise enough for this alpha.
+/// Minimum alpha. Float32 is precise enough for this alpha. Sharper reflections would look the
+/// same, because its lobe is already only a twentieth of a degree wide.
 inline constexpr float kLeastAlpha = 0.001F;
 
-/// Samples a normal visible from wo, for microfacets with these alphas along x and y (J. Dupuy and
-/// A. Benyoub, Sampling visible GGX normals with spherical caps, 2023).
+/// Samples a microfacet normal that is visible from wo, for the given alphas along x and y (J.
+/// Dupuy and A. Benyoub, Sampling visible GGX normals with spherical caps, 2023).
 template <int N>
 Floats3<N> visible_normal(const Float<N>& alpha_x, const Float<N>& alpha_y, const Floats3<N>& wo,
                           const Floats2<N>& u) {
@@ -31,8 +31,8 @@ Floats3<N> visible_normal(const Float<N>& alpha_x, const Float<N>& alpha_y, cons
   return unit<N>(V{alpha_x * (r * cosine + v.x), alpha_y * (r * sine + v.y), z + v.z});
 }
 
-/// The isotropic distribution. With z = cos(theta), root(z) = sqrt(alpha^2 + (1 - alpha^2) z^2)
-/// appears in all masking terms: G1(z) = 2 z / (z + root(z)).
+/// The isotropic distribution. All masking terms contain root(z) = sqrt(alpha^2 + (1 - alpha^2)
+/// z^2) with z = cos(theta). For example, G1(z) = 2 z / (z + root(z)).
 template <int N>
 class Ggx {
  public:
@@ -46,23 +46,24 @@ class Ggx {
 
   [[nodiscard]] F root(const F& z) const { return square_root<N>(square_ + (1 - square_) * z * z); }
 
-  /// The distribution of normals D(h), per solid angle.
+  /// The density D(h) of microfacet normals, per solid angle.
   [[nodiscard]] F distribution(const V& h) const {
     const F q = (h.x * h.x + h.y * h.y) / square_ + h.z * h.z;
     return kInversePi / (square_ * q * q);
   }
 
-  /// G2 / (4 z_o z_i), height-correlated.
+  /// G2 / (4 z_o z_i) with height-correlated masking and shadowing.
   [[nodiscard]] F visibility(const F& z_o, const F& z_i) const {
     return 0.5F / (z_i * root(z_o) + z_o * root(z_i));
   }
 
-  /// The pdf of wi if its half vector is sampled by visible_normal(wo): G1 D / (4 z_o).
+  /// The pdf of wi, G1 D / (4 z_o), if its half vector is sampled by visible_normal(wo).
+  /// `distribution` is D.
   [[nodiscard]] F reflected_pdf(const F& z_o, const F& distribution) const {
     return distribution / (2 * (z_o + root(z_o)));
   }
 
-  // The same by direction, like AnisotropicGgx.
+  // Overloads that take directions, as AnisotropicGgx does.
   [[nodiscard]] F root(const V& w) const { return root(w.z); }
   [[nodiscard]] F visibility(const V& wo, const V& wi) const { return visibility(wo.z, wi.z); }
   [[nodiscard]] F reflected_pdf(const V& wo, const F& distribution) const {

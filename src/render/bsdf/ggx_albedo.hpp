@@ -1,5 +1,5 @@
 #pragma once
-/// Directional albedos of facets, for N lanes.
+/// Directional albedos of microfacets, for N lanes.
 
 #include "render/bsdf/ggx.hpp"
 #include "render/bsdf/tables/tables.hpp"
@@ -7,15 +7,16 @@
 
 namespace microtrace::bsdf {
 
-/// The directional albedo of single scattering: f1 for F = 1, and schlick for F = (1 - cos)^5, the
-/// second part of Schlick's Fresnel term. The albedo for F0 is F0 f1 + (1 - F0) schlick.
+/// The directional albedos of single scattering: `f1` for F = 1, and `schlick` for F = (1 - cos)^5,
+/// the second part of Schlick's Fresnel term. The albedo for a reflectance F0 is F0 f1 + (1 - F0)
+/// schlick.
 template <int N>
 struct Albedo {
   Float<N> f1, schlick;
 };
 
-/// Schlick's Fresnel term of the brightest channel. The base gets the energy that this channel
-/// leaves.
+/// Schlick's Fresnel term of the brightest color channel. The base receives the energy that is not
+/// reflected in this channel.
 template <int N>
 struct GreatestSchlick {
   Float<N> f0, f90;
@@ -25,14 +26,14 @@ struct GreatestSchlick {
   }
 };
 
-/// A position between two entries of a table with `count` entries. Positions beyond the table,
-/// which unused lanes may have, are clamped.
+/// A position between two entries of a table. Positions beyond the table, which may occur in unused
+/// lanes, are clamped.
 template <int N>
 struct Cell {
   Int<N> first;
   Float<N> share;
 
-  /// The position at entry `step`.
+  /// The position `step`, counted in entries, in a table with `count` entries.
   Cell(const Float<N>& step, int count) {
     const Float<N> last = all<N>(static_cast<float>(count - 2));
     const Float<N> within = step > 0 ? step : Float<N>{};
@@ -42,13 +43,13 @@ struct Cell {
   [[nodiscard]] Float<N> mixed(const Float<N>& a, const Float<N>& b) const {
     return a + share * (b - a);
   }
-  /// The value in a row that starts at this index.
+  /// Interpolates within the row that starts at the index `row`.
   [[nodiscard]] Float<N> in_row(const float* table, const Int<N>& row) const {
     return mixed(gathered<N>(table, row + first), gathered<N>(table + 1, row + first));
   }
 };
 
-/// Directional albedos for one roughness.
+/// Directional albedos of GGX for one roughness.
 template <int N>
 class GgxAlbedo {
  public:
@@ -64,7 +65,7 @@ class GgxAlbedo {
             between_rows(kTables.albedo_schlick, square_root<N>(z))};
   }
 
-  // The same by direction, like AnisotropicGgxAlbedo.
+  // Overloads that match those of AnisotropicGgxAlbedo.
   [[nodiscard]] Albedo<N> at(const Floats3<N>& w) const { return at(w.z); }
   [[nodiscard]] Albedo<N> around(const F& z) const { return at(z); }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of a BSDF at one point, as shading code collects them. surface.hpp has them in
+/// The parameters of a BSDF at one point, as collected by shading code. surface.hpp stores them in
 /// lanes.
 
 #include "render/bsdf/features.hpp"
@@ -20,21 +20,22 @@ struct Parameters {
   /// The fraction of the light entering the dielectric that is transmitted
   /// (KHR_materials_transmission).
   float transmission = 0;
-  /// The index of refraction below the surface divided by that above; empty for a thin wall, which
-  /// doesn't refract.
+  /// The index of refraction below the surface divided by the index above; empty for thin walls,
+  /// which don't refract.
   std::optional<float> eta{};
-  /// The fraction of diffuse light that is transmitted, and its color
+  /// The fraction of diffusely scattered light that is transmitted, and the color of this light
   /// (KHR_materials_diffuse_transmission).
   float diffuse_transmission = 0;
   Vec3 diffuse_transmission_color{1};
-  /// The strength in [0, 1], and the direction in which highlights are longer, in world space and
-  /// of any length (KHR_materials_anisotropy). The direction is projected to the tangent plane.
+  /// The strength of anisotropy in [0, 1], and the direction in which highlights are stretched
+  /// (KHR_materials_anisotropy). The direction is in world space and of any length. It is projected
+  /// onto the tangent plane.
   float anisotropy = 0;
   Vec3 along{1, 0, 0};
   std::optional<ThinFilm<1>> film{};
 };
 
-/// Layers above a surface. The defaults mean no layer.
+/// Layers above a surface. By default, there are none.
 struct Layers {
   Vec3 sheen{0};              ///< color, linear Rec. 709, each in [0, 1] (KHR_materials_sheen)
   float sheen_roughness = 0;  ///< in [0, 1]
@@ -44,7 +45,8 @@ struct Layers {
   [[nodiscard]] bool are_visible() const { return coat != 0 || sheen != Vec3(0); }
 };
 
-/// The features that the BSDF needs for these parameters. An index of refraction alone needs none.
+/// The features that the BSDF needs for these parameters. `eta` counts only together with another
+/// feature.
 [[nodiscard]] inline Features features_of(const Parameters& p, const Layers& layers) {
   Features result{.is_anisotropic = p.anisotropy > 0,
                   .has_film = p.film.has_value(),

@@ -6,11 +6,11 @@
 
 namespace microtrace::bsdf {
 
-/// Coefficients in ascending powers; rows are powers of the first variable.
+/// The coefficients of a polynomial in two variables. p[i][j] is the coefficient of x^i y^j.
 template <std::size_t rows, std::size_t columns>
 using Polynomial2 = std::array<std::array<float, columns>, rows>;
 
-/// Horner's scheme for a Polynomial2, whose coefficients are numbers or lanes.
+/// Evaluates a Polynomial2 by Horner's scheme. Coefficients are numbers or lanes.
 template <int N, int rows, int columns, class Coefficient>
 [[nodiscard]] Float<N> value(const Coefficient* p, const Float<N>& x, const Float<N>& y) {
   Float<N> result{};
@@ -22,8 +22,9 @@ template <int N, int rows, int columns, class Coefficient>
   return result;
 }
 
-/// Substitutes the first two of four variables in n x n Polynomial2 of `size` coefficients each,
-/// and returns the coefficients of the polynomial in the other two.
+/// Substitutes x and y for the first two of a polynomial's four variables. `planes` contains, for
+/// each of n x n powers of these two, a Polynomial2 with `size` coefficients in the other two. Sets
+/// `sum` to the resulting coefficients in the other two variables.
 template <int N, int n, int size>
 void insert(const float* planes, const Float<N>& x, const Float<N>& y, Float<N> (&sum)[size]) {
   for (Float<N>& coefficient : sum) coefficient = Float<N>{};

@@ -1,6 +1,6 @@
 #pragma once
-/// Stores the parameters of one surface in lanes. Not to be included by the kernels' own
-/// translation units.
+/// Stores the parameters of one surface in lanes. The kernels' own translation units must not
+/// include this header.
 
 #include "render/bsdf/parameters.hpp"
 #include "render/kernels/lane_access.hpp"
@@ -8,7 +8,7 @@
 
 namespace microtrace::bsdf {
 
-/// The parameters that all surfaces have.
+/// Stores the parameters that all surfaces have.
 inline void put_surface(SurfaceLanes& lanes, int lane, const Parameters& p) {
   put(lanes.base_color, lane, p.base_color);
   lanes.metallic[lane] = p.metallic;
@@ -17,7 +17,7 @@ inline void put_surface(SurfaceLanes& lanes, int lane, const Parameters& p) {
   lanes.f90[lane] = p.dielectric.f90;
 }
 
-/// All other parameters except the normal of the coat.
+/// Stores all other parameters except for the coat's normal.
 inline void put_extensions(SurfaceLanes& lanes, int lane, const Parameters& p,
                            const Layers& layers) {
   lanes.transmission[lane] = p.transmission;

@@ -4,7 +4,8 @@
 
 namespace microtrace::bsdf {
 
-/// Lagrange's parabola through three neighboring points out of n in [0, 1].
+/// Quadratic Lagrange interpolation at x between three neighboring nodes out of n equidistant nodes
+/// in [0, 1].
 template <int N>
 struct Parabola {
   Int<N> first;
@@ -12,7 +13,8 @@ struct Parabola {
 
   Parabola(const Float<N>& x, int n) {
     const Float<N> step = x * static_cast<float>(n - 1);
-    // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+    // `step` is not negative, and ties may round either way.
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings)
     const Int<N> nearest = truncated<N>(step + 0.5F);
     const Int<N> least = Int<N>{} + 1, last = Int<N>{} + (n - 3);
     const Int<N> before = larger_of(nearest, least) - 1;
@@ -29,8 +31,8 @@ struct HatWeights {
   float value[n];
 };
 
-/// Integrals over [0, 1] of (m + 1) x^m times the piecewise linear hat functions of n equidistant
-/// points.
+/// The integrals over [0, 1] of (m + 1) x^m times each of the piecewise linear hat functions of n
+/// equidistant points.
 template <int m, int n>
 constexpr HatWeights<n> hat_weights() {
   const auto power = [](double x, int k) {
@@ -52,24 +54,26 @@ constexpr HatWeights<n> hat_weights() {
 }
 
 /// The energy deficit of single scattering at a rough refracting boundary, for light from either
-/// side, and the division of its multiple scattering between the sides (C. Kulla and A. Conty,
-/// Revisiting physically based shading at Imageworks, 2017). It rarely exceeds the actual loss.
+/// side, and the distribution of multiple scattering between the two sides (C. Kulla and A. Conty,
+/// Revisiting physically based shading at Imageworks, 2017). The computed deficit rarely exceeds
+/// the actual one.
 template <int N>
 class RefractionLoss {
  public:
   using F = Float<N>;
 
-  /// Without loss.
+  /// Constructs a boundary without loss.
   RefractionLoss() = default;
 
-  /// eta is the index of refraction below the boundary divided by that above; not 1.
+  /// `eta` is the index of refraction below the boundary divided by the index above. It must not be
+  /// 1.
   RefractionLoss(const F& roughness, const F& eta, const GreatestSchlick<N>& dielectric);
 
-  /// The loss for light to or from z = cos(theta) above the surface, or -z below it.
+  /// The loss for light to or from a direction with |cos(theta)| = z above or below the surface.
   [[nodiscard]] F above(const F& z) const { return at(z, above_is_thinner_); }
   [[nodiscard]] F below(const F& z) const { return at(z, 1 - above_is_thinner_); }
 
-  /// Cosine-weighted means of the losses.
+  /// The cosine-weighted means of above() and below().
   [[nodiscard]] F mean_above() const {
     return above_is_thinner_ != 0 ? mean_outside_ : mean_within_;
   }
@@ -77,8 +81,8 @@ class RefractionLoss {
     return above_is_thinner_ != 0 ? mean_within_ : mean_outside_;
   }
 
-  /// The fraction of the loss above the surface that multiple scattering transmits; the rest is
-  /// reflected.
+  /// The fraction of the loss above the surface that multiple scattering transmits. Multiple
+  /// scattering reflects the rest.
   [[nodiscard]] const F& through() const { return through_; }
 
  private:
@@ -87,7 +91,7 @@ class RefractionLoss {
   void add(const F& weight, const Int<N>& row);
   [[nodiscard]] F at(const F& z, const F& is_outside) const;
 
-  F above_is_thinner_ = all<N>(1);  // or 0
+  F above_is_thinner_ = all<N>(1);  // 1 or 0
   F critical_ = all<N>(0.5F);       // cosine of the critical angle
   F outside_[kLossColumns]{}, within_[kLossColumns]{};
   F mean_outside_{}, mean_within_{}, through_{};
@@ -118,9 +122,9 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
           (index.first + k) * rows + (row.first + j));
     }
   }
-  // The tables assume the reflectance that follows from the index. If the actual reflectance is
-  // smaller by a factor, at least this fraction of the loss remains. Nothing is known for other
-  // differences.
+  // The tables assume the reflectance that follows from the index of refraction. If the actual
+  // reflectance is f90 times as large, at least this fraction of the loss remains. Any other
+  // difference is subtracted, because its effect is unknown.
   const F unsure = magnitude(F(dielectric.f0 - dielectric.f90 * r * r));
   constexpr auto weights = hat_weights<3, kColumns>();
   constexpr auto cubic = hat_weights<3, kHalf>();
@@ -137,7 +141,7 @@ RefractionLoss<N>::RefractionLoss(const F& roughness, const F& eta,
   }
   mean_outside_ = larger_of(mean_outside_, all<N>(1e-6F));
   mean_within_ = larger_of(mean_within_, all<N>(1e-6F));
-  // By reciprocity, through / eta^2 divided by the other side's mean loss is the same from both
+  // By reciprocity, through / eta^2 divided by the mean loss of the opposite side is equal for both
   // sides.
   const F fresnel = dielectric.f0 + (dielectric.f90 - dielectric.f0) * (1 / 21.0F);
   const F ratio = eta * eta * mean_below() / mean_above();

@@ -7,8 +7,8 @@ namespace microtrace::bsdf {
 /// rendering, 1994).
 template <int N>
 struct Schlick {
-  Floats3<N> f0 = all3<N>(0.04F);  ///< at normal incidence
-  Float<N> f90 = all<N>(1);        ///< at grazing angles
+  Floats3<N> f0 = all3<N>(0.04F);  ///< reflectance at normal incidence
+  Float<N> f90 = all<N>(1);        ///< reflectance at grazing angles
 
   bool operator==(const Schlick&) const requires(N == 1) = default;
 

@@ -1,6 +1,6 @@
 #pragma once
-/// Sheen: fibers on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen
-/// BRDF, 2017), as in KHR_materials_sheen, for N lanes. Local coordinates as in ggx.hpp.
+/// Sheen of fibers on a surface (A. Conty Estevez and C. Kulla, Production friendly microfacet
+/// sheen BRDF, 2017), as in KHR_materials_sheen, for N lanes, in the local coordinates of ggx.hpp.
 
 #include "render/bsdf/ggx_albedo.hpp"
 #include "simd/exponential.hpp"
@@ -35,7 +35,7 @@ struct SheenTerms {
     return exponential<N>(is_low ? at : 2 * fit(D{} + 0.5) - at);
   }
 
-  /// D V, where h.z = sqrt(1 - sine_square).
+  /// D V for a half vector with h.z = sqrt(1 - sine_square).
   [[nodiscard]] D reflectance(const D& z_o, const D& z_i, const D& sine_square) const {
     const D d = (2 + 1 / alpha) * power<N>(smaller_of(sine_square, D{} + 1), 0.5 / alpha) *
                 (0.5 * std::numbers::inv_pi);
@@ -83,8 +83,8 @@ class SheenLobe {
   /// The directional albedo for z = cos(theta), at most 1.
   [[nodiscard]] F albedo(const F& z) const { return look_up(kTables.sheen_albedo, z); }
 
-  /// Samples a direction above the surface, at lower elevations for smoother fibers. z has the pdf
-  /// b (1 + b) / (z + b)^2.
+  /// Samples a direction above the surface. Smoother fibers give lower elevations: z has the pdf b
+  /// (1 + b) / (z + b)^2.
   [[nodiscard]] V direction(const Floats2<N>& u) const {
     const F b = 2 * roughness_, z = smaller_of(u.y * b / (1 + b - u.y), all<N>(1));
     const auto [cosine, sine] = sampling::unit_pair<N>(u.x);

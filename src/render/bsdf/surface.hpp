@@ -1,9 +1,9 @@
 #pragma once
 /// The parameters of BSDFs, for N lanes.
 ///
-/// Local coordinates: z is the shading normal on the side of wo. Directions are unit vectors that
-/// point away from the surface: wo to the previous vertex of the path, wi to the next, above or
-/// below.
+/// In local coordinates, z is the shading normal on the side of wo. Directions are unit vectors
+/// that point away from the surface. wo points to the previous vertex of the path. wi points to the
+/// next one, which may be above or below the surface.
 
 #include "render/bsdf/frame.hpp"
 #include "render/bsdf/schlick.hpp"
@@ -62,7 +62,7 @@ struct Surface {
     s.coat = load<N>(lanes.coat + i);
     s.coat_roughness = load<N>(lanes.coat_roughness + i);
     // If the coat's normal is the shading normal, it must be exactly z despite rounding, because
-    // Coating then compensates energy.
+    // Coating compensates energy only in this case.
     const V n = load3<N>(lanes.coat_normal, i);
     const auto is_shading_normal = is_zero(V(n - frame.n));
     s.coat_normal = select3(is_shading_normal, V{F{}, F{}, all<N>(1)}, frame.to_local(n));
@@ -70,7 +70,7 @@ struct Surface {
   }
 };
 
-/// f(wo, wi) |cos(theta_i)|, and the pdf with which wi is sampled, per solid angle.
+/// The value f(wo, wi) |cos(theta_i)|, and the pdf of sampling wi, per solid angle.
 template <int N>
 struct Evaluation {
   Floats3<N> value{};

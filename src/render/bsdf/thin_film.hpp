@@ -9,7 +9,7 @@
 
 namespace microtrace::bsdf {
 
-/// Covers part of a surface (KHR_materials_iridescence).
+/// A film that covers part of a surface (KHR_materials_iridescence).
 template <int N>
 struct ThinFilm {
   Float<N> share = all<N>(1);        ///< covered fraction, in [0, 1]
@@ -34,8 +34,8 @@ struct FilmTerms {
     return f0 + (1 - f0) * square(square(x)) * x;
   }
 
-  /// The Fourier transform of the CIE color matching functions for an optical path in nanometers,
-  /// as sums of Gaussians; in XYZ, with a phase shift for each component.
+  /// The Fourier transforms of the CIE XYZ color matching functions, approximated by Gaussians.
+  /// `path` is the optical path in nanometers, and `shift` the phase shift of each component.
   static V sensitivity(const D& path, const V& shift) {
     struct Gaussian {
       double value, position, variance, width;  // width: sqrt(2 pi variance)
@@ -62,7 +62,7 @@ struct FilmTerms {
 
   static V reflectance(const D& cosine, const D& film_ior, const D& thickness, const V& f0) {
     const D zero{}, one = zero + 1;
-    // Makes a film of zero thickness have no effect.
+    // Fades out the effect of very thin films, so that a film of zero thickness has none.
     const D s = clamped(D(thickness / 0.03), zero, one);
     const D ior = 1 + (film_ior - 1) * s * s * (3 - 2 * s);
     const D inner = square_root<N>(larger_of(D(1 - (1 - square(cosine)) / square(ior)), zero));
@@ -94,10 +94,10 @@ struct FilmTerms {
   }
 };
 
-/// The reflectance of a film with this index and thickness (nanometers) on a base with reflectance
-/// f0 at normal incidence, for light from air; `cosine` is that of the angle of incidence. Linear
-/// Rec. 709, each in [0, 1]. (L. Belcour and P. Barla, A practical extension to microfacet theory
-/// for the modeling of varying iridescence, 2017, in the form of KHR_materials_iridescence.)
+/// The reflectance of a film for light from air, in linear Rec. 709, with each channel in [0, 1].
+/// `f0` is the reflectance of the base at normal incidence, and `cosine` the cosine of the angle of
+/// incidence. (L. Belcour and P. Barla, A practical extension to microfacet theory for the modeling
+/// of varying iridescence, 2017, in the form of KHR_materials_iridescence.)
 template <int N>
 Floats3<N> thin_film_reflectance(const Float<N>& cosine, const ThinFilm<N>& film,
                                  const Floats3<N>& f0) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Selection of lights.
+/// Selects lights by their importance at points.
 
 #include "render/kernels/light_lanes.hpp"
 #include "render/lights/light_node.hpp"
@@ -7,16 +7,16 @@
 
 namespace microtrace {
 
-/// Selection probabilities at N points: of the environment, far lights, near lights.
+/// The probabilities of selecting the environment, far lights, and near lights at N points.
 template <int N>
 struct KindProbabilities {
   Float<N> environment, far, near;
 };
 
-/// Selects kinds of light in proportion to their estimated contributions, with a minimum
-/// probability. A uniform environment isn't sampled but has a probability too, so that fewer
-/// samples are spent where other lights contribute little. Its estimate is reduced, because little
-/// of it may arrive indoors.
+/// Computes probabilities of the kinds of light in proportion to their estimated contributions,
+/// with a minimum probability. A uniform environment has a probability too, although it isn't
+/// sampled: this spends fewer samples on other lights where they contribute little. Its estimate is
+/// reduced, because little of its light may arrive indoors.
 template <int N>
 KindProbabilities<N> kind_probabilities(const LightChoiceSetup& setup, const Doubles3<N>& p,
                                         const Floats3<N>& n) {
@@ -70,7 +70,7 @@ void choose_lights_from(const LightChoiceSetup& setup, LightChoices<width>& lane
   }
 }
 
-/// Processes as many points at a time as a vector has float64 lanes.
+/// Selects lights for all points. Processes as many points at a time as a vector has float64 lanes.
 template <int N, int width>
 void choose_lights(const LightChoiceSetup& setup, LightChoices<width>& lanes) {
   for (int i = 0; i < width; i += kDoubleLanes<N>)

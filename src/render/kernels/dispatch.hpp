@@ -1,6 +1,6 @@
 #pragma once
-/// The shading kernels of all instruction sets. Not to be included by the kernels' own translation
-/// units.
+/// Declares the shading kernels of all instruction sets. The kernels' own translation units must
+/// not include this header.
 
 #include "render/kernels/kernel.hpp"
 #include "simd/kernel_tables.hpp"

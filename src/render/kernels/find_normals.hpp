@@ -1,5 +1,5 @@
 #pragma once
-/// Shading normals from normal textures.
+/// Computes shading normals from normal textures.
 
 #include "render/kernels/kernel.hpp"
 #include "render/shading/normals.hpp"

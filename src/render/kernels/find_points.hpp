@@ -1,13 +1,13 @@
 #pragma once
-/// Intersection points of rays with triangles, and interpolated attributes.
+/// Computes the intersection points of rays and triangles, and interpolated attributes.
 
 #include "render/kernels/kernel.hpp"
 #include "simd/vector3.hpp"
 
 namespace microtrace {
 
-/// Computes the points of N paths starting at i. Intersects the rays with the planes of the
-/// triangles in float64, because Hit::t is rounded to float32.
+/// Computes the points of the N paths that start at lane i. Intersects the rays with the planes of
+/// the triangles in float64, because Hit::t is rounded to float32.
 template <int N, int width>
 void intersect_planes(HitArrays<width>& hits, int i) {
   using D = Double<N>;
@@ -36,7 +36,8 @@ void intersect_planes(HitArrays<width>& hits, int i) {
   narrowed<N>(length, hits.area + i);
 }
 
-/// Interpolates the attributes of points with these normals, barycentric weights and areas.
+/// Interpolates the attributes of points by the barycentric weights that intersect_planes() has
+/// computed.
 template <int N, int width>
 void interpolate(HitArrays<width>& hits, int i) {
   using F = Float<N>;
@@ -49,7 +50,7 @@ void interpolate(HitArrays<width>& hits, int i) {
                  load3<N>(hits.normals[2], i));
   const F square = dot(ns, ns);
   ns = select3(square > 0, V(ns / square_root<N>(square)), n);
-  // In some files the winding contradicts the normals; the winding defines the front.
+  // In some files, the winding contradicts the normals. The winding defines the front side.
   store3<N>(hits.ns, i, select3(dot(ns, n) < 0, V(-ns), ns));
   const auto at = [&](int corner, int axis) { return load<N>(hits.uv[corner][axis] + i); };
   for (int axis = 0; axis < 2; ++axis)
@@ -60,7 +61,7 @@ void interpolate(HitArrays<width>& hits, int i) {
   store<N>(hits.uv_scale + i, square_root<N>(uv_area / load<N>(hits.area + i)));
 }
 
-/// Processes N floats at a time.
+/// Computes all points and attributes, with vectors of N floats.
 template <int N, int width>
 void find_points(HitArrays<width>& hits) {
   for (int i = 0; i < width; i += kDoubleLanes<N>) intersect_planes<kDoubleLanes<N>>(hits, i);

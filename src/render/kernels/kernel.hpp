@@ -1,7 +1,7 @@
 #pragma once
 /// Types shared by the shading kernels of all instruction sets: input, output, and the table of
-/// functions. Plain data only: code of headers that other files include must not be compiled for a
-/// specific instruction set.
+/// functions. These are plain data only, because functions in a header that other files include
+/// must not be compiled for a specific instruction set.
 ///
 /// A kernel performs the same computation for up to kShadingLanes paths.
 
@@ -20,8 +20,8 @@ struct alignas(width * sizeof(float)) HitArrays {
 
   Floats o[3], d[3], t;
   Floats corners[3][3];  ///< [corner][axis]
-  Floats normals[3][3];  ///< of the vertices; zero if the mesh has none
-  Floats uv[3][2];       ///< of set 0; zero if the mesh has none
+  Floats normals[3][3];  ///< normals of the vertices; zero if the mesh has none
+  Floats uv[3][2];       ///< texture coordinates of set 0; zero if the mesh has none
   // ---- set by the kernel:
   Floats is_sure;  ///< 1 if the other results are valid; else 0
   Floats p[3], n[3], ns[3], weights[3], first_uv[2];
@@ -31,32 +31,33 @@ struct alignas(width * sizeof(float)) HitArrays {
 };
 using HitLanes = HitArrays<kShadingLanes>;
 
-/// Points on surfaces, for shading normals.
+/// Points on surfaces whose shading normals are needed.
 struct alignas(64) NormalLanes {
   LaneFloats d[3];            ///< direction of the incoming ray
-  LaneFloats n[3], ns[3];     ///< geometric and interpolated normal, of the front
-  LaneFloats side;            ///< 1 in front, -1 behind
-  LaneFloats tangents[3][3];  ///< of the vertices, [vertex][axis]
-  LaneFloats weights[3];      ///< barycentric
-  LaneFloats handedness;      ///< of the tangents; 0: no tangents
+  LaneFloats n[3], ns[3];     ///< geometric and interpolated normal of the front side
+  LaneFloats side;            ///< 1 if the ray hits the front, -1 if it hits the back
+  LaneFloats tangents[3][3];  ///< tangents of the vertices, [vertex][axis]
+  LaneFloats weights[3];      ///< barycentric weights of the vertices
+  LaneFloats handedness;      ///< handedness of the tangents; 0 if there are no tangents
 };
-/// A normal texture at these points.
+/// The texels of a normal texture at these points.
 struct alignas(64) NormalMapLanes {
   LaneFloats texel[3], scale;
-  LaneFloats is_mapped;  ///< 0: no texture
+  LaneFloats is_mapped;  ///< 0 if there is no texture
   // ---- set by the kernel:
-  LaneFloats normal[3];  ///< on the ray's side
+  LaneFloats normal[3];  ///< shading normal on the ray's side
 };
 
-/// Direct light and the next direction at surfaces with the same bsdf::Features.
+/// Path vertices on surfaces with the same bsdf::Features, for direct light and the next direction.
 struct alignas(64) ScatterLanes {
   LaneFloats d[3];  ///< direction of the incoming ray
   LaneFloats frame_n[3];
   LaneFloats outwards[3];  ///< geometric normal on the ray's side
   SurfaceLanes surface;
   LaneFloats throughput[3];
-  LaneFloats through_weight[3];                 ///< weight of light that crosses the surface
-  LaneFloats light_wi[3], light[3], light_pdf;  ///< LightSample; light is 0 if there is none
+  LaneFloats through_weight[3];  ///< weight of light that crosses the surface
+  /// Members of LightSample; light is 0 if there is no sample.
+  LaneFloats light_wi[3], light[3], light_pdf;
   std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< key and index of sampling::Sobol
   // ---- set by the kernel:
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
@@ -69,7 +70,7 @@ struct alignas(64) ScatterLanes {
 struct ScatterSetup {
   bsdf::Features features;
   std::uint32_t direction_pair, lobe_pair;
-  float most_survival;  ///< maximum survival probability; 1: no Russian roulette
+  float most_survival;  ///< maximum survival probability; 1 disables Russian roulette
 };
 
 struct ShadingKernels {

@@ -1,6 +1,6 @@
 #pragma once
-/// Loads and stores single paths' values in lanes. Not to be included by the kernels' own
-/// translation units.
+/// Loads and stores the values of single paths in lanes. The kernels' own translation units must
+/// not include this header.
 
 #include "render/kernels/kernel.hpp"
 

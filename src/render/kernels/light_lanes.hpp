@@ -1,5 +1,5 @@
 #pragma once
-/// Input and output of the kernels that sample lights. Plain data only; see kernel.hpp.
+/// Input and output of the kernels that sample lights. Contains only plain data; see kernel.hpp.
 
 #include "render/kernels/surface_lanes.hpp"
 #include "render/lights/light_node.hpp"
@@ -8,12 +8,12 @@
 
 namespace microtrace {
 
-/// The lights that are selected by their importance at a point.
+/// The lights among which a kernel selects by their importance at a point.
 struct LightChoiceSetup {
-  const LightNode* nodes = nullptr;  ///< nodes of the near lights' tree; null: there are no near
-                                     ///< lights
+  /// Nodes of the near lights' tree; null if there are no near lights.
+  const LightNode* nodes = nullptr;
   bool has_far = false;
-  double environment_light = 0, far_light = 0;  ///< upper estimates of irradiance
+  double environment_light = 0, far_light = 0;  ///< estimated upper bounds of irradiance
 };
 
 enum class LightKind : std::uint8_t { none, environment, far, near };
@@ -21,9 +21,9 @@ enum class LightKind : std::uint8_t { none, environment, far, near };
 /// Points for which lights are selected.
 template <int width>
 struct alignas(width * sizeof(float)) LightChoices {
-  float p[3][width], n[3][width];  ///< the point and its unit normal, on either side
-  float choice[width];             ///< in [0, 1); rescaled to [0, 1) by the kernel, unless no kind
-                                   ///< is selected
+  float p[3][width], n[3][width];  ///< points, and their unit normals on either side
+  float choice[width];  ///< random number in [0, 1); the kernel rescales it to [0, 1) unless no
+                        ///< kind is selected
   // ---- set by the kernel:
   LightKind kind[width];
   double probability[width];   ///< selection probability of the environment, the far lights or the
@@ -31,10 +31,10 @@ struct alignas(width * sizeof(float)) LightChoices {
   std::uint32_t light[width];  ///< index among the near lights
 };
 
-/// Samples of emissive triangles: LightSample.
+/// Samples of emissive triangles, in the form of LightSample.
 template <int width>
 struct alignas(width * sizeof(float)) TriangleLights {
-  float p[3][width];           ///< the point that is lit
+  float p[3][width];           ///< the illuminated point
   float corners[3][3][width];  ///< [corner][axis]
   float u[2][width];
   float emission[3][width], coverage[width];  ///< at the sampled point, as seen from the front
@@ -43,7 +43,7 @@ struct alignas(width * sizeof(float)) TriangleLights {
   // ---- set by the kernel:
   float is_far[width];  ///< 1 if to_light is only a direction, else 0
   float to_light[3][width], wi[3][width], light[3][width];
-  float pdf[width];  ///< 0: no light
+  float pdf[width];  ///< 0 if the triangle contributes no light
 };
 
 }  // namespace microtrace

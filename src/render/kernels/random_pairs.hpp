@@ -1,5 +1,5 @@
 #pragma once
-/// Random numbers.
+/// Computes pairs of random numbers.
 
 #include "render/kernels/kernel.hpp"
 #include "render/sampling/sobol.hpp"

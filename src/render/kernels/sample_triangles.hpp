@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of emissive triangles.
+/// Samples emissive triangles.
 
 #include "render/kernels/light_lanes.hpp"
 #include "render/lights/light_limits.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-/// Direct light, and sampling of the next direction.
+/// Computes direct light and samples the next direction.
 
 #include "render/bsdf/bsdf.hpp"
 #include "render/integrators/power_heuristic.hpp"
@@ -8,7 +8,7 @@
 
 namespace microtrace {
 
-/// N vertices of paths on surfaces of one kind, starting at i.
+/// The N path vertices that start at lane i, on surfaces of one kind.
 template <int N, class Parts>
 class Vertices {
  public:
@@ -54,7 +54,8 @@ class Vertices {
     sample_direction(setup, bsdf);
   }
 
-  /// The lanes in which the geometric and the shading normal put a direction on the same side.
+  /// The lanes in which a direction is on the same side of the surface according to the geometric
+  /// and the shading normal.
   [[nodiscard]] auto is_consistent(const V& wi, const F& local_z) const {
     const F cosine = dot(wi, outwards_);
     if (!features_.transmits) return (local_z > 0) & (cosine > 0);

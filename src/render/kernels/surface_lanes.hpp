@@ -1,5 +1,5 @@
 #pragma once
-/// The parameters of surfaces in lanes. Plain data only; see kernel.hpp.
+/// The parameters of surfaces in lanes. Contains only plain data; see kernel.hpp.
 
 namespace microtrace {
 
@@ -8,8 +8,8 @@ inline constexpr int kShadingLanes = 16;
 /// One float per path.
 using LaneFloats = float[kShadingLanes];
 
-/// The members of bsdf::Parameters and bsdf::Layers. Kernels read the second part only if
-/// bsdf::Features require it.
+/// The members of bsdf::Parameters and bsdf::Layers. Kernels read the second group of members only
+/// if bsdf::Features require it.
 struct alignas(64) SurfaceLanes {
   LaneFloats base_color[3], metallic, roughness, f0[3], f90;
 

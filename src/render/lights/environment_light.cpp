@@ -17,23 +17,23 @@
 namespace microtrace {
 namespace {
 
-/// The intensity is multiplied by radiance, which is at most kBrightest in files.
+/// The maximum intensity. The product with the greatest radiance of a map, 2^30, is kBrightest.
 constexpr float kGreatestIntensity = kBrightest / 0x1p30F;
 
 constexpr float kUniformPdf = static_cast<float>(0.25 / std::numbers::pi);
 
-/// x clamped to [0, size); NaN gives 0.
+/// Clamps x to [0, size). NaN gives 0.
 float clamped(float x, float size) {
   if (!(x >= 0)) return 0;
   return x < size ? x : std::nextafter(size, 0.0F);
 }
 
-/// A direction's distance from the y axis.
+/// The distance of a direction's end point from the y axis.
 float axis_range_of(const Vec3& d) {
   return std::sqrt(d.x * d.x + d.z * d.z);
 }
 
-/// The angle as a fraction of a revolution, in [0, 1).
+/// Converts an angle to the fractional part of its revolutions, in [0, 1).
 float part_of_turn(double radians) {
   const double turns = radians / (2 * std::numbers::pi);
   const auto part = static_cast<float>(turns - std::floor(turns));
@@ -80,9 +80,9 @@ EnvironmentLight::EnvironmentLight(const Environment& environment,
 MapPlace EnvironmentLight::place_of(const Vec3& d, float axis_range) const {
   const float turns = atan2_revolutions(d.z, d.x) + (0.5F + turn_);  // in [0, 2)
   const float u = turns - chosen(turns >= 1, 1, 0);
-  // Pixel centers are at integers from 0; 1 is added to keep the result positive.
+  // In these coordinates, the center of pixel k is at k + 1, which keeps x positive.
   const float x = clamped(u * width_, width_) + 0.5F;
-  // Unlike acos(y), precise at the poles.
+  // atan2 is precise at the poles, unlike acos(y).
   const float y = clamped(2 * height_ * atan2_revolutions(axis_range, d.y), height_) + 0.5F;
   const auto column = static_cast<std::uint32_t>(x), line = static_cast<std::uint32_t>(y);
   return {.column = column < tables_->map->width ? column : 0,

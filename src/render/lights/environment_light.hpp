@@ -1,5 +1,5 @@
 #pragma once
-/// Environment lights: radiance, and sampling of directions.
+/// Environment lights: lookup of radiance, and sampling of directions.
 
 #include "base/memory_account.hpp"
 #include "render/lights/map_distribution.hpp"
@@ -16,7 +16,7 @@ namespace microtrace {
 /// A radiance map with its sampling tables.
 struct MapTables {
   std::shared_ptr<const RadianceMap> map;
-  MemoryAccount memory;  ///< of the tables, which several scenes may share
+  MemoryAccount memory;  ///< memory of the tables, which several scenes may share
   MapDistribution distribution;
 
   MapTables(std::shared_ptr<const RadianceMap> m, MemoryAccount account)
@@ -26,40 +26,44 @@ struct MapTables {
 /// The tables of an environment's map; null for a uniform environment.
 [[nodiscard]] std::shared_ptr<const MapTables> tables_of(const Environment& environment);
 
-/// Directions are in world space, of about unit length, and point away from the surface. Any number
-/// of threads may use it.
+/// The light from an environment. Directions are in world space, have approximately unit length,
+/// and point away from the surface. Any number of threads may use the object.
 class EnvironmentLight {
  public:
   explicit EnvironmentLight(const Environment& environment)
       : EnvironmentLight(environment, tables_of(environment)) {}
-  /// `tables` are those of the environment.
+  /// `tables` must be tables_of(environment).
   EnvironmentLight(const Environment& environment, std::shared_ptr<const MapTables> tables);
 
-  /// Linear Rec. 709, in the environment's unit: W / (sr m^2) or cd / m^2.
+  /// The radiance from a direction in linear Rec. 709, in the environment's unit: W / (sr m^2) or
+  /// cd / m^2.
   [[nodiscard]] Vec3 radiance(const Vec3& direction) const;
 
-  /// Uniform radiance: BSDF sampling is at least as good as sampling the environment.
+  /// True if the radiance is uniform. BSDF sampling is then at least as good as sampling the
+  /// environment.
   [[nodiscard]] bool is_uniform() const { return !tables_; }
 
   struct Sample {
     Vec3 wi;
-    Vec3 radiance;  ///< radiance(wi), except for rounding
-    float pdf;      ///< pdf of wi, above 0, except for rounding of wi
+    Vec3 radiance;  ///< equals radiance(wi) except for rounding
+    float pdf;      ///< the pdf of the unrounded wi; positive
   };
-  /// Samples directions approximately in proportion to their radiance; each of u is in [0, 1)^2.
-  /// Takes up to MapDistribution::kMostSamples, which is faster than one at a time.
+  /// Samples directions approximately in proportion to their radiance. Each element of u is in [0,
+  /// 1)^2. Takes up to MapDistribution::kMostSamples elements at a time, which is faster than one
+  /// by one.
   void sample(std::span<const Vec2> u, std::span<Sample> samples) const;
 
   struct Lookup {
     Vec3 radiance;
-    float pdf;  ///< of sample(), per steradian; never 0
+    float pdf;  ///< pdf of sample(), per steradian; never 0
   };
   [[nodiscard]] Lookup lookup(const Vec3& direction) const;
 
-  /// The mean luminance over all directions, in the unit of radiance.
+  /// The mean luminance over all directions, in the unit of radiance().
   [[nodiscard]] float mean_luminance() const { return mean_luminance_; }
-  /// The mean luminance of the part that sample() covers; BSDF sampling finds the rest as well. A
-  /// uniform environment has the value of a constant map.
+  /// The mean luminance of the part of the light that sample() is meant for. BSDF sampling finds
+  /// the rest equally well. For a uniform environment, this is the value that a constant map would
+  /// have.
   [[nodiscard]] float sampled_luminance() const { return sampled_luminance_; }
 
  private:
@@ -68,7 +72,7 @@ class EnvironmentLight {
   [[nodiscard]] MapPlace place_of(const Vec3& direction, float axis_range) const;
 
   Vec3 uniform_{0};
-  std::shared_ptr<const MapTables> tables_{};  ///< null: uniform_
+  std::shared_ptr<const MapTables> tables_{};  ///< null if the radiance is uniform_
   float width_ = 0, height_ = 0;               ///< size of the map
   float intensity_;
   float turn_;       ///< added to a direction's longitude, in [0, 1)

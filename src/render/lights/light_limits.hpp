@@ -6,11 +6,11 @@
 
 namespace microtrace {
 
-/// Limits of the distance to a light, so that the vector to it is representable in float32 without
-/// loss of digits.
+/// Limits of the distance to a light. Within them, float32 represents the vector to the light with
+/// full precision.
 inline constexpr double kLeastReach = 0x1p-126, kGreatestReach = 0x1.fffffep127;
 
-/// Clamps the pdf to numbers whose square is representable in float32.
+/// Clamps a pdf to the numbers whose squares float32 can represent.
 template <int N>
 Double<N> limited_pdf(const Double<N>& pdf) {
   constexpr double kMost = 0x1p60;
@@ -18,15 +18,15 @@ Double<N> limited_pdf(const Double<N>& pdf) {
   return pdf < kMost ? larger_of(pdf, zero + 1 / kMost) : zero + kMost;
 }
 
-/// The pdf per solid angle of a point that is uniformly distributed over an area, as seen from a
-/// distance with this square. `cosine`, above 0, is that of the angle between the direction and the
-/// surface normal.
+/// The pdf, per solid angle, of the direction to a point that is uniformly distributed over an
+/// area. `square` is the squared distance. `cosine` is the cosine of the angle between the
+/// direction and the surface normal; it must be positive.
 template <int N>
 Double<N> area_pdf(const Double<N>& square, const Double<N>& area, const Float<N>& cosine) {
   return square / (area * to_double<N>(cosine));
 }
 
-/// A light selected with some probability, in the form that shadow rays need.
+/// A sample of a light that was selected with some probability, in the form needed for shadow rays.
 template <int N>
 struct SelectedLight {
   Floats3<N> to_light;
@@ -35,13 +35,13 @@ struct SelectedLight {
   Float<N> pdf;
 };
 
-/// `light` and `pdf` are without the selection probability; `distance` is the length of to_light. A
-/// pdf of 0 stays 0.
+/// Combines a sample with the probability of selecting its light. `light` and `pdf` must not
+/// contain this probability. `distance` must be the length of to_light. A pdf of 0 remains 0.
 template <int N>
 SelectedLight<N> selected_light(const Doubles3<N>& to_light, const Double<N>& distance,
                                 const Floats3<N>& wi, const Doubles3<N>& light,
                                 const Double<N>& pdf, const Double<N>& probability) {
-  // Without a direction that is representable in float32 there is no shadow ray.
+  // If float32 can't represent the direction, there is no shadow ray.
   const auto has_direction =
       single_mask<N>((distance >= kLeastReach) & (distance <= kGreatestReach));
   const Double<N> most = Double<N>{} + double{kBrightest};

@@ -1,5 +1,5 @@
 #pragma once
-/// The importance of bounded lights, for N lanes.
+/// The importance of lights in light tree nodes, for N lanes.
 
 #include "render/sampling/warps.hpp"
 #include "simd/vector3.hpp"
@@ -9,22 +9,23 @@
 
 namespace microtrace {
 
-/// A node of the light tree. Derived values are float64, because float32 can't represent squares
-/// and products of many float32 numbers. Plain data, shared by the kernels of all instruction sets.
+/// A node of the light tree. Derived values are float64, because squares and products of float32
+/// numbers may exceed float32's range. Nodes are plain data, because the kernels of all instruction
+/// sets share them.
 struct LightNode {
-  double center[3];      ///< of the box
-  double radius_square;  ///< of its bounding sphere
+  double center[3];      ///< center of the bounding box
+  double radius_square;  ///< squared radius of the box's bounding sphere
   double power;
-  float axis[3];               ///< of the cone of normals; unit length
-  float cos_o, sin_o;          ///< half its opening angle
-  float cos_e;                 ///< lights emit up to this angle from each normal
-  std::uint32_t is_two_sided;  ///< 1: emits around -axis too
+  float axis[3];       ///< axis of the cone of normals, of unit length
+  float cos_o, sin_o;  ///< cosine and sine of half the cone's opening angle
+  float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
+  std::uint32_t is_two_sided;  ///< 1 if the lights also emit around -axis
   std::uint32_t is_leaf = 1;
   std::uint32_t second = 0;  ///< index of the second child; the first follows its parent
-  std::uint32_t light = 0;   ///< of leaves
+  std::uint32_t light = 0;   ///< index of the light in a leaf
 };
 
-/// Below the square of every nonzero distance between float32 points.
+/// A number less than the square of any nonzero distance between float32 points.
 inline constexpr double kLeastSquare = 0x1p-300;
 
 /// An angle in [0, pi].
@@ -37,7 +38,7 @@ struct LightAngle {
   static LightAngle of(const F& cosine) {
     return {cosine, square_root<N>(larger_of(F(1 - cosine * cosine), F{}))};
   }
-  /// Clamped to 0.
+  /// The difference of two angles, at least 0.
   friend LightAngle operator-(const LightAngle& a, const LightAngle& b) {
     const auto is_zero = a.cosine >= b.cosine;
     return {is_zero ? all<N>(1) : a.cosine * b.cosine + a.sine * b.sine,
@@ -56,7 +57,7 @@ struct LightNodes {
   Floats3<N> axis;
   F cos_o, sin_o, cos_e, is_two_sided;
 
-  /// The same node in all lanes.
+  /// Puts the same node in all lanes.
   explicit LightNodes(const LightNode& node)
       : center{D{} + node.center[0], D{} + node.center[1], D{} + node.center[2]},
         radius_square(D{} + node.radius_square),
@@ -97,8 +98,8 @@ struct LightNodes {
     return result;
   }
 
-  /// An upper bound of the light at p, without the BSDF and a constant factor; `n` is the unit
-  /// normal at p, on either side.
+  /// An upper bound of the light that arrives at p, except for the BSDF and a constant factor. `n`
+  /// is the unit normal at p on either side.
   [[nodiscard]] D importance(const Doubles3<N>& p, const Floats3<N>& n) const {
     const F zero{}, one = all<N>(1);
     const D to_zero{};
@@ -123,11 +124,12 @@ struct LightNodes {
   }
 };
 
-/// The minimum probability of a child from which light can come, because the seemingly brighter
+/// The minimum probability of a child that may contribute light, because the seemingly brighter
 /// child may be occluded.
 inline constexpr float kLeastProbability = 0x1p-12F;
 
-/// The probability of the first child of inner nodes; negative if neither child contributes.
+/// The probability of selecting the first child of inner nodes; negative if neither child
+/// contributes.
 template <int N>
 Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&indices)[N],
                            const Doubles3<N>& p, const Floats3<N>& n) {
@@ -144,14 +146,14 @@ Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&indices
   return is_first ? (is_second ? share : all<N>(1)) : (is_second ? Float<N>{} : all<N>(-1));
 }
 
-/// Selected lights.
+/// The light selected in each lane.
 template <int N>
 struct LightChoice {
   std::uint32_t light[N];
   Double<N> probability;  ///< selection probability at each point; 0: no light reaches the point
 };
 
-/// Selects a light for each lane; u in [0, 1).
+/// Selects a light for each lane. u is in [0, 1).
 template <int N>
 LightChoice<N> choose_light(const LightNode* nodes, const Doubles3<N>& p, const Floats3<N>& n,
                             Float<N> u) {

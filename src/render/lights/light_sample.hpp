@@ -11,20 +11,20 @@
 
 namespace microtrace {
 
-/// A light sample: light that reaches a point from one direction if it is not occluded.
+/// A light sample: the light that reaches a point from one direction unless it is occluded.
 struct LightSample {
   Vec3 to_light{0};  ///< vector from the point to the light; of any length if the light is
                      ///< infinitely far away
   bool is_far = false;
   Vec3 wi{0, 0, 1};  ///< unit direction to the light
-  Vec3 light{0};     ///< radiance / pdf; for punctual lights, irradiance of a facing surface /
-                     ///< selection probability
-  float pdf = 0;     ///< per solid angle; 0 for punctual lights, which no path can hit
+  Vec3 light{0};  ///< radiance / pdf; for punctual lights, irradiance on a surface that faces the
+                  ///< light / selection probability
+  float pdf = 0;  ///< per solid angle; 0 for punctual lights, which no path can hit
   std::optional<PrimitiveId> target{};  ///< the emitter, if it is a surface
 };
 
-/// A light sample without the selection probability, in float64, because float32 can't represent
-/// the squares of all float32 distances.
+/// A light sample without the selection probability. It is in float64, because float32 can't
+/// represent the squares of all float32 distances.
 struct FoundLight {
   DVec3 to_light{0};
   bool is_far = false;

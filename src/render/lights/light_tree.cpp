@@ -11,14 +11,14 @@
 namespace microtrace {
 namespace {
 
-/// At this depth and below, lights are split into halves by count, so that no path exceeds the bits
-/// of a trail: 24 levels plus 32 for 32-bit indices.
+/// From this depth on, lights are split into halves by count. This limits paths to 24 levels plus
+/// 32 for 32-bit indices, so that they fit into the 64 bits of a trail.
 constexpr unsigned kDeepest = 24;
 constexpr int kBuckets = 12;
 
 using Angle = LightAngle<1>;
 
-/// a + b, at most pi.
+/// Returns the lesser of a + b and pi.
 Angle sum(const Angle& a, const Angle& b) {
   const float sine = a.sine * b.cosine + a.cosine * b.sine;
   if (sine < 0 || a.cosine == -1 || b.cosine == -1) return {-1, 0};
@@ -35,7 +35,7 @@ LightCone united(const LightCone& a, const LightCone& b) {
       sum(Angle::of(std::min(glm::dot(cone.axis, a.axis), 1.0F)), Angle::of(a.cos_o));
   const Angle to_b =
       sum(Angle::of(std::min(glm::dot(cone.axis, b.axis), 1.0F)), Angle::of(b.cos_o));
-  // Slightly widened to compensate for rounding.
+  // Widens the cone slightly to compensate for rounding.
   cone.cos_o = std::max(std::min(to_a.cosine, to_b.cosine) - 1e-6F, -1.0F);
   return cone;
 }
@@ -72,8 +72,7 @@ struct Bucket {
     bounds = count == 0 ? other.bounds : united(bounds, other.bounds);
     count += other.count;
   }
-  /// The cost is the power times the area of the box; the box of a single light may be flat or a
-  /// point.
+  /// The power times the area of the box. The minimum area is for boxes that are flat or points.
   [[nodiscard]] double cost(double least_area) const {
     return bounds.power * (half_area(bounds.low, bounds.high) + least_area);
   }
@@ -123,7 +122,7 @@ void LightTree::build(const std::vector<LightBounds>& lights, std::vector<std::u
   const DVec3 extent = high - low;
   const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
 
-  // Splits at the cheapest bucket boundary; in halves if there is none, or below kDeepest.
+  // Splits at the cheapest bucket boundary, or into halves if there is none or from kDeepest on.
   std::size_t middle = begin + (end - begin) / 2;
   if (extent[axis] > 0 && depth < kDeepest) {
     const double scale = kBuckets / extent[axis];

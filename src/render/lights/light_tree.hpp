@@ -1,7 +1,8 @@
 #pragma once
 /// Selects one of many lights (A. Conty Estevez and C. Kulla, Importance sampling of many lights
-/// with adaptive tree splitting, 2018). A tree of boxes and cones is traversed from the root to one
-/// light; the probability of each child is proportional to an upper bound of its contribution.
+/// with adaptive tree splitting, 2018). The selection descends a tree of boxes and cones from the
+/// root to one light. The probability of each child is proportional to an upper bound of its
+/// contribution.
 
 #include "render/lights/light_node.hpp"
 
@@ -16,11 +17,11 @@
 
 namespace microtrace {
 
-/// Normals within an angle theta_o of an axis. The lights emit up to theta_e from each normal;
-/// theta_o + theta_e is at most pi.
+/// A cone of normals within the angle theta_o of an axis. Lights emit at angles up to theta_e from
+/// each normal. theta_o + theta_e is at most pi.
 struct LightCone {
   Vec3 axis{0, 0, 1};  ///< unit length
-  float cos_o = 1;     ///< -1: all directions
+  float cos_o = 1;     ///< cosine of theta_o; -1 for all directions
   float cos_e = 0;
 };
 
@@ -29,13 +30,13 @@ struct LightBounds {
   Vec3 low{0}, high{0};  ///< world space
   double power = 0;
   LightCone cone{};
-  bool two_sided = false;  ///< emits around -axis too
+  bool two_sided = false;  ///< true if the lights also emit around -axis
 
   /// See LightNodes::importance().
   [[nodiscard]] double importance(const Vec3& p, const Vec3& n) const;
 };
 
-/// The nearest finite float32 point.
+/// The finite float32 point that is nearest to p.
 [[nodiscard]] inline Vec3 finite_point(const DVec3& p) {
   constexpr double kMost = std::numeric_limits<float>::max();
   return Vec3(glm::clamp(p, DVec3(-kMost), DVec3(kMost)));
@@ -47,11 +48,11 @@ struct LightBounds {
 /// Immutable; may be used by any number of threads.
 class LightTree {
  public:
-  /// Takes the bounds of each light, at least one; each power is above 0. The lights keep their
-  /// order.
+  /// Builds the tree from the bounds of at least one light. Each power must be positive. Lights
+  /// keep their indices.
   explicit LightTree(const std::vector<LightBounds>& lights);
 
-  /// The nodes; the first is the root.
+  /// The nodes, starting with the root.
   [[nodiscard]] const LightNode* nodes() const { return nodes_.data(); }
 
   /// The probability with which choose_light() selects this light.
@@ -62,8 +63,8 @@ class LightTree {
              std::size_t begin, std::size_t end, std::uint64_t trail, unsigned depth);
 
   std::vector<LightNode> nodes_;
-  /// The path from the root to each light: one bit per level, lowest bit first; 1 is the second
-  /// child.
+  /// The path from the root to each light, with one bit per level, lowest bit first. A set bit
+  /// means the second child.
   std::vector<std::uint64_t> trails_;
 };
 

@@ -14,7 +14,7 @@ Lighting::Lighting(const Emitters& emitters, std::optional<EnvironmentLight> env
       environment_(std::move(environment)),
       is_seen_(is_seen),
       setup_(emitters.choice_setup()) {
-  if (environment_)  // approximate irradiance of a surface
+  if (environment_)  // approximate irradiance on a surface
     setup_.environment_light = double{environment_->sampled_luminance() / bsdf::kInversePi};
 }
 

@@ -16,42 +16,43 @@
 
 namespace microtrace {
 
-/// Immutable; any number of threads may use it.
+/// All light of a picture. Immutable; any number of threads may use it.
 class Lighting {
  public:
-  /// The emitters must outlive this. `is_seen`: whether the environment is visible to camera rays.
+  /// The emitters must outlive this object. `is_seen` is true if the environment is visible to
+  /// camera rays.
   Lighting(const Emitters& emitters, std::optional<EnvironmentLight> environment, bool is_seen);
 
-  /// Samples a light for each of `count` points: `choices.choice` selects the light, `u` the
-  /// position on it. The sample has no light if a uniform environment is selected, because that is
-  /// left to BSDF sampling. The other members of `choices` and `triangles` are working memory of
-  /// the kernels.
+  /// Samples a light for each of `count` points. `choices.choice` selects the light, and
+  /// `triangles.u` the position on it. If a uniform environment is selected, the sample has no
+  /// light, because uniform environments are left to BSDF sampling. The other members of `choices`
+  /// and `triangles` are working memory of the kernels.
   void sample(const ShadingKernels& kernels, int count, LightChoices<kShadingLanes>& choices,
               TriangleLights<kShadingLanes>& triangles,
               std::span<LightSample, kShadingLanes> samples) const;
 
-  /// Whether sample() can return light.
+  /// True if sample() can return light.
   [[nodiscard]] bool can_sample() const {
     return emitters_.has_near() || emitters_.has_far() || samples_environment();
   }
 
-  /// Whether paths can hit light, from the environment or emissive surfaces.
+  /// True if paths can reach light by chance: the environment or emissive surfaces.
   [[nodiscard]] bool may_surround() const { return environment_ || emitters_.has_surfaces(); }
 
-  /// Whether the environment is visible to camera rays.
+  /// True if the environment is visible to camera rays.
   [[nodiscard]] bool is_seen() const { return is_seen_; }
 
-  /// Radiance from a unit direction.
+  /// The environment's radiance from a unit direction.
   [[nodiscard]] Vec3 environment(const Vec3& wi) const {
     return environment_ ? environment_->radiance(wi) : Vec3(0);
   }
-  /// The same, with the pdf with which sample() returns this direction for the context.
+  /// The radiance, and the pdf of this direction if sample() samples a light at the context.
   [[nodiscard]] EnvironmentLight::Lookup environment(const LightSampleContext& context,
                                                      const Vec3& wi) const;
 
-  /// The pdf with which sample() returns a point of an emissive surface that a path from the
-  /// context hits after `distance`. `cosine` is that of the angle between the path and the
-  /// surface's normal.
+  /// The pdf with which sample() would sample the point of an emissive surface that a path from the
+  /// context hits after `distance`. `cosine` is the cosine of the angle between the path and the
+  /// surface normal.
   [[nodiscard]] float emitter_pdf(PrimitiveId id, const LightSampleContext& context, float distance,
                                   float cosine) const;
 

@@ -13,11 +13,11 @@ namespace microtrace {
 namespace {
 
 constexpr std::uint32_t kWhole = 1U << 24U;
-/// The minimum probability of a row, and of a cell in its row, relative to the mean. With 65537 of
-/// them it is still above 2^-24.
+/// The minimum probability of a row, and of a cell within its row, relative to the mean. Even with
+/// 65537 rows or cells, this minimum exceeds 2^-24.
 constexpr double kFloor = 1.0 / 128;
 
-/// Converts weights to cumulative bounds from 0 to kWhole.
+/// Converts weights to cumulative bounds that range from 0 to kWhole.
 void accumulate(std::span<const double> weights, double total, std::uint32_t* bounds) {
   double sum = 0;
   *bounds = 0;
@@ -28,31 +28,32 @@ void accumulate(std::span<const double> weights, double total, std::uint32_t* bo
   *bounds = kWhole;
 }
 
-/// Entry g of `count` is the start of the search for g / count: the last bound that is not above
-/// it.
+/// Makes the guide table. Entry g of `count` is the index of the last bound that does not exceed g
+/// / count, where the search for larger numbers starts.
 template <class Index>
 void make_guide(std::span<const std::uint32_t> bounds, Index* guide) {
   const std::size_t count = bounds.size() - 1;
   std::size_t i = 0;
   for (std::size_t g = 0; g < count; ++g) {
-    // The least number that entry g is used for.
+    // The least number for which entry g is used.
     const std::size_t least = (g * kWhole + count - 1) / count;
     while (bounds[i + 1] <= least) ++i;
     guide[g] = static_cast<Index>(i);
   }
 }
 
-/// The 24-bit number that u selects.
+/// Converts u to a 24-bit number.
 std::uint32_t number_of(float u) {
   return std::min(static_cast<std::uint32_t>(u * 0x1p24F), kWhole - 1);
 }
 
-/// The index of the guide's entry for a number; the guide has `count` entries.
+/// The index of the entry for a number in a guide with `count` entries.
 std::size_t entry_of(std::uint32_t number, std::uint32_t count) {
   return std::uint64_t{number} * count >> 24U;
 }
 
-/// Inverts the cumulative distribution of a pdf that is linear from a to b; u > 0.
+/// Inverts the cumulative distribution of a pdf on [0, 1] that is linear from a to b. u must be
+/// positive.
 float inverted(float a, float b, float u) {
   const float root = std::sqrt(a * a + u * (b * b - a * a));
   return std::min(u * (a + b) / (a + root), 1.0F);
@@ -76,7 +77,7 @@ MapDistribution::MapDistribution(const RadianceMap& map)
   for (std::uint32_t line = 0; line <= height_; ++line) {
     const auto sine = [&](double y) { return static_cast<float>(sin_radians(step * y)); };
     rows_[line].sines = {sine(line - 0.5), sine(height_ - line - 0.5)};
-    // Makes the weights of polar rows proportional to solid angle, as in other rows.
+    // Makes the weights of polar rows proportional to solid angle, like those of other rows.
     if (is_polar(line)) rows_[line].sines.fill(static_cast<float>(2 * half * half / step));
   }
   find_mean();
@@ -93,8 +94,8 @@ void MapDistribution::find_mean() {
       for (const Vec3& pixel : std::span(map_.pixels).subspan(std::size_t{line} * width_, width_))
         below += luminance(DVec3(pixel));
     }
-    // Integrals of the sine over the row of cells, and over its part that is weighted by the lower
-    // pixels.
+    // The integrals over the row of cells of the sine, and of the sine times the weight of the
+    // lower pixels.
     const double top = step * std::max(line - 0.5, 0.0);
     const double bottom = step * std::min(line + 0.5, double{1} * height_);
     const double all = cos_radians(top) - cos_radians(bottom);
@@ -103,7 +104,7 @@ void MapDistribution::find_mean() {
     sum += lower * below + (all - lower) * above;
   }
   mean_luminance_ = sum / (2 * width_);
-  // Treats smaller means as 0, because their inverse exceeds the range of float.
+  // Treats smaller means as 0, because their inverses might exceed the range of float.
   scale_ = mean_luminance_ > 1e-30 ? static_cast<float>(1 / mean_luminance_) : 0;
 }
 
@@ -167,7 +168,8 @@ template <class Index>
 MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index start,
                                              std::uint32_t number) {
   std::uint32_t i = start;
-  // Mostly takes at most two steps. They have no branches, because branches would be unpredictable.
+  // Usually, at most two steps are needed. They are done without branches, which would be
+  // unpredictable.
   i += std::uint32_t{bounds[i + 1] <= number};
   i += std::uint32_t{bounds[i + 1] <= number};
   while (bounds[i + 1] <= number) ++i;
@@ -176,8 +178,8 @@ MapDistribution::Found MapDistribution::find(const std::uint32_t* bounds, Index 
   return {.index = i, .count = count, .place = offset / static_cast<float>(count)};
 }
 
-// Works in steps, each of which prefetches the data of the next: the tables and the map don't fit
-// into the first caches.
+// Works in steps, each of which prefetches the data of the next step, because the tables and the
+// map don't fit into the fastest caches.
 void MapDistribution::sample(std::span<const Vec2> u, std::span<Point> points) const {
   std::array<Found, kMostSamples> lines, columns;
   std::array<const std::uint16_t*, kMostSamples> guides;
@@ -206,8 +208,8 @@ MapDistribution::Point MapDistribution::point_in(const Found& line, const Found&
   const auto w = weights(row, corners_of(map_, point.place));
   const bool is_south = 2 * line.index > height_;
   if (is_polar(line.index)) {
-    // Uniform in solid angle: linear in (1 - cos(theta)) / 2, measured from the nearer pole for
-    // precision.
+    // Polar cells are uniform in solid angle, so h = (1 - cos(theta)) / 2 is uniform. It is
+    // measured from the nearer pole for precision.
     const float h = (is_south ? 1 - line.place : line.place) * polar_h_;
     point.height = 1 - 2 * h;
     point.axis_range = 2 * std::sqrt(h * (1 - h));

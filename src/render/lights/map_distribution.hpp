@@ -1,5 +1,5 @@
 #pragma once
-/// Samples points of a radiance map in proportion to luminance.
+/// Samples points of a radiance map approximately in proportion to luminance.
 
 #include "render/luminance.hpp"
 
@@ -20,10 +20,10 @@ namespace microtrace {
 /// at the poles.
 struct MapPlace {
   std::uint32_t column = 0, line = 0;  ///< less than the map's width; at most its height
-  float x = 0, y = 0;                  ///< in the cell, in [0, 1]; to the right and down
+  float x = 0, y = 0;                  ///< position in the cell, in [0, 1], to the right and down
 };
 
-/// The first pixels of the rows at the upper and lower corners of a cell.
+/// The first pixels of the rows of pixels at the top and the bottom of a row of cells.
 [[nodiscard]] inline std::array<const Vec3*, 2> rows_of(const RadianceMap& map,
                                                         std::uint32_t line) {
   const std::uint32_t above = line > 0 ? line - 1 : 0, below = std::min(line, map.height - 1);
@@ -37,7 +37,7 @@ struct MapPlace {
   return {upper[left], upper[place.column], lower[left], lower[place.column]};
 }
 
-/// Bilinear interpolation between the corners of a cell.
+/// Interpolates bilinearly between the corners of a cell.
 template <class T>
 [[nodiscard]] T bilinear(const std::array<T, 4>& corners, float x, float y) {
   const T high = (1 - x) * corners[0] + x * corners[1];
@@ -45,18 +45,20 @@ template <class T>
   return (1 - y) * high + y * low;
 }
 
-/// The pdf is bilinear like the map, except that the solid angle varies within a row, so radiance /
-/// pdf is smooth even near a sun of one pixel. The pdf follows the luminance above the mean of all
-/// directions, because BSDF sampling finds the rest as well (O. Karlík et al., MIS compensation,
-/// 2019). An eighth of the luminance below the mean remains, for surfaces whose BSDF sampling is
-/// poor, and a small minimum.
+/// The pdf of directions. Like the map's radiance, it is bilinear in each cell, except that the
+/// solid angle varies within a row. Therefore radiance / pdf is smooth even near a sun of one
+/// pixel. The pdf is based on the luminance in excess of the mean over all directions, because BSDF
+/// sampling finds the rest equally well (O. Karlík et al., MIS compensation, 2019). An eighth of
+/// the luminance is kept as a minimum for surfaces whose BSDF sampling is poor, and each cell has a
+/// small minimum probability.
 ///
-/// Rows are sampled first, then columns, then positions in the cell, all by inversion, which
-/// preserves the distribution of low-discrepancy points. Probabilities of cells are multiples of
-/// 2^-24, so a cell's probability is exactly the fraction of 24-bit numbers that select it.
+/// Sampling selects a row, then a column, then a position in the cell. All three steps invert a
+/// cumulative distribution, which preserves the stratification of low-discrepancy points.
+/// Probabilities are multiples of 2^-24, so each equals the fraction of 24-bit numbers that select
+/// its row or column.
 class MapDistribution {
  public:
-  /// The fraction of the luminance below the mean that is sampled.
+  /// The minimum fraction of the luminance that the pdf keeps.
   static constexpr float kLeastPart = 0.125F;
 
   /// The map must outlive this object.
@@ -64,12 +66,12 @@ class MapDistribution {
 
   struct Point {
     MapPlace place{};
-    float height = 0;      ///< y of the direction
+    float height = 0;      ///< y component of the direction
     float axis_range = 0;  ///< distance of the direction from the y axis
     float pdf = 0;         ///< per steradian
   };
-  /// Takes up to kMostSamples of u, each in [0, 1)^2. Several are faster than one at a time,
-  /// because their memory accesses overlap.
+  /// Samples up to kMostSamples points, for elements of u in [0, 1)^2. Sampling several at a time
+  /// is faster, because their memory accesses overlap.
   static constexpr std::size_t kMostSamples = 16;
   void sample(std::span<const Vec2> u, std::span<Point> points) const;
 
@@ -77,7 +79,8 @@ class MapDistribution {
   [[nodiscard]] float pdf(const MapPlace& place, const std::array<Vec3, 4>& corners,
                           float axis_range) const;
 
-  /// The means over all directions of the map's luminance, and of the part that is sampled.
+  /// The means over all directions of the map's luminance, and of the part of it on which the pdf
+  /// is based.
   [[nodiscard]] double mean_luminance() const { return mean_luminance_; }
   [[nodiscard]] double sampled_luminance() const { return sampled_luminance_; }
 
@@ -86,16 +89,16 @@ class MapDistribution {
   struct Row {
     std::array<float, 2> sines;  ///< sines of the angles to the axis at the upper and lower corners
     float floor;                 ///< minimum weight
-    float pdf;  ///< pdf of a cell per 2^-24 of its probability in the row: by longitude and angle
-                ///< to the axis; at the poles by solid angle
+    float pdf;  ///< mean pdf of a cell for each 2^-24 of its probability in the row, per unit of
+                ///< longitude and angle to the axis; at the poles, per solid angle
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
-  /// The weight per solid angle.
+  /// The weight of a luminance, per solid angle.
   [[nodiscard]] float weight(float luminance) const {
     const float relative = luminance * scale_;
     return std::max(relative - 1, relative * kLeastPart);
   }
-  /// Weights at the corners of a cell, by longitude and angle to the axis.
+  /// The weights at the corners of a cell, per unit of longitude and angle to the axis.
   [[nodiscard]] std::array<float, 4> weights(const Row& row,
                                              const std::array<Vec3, 4>& corners) const {
     std::array<float, 4> result;
@@ -108,7 +111,7 @@ class MapDistribution {
   /// A selected row or column.
   struct Found {
     std::uint32_t index;
-    std::uint32_t count;  ///< numbers that select the cell
+    std::uint32_t count;  ///< how many 24-bit numbers select it
     float place;          ///< position in the cell, in (0, 1)
   };
   template <class Index>
@@ -121,12 +124,12 @@ class MapDistribution {
 
   const RadianceMap& map_;
   std::uint32_t width_, height_;
-  float turns_per_row_;  ///< revolutions of the angle to the axis
+  float turns_per_row_;  ///< height of a row of cells: angle to the axis in revolutions
   float polar_h_;        ///< (1 - cos(theta)) / 2 at the end of a polar cell
   float scale_ = 0;      ///< scales luminance to a mean of 1
   std::vector<Row> rows_;
-  std::vector<std::uint32_t> row_bounds_;  ///< cumulative, number of rows + 1, from 0 to 2^24
-  std::vector<std::uint32_t> row_guide_;   ///< start of the search in row_bounds_
+  std::vector<std::uint32_t> row_bounds_;  ///< cumulative bounds from 0 to 2^24, one more than rows
+  std::vector<std::uint32_t> row_guide_;   ///< where the search in row_bounds_ starts
   std::vector<std::uint32_t> columns_;     ///< width + 1 cumulative bounds for each row
   std::vector<std::uint16_t> column_guide_;
   double mean_luminance_ = 0, sampled_luminance_ = 0;

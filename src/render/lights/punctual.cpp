@@ -13,12 +13,12 @@
 namespace microtrace {
 namespace {
 
-/// Clamps infinity to the largest float32.
+/// Replaces infinity by the largest float32.
 double finite(float intensity) {
   return std::min(intensity, std::numeric_limits<float>::max());
 }
 
-/// The extension's falloff window: from 1 to 0 at the range.
+/// The falloff window of KHR_lights_punctual, which decreases from 1 to 0 at the range.
 double window(double distance, double range) {
   const double q = distance / range;
   const double w = std::clamp(1 - q * q * q * q, 0.0, 1.0);
@@ -73,7 +73,8 @@ std::optional<LightBounds> bounds(const PointLight& light) {
   return bounds_at(light.position, light.color, light.intensity, {.cos_o = -1});
 }
 std::optional<LightBounds> bounds(const SpotLight& light) {
-  // Ignores the falloff toward the cone's edge; the light may be selected too often there.
+  // Ignores the falloff toward the edge of the light's cone. The light may be selected too often
+  // there.
   return bounds_at(light.position, light.color, light.intensity,
                    {.axis = Vec3(light.direction),
                     .cos_o = static_cast<float>(cos_radians(light.outer_angle)) - 1e-6F});

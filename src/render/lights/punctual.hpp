@@ -14,7 +14,7 @@ namespace microtrace {
 /// Bounds for the light tree; nothing for directional lights.
 [[nodiscard]] std::optional<LightBounds> punctual_bounds(const Light& light);
 
-/// Nothing if the light doesn't reach p.
+/// The light that arrives at p; nothing if the light doesn't reach p.
 [[nodiscard]] std::optional<FoundLight> of_punctual(const Light& light, const Vec3& p);
 
 }  // namespace microtrace

@@ -5,7 +5,7 @@
 
 namespace microtrace {
 
-/// A gray map of 256 x 128 pixels, symmetric in x.
+/// Makes the studio: a gray map of 256 x 128 pixels, symmetric in x.
 [[nodiscard]] RadianceMap make_studio();
 
 }  // namespace microtrace

@@ -1,5 +1,5 @@
 #pragma once
-/// The implementation of PreparedScene.
+/// The data of a PreparedScene.
 
 #include "base/lazy.hpp"
 #include "base/memory_account.hpp"
@@ -22,10 +22,11 @@
 
 namespace microtrace {
 
-/// Makes each part on first use. Any number of threads may use it.
+/// Each part is made on first use. Any number of threads may use this object.
 class PreparedScene::Content {
  public:
-  /// Counts memory in `account`, which already includes the scene if its memory is counted.
+  /// Charges memory to `account`. If the memory of the scene is to be counted, `account` already
+  /// includes it.
   Content(std::shared_ptr<const Scene> scene, BvhOptions options,
           std::shared_ptr<SharedTables> tables, MemoryAccount account);
 
@@ -35,24 +36,24 @@ class PreparedScene::Content {
   [[nodiscard]] const Surfaces& surfaces() const;
   [[nodiscard]] const Shading& shading() const;
   [[nodiscard]] const Emitters& emitters() const;
-  /// The lights of the scene, with `in_place` instead of its environment if there is one. A scene
-  /// with neither lights nor an environment gets the studio.
+  /// The scene's lighting. `in_place`, if present, replaces the scene's environment. A scene with
+  /// neither lights nor an environment is lit by the studio.
   [[nodiscard]] Lighting lighting(const std::optional<Environment>& in_place) const;
   [[nodiscard]] const std::shared_ptr<SharedTables>& tables() const { return tables_; }
 
-  /// The scene and the camera, translated to near the origin for Monte Carlo integrators. Nothing
-  /// if they are near it already, or if the translation would round a coordinate.
+  /// The scene and the camera, translated close to the origin for Monte Carlo integrators. Nothing
+  /// if they are already close to it, or if the translation would round a coordinate.
   struct Recentered {
     std::shared_ptr<const Content> content;
     Camera camera;
   };
   [[nodiscard]] std::optional<Recentered> recentered(const Camera& camera) const;
 
-  /// The scene with its points and line segments widened to one pixel of a camera.
+  /// The scene with its points and line segments widened to one pixel of this camera.
   [[nodiscard]] std::shared_ptr<const Content> widened(const Camera& camera, ImageSize size) const;
 
  private:
-  /// Makes a T from these arguments; its memory counts on this scene's account.
+  /// Makes a T from these arguments and charges its memory to this scene's account.
   template <class T, class... Arguments>
   [[nodiscard]] std::unique_ptr<T> make(Arguments&&... arguments) const;
 
@@ -67,8 +68,8 @@ class PreparedScene::Content {
   Lazy<Surfaces> surfaces_;
   Lazy<Shading> shading_;
   Lazy<Emitters> emitters_;
-  Lazy<std::optional<PointBounds>> bounds_;  // nothing: some shapes can't be translated
-  // The last translation requested: the cameras of one scene mostly have the same one.
+  Lazy<std::optional<PointBounds>> bounds_;  // nothing if some shapes can't be translated
+  // The most recent translation. Different cameras of a scene usually need the same one.
   mutable std::mutex moved_mutex_;
   mutable DVec3 moved_by_{0};
   mutable std::shared_ptr<const Content> moved_;

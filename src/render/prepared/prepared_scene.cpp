@@ -73,7 +73,7 @@ bool PreparedScene::occluded(const Ray& ray) const {
 
 namespace {
 
-/// Calls f with the rays in the scene's coordinates.
+/// Calls f with the rays, converted to the scene's coordinates.
 template <class F>
 void with_rays_in_scene(const PreparedScene& scene, std::span<const Ray> rays, const F& f) {
   if (scene.scene().origin == DVec3(0)) return f(rays);
@@ -102,8 +102,8 @@ SurfaceInteraction PreparedScene::surface(const Ray& ray, const Hit& hit) const 
 
 namespace {
 
-/// Stores N components of the values from `first` on: `none` for rays without hit, else
-/// value(component, i).
+/// Stores N components for each hit, starting at index `first` of the output: value(component, i),
+/// or `none` for rays without a hit.
 template <std::size_t N, class T>
 void store(const OutputArray<T>& to, std::size_t first, std::span<const std::optional<Hit>> hits,
            T none, const auto& value) {

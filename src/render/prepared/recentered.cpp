@@ -7,8 +7,8 @@
 namespace microtrace {
 namespace {
 
-/// Calls f(point) for each point that defines the shape's position. Returns whether these points
-/// define it completely.
+/// Calls f(point) for each point that defines the shape's position. Returns true if these points
+/// define the position completely.
 template <class AnyShape, class F>
 bool for_each_point(AnyShape& shape, const F& f) {
   using Kind = std::remove_const_t<AnyShape>;

@@ -1,5 +1,5 @@
 #pragma once
-/// Translates scenes that are far from the origin to near it.
+/// Translates scenes that are far from the origin closer to it.
 
 #include "scene/translation_to_origin.hpp"
 
@@ -10,19 +10,20 @@
 
 namespace microtrace {
 
-/// Paths bounce at float32 points, which are far apart where coordinates are large. A scene whose
-/// camera and shapes are small relative to their distance from the origin is therefore translated
-/// to near the origin. The offset along each axis keeps every coordinate exact, so only the spacing
-/// of float32 points changes.
+/// Path vertices are float32 points, which are far apart where coordinates are large. A scene is
+/// therefore translated close to the origin if the extent of its camera and shapes is small
+/// relative to their distance from the origin. The translation along each axis keeps every
+/// coordinate exact, so it changes only the spacing of float32 points.
 
 /// Bounds of all points that define the positions of shapes. Nothing if a shape (a quadric) isn't
 /// defined by points.
 [[nodiscard]] std::optional<PointBounds> bounds_of_points(const Scene& scene);
 
-/// The offset from the scene to the origin; zero for scenes that are near the origin or large.
+/// The translation from the scene to the origin; zero for scenes that are close to the origin or
+/// large.
 [[nodiscard]] DVec3 translation_to_origin(const PointBounds& points, const Camera& camera);
 
-/// The scene with shapes and lights translated; nothing if a point of a shape would be rounded.
+/// The scene with translated shapes and lights; nothing if this would round a point of a shape.
 [[nodiscard]] std::optional<Scene> moved(const Scene& scene, const DVec3& by);
 
 [[nodiscard]] Camera moved(const Camera& camera, const DVec3& by);

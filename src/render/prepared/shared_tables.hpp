@@ -1,6 +1,6 @@
 #pragma once
-/// Tables shared by scenes with the same images and environment maps: mip maps and sampling tables.
-/// Also keeps the tree of one scene, which is refitted to the next.
+/// Mip maps and sampling tables that scenes with the same images and environment maps share. Also
+/// keeps the tree of the previous scene, which is refitted to the next scene.
 
 #include "render/lights/environment_light.hpp"
 #include "render/textures/texture_map.hpp"
@@ -21,17 +21,17 @@ namespace microtrace {
 class SharedTables {
  public:
   SharedTables() = default;
-  /// Keeps those tables of `previous` that the scene's images and environment need.
+  /// Takes over the tables of `previous` that the scene's images and environment need.
   SharedTables(const SharedTables& previous, const Scene& scene);
 
   [[nodiscard]] TextureMap texture_map(const std::shared_ptr<const Image>& image,
                                        const Sampler& sampler, ColorEncoding encoding);
 
-  /// Null until it is set.
+  /// The tree; null until it is set.
   [[nodiscard]] std::shared_ptr<const BvhTree> tree() const;
   void set_tree(std::shared_ptr<const BvhTree> tree);
 
-  /// Null for a uniform environment.
+  /// The sampling tables of an environment; null for a uniform environment.
   [[nodiscard]] std::shared_ptr<const MapTables> of(const Environment& environment);
 
  private:

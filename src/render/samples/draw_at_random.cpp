@@ -17,7 +17,7 @@
 namespace microtrace {
 namespace {
 
-/// Initializes the sums if there are none yet; otherwise checks that they belong to this picture.
+/// Initializes the sums if they are empty; otherwise checks that they belong to this picture.
 void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
              const Vec3& background) {
   if (sums.pixels.empty()) {

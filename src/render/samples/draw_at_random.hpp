@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures by Monte Carlo integrators.
+/// Renders pictures by Monte Carlo integrators.
 
 #include "render/tiles.hpp"
 
@@ -21,9 +21,9 @@ struct RandomDrawing {
   std::chrono::steady_clock::time_point start;  ///< start of the time limit
 };
 
-/// Fills the film, which has the pixels of the window, and calls `beside` once for each tile.
-/// Throws Error: limit if memory for passes runs out, usage if the given sums belong to another
-/// picture.
+/// Renders the film, which has the pixels of the window. Also calls `beside` once for each tile.
+/// Throws Error of kind limit if there is not enough memory for passes, and of kind usage if the
+/// given sums belong to a different picture.
 void draw_at_random(const RandomDrawing& drawing, Film& film,
                     const std::function<void(const PixelRect&)>& beside);
 

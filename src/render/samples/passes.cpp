@@ -11,8 +11,8 @@
 namespace microtrace {
 namespace {
 
-/// 64 pixels with this many samples fill the batches of a Monte Carlo integrator. The first passes
-/// are shorter, so that a first picture appears early and short time limits are kept.
+/// A tile of 64 pixels with this many samples fills a batch of a Monte Carlo integrator. The first
+/// passes are shorter, so that a first picture appears early and short time limits are met.
 constexpr std::uint32_t kSamplesPerPass = kRandomBatch / (kTileEdge * kTileEdge);
 
 void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleRange& range,
@@ -25,7 +25,7 @@ void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleR
   }
 }
 
-/// The tiles that take no more samples.
+/// The tiles that need no more samples.
 class Stops {
  public:
   Stops(const SampleSums& sums, double target)
@@ -38,7 +38,7 @@ class Stops {
     }
   }
 
-  /// Evaluates the error if it is time for a check.
+  /// Estimates the error and stops tiles if a check is due.
   void update(const SampleSums& sums) {
     const std::uint32_t count = sums.count();
     if (target_ <= 0 || count < kFirstCheck || !std::has_single_bit(count) ||
@@ -48,7 +48,7 @@ class Stops {
     for (std::size_t i = 0; i < stopped_.size(); ++i) stopped_[i] = stopped_[i] || good[i];
   }
 
-  /// The part of the range before the next check.
+  /// The part of the range that precedes the next check.
   [[nodiscard]] SampleRange until_check(SampleRange range) const {
     if (target_ > 0) range.last = std::min(range.last, std::bit_ceil(range.first + 1));
     return range;

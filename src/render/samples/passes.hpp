@@ -1,5 +1,5 @@
 #pragma once
-/// Rendering in passes that add a few samples per pixel to the whole picture.
+/// Renders in passes, each of which adds a few samples per pixel to the whole picture.
 
 #include "render/samples/random_painter.hpp"
 #include "render/tiles.hpp"
@@ -13,8 +13,8 @@
 
 namespace microtrace {
 
-/// Adds the missing samples of `wanted` to the sums, with the limits of `passes`; time limits count
-/// from `start`. `progress` is called as by for_each_tile.
+/// Adds those samples of `wanted` that are missing to the sums, within the limits of `passes`. Time
+/// limits count from `start`. Calls `progress` as for_each_tile does.
 void run_passes(const RandomPainter& painter, const SampleRange& wanted, const Passes& passes,
                 std::chrono::steady_clock::time_point start, Threads& threads,
                 const std::function<bool(double)>& progress, SampleSums& sums);

@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kRadius = 1.5;  // pixels
 
-/// The part of the window's weight within t of its center, where the window has width 1: 0 at 0, 1
-/// at 1/2. The coefficients are those of F. J. Harris, On the use of windows for harmonic analysis
-/// with the discrete Fourier transform, 1978: "4-term, -92 dB".
+/// The fraction of the weight of a Blackman-Harris window of width 1 within t of the window's
+/// center. It increases from 0 at t = 0 to 1 at t = 1/2. The coefficients are those of the "4-term,
+/// -92 dB" window of F. J. Harris, On the use of windows for harmonic analysis with the discrete
+/// Fourier transform, 1978.
 double weight_within(double t) {
   constexpr double kA0 = 0.35875, kA1 = 0.48829, kA2 = 0.14128, kA3 = 0.01168;
   constexpr double kPi = std::numbers::pi;
@@ -22,7 +23,8 @@ double weight_within(double t) {
   return 2 * t + waves / (kPi * kA0);
 }
 
-/// The inverse of weight_within, which increases because the window is never negative.
+/// The inverse of weight_within, which increases monotonically because the window is never
+/// negative.
 double reach_of(double weight) {
   double low = 0, high = 0.5;
   for (int halving = 0; halving < 40; ++halving) {

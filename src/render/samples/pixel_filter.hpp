@@ -1,5 +1,6 @@
 #pragma once
-/// Positions of samples around a pixel's center, such that all samples have the same weight.
+/// Samples positions around a pixel's center by the pixel filter, so that all samples have equal
+/// weight.
 
 #include "render/samples/sample_pattern.hpp"
 
@@ -16,8 +17,9 @@ class FilterSampler {
  public:
   explicit FilterSampler(PixelFilter filter);
 
-  /// Maps u, v in [0, 1] to a position in pixels from the pixel's upper left corner: equal areas
-  /// map to equal parts of the filter's weight, the middle to the center.
+  /// Maps u, v in [0, 1] to a position in pixels, measured from the pixel's upper left corner.
+  /// Equal areas map to equal parts of the filter's weight, and (1/2, 1/2) maps to the pixel's
+  /// center.
   [[nodiscard]] PixelOffset operator()(double u, double v) const {
     if (filter_ == PixelFilter::box) return {.x = u, .y = v};
     return {.x = place(u), .y = place(v)};
@@ -28,8 +30,8 @@ class FilterSampler {
 
   static constexpr std::size_t kSteps = 512;
   PixelFilter filter_;
-  /// The distance from the center, in pixels, that contains all but (1 - i / kSteps)^2 of the
-  /// weight: steps are shorter where the filter is low.
+  /// Entry i is the distance from the center, in pixels, that contains all but (1 - i / kSteps)^2
+  /// of the weight. The square shortens the steps where the filter is low.
   std::array<double, kSteps + 1> reach_{};
 };
 

@@ -42,7 +42,7 @@ void RandomPainter::add(const PixelRect& tile, const SampleRange& range,
       pixels[count++] = {.x = x, .y = y};
     }
   }
-  // Sample by sample, so that the rays of neighboring pixels form packets.
+  // Loops over samples first, so that the rays of neighboring pixels form packets.
   static_assert(kTilePixels % kShadingLanes == 0);
   std::array<std::uint32_t, kShadingLanes> indices;
   std::array<float, kShadingLanes> u, v;

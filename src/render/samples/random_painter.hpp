@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of Monte Carlo integrators.
+/// Adds samples of Monte Carlo integrators to sums.
 
 #include "render/camera_rays.hpp"
 #include "render/kernels/kernel.hpp"
@@ -18,15 +18,17 @@ namespace microtrace {
 /// Any number of threads may paint disjoint tiles.
 class RandomPainter {
  public:
-  /// World and integrator must outlive this object. Luminance is computed over this background.
+  /// `world` and `integrator` must outlive this object. Luminance is that of samples composited
+  /// over this background.
   RandomPainter(const World& world, const Integrator& integrator, const RenderOptions& options,
                 const Vec3& background);
 
-  /// Adds the samples of this range to the sums of a tile's pixels, row by row. The tile is at most
-  /// kTileEdge pixels per side. Fast for ranges of 16 samples or more.
+  /// Adds the samples of this range to the sums of a tile's pixels, which are stored row by row.
+  /// The tile has at most kTileEdge pixels per side. Ranges of 16 samples or more are most
+  /// efficient.
   void add(const PixelRect& tile, const SampleRange& range, std::span<PixelSum> sums) const;
 
-  /// The number of samples, and how many of them were NaN.
+  /// The number of samples, and the number of samples that were NaN.
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
   [[nodiscard]] std::uint64_t invalid_samples() const { return invalid_; }
 

@@ -13,7 +13,8 @@ namespace microtrace {
 bool PixelSum::add(const Vec3& sample, float sample_alpha, const Vec3& background) {
   const FloatEnvironment environment;
   ++count;
-  // Rays that hit nothing, which are common, add at most the background's luminance.
+  // A fast path for rays that hit nothing, which are common. Only the background's luminance
+  // counts.
   if (sample == Vec3(0) && sample_alpha == 0) {
     if (background != Vec3(0)) {
       const double y = luminance(glm::min(DVec3(background), DVec3(kMaxSampleLight)));

@@ -1,6 +1,7 @@
 #pragma once
-/// The dimensions of a sample's random numbers, in pairs. Changing the number of a pair changes
-/// every path-traced picture; pairs from 2^31 on are unused, for example for a position on a lens.
+/// Numbers of the pairs of random numbers of a sample. Changing the number of a pair changes every
+/// path-traced picture. Pairs from 2^31 on are unused and available for other purposes, such as
+/// positions on a lens.
 
 #include <cstdint>
 
@@ -14,7 +15,8 @@ inline constexpr std::uint32_t kDirectionPair = 0;    ///< outgoing direction
 inline constexpr std::uint32_t kLobePair = 1;         ///< lobe, and Russian roulette
 inline constexpr std::uint32_t kLightPair = 2;        ///< position on a light
 inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the light
-/// Decides if alpha lets the path pass. Each further layer uses a pair kLayerPairs later.
+/// Decides if the path passes through a layer, according to the layer's alpha. Each further layer
+/// uses a pair kLayerPairs later.
 inline constexpr std::uint32_t kCoveragePair = 4;
 inline constexpr std::uint32_t kLayerPairs = 1U << 16U;
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Integer hashes, of uint32 or of lanes of uint32.
+/// Integer hashes of uint32, or of lanes of uint32.
 
 #include <cstdint>
 

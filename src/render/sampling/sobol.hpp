@@ -10,8 +10,8 @@
 
 namespace microtrace::sampling {
 
-/// The bits of the second dimension of the Sobol sequence, lowest first, for an index: its
-/// generator matrix is Pascal's triangle modulo 2, applied by halves.
+/// The second dimension of the Sobol sequence for the index x, with its bits in reverse order. The
+/// generator matrix is Pascal's triangle modulo 2, which is applied by recursive halving.
 template <class Bits>
 constexpr Bits sobol_upwards(Bits x) {
   x ^= (x & 0xaaaaaaaaU) >> 1U;
@@ -22,9 +22,9 @@ constexpr Bits sobol_upwards(Bits x) {
   return x;
 }
 
-/// Scrambles each bit by the lower ones: Owen scrambling of a number whose bits are reversed (S.
-/// Laine and T. Karras, Stratified sampling for stochastic transparency, 2011; constants by N.
-/// Vegdahl, Building a better LK hash, 2021).
+/// Flips each bit depending on the lower bits. This is Owen scrambling of a number whose bits are
+/// reversed (S. Laine and T. Karras, Stratified sampling for stochastic transparency, 2011;
+/// constants by N. Vegdahl, Building a better LK hash, 2021).
 template <class Bits>
 constexpr Bits scrambled_upwards(Bits x, const Bits& seed) {
   x ^= x * 0x3d20adeaU;
@@ -40,22 +40,22 @@ constexpr std::uint32_t pixel_key(std::uint32_t seed, std::uint32_t x, std::uint
   return hash(hash(hash(seed, x), y), 0x9e3779b9U);
 }
 
-/// The random numbers of one sample of one pixel, for N samples. Dimensions come in pairs; each
-/// pair of a pixel's samples is a (0, 2)-sequence with its own Owen scrambling and its own order,
-/// so that different pairs are independent (B. Burley, Practical hash-based Owen scrambling, 2020).
+/// The random numbers of N samples, one in each lane. Dimensions come in pairs. For each pair, the
+/// samples of a pixel form a (0, 2)-sequence with its own Owen scrambling and its own order, so
+/// different pairs are independent (B. Burley, Practical hash-based Owen scrambling, 2020).
 template <int N>
 class SobolLanes {
  public:
   using Bits = Unsigned<N>;
 
   SobolLanes() = default;
-  /// Samples of pixels with these pixel_key()s.
+  /// Constructs samples from their pixels' pixel_key()s and their indices within the pixels.
   SobolLanes(const Bits& key, const Bits& index) : key_(key), index_(reversed_bits(index)) {}
 
   [[nodiscard]] Bits key() const { return key_; }
   [[nodiscard]] Bits index() const { return reversed_bits(index_); }
 
-  /// Two numbers in [0, 1) for this pair.
+  /// The two numbers of this pair, in [0, 1).
   [[nodiscard]] Floats2<N> pair(std::uint32_t number) const {
     const Bits key = hash(key_, number);
     const Bits n = reversed_bits(scrambled_upwards(index_, key));
@@ -68,7 +68,7 @@ class SobolLanes {
   [[nodiscard]] Float<N> one(std::uint32_t number) const { return pair(number).x; }
 
  private:
-  /// A float in [0, 1) from bits of which the lowest is the most significant.
+  /// Converts bits to a float in [0, 1). The lowest bit is the most significant one.
   static Float<N> unit_float(const Bits& upwards) {
     return to_float<N>(reinterpreted<Int<N>>(Bits(reversed_bits(upwards) >> 8U))) * 0x1p-24F;
   }

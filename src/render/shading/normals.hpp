@@ -8,10 +8,10 @@ namespace microtrace {
 template <int N>
 struct Tangent {
   Floats3<N> t;         ///< unit length, perpendicular to the shading normal
-  Float<N> handedness;  ///< 1 or -1: bitangent = handedness (n x t); 0: there is no tangent
+  Float<N> handedness;  ///< 1 or -1 with bitangent = handedness (n x t); 0 if there is no tangent
 };
 
-/// The tangent from a weighted sum of vertex tangents, for the shading normal n.
+/// Makes the tangent for the shading normal n from a weighted sum of vertex tangents.
 template <int N>
 Tangent<N> tangent_along(const Floats3<N>& sum, const Float<N>& handedness, const Floats3<N>& n) {
   const Floats3<N> along = sum - dot(n, sum) * n;
@@ -19,8 +19,7 @@ Tangent<N> tangent_along(const Floats3<N>& sum, const Float<N>& handedness, cons
   return {along / square_root<N>(square), square > 0 ? handedness : Float<N>{}};
 }
 
-/// The normal for a texel of a normal texture; the texel's x and y are already scaled. Returns n if
-/// there is no tangent.
+/// The normal for a texel of a normal texture. Returns n if there is no tangent.
 template <int N>
 Floats3<N> mapped_normal(const Floats3<N>& n, const Tangent<N>& tangent, const Floats3<N>& texel,
                          const Float<N>& scale) {
@@ -31,8 +30,8 @@ Floats3<N> mapped_normal(const Floats3<N>& n, const Tangent<N>& tangent, const F
   return select3(is_turned, unit<N>(turned), n);
 }
 
-/// Whether wo is above the horizon of n, and its mirror direction is above the surface with the
-/// geometric normal ng.
+/// True if wo is above the horizon of n, and the reflection of wo at n is above the surface with
+/// the geometric normal ng.
 template <int N>
 auto reflects_outwards(const Floats3<N>& n, const Floats3<N>& ng, const Floats3<N>& wo) {
   const Float<N> least = all<N>(0.01F), cosine = dot(n, wo);
@@ -40,9 +39,9 @@ auto reflects_outwards(const Floats3<N>& n, const Floats3<N>& ng, const Floats3<
          (dot((2 * cosine) * n - wo, ng) >= smaller_of(Float<N>(0.9F * dot(wo, ng)), least));
 }
 
-/// Interpolated and texture normals may reflect wo below the surface with the geometric normal ng.
-/// In this case the result is, approximately, the first normal on the way to ng that doesn't. All
-/// vectors have unit length.
+/// An interpolated or mapped normal n may reflect wo to a direction below the surface with the
+/// geometric normal ng. In this case, returns approximately the first normal between n and ng that
+/// doesn't. All vectors have unit length.
 template <int N>
 Floats3<N> usable_normal(const Floats3<N>& n, const Floats3<N>& ng, const Floats3<N>& wo) {
   const auto is_good = reflects_outwards<N>(n, ng, wo);

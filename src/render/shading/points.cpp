@@ -6,7 +6,7 @@ namespace microtrace {
 void Shading::points(const ShadingKernels& kernels, std::span<const Ray> rays,
                      std::span<const std::optional<Hit>> hits, HitLanes& lanes,
                      std::span<ShadingPoint> points) const {
-  std::uint32_t on_meshes = 0;  // one bit per hit
+  std::uint32_t on_meshes = 0;  // one bit for each hit
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
     const Entry& entry = entries_[primitives_.object_index(hits[i]->id)];

@@ -1,5 +1,6 @@
 #pragma once
-/// A hit as needed for shading paths; faster than SurfaceInteraction.
+/// The point of a hit as shading of paths needs it. It is faster to compute than
+/// SurfaceInteraction.
 
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
@@ -13,40 +14,40 @@
 
 namespace microtrace {
 
-/// In world space. The same bits on every machine.
+/// A point on a surface, in world space. Its bits are the same on every machine.
 struct SurfacePoint {
-  Vec3 p{0};                               ///< the point, rounded
+  Vec3 p{0};                               ///< the position, rounded
   Vec3 n{0, 0, 1};                         ///< unit geometric normal of the front side
   Vec3 ns{0, 0, 1};                        ///< unit shading normal of the front side
-  bool front = true;                       ///< whether the ray arrives at the front side
-  float distance = 0;                      ///< from the ray's origin
-  const Mesh* mesh = nullptr;              ///< null: the primitive is not a mesh triangle
+  bool front = true;                       ///< true if the ray arrives at the front side
+  float distance = 0;                      ///< distance from the ray's origin
+  const Mesh* mesh = nullptr;              ///< null if the primitive is not a mesh triangle
   std::array<std::uint32_t, 3> corners{};  ///< vertex indices of the triangle
   Vec3 barycentrics{1, 0, 0};              ///< weights of the vertices
   Vec2 first_uv{0};    ///< texture coordinates of set 0; (0, 0) if the mesh has none
-  float uv_scale = 0;  ///< sqrt(area in texture coordinates of set 0 / area in the world)
+  float uv_scale = 0;  ///< sqrt(area in texture coordinates of set 0 / area in world space)
 
   /// Texture coordinates; (0, 0) if the mesh doesn't have this set.
   [[nodiscard]] Vec2 uv(std::uint32_t set) const { return set == 0 ? first_uv : further_uv(set); }
-  /// The interpolated vertex color; white if there is none.
+  /// The interpolated vertex color; white if the mesh has no colors.
   [[nodiscard]] Vec4 color() const;
-  /// The interpolated vertex tangent, projected on the plane of ns, with the sign of the bitangent
-  /// in w; zero if there is none.
+  /// The interpolated vertex tangent, projected onto the plane perpendicular to ns, with the
+  /// bitangent's sign in w; zero if there are no tangents.
   [[nodiscard]] Vec4 tangent() const;
 
  private:
   [[nodiscard]] Vec2 further_uv(std::uint32_t set) const;
 };
 
-/// The point of any shape, rounded from the result of interact().
+/// The point on any shape, rounded from the result of interact().
 [[nodiscard]] SurfacePoint rounded(const SurfaceInteraction& at, const Ray& ray, const Hit& hit);
 
-/// `hit` must be a hit of `ray`. `mesh` is null if the primitive is not a mesh triangle, else
-/// `triangle` is its index in the mesh.
+/// The point of `hit`, which must be a hit of `ray`. `triangle` is the index of a mesh triangle in
+/// `mesh`; for other primitives, `mesh` is null.
 [[nodiscard]] SurfacePoint surface_point(const Primitives& primitives, const Ray& ray,
                                          const Hit& hit, const Mesh* mesh, std::size_t triangle);
 
-/// The point of a mesh triangle with these barycentric coordinates.
+/// The point on a mesh triangle that has these barycentric coordinates.
 [[nodiscard]] SurfacePoint surface_point(const Mesh& mesh, std::size_t triangle,
                                          const Vec3& barycentrics, bool front);
 

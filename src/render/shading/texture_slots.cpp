@@ -34,7 +34,8 @@ TextureSlot TextureMaps::slot(const TextureUse& use, ColorEncoding encoding) {
 
 namespace {
 
-/// Beer-Lambert law: the transmittance after a length l is color^(l / distance).
+/// The absorption coefficients of a volume. By the Beer-Lambert law, the transmittance after a
+/// length l is color^(l / distance).
 Vec3 absorption_of(const Volume& volume) {
   Vec3 result(0);
   for (int c = 0; c < 3; ++c) {

@@ -13,7 +13,7 @@
 
 namespace microtrace {
 
-/// Texture maps by texture and encoding, each created once.
+/// Texture maps for each combination of texture and encoding. Each map is created once.
 class TextureMaps {
  public:
   /// Both must outlive this object.

@@ -7,7 +7,7 @@
 namespace microtrace {
 namespace {
 
-/// The coordinate wrapped to [0, 1], or [0, 2] for mirrored images, so that pixel indices can't
+/// Wraps the coordinate to [0, 1], or to [0, 2] for mirrored images, so that pixel indices can't
 /// overflow.
 double wrapped(double u, Wrap wrap) {
   if (!std::isfinite(u)) return 0;
@@ -22,7 +22,7 @@ double wrapped(double u, Wrap wrap) {
   return std::clamp(u, 0.0, 1.0);
 }
 
-/// The pixel at this index, which may be slightly outside the image.
+/// The index of the pixel that appears at the index i, which may be slightly outside the image.
 std::uint32_t wrapped_pixel(std::int64_t i, std::int64_t size, Wrap wrap) {
   if (wrap == Wrap::repeat) {
     i %= size;
@@ -78,7 +78,8 @@ DVec4 TextureMap::filtered(std::size_t level, Filter filter, const DVec2& uv) co
 
 DVec4 TextureMap::minified(const DVec2& uv, double width) const {
   if (sampler_.mip == MipFilter::none) return filtered(0, sampler_.minification, uv);
-  // Level k is for footprints of width 2^k. Between two levels, the blend is linear in the width.
+  // Level k is for footprints with a width of 2^k texels. Between two levels, the weight is linear
+  // in the width.
   int exponent = 0;
   const double mantissa = std::frexp(width, &exponent);  // in [1/2, 1)
   const std::size_t last = level_count() - 1;
@@ -103,7 +104,7 @@ DVec4 TextureMap::look_up(const DVec2& uv, const TextureFootprint& footprint) co
   if (!(longer > 1)) return filtered(0, sampler_.magnification, uv);
   if (!std::isfinite(longer)) return filtered(level_count() - 1, sampler_.minification, uv);
   const bool one = sampler_.mip == MipFilter::none || sampler_.minification == Filter::nearest;
-  // The margin keeps a footprint that is square up to rounding from getting two probes.
+  // The margin ensures that a footprint that is square except for rounding gets only one probe.
   const double wished = std::ceil(longer / std::max(shorter, 1.0) - 0x1p-10);
   const int probes = one ? 1 : static_cast<int>(std::min<double>(wished, kMaxProbes));
   const double width = one ? longer : longer / probes;

@@ -13,8 +13,8 @@
 
 namespace microtrace {
 
-/// The change of the texture coordinates from one sample of the picture to the next, across and
-/// down.
+/// The change of the texture coordinates from one sample of the picture to the next: to the right
+/// in dx, and down in dy.
 struct TextureFootprint {
   DVec2 dx{0}, dy{0};
 };
@@ -26,18 +26,18 @@ class TextureMap {
   /// Makes the pyramid compute its mip maps if the sampler uses them.
   TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler);
 
-  /// The map gets its own pyramid. The image must outlive this object.
+  /// Creates a pyramid for this map only. The image must outlive this object.
   TextureMap(const Image& image, const Sampler& sampler, ColorEncoding encoding);
 
   /// The color at uv, where (0, 0) is the upper left corner of the image and (1, 1) the lower right
-  /// one. If texels are larger than the footprint, uses the magnification filter; else the
-  /// minification filter, with up to kMaxProbes lookups along the longer axis of the footprint, so
-  /// that oblique surfaces are not blurred too much.
+  /// corner. If texels are larger than the footprint, uses the magnification filter. Otherwise uses
+  /// the minification filter with up to kMaxProbes lookups along the longer axis of the footprint,
+  /// which keeps textures of oblique surfaces sharp.
   [[nodiscard]] DVec4 look_up(const DVec2& uv, const TextureFootprint& footprint) const;
 
-  /// The same in float32 with one bilinear lookup in the mip level whose texels are just smaller
-  /// than `width`, a fraction of the image's width and height: for Monte Carlo samples, whose mean
-  /// is the filter.
+  /// The color at uv in float32, for Monte Carlo samples, which filter the texture by averaging.
+  /// Does one bilinear lookup in the mip level whose texels are just smaller than `width`, given as
+  /// a fraction of the image's size.
   [[nodiscard]] Vec4 sample(const Vec2& uv, float width) const {
     return sample(texel_address(uv, width));
   }
@@ -50,7 +50,7 @@ class TextureMap {
   /// The texel address of a sample() call.
   struct TexelAddress {
     std::size_t level;
-    std::uint32_t columns;  ///< of the level
+    std::uint32_t columns;  ///< width of the level
     Between x, y;
   };
   [[nodiscard]] TexelAddress texel_address(const Vec2& uv, float width) const;
@@ -67,7 +67,7 @@ class TextureMap {
   [[nodiscard]] std::size_t level_count() const { return levels_.size() + 1; }
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 filtered(std::size_t level, Filter filter, const DVec2& uv) const;
-  /// For footprints of more than one texel.
+  /// The color at uv for a footprint that is more than one texel wide.
   [[nodiscard]] DVec4 minified(const DVec2& uv, double width) const;
 
   std::shared_ptr<const TexturePyramid> pyramid_;

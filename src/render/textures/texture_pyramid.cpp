@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// The linear light of all sample values with this number of bits.
+/// Makes the table of the linear values of all `Count` sample values.
 template <std::size_t Count>
 std::array<float, Count> make_table(ColorEncoding encoding) {
   std::array<float, Count> table;
@@ -89,7 +89,7 @@ void TexturePyramid::make_levels() {
     for (std::uint32_t y = 0; y < level.height; ++y) {
       const Cover rows = cover(y, height);
       for (const Cover& column : columns) {
-        DVec4 sum(0.5);  // rounds to the nearest
+        DVec4 sum(0.5);  // makes the conversion to integers round to nearest
         for (std::uint32_t j = 0; j < rows.count; ++j) {
           for (std::uint32_t i = 0; i < column.count; ++i) {
             sum += rows.weights[j] * column.weights[i] * 65535.0 *
@@ -108,11 +108,11 @@ void TexturePyramid::make_levels() {
 
 namespace {
 
-/// Four numbers in SIMD registers; GLM would compute them one by one.
+/// Four numbers in SIMD registers, because GLM would compute them one by one.
 typedef double FourDoubles __attribute__((vector_size(32)));
 
-/// A level of exactly half the size. add(x, y, sum) adds a pixel of the finer level, times kPart,
-/// to the sum.
+/// Computes a level of exactly half the size. add(x, y, sum) adds a pixel of the finer level,
+/// multiplied by kPart, to the sum.
 constexpr double kPart = 0.25 * 65535.0;
 template <class Add>
 void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,
@@ -121,7 +121,7 @@ void halve_lines(std::uint32_t width, std::uint32_t height, const Add& add,
   std::uint16_t* to = samples.data();
   for (std::uint32_t y = 0; y < height; ++y) {
     for (std::uint32_t x = 0; x < width; ++x) {
-      FourDoubles sum = FourDoubles{} + 0.5;  // rounds to the nearest
+      FourDoubles sum = FourDoubles{} + 0.5;  // makes the conversion to integers round to nearest
       add(2 * x, 2 * y, sum);
       add(2 * x + 1, 2 * y, sum);
       add(2 * x, 2 * y + 1, sum);

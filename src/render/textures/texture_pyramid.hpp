@@ -19,22 +19,22 @@ class TexturePyramid {
  public:
   TexturePyramid(std::shared_ptr<const Image> image, ColorEncoding encoding);
 
-  /// A mip map: linear light, four channels.
+  /// A mip map with four channels of linear values.
   struct Level {
     std::uint32_t width, height;
     std::vector<std::uint16_t> samples{};
   };
 
   [[nodiscard]] const Image& image() const { return *image_; }
-  /// The table from sample values to linear light.
+  /// The tables that convert sample values to linear values.
   [[nodiscard]] std::span<const float> color_table() const { return color_table_; }
   [[nodiscard]] std::span<const float> alpha_table() const { return alpha_table_; }
 
-  /// The mip maps, from the second level on, computed at the first call by one thread. Each pixel
-  /// is the mean of the part of the finer level that it covers.
+  /// The mip maps, starting with level 1. The first call computes them on one thread. Each pixel is
+  /// the mean of the part of the finer level that it covers.
   [[nodiscard]] const std::vector<Level>& levels();
 
-  /// A pixel of level 0, the image, or of a level computed by levels().
+  /// A pixel of level 0, which is the image, or of a level that levels() has computed.
   [[nodiscard]] DVec4 pixel(std::size_t level, std::uint32_t x, std::uint32_t y) const;
 
  private:
@@ -46,7 +46,7 @@ class TexturePyramid {
 
   std::shared_ptr<const Image> image_;
   std::span<const float> color_table_, alpha_table_;
-  MemoryAccount memory_;  // of the levels, which several scenes may share
+  MemoryAccount memory_;  // memory of the levels, which several scenes may share
   std::vector<Level> levels_;
 };
 

@@ -8,15 +8,15 @@ namespace {
 
 using Between = TextureMap::Between;
 
-/// The largest integer up to x; |x| < 2^31.
+/// The largest integer that is not greater than x. |x| must be less than 2^31.
 std::int32_t floor_of(float x) {
   const auto whole = static_cast<std::int32_t>(x);
   return whole - (static_cast<float>(whole) > x ? 1 : 0);
 }
 
-/// The coordinate wrapped to [0, 1].
+/// Wraps the coordinate to [0, 1].
 float wrapped(float u, Wrap wrap) {
-  if (!(u > -0x1p22F && u < 0x1p22F)) return 0;  // beyond this float32 has no fraction bits
+  if (!(u > -0x1p22F && u < 0x1p22F)) return 0;  // float32 has no fraction bits beyond this
   switch (wrap) {
     case Wrap::repeat:
       return u - static_cast<float>(floor_of(u));
@@ -39,13 +39,13 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
   const std::int32_t left = floor_of(position - 0.5F);
   const float share = position - 0.5F - static_cast<float>(left);
   std::int32_t first = left, second = left + 1;
-  // At the ends of a mirrored image its edge texels repeat, as with clamping.
+  // Where a mirrored image meets its mirror image, the edge texels repeat, as with clamping.
   if (first < 0) first = wrap == Wrap::repeat ? size - 1 : 0;
   if (second >= size) second = wrap == Wrap::repeat ? 0 : size - 1;
   return {.first = std::min(first, size - 1), .second = second, .share = share};
 }
 
-/// Four floats in one register: GLM computes them one by one.
+/// Four floats in one register, because GLM would compute them one by one.
 typedef float FourFloats __attribute__((vector_size(16)));
 
 /// The weighted mean of four texels. fetch(index) returns a texel, row by row.
@@ -60,7 +60,7 @@ Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fet
   return {all[0], all[1], all[2], all[3]};
 }
 
-/// Texels of the image itself; `color` and `alpha` are tables of linear light.
+/// Interpolates texels of the image itself. `color` and `alpha` are the tables of linear values.
 template <typename Number>
 Vec4 of_image(const Number* samples, std::uint32_t channels, const float* color, const float* alpha,
               const Between& x, const Between& y, std::size_t columns) {

@@ -23,8 +23,8 @@ struct ValueAndSlope {
 /// ValueAndSlope.
 template <class F>
 double solve_increasing(const F& f, double y, double lo, double hi) {
-  constexpr double kRounding =
-      1e-13;  // a relative error below this is accepted once it stops decreasing
+  // A relative error below this is accepted once it stops decreasing.
+  constexpr double kRounding = 1e-13;
   double x = std::clamp(y, lo, hi), last_step = hi - lo;
   double best = x, least_error = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 200; ++i) {  // the interval is halved at least every other time

@@ -35,8 +35,8 @@ std::vector<std::array<std::uint32_t, 3>> edge_neighbors(
 
   std::vector<std::array<std::uint32_t, 3>> result(triangles.size(),
                                                    {kNoNeighbor, kNoNeighbor, kNoNeighbor});
-  std::vector<std::uint32_t>
-      waiting;  // unpaired edges between the same two vertices, all in the same direction
+  // Unpaired edges between the same two vertices, all in the same direction.
+  std::vector<std::uint32_t> waiting;
   for (std::size_t v = 0; v < vertex_count; ++v) {
     const std::span<Edge> here(edges.data() + first[v], edges.data() + first[v + 1]);
     std::ranges::sort(here, [](const Edge& a, const Edge& b) {

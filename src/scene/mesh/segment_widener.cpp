@@ -55,8 +55,8 @@ SegmentWidener::SegmentWidener(const Camera& camera, ImageSize size)
 /// that no line is thinner than a pixel.
 void SegmentWidener::allow_for_lens() {
   constexpr int kSamples = 32;  // on each side of the picture
-  constexpr double kMaxStretch =
-      4;  // limit, because the stretch is infinite at the edge of the invertible range
+  // Limit, because the stretch is infinite at the edge of the invertible range.
+  constexpr double kMaxStretch = 4;
   const DVec2 focal = rays_.pixels_per_unit_, size(rays_.size_.width, rays_.size_.height);
   is_planar_ = std::holds_alternative<RationalDistortion>(*rays_.distortion_);
   right_ /= focal.x;

@@ -46,8 +46,8 @@ void check_shape(Bytes file) {
 void read_descriptor(Bytes file, Ktx2& ktx2) {
   constexpr const char* kDamaged = "the data format descriptor is damaged";
   const Bytes dfd = part_of(file, u32_at(file, 48), u32_at(file, 52), kDamaged);
-  constexpr std::size_t kHeads = 28,
-                        kSampleSize = 16;  // bytes before the samples, and bytes per sample
+  // Bytes before the samples, and bytes per sample.
+  constexpr std::size_t kHeads = 28, kSampleSize = 16;
   if (dfd.size() < kHeads + kSampleSize || u32_at(dfd, 4) != 0) throw Damage(kDamaged);
   const std::uint32_t block_size = u32_at(dfd, 8) >> 16U;
   if (block_size < kHeads - 4 + kSampleSize || block_size > dfd.size() - 4) throw Damage(kDamaged);

@@ -9,8 +9,8 @@ namespace basis {
 
 struct Pattern {
   std::array<std::uint8_t, 16> subset{};  ///< subset of each texel
-  std::array<bool, 16>
-      is_anchor{};  ///< true for the first texel of a subset, whose weights have one bit fewer
+  /// True for the first texel of a subset, whose weights have one bit fewer.
+  std::array<bool, 16> is_anchor{};
 };
 
 /// Number of bits of the pattern number in a block with 1 to 3 subsets.

@@ -13,17 +13,18 @@
 namespace microtrace::bsdf {
 
 struct Tables {
-  // GGX: rows of kAlbedoSteps, and their means.
+  // GGX: rows of kAlbedoSteps entries, and the rows' means.
   const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
   // Anisotropic GGX: coefficients.
   const float *anisotropic_loss, *anisotropic_schlick;
   const float *mean_anisotropic_loss, *mean_anisotropic_schlick;
-  // Coatings: nodes, their weights; columns of kCoatingNodes in rows of kCoatingColumns.
+  // Coatings: nodes and their weights; rows of kCoatingColumns columns, each with kCoatingNodes
+  // entries.
   const float *coating_node, *coating_weight;
   const std::int16_t *deficit_f1, *deficit_schlick;
-  // Refraction: columns, in rows of kLossRows.
+  // Refraction: for each index, kLossRows rows of columns.
   const std::int16_t *loss_from_outside, *loss_from_within;
-  // Sheen: rows of kSheenColumns.
+  // Sheen: rows of kSheenColumns entries.
   const float *raw_sheen_albedo, *sheen_albedo;
 };
 
