@@ -104,7 +104,7 @@ class MICROTRACE_EXPORT Bvh {
 
   [[nodiscard]] const Primitives& primitives() const;
 
-  /// Size of the tree in bytes, without the scene.
+  /// Returns the size of the tree in bytes, without the scene.
   [[nodiscard]] std::size_t memory() const;
 
   /// Returns the tree for BvhOptions::previous. It remains valid after this object and the scene

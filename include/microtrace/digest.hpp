@@ -42,7 +42,7 @@ class Digest {
     rest_ = 0;
   }
 
-  // The multiplier and shifts of SplitMix64 (S. Vigna); one word per step.
+  // Mixes one word into the state, with a multiplier and shifts of SplitMix64 (S. Vigna).
   void mix(std::uint64_t word) {
     state_ = (state_ ^ word) * 0xbf58476d1ce4e5b9U;
     state_ ^= state_ >> 31U;

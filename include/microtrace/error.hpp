@@ -21,7 +21,7 @@ enum class ErrorKind {
 };
 
 enum class Severity {
-  warning,  ///< an oddity, or an ignored feature
+  warning,  ///< something unusual, or a feature that is ignored
   error,    ///< a violation of the file's format
 };
 

@@ -66,7 +66,7 @@ class Film {
     return std::span(alpha_).subspan(index(0, y), size_.width);
   }
 
-  ImageSize whole;               ///< size of the picture that this film is a part of
+  ImageSize whole;               ///< size of the whole picture, of which this film may be a part
   std::uint32_t x0 = 0, y0 = 0;  ///< position of this film's upper left pixel in the whole picture
   Display display{};
   std::vector<Channel> channels{};  ///< each has one number for every pixel of this film

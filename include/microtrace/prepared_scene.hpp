@@ -78,10 +78,10 @@ class MICROTRACE_EXPORT PreparedScene {
   /// valid after the scene is destroyed.
   [[nodiscard]] std::shared_ptr<const SharedTables> tables() const;
 
-  /// Converts a ray from world space to scene coordinates.
+  /// Converts a ray from world space to scene coordinates (see Scene::origin).
   [[nodiscard]] Ray in_scene(const Ray& ray) const;
 
-  /// Internal.
+  /// For internal use.
   class MICROTRACE_HIDDEN Content;
   explicit PreparedScene(std::shared_ptr<const Content> content);
   [[nodiscard]] const Content& content() const { return *content_; }

@@ -1,7 +1,7 @@
 #pragma once
-/// Shapes as plain data, in scene coordinates, which are those of world space translated by
-/// Scene::origin. Each shape is a closed set of real points, defined by the float32 numbers stored
-/// here. A shape with a number that is not finite is empty.
+/// Shapes as plain data, in scene coordinates (world space relative to Scene::origin). Each shape
+/// is a closed set of real points, defined by the float32 numbers stored here. A shape with a
+/// number that is not finite is empty.
 ///
 /// To add a shape, add a struct here and to the variant `Shape`, its exact hit in src/exact, its
 /// filter in src/accel/filters, its boxes in src/accel/build, its ray origins in src/accel/spawn,

@@ -41,7 +41,7 @@ class TriangleHit {
 
  private:
   [[nodiscard]] const GridHit<3>& wide();
-  /// The result of the first grid that can represent the query.
+  /// Returns ask(grid) for the first grid that can represent the query, or nothing if none can.
   template <class Ask>
   [[nodiscard]] auto on_grid(const Ask& ask);
   [[nodiscard]] const std::optional<Root>& dyadic();
@@ -49,8 +49,8 @@ class TriangleHit {
   Triangle triangle_;
   const Ray* ray_;
   GridHit<2> narrow_;
-  std::optional<GridHit<3>> wide_;             // created when first needed
-  std::optional<std::optional<Root>> dyadic_;  // created when first needed
+  std::optional<GridHit<3>> wide_;             // created on first use
+  std::optional<std::optional<Root>> dyadic_;  // created on first use
 };
 
 class TrianglePlane {
@@ -68,13 +68,13 @@ class TrianglePlane {
 
  private:
   [[nodiscard]] const GridPlane<3>& wide();
-  /// The result of the first grid that can represent the query.
+  /// Returns ask(grid) for the first grid that can represent the query, or nothing if none can.
   template <class Ask>
   [[nodiscard]] auto on_grid(const Ask& ask);
 
   Triangle triangle_;
   GridPlane<2> narrow_;
-  std::optional<GridPlane<3>> wide_;  // created when first needed
+  std::optional<GridPlane<3>> wide_;  // created on first use
 };
 
 }  // namespace microtrace::exact

@@ -21,7 +21,7 @@ class Locator {
  public:
   Locator(const TreeTarget& target, Selection selection) : target_(target), selection_(selection) {}
 
-  /// p is in scene coordinates.
+  /// Returns the location of p, which is in scene coordinates.
   [[nodiscard]] Location locate(const Vec3& p, Poll& poll);
 
  private:

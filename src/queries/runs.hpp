@@ -17,7 +17,8 @@ class Poll {
   /// report() must throw if the thread must stop.
   explicit Poll(const std::function<void()>& report) : report_(report) {}
 
-  /// Must be called after every few microseconds of work. Throws Error (canceled).
+  /// Must be called after every few microseconds of work. Throws Error (canceled) if the query is
+  /// canceled.
   void operator()() {
     if (++calls_ % kCallsPerLook == 0) look();
   }

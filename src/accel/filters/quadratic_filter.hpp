@@ -58,7 +58,7 @@ class SphereFilter {
     const Approximate b = dot_product(d, m_, 4);
     if (b.is_positive() && outside_.is_positive()) return {.certainty = Certainty::miss};
     if (!(discriminant.value > 4 * discriminant.error)) return {.certainty = Certainty::unsure};
-    // The squares are exact.
+    // The squares in d2 are exact, because d has float32 components.
     return first_root_result({.value = d2, .error = gamma(2) * d2 + kUnderflow}, b,
                              square_root(discriminant), range);
   }
@@ -134,7 +134,8 @@ class QuadricFilter {
   }
 
   DVec3 squares_,
-      mixed_;  // (a, b, c) and (f, e, d): mixed_[k] multiplies the two other coordinates
+      mixed_;  // (a, b, c) and (f, e, d): mixed_[k] is the coefficient of the product of the two
+               // coordinates other than k
   DVec3 gradient_{}, gradient_permanent_{};
   Approximate value_{};
 };

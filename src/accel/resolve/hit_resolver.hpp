@@ -67,7 +67,8 @@ class HitResolver {
   bool filterable_;
 };
 
-/// The hit of a valid ray with a primitive, if there is one.
+/// A valid ray's hit with a given primitive, if there is one. The hits that follow it can be found
+/// by HitResolver.
 class KnownHit {
  public:
   /// All referenced arguments must outlive this object. `duplicates` must be Tree::duplicates of
