@@ -1,5 +1,5 @@
-/* The C API as a C program uses it. The first argument is the folder of scenes, the second one to
- * write to. */
+/* Uses the C API as a C program does. The first argument is the folder of scenes, the second one
+ * a folder for output. */
 #include <microtrace/microtrace.h>
 #include <microtrace/version.h>
 
@@ -20,7 +20,7 @@ static int failures = 0;
     }                                                                              \
   } while (0)
 
-/* The cube [-1, 1]^3 in vertices of five numbers each, position and texture coordinates. */
+/* The cube [-1, 1]^3. Each vertex has five numbers: position and texture coordinates. */
 static float vertices[8][5];
 static uint32_t indices[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
@@ -81,11 +81,12 @@ static void rays(const mt_scene* scene) {
                    surfaces[i].barycentrics[2] - 1) < 1e-12);
       }
     }
-    /* Behind the front is the back, behind that nothing; in place. */
+    /* The hit behind the front is the back, and nothing is behind the back. Writes the results
+     * over the input hits. */
     CHECK(mt_next(scene, all, hits, kCount, threads, hits) == MT_OK);
     for (int i = 0; i < kCount; ++i) {
       const float x = all[i].origin[0];
-      /* Where the front's two triangles meet, the other one is next. */
+      /* On the diagonal between the front's two triangles, the next hit is the other triangle. */
       const int on_diagonal = fabsf(x) == 0.25F;
       if (x > -1 && x < 1) CHECK(hits[i].t == 3 || (on_diagonal && hits[i].t == 2));
       if (x < -1 || x > 1) CHECK(hits[i].primitive == MT_NO_HIT);
@@ -133,7 +134,7 @@ static void wrong_meshes(void) {
   CHECK(mt_scene_from_meshes(&mesh, 1, 1, NULL) == MT_USAGE);
 }
 
-/* The texture coordinate u at the middle of a triangle. */
+/* Makes a scene, sets all uvs to `later`, and returns u at the middle of the triangle. */
 static double u_at_middle(const mt_mesh* mesh, float* uvs, float later) {
   mt_scene* scene = NULL;
   CHECK(mt_scene_from_meshes(mesh, 1, 1, &scene) == MT_OK);
@@ -147,8 +148,8 @@ static double u_at_middle(const mt_mesh* mesh, float* uvs, float later) {
   return surface.uv[0];
 }
 
-/* Only texture coordinates are changed under a scene, which is not allowed, to see where they are:
- * the tree doesn't depend on them. */
+/* To find out whether arrays are borrowed, changes texture coordinates while a scene uses them.
+ * The API does not allow this, but the tree does not depend on texture coordinates. */
 static void borrowed_arrays(void) {
   const float positions[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const uint16_t corners[3] = {0, 1, 2};
@@ -163,7 +164,8 @@ static void borrowed_arrays(void) {
   CHECK(fabs(u_at_middle(&mesh, uvs, 7) - 5) < 1e-6);
   mesh.borrow = 1;
   CHECK(fabs(u_at_middle(&mesh, uvs, 3) - 3) < 1e-6);
-  /* An older header has no such members: no borrowing, and vertices 0 1 2. */
+  /* An older header lacks these members. Nothing is borrowed, and the triangle has the vertices
+   * 0 1 2. */
   mesh.size = offsetof(mt_mesh, short_indices);
   CHECK(fabs(u_at_middle(&mesh, uvs, 9) - 3) < 1e-6);
 }
@@ -190,7 +192,7 @@ static void colored_vertices(void) {
   CHECK(mt_render(scene, &options, &film) == MT_OK);
   float rgba[4];
   CHECK(mt_film_rgba(film, rgba) == MT_OK);
-  /* At barycentric coordinates (1/2, 1/4, 1/4). */
+  /* The pixel shows the point with barycentric coordinates (1/2, 1/4, 1/4). */
   CHECK(fabsf(rgba[3] - 0.75F) < 1e-4F && fabsf(rgba[0] - 0.375F) < 1e-4F && rgba[2] == 0);
   mt_film_release(film);
   mt_scene_release(scene);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Animated assets from the command line.
+"""Tests animated assets on the command line.
 
 usage: animation_test.py PROGRAM [unittest arguments]
 """
@@ -19,7 +19,8 @@ from program import PROGRAM, ProgramTest
 
 
 def moving_square(start=0, way=4):
-    """A glTF file with a square of side 1. Its first animation moves it along x from `start` in two seconds, its second, "up", along y."""
+    """Returns a glTF file with a square of side 1. Its first animation moves the square along x from `start` in two
+    seconds. The second one, "up", moves it along y."""
     parts = [
         struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0),
         struct.pack("<6H", 0, 1, 2, 2, 1, 3),
@@ -59,7 +60,7 @@ def moving_square(start=0, way=4):
 
 
 def lower_left(picture):
-    """The column and row, from the picture's lower left corner, of the square's lower left pixel."""
+    """Returns column and row of the square's lower left pixel, counted from the picture's lower left corner."""
     magic, size, _, pixels = picture.split(b"\n", 3)
     assert magic == b"P6"
     width, height = map(int, size.split())
@@ -77,7 +78,7 @@ class Animation(ProgramTest):
         (self.folder / "move.gltf").write_text(moving_square())
 
     def square_at(self, *arguments):
-        # Ten pixels are one unit; the picture's lower left corner is (-2, -1).
+        # Ten pixels show one unit, and the picture's lower left corner is at (-2, -1).
         result = self.run_program("move.gltf", *FLAT, "--size", "80x60", "-o", "-", *arguments)
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         column, row = lower_left(result.stdout)
@@ -93,7 +94,7 @@ class Animation(ProgramTest):
         self.assertEqual(self.square_at("--time", "1", "--animation", "up"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "1"), (0, 2))
         self.assertEqual(self.square_at("--time", "1", "--animation", "0"), (2, 0))
-        # Of two channels with the same target, the later one is used.
+        # If two channels have the same target, the later one is used.
         self.assertEqual(self.square_at("--time", "1", "--animation", "all"), (0, 2))
 
     def test_invalid_animation_options_are_usage_errors(self):
@@ -192,14 +193,14 @@ class Animation(ProgramTest):
         asset["extensionsUsed"] = ["VENDOR_unknown"]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
         result = self.frames("--frames", "0:3")
-        self.assertEqual(result.stderr.count(b"VENDOR_unknown"), 2)  # with its line
+        self.assertEqual(result.stderr.count(b"VENDOR_unknown"), 2)  # once in the message, once in the quoted line
 
     def test_one_camera_frames_all_poses(self):
         asset = json.loads((self.folder / "move.gltf").read_text())
         asset["scenes"][0]["nodes"] = [0]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
         self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", "--view", "front", "-o", "move_%04d.ppm").returncode, 0)
-        # The square goes from the left side of the framed part to the right, five squares wide.
+        # The frame fits all poses. The square moves from its left side to its right and covers a width of five squares.
         left = [lower_left((self.folder / f"move_000{k}.ppm").read_bytes())[0] for k in range(3)]
         self.assertTrue(0 < left[0] < 4, left)
         self.assertAlmostEqual(left[1] - left[0], 31, delta=1)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The cost of hostile input: memory is counted before it is allocated, and nothing blocks.
+"""Tests the cost of hostile input: memory must be counted before it is allocated, and nothing may block.
 
 usage: bounds_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -32,7 +32,7 @@ class Bounds(ProgramTest):
         return said
 
     def counted(self, path, *options):
-        """MiB."""
+        """Returns the counted memory in MiB."""
         said = self.draw(path, "--stats=json", *options)
         (self.folder / "out.ppm").unlink()
         return json.loads(said)["counted_memory_mib"]
@@ -62,7 +62,7 @@ class Bounds(ProgramTest):
                 self.assertEqual(process.returncode, 6, said)
                 self.assertIn(path.name, said)
                 self.assertIn("--memory-limit", said)
-                # Sanitizers need additional memory, and so does the program itself.
+                # The margin is for the program itself. Sanitizers need additional memory.
                 if "ASAN_OPTIONS" not in os.environ:
                     self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())

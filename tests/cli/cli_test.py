@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The command line: exit codes, messages, written files.
+"""Tests the command line: exit codes, messages and written files.
 
 usage: cli_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -39,7 +39,7 @@ def minimal(**changes):
 
 class CommandLine(ProgramTest):
     def run_and_measure(self, *arguments):
-        """The exit code, standard error, and peak memory in KiB."""
+        """Returns the exit code, standard error, and peak memory in KiB."""
         with open(self.folder.parent / f"{self.folder.name}.err", "w+b") as errors:
             os.unlink(errors.name)
             process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=errors)
@@ -54,7 +54,8 @@ class CommandLine(ProgramTest):
         return path
 
     def assert_refused(self, scene_text, code, *fragments, name="scene.json"):
-        """The scene fails with this code, one message with all fragments, and no other file."""
+        """Checks that the scene fails with this exit code and one message with all fragments, and that no other file
+        appears."""
         self.write(name, scene_text)
         result = self.run_program(name, "-o", "out.ppm")
         message = result.stderr.decode(errors="replace")
@@ -152,7 +153,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), [])
 
     def camera(self, scene, *options):
-        """Position, the directions to the right, up and back, and the focal length in picture heights."""
+        """Returns the camera's position, its directions to the right, up and back, and the focal length in picture
+        heights."""
         result = self.run_program(scene, "--integrator", "flat", "--size", "40x30", "--sidecar", "s.json", "-o", "s.ppm", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         camera = json.loads((self.folder / "s.json").read_text())["camera"]
@@ -174,7 +176,7 @@ class CommandLine(ProgramTest):
         self.assert_near(position, [t + r * a for t, a in zip(target, away)])
         self.assertGreater(up[1], 0)
         self.assertAlmostEqual(focal, 0.5 / math.tan(math.radians(30)), places=9)
-        # The default target is the center of the box, for any notation of the view.
+        # Without --target, the camera looks at the center of the scene's box. Equivalent views have the same direction.
         middle = self.camera(cube, "--view", "90,0,7")[0]
         self.assert_near(self.camera(cube, "--view", "-270,0,9")[0], [middle[0] + 2, *middle[1:]])
 
@@ -198,7 +200,7 @@ class CommandLine(ProgramTest):
         corner = lambda *options: self.picture(cube, "--integrator", "flat", "--size", "40x30", *options)[2][0][:3]
         self.assertEqual(corner(), b"\0\0\0")
         self.assertEqual(corner("--background", "#2b7CfF"), b"\x2b\x7c\xff")
-        self.assertEqual(corner("--background", "0.5,0,1"), b"\xbc\x00\xff")  # linear light
+        self.assertEqual(corner("--background", "0.5,0,1"), b"\xbc\x00\xff")  # linear light, which is encoded as sRGB
         for background in ("blue", "#12345", "#12345g", "1,2,0", "1,1", "1,1,1,1", "nan,0,0", "-1,0,0"):
             wrong = self.run_program(cube, "--background", background)
             self.assertEqual(wrong.returncode, 2, background)
@@ -268,7 +270,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(many[0], many[1])
         colors = lambda rows: {row[i:i + 3] for row in rows for i in range(0, len(row), 3)}
         self.assertLess(len(colors(one[2])), 10)  # only flat colors
-        self.assertGreater(len(colors(many[0][2])), 30)  # and mixtures on the edges
+        self.assertGreater(len(colors(many[0][2])), 30)  # blends along edges
 
     def test_statistics(self):
         result = self.run_program(SCENE, "-o", "a.ppm", "--stats=json", "-t", "2")
@@ -295,10 +297,10 @@ class CommandLine(ProgramTest):
         for name in ("camera", "path", "shadow"):
             self.assertGreater(found[name]["rays"], 0)
             self.assertGreater(found[name]["s"], 0)
-        self.assertGreater(kinds(textures)["beyond"], 0)  # rays pass through cut-out parts
+        self.assertGreater(kinds(textures)["beyond"], 0)  # rays continue behind cut-out parts
         stages = json.loads(self.run_program(ball, "-o", "a.ppm", "--size", "50x40", "--integrator", "path", "-q",
                                              "--stats=json").stderr)["stages"]
-        self.assertGreater(stages["filters"], 0)  # a scene with only a ball has no tree
+        self.assertGreater(stages["filters"], 0)  # counted even though a scene of one ball has no tree
         self.assertGreater(stages["origins"], 0)
         self.assertIn(b"missing_origins", self.run_program(ball, "-o", "a.ppm", "--stats").stderr)
         short = rays(kinds(ball, "--max-depth", "1"))
@@ -326,7 +328,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(decoded("--integrator", "albedo"), decoded("--integrator", "depth", "--aov", "albedo"))
         self.assertLess(decoded("--integrator", "albedo"), decoded("--spp", "1"))
         self.assertEqual(decoded("--integrator", "flat", "--aov", "normal"), decoded("--integrator", "flat"))
-        # Pictures of exact quantities are the same whether or not textures are decoded.
+        # AOVs of exact quantities must not depend on whether textures are decoded.
         for quantity in ("depth", "normal", "uv", "id"):
             pictures = []
             for options in ((), ("--aov", "albedo")):
@@ -367,7 +369,7 @@ class CommandLine(ProgramTest):
             result = self.run_program(SCENE, wrong, "4")
             self.assertEqual(result.returncode, 2)
             self.assertIn(f"error: unknown option {wrong.split('=')[0]}; did you mean {right}?\n", result.stderr.decode())
-        # Also without SCENE, which CLI11 would report first.
+        # Tests the message without SCENE too, because CLI11 would report the missing SCENE first.
         self.assertIn(b"did you mean --samples?", self.run_program("--smaples=4").stderr)
         for arguments, message in ((["--nothing-like-it"], "error: unknown option --nothing-like-it\n"),
                                    (["b.json"], 'error: unexpected argument "b.json"\n'),
@@ -389,7 +391,7 @@ class CommandLine(ProgramTest):
             self.assertEqual(result.returncode, 4, name)
             message = result.stderr.decode()
             self.assertIn(f"error: {name}: microtrace reads JSON scenes and glTF (.gltf, .glb), not .{name[2:].lower()}; convert", message)
-        # A scene with an unknown file extension is rendered.
+        # The content selects the format of a file with a foreign extension.
         self.write("scene.obj", minimal())
         self.assertEqual(self.run_program("scene.obj", "-q", "-o", "a.ppm").returncode, 0)
 
@@ -416,7 +418,7 @@ class CommandLine(ProgramTest):
     # Points and lines of glTF assets
 
     def write_line(self, material):
-        """line.gltf: a segment from (0, 0, 0) to (1, 2, 3), without normals."""
+        """Writes line.gltf: a segment from (0, 0, 0) to (1, 2, 3), without normals."""
         positions = base64.b64encode(struct.pack("<6f", 0, 0, 0, 1, 2, 3)).decode()
         self.write("line.gltf", json.dumps({
             "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -459,7 +461,8 @@ class CommandLine(ProgramTest):
         self.assertIn(b"Exit codes", self.run_program("--help").stdout)
 
     def test_missing_modules(self):
-        """A required extension without its module is refused; the message names the package to install."""
+        """Without the decoder's module, an asset that requires the extension is refused, and the message names the package
+        to install."""
         asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
                  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
                               + "A" * 48}],
@@ -602,7 +605,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.returncode, 5)
 
     def test_interrupt_leaves_nothing(self):
-        # Takes far longer than any test unless it is interrupted.
+        # Would take far longer than any test if it were not interrupted.
         process = subprocess.Popen([PROGRAM, SCENE, "--size", "8000x8000", "--spp", "256", "-t", "1", "--progress", "json"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
         self.assertIn(b"progress", process.stderr.readline())
@@ -617,7 +620,7 @@ class CommandLine(ProgramTest):
         for picture, others in (("/dev/null", (b"libpng", b"libjpeg")), ("a.png", ())):
             result = self.run_program(SCENE, "-o", picture, env=environment(LD_DEBUG="files"))
             self.assertEqual(result.returncode, 0)
-            self.assertIn(b"libstdc++", result.stderr)  # the trace works
+            self.assertIn(b"libstdc++", result.stderr)  # the list of loaded files works
             for library in (b"OpenImageIO", b"OpenEXR", b"Imath", *others):
                 self.assertNotIn(library, result.stderr)
 

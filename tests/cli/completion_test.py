@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Completion in bash, fish and zsh.
+"""Tests completion in bash, fish and zsh.
 
 usage: completion_test.py PROGRAM [unittest arguments]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How runs end: limits, signals, full disks; escaping in messages.
+"""Tests how runs end (limits, signals, full disks) and how messages escape control characters.
 
 usage: ends_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -18,7 +18,7 @@ from program import PROGRAM, ProgramTest, environment
 
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
-# A rendering that takes hours.
+# Arguments of a rendering that would take hours.
 LONG = [SCENE, "--size", "4000x4000", "--spp", "65536", "--integrator", "path", "-q", "-o", "out.ppm"]
 
 
@@ -28,7 +28,7 @@ class Ends(ProgramTest):
                                 env=environment(), **options)
 
     def wait_for_temporary(self):
-        """Waits until the program writes a file."""
+        """Waits until the program has opened its temporary output file."""
         for _ in range(3000):
             if any(name.startswith(".microtrace-") for name in os.listdir(self.folder)):
                 return
@@ -146,7 +146,7 @@ class Ends(ProgramTest):
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(b"known are portable, avx2 and avx512", result.stderr)
             self.assertEqual(os.listdir(self.folder), [])
-        for name in ["", "portable", "avx2", "avx512"]:  # missing ones fall back to portable
+        for name in ["", "portable", "avx2", "avx512"]:  # those that the machine lacks fall back to portable
             result = self.run_program(SCENE, "--size", "8x6", "-o", "a.ppm", env=environment(MICROTRACE_ISA=name))
             self.assertEqual(result.returncode, 0, result.stderr)
 

@@ -1,6 +1,6 @@
-"""Reads the OpenEXR files that the program writes: one part of scan lines, ZIP or no compression.
+"""Reads the OpenEXR files that the program writes: a single part with scan lines, uncompressed or ZIP-compressed.
 
-Implements the file format's specification (https://openexr.com/en/latest/OpenEXRFileLayout.html), so that tests don't
+Implements the specification of the file format (https://openexr.com/en/latest/OpenEXRFileLayout.html). Tests thus don't
 depend on the library that wrote the file.
 """
 import struct
@@ -11,8 +11,8 @@ LINES_PER_CHUNK = {0: 1, 2: 1, 3: 16}  # none, ZIPS, ZIP
 
 
 class Exr:
-    """`channels`: name -> list of rows of numbers; `types`: name -> "I", "e" or "f"; windows as (x0, y0, x1, y1), x1 and y1
-    the first outside."""
+    """An OpenEXR file. `channels` maps names to lists of rows of numbers, and `types` maps them to "I", "e" or "f". Windows
+    are (x0, y0, x1, y1), where x1 and y1 are the first column and row outside."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -74,7 +74,7 @@ class Exr:
 
     @staticmethod
     def _unzip(chunk):
-        """Undoes the predictor (differences of bytes) and the separation of even and odd bytes."""
+        """Decompresses a chunk. Undoes the predictor (differences of bytes) and the separation of even and odd bytes."""
         raw = bytearray(zlib.decompress(chunk))
         for i in range(1, len(raw)):
             raw[i] = (raw[i - 1] + raw[i] - 128) & 0xFF

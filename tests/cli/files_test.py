@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Files: no output replaces an input, and nothing is read outside the scene's folder.
+"""Tests that outputs never replace inputs, and that nothing outside the scene's folder is read.
 
 usage: files_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -23,7 +23,7 @@ class Files(ProgramTest):
         super().setUp()
         self.asset = self.folder / "asset"
         self.asset.mkdir()
-        # A triangle with a texture: two files besides the asset itself.
+        # A triangle with a texture. Besides the asset itself, it needs two files.
         (self.asset / "data.bin").write_bytes(
             struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0) + struct.pack("<6f", 0, 0, 1, 0, 0, 1))
         result = self.run_program(SOURCE / "scenes/perspective1.json", "-q", "--size", "4x4", "-o", "asset/wood.png")
@@ -52,7 +52,7 @@ class Files(ProgramTest):
         return self.run_program(*arguments, *size, **options)
 
     def assert_refused(self, code, *arguments, says, **options):
-        """The program fails with this code and a message with all fragments, and changes no file."""
+        """Checks that the program fails with this exit code and a message with all fragments, and changes no file."""
         before = self.contents()
         result = self.draw(*arguments, **options)
         message = result.stderr.decode()
@@ -124,12 +124,12 @@ class Files(ProgramTest):
         self.assert_refused(2, *draw, "--checkpoint", "ck", says=["--output", "--checkpoint"])
         self.assert_refused(2, *draw, "--resume", "ck", says=["link.ppm", "--output"])
         self.assert_refused(2, "merge", "ck", "-o", "link.ppm", says=["link.ppm", "ck"])
-        # A resumed checkpoint is not changed.
+        # --checkpoint may name the resumed checkpoint.
         draw[-1] = "a.ppm"
         self.assertEqual(self.draw(*draw, "--resume", "ck", "--checkpoint", "ck").returncode, 0)
 
     def test_two_outputs_with_one_file(self):
-        os.symlink("b.ppm", self.folder / "link.ppm")  # its target doesn't exist yet
+        os.symlink("b.ppm", self.folder / "link.ppm")  # a link whose target doesn't exist yet
         draw = ["asset/model.gltf", "--spp", "1", "-o", "b.ppm"]
         for path in ["b.ppm", "./b.ppm", "asset/../b.ppm", "link.ppm"]:
             self.assert_refused(2, *draw, "--sidecar", path, says=["--output", "--sidecar"])
@@ -150,7 +150,7 @@ class Files(ProgramTest):
             os.remove(self.folder / "a.ppm")
             os.remove(self.asset / part)
             shutil.move(outside / part, self.asset / part)
-        # The same through a link to a folder, and from a JSON scene.
+        # The asset names a file behind a link to a folder, directly and as part of a JSON scene.
         os.symlink("../outside", self.asset / "more")
         shutil.move(self.asset / "data.bin", outside / "data.bin")
         self.gltf["buffers"][0]["uri"] = "more/data.bin"

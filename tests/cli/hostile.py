@@ -1,7 +1,7 @@
-"""Scene files that are large in one respect: their cost must grow at most linearly.
+"""Makes scene files that are large in one respect, whose cost must grow at most linearly.
 
-Each function makes an asset with about n things of the kind in its name. bounds_test.py renders all of them at a small
-size. Run as a program, this script compares the processor times for N and 4 N, which no test does:
+Each function makes an asset with about n of the objects in its name. bounds_test.py renders each asset at a small size. Run
+as a program, this script compares the processor times for N and 4 N, which no test does:
 
 usage: hostile.py PROGRAM N NAME,NAME,...|all [OPTION...]
 """
@@ -25,7 +25,7 @@ def data_uri(data, kind="application/octet-stream"):
 
 
 def asset(**members):
-    """An asset with one triangle, mesh 0, on node 0; `members` are added or replace these."""
+    """Returns an asset with one triangle as mesh 0 on node 0. `members` are added or replace members of the same names."""
     result = {
         "asset": {"version": "2.0"},
         "scene": 0,
@@ -42,7 +42,7 @@ def asset(**members):
 
 
 def png(width, height, color=0, depth=8):
-    """An image of zeros, compressed to a thousandth of its size."""
+    """Returns a PNG image of zeros, which compresses to a thousandth of its size."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -170,7 +170,7 @@ def joints(n):
 
 
 def skinned_nodes_of_many_joints(n):
-    """The square root of n nodes, each with a skin of as many joints."""
+    """About sqrt(n) nodes. Each has a skin of about sqrt(n) joints."""
     side = int(n ** 0.5)
     result = joints(side)
     result["nodes"] += [{"mesh": 0, "skin": 0}] * side
@@ -192,7 +192,7 @@ def nodes_with_morph_targets(n):
 
 
 def keyed(data, accessors):
-    """A scene of one triangle with additional members."""
+    """Returns an asset of one triangle with additional data and accessors."""
     views = [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": len(data)}]
     data = TRIANGLE + data
     return asset(buffers=[{"byteLength": len(data), "uri": data_uri(data)}], bufferViews=views,
@@ -344,7 +344,7 @@ def instances(n):
 
 
 def zeros(n):
-    """A mesh with vertices from an accessor without data."""
+    """Returns a mesh whose vertices come from an accessor without data."""
     accessor = {"componentType": FLOATS, "count": n // 3 * 3, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}
     return asset(accessors=[accessor])
 
@@ -412,7 +412,7 @@ def repeated_keys_under_a_long_one(n):
 
 
 def values_under_a_long_key(n):
-    """The schema describes the values, but not the key that contains them."""
+    """Returns values that the schema describes, below a long key that it does not describe."""
     return asset(extensionsUsed=["x" * 6 * n],
                  extensions={"x" * 6 * n: {"nodes": [{"unknown": 0, "extensions": {}}] * n}})
 
@@ -488,7 +488,8 @@ def write(name, n, folder):
 
 
 def cost_of(arguments, folder):
-    """Exit code, seconds of processor time and MiB of a run, limited to a minute and 12 GiB."""
+    """Returns the exit code, processor time in seconds and memory in MiB of a run, which is limited to a minute and 12
+    GiB."""
     child = os.fork()
     if child == 0:
         resource.setrlimit(resource.RLIMIT_AS, (12 << 30, 12 << 30))

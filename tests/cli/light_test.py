@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Options for light and display: accepted values, exit codes of refused ones, warnings about dark pictures.
+"""Tests the options for light and display: accepted values, exit codes for refused values, and warnings about dark
+pictures.
 
 usage: light_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -53,7 +54,7 @@ class Environments(ProgramTest):
     def test_environment_as_background(self):
         corner = lambda *options: self.picture(CUBE, "--size", "40x30", "--integrator", "path", "--spp", 1, "--tonemap",
                                                "none", *options)[2][0][:3]
-        self.assertEqual(corner("--env", "0.5,0,1"), b"\xcb\xcb\xcb")  # of 0.6
+        self.assertEqual(corner("--env", "0.5,0,1"), b"\xcb\xcb\xcb")  # the default background, linear 0.6
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env"), b"\xbc\x00\xff")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "env", "--env-intensity", "0"), b"\0\0\0")
         self.assertEqual(corner("--env", "0.5,0,1", "--background", "#102030"), b"\x10\x20\x30")
@@ -78,12 +79,12 @@ class Environments(ProgramTest):
 
 class Exposure(ProgramTest):
     def corner(self, *options, light=0.25):
-        """A pixel of the background in a flat picture."""
+        """Returns a background pixel of a flat picture."""
         return self.picture(CUBE, "--integrator", "flat", "--size", "40x30", "--background", f"{light},{light},{light}", *options)[2][0][:3]
 
     def test_values(self):
         self.assertEqual(self.corner(), b"\x89" * 3)
-        self.assertEqual(self.corner("--exposure", "1"), b"\xbc" * 3)  # of 0.5
+        self.assertEqual(self.corner("--exposure", "1"), b"\xbc" * 3)  # linear 0.5
         self.assertEqual(self.corner("--exposure", "-2.5", "--tonemap", "none"),
                          self.corner(light=0.25 * 2**-2.5))
         self.assertEqual(self.corner("--exposure", "9"), b"\xff" * 3)
@@ -122,7 +123,7 @@ class Exposure(ProgramTest):
 
 
 class DarkPictures(ProgramTest):
-    """Warnings about pictures that are black or nearly black."""
+    """Tests warnings about pictures that are black or nearly black."""
 
     def warnings(self, document, *options, code=0):
         (self.folder / "scene.json").write_text(json.dumps({
@@ -167,7 +168,7 @@ class DarkPictures(ProgramTest):
                          {"lights": [self.lamp(0)], "environment": {"type": "studio"}},
                          {"background": [1, 0, 0], "lights": [self.lamp(30)]}):
             self.assertEqual(self.warnings(document), "", document)
-        # A small sphere, far away, on a black background.
+        # A small, distant sphere on a black background is not considered dark.
         small = {"objects": [{"type": "sphere", "center": [0, 0, -20], "radius": 1}]}
         self.assertEqual(self.warnings(small), "")
         self.assertEqual(self.warnings({"lights": [self.lamp(0)]}, "--max-depth", "1"), "")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares docs/ with --help: the manual page has the same texts, and docs/command-line.md a row for each option.
+"""Compares docs/ with --help: the manual page must have the same texts, and docs/command-line.md a row for each option.
 
 --update replaces the options in the manual page.
 
@@ -26,7 +26,7 @@ def help_text(*command):
 
 
 def groups():
-    """All options under their headings, each once."""
+    """Returns all options by heading. Each option occurs once."""
     all_groups = option_table.parse(help_text())
     return {**all_groups, "Merging": option_table.parse(help_text("merge"))["Merging"]}
 
@@ -37,7 +37,7 @@ def bold_options(text):
 
 
 def wrapped(text, width=118):
-    """Wraps the text so that each line begins with a word; at the start of a line scdoc interprets other characters."""
+    """Wraps the text. Each line begins with a word, because scdoc interprets other characters at the start of a line."""
     lines = [""]
     for word in text.split():
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width and re.match(r"\w|\*--", word):

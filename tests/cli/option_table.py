@@ -1,4 +1,4 @@
-"""The options as --help lists them."""
+"""Parses the options that --help lists."""
 
 import re
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ class Option:
 
     @property
     def name(self):
-        """The first long name, or a positional argument's."""
+        """The first long name, or the name of a positional argument."""
         return next((name for name in self.names if name.startswith("--")), self.names[0])
 
 
 def parse(text):
-    """Heading -> options, from the text of --help."""
+    """Returns a dict from headings to options, given the text of --help."""
     groups, options = {}, None
     for line in text.split("\nExit codes:")[0].splitlines():
         if re.fullmatch(r"\S.*:", line):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The table of options: defaults, and whether samples depend on an option.
+"""Tests the table of options: the listed defaults, and whether an option affects samples.
 
 usage: options_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -16,9 +16,9 @@ from program import ProgramTest
 SOURCE = Path(sys.argv[2]).resolve()
 SCENE = SOURCE / "scenes/perspective1.json"
 LIGHT = [SCENE, "--integrator", "path", "--size", "16x12", "-q"]
-# Options that other options require.
+# Other options that an option requires.
 CONTEXT = {"--fov": ["--view", "front"], "--up": ["--eye", "0,0,30"], "--fps": ["--frames", "3:3"]}
-# Values other than the defaults.
+# Options that affect samples, with values that differ from the defaults.
 SAMPLES_DEPEND = {
     "--size": "12x16", "--crop": "0,0,8,8", "--background": "transparent", "--camera": "0", "--view": "top", "--eye": "0,0,30",
     "--filter": "blackman-harris", "--seed": "1", "--max-depth": "1", "--backfaces": "occlude",
@@ -91,7 +91,7 @@ class Options(ProgramTest):
             result = self.run_program(*LIGHT, *arguments)
             self.assertEqual(result.returncode, 2)
             self.assertTrue(result.stderr.startswith(message), result.stderr)
-        # Switches may be repeated and switched off.
+        # Switches may be repeated, and may be set to false.
         self.assertEqual(self.run_program(*LIGHT, "-q", "--quiet", "--spp", "1", "-o", "a.ppm").stderr, b"")
         self.assertIn(b"wrote", self.run_program(*LIGHT[:-1], "--quiet=false", "--spp", "1", "-o", "a.ppm").stderr)
         self.assertEqual(self.run_program(*LIGHT, "--quiet=perhaps").returncode, 2)

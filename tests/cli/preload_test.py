@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The program with few threads, and with a preloaded library that changes the floating-point environment.
+"""Tests the program with few threads, and with a preloaded library that changes the floating-point environment.
 
 usage: preload_test.py PROGRAM SOURCE_FOLDER FEW_THREADS HOST_RULES [unittest arguments]; the last two are libraries
 """
@@ -20,7 +20,7 @@ FEW_THREADS, HOST_RULES = sys.argv[3:5]
 
 
 def hills(n=110):
-    """A glTF asset with enough triangles for several threads to build its tree."""
+    """Returns a glTF asset with enough triangles for several threads to build its tree."""
     points = [(4 * i / n - 2, 4 * j / n - 2, 0.3 * math.sin(0.3 * i) * math.cos(0.2 * j)) for i in range(n) for j in range(n)]
     corners = [k for i in range(n - 1) for j in range(n - 1) for k in
                (i * n + j, i * n + n + j, i * n + j + 1, i * n + j + 1, i * n + n + j, i * n + n + j + 1)]
@@ -48,7 +48,7 @@ class Preloaded(ProgramTest):
         (self.folder / "hills.gltf").write_text(hills())
 
     def draw(self, name, *arguments, **variables):
-        """Renders the hills; returns the exit code, the bytes of the picture, and standard error."""
+        """Renders the hills. Returns the exit code, the bytes of the picture, and standard error."""
         result = self.run_program("hills.gltf", "--size", "48x36", "-o", name, *arguments,
                                   env=environment(**variables))
         path = self.folder / name

@@ -1,4 +1,4 @@
-"""Runs the program under test, the first argument of every script in this folder."""
+"""Runs the program under test, whose path is the first argument of every script in this folder."""
 
 import os
 import subprocess
@@ -30,7 +30,7 @@ class ProgramTest(unittest.TestCase):
         return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, **options)
 
     def picture(self, *arguments):
-        """Width, height and rows of pixels of the binary PPM that the program writes."""
+        """Returns width, height and rows of pixels of the binary PPM that the program writes."""
         result = self.run_program(*arguments, "-o", "-")
         self.assertEqual(result.returncode, 0, result.stderr)
         magic, size, maximum, pixels = result.stdout.split(b"\n", 3)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checkpoints, interruptions, shards, time limits and target errors.
+"""Tests checkpoints, interruptions, shards, time limits and target errors.
 
 usage: samples_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -48,7 +48,7 @@ class Samples(ProgramTest):
         self.assertEqual(self.bytes_of("d.ppm"), whole)
         self.assertEqual(self.bytes_of("a.ppm"), self.whole("--spp", "5"))
         self.assertEqual(self.bytes_of("b.ppm"), self.whole("--spp", "20"))
-        # Nothing remains to be rendered.
+        # All samples are in the checkpoint, so nothing remains to be rendered.
         self.render("-o", "d.ppm", "--spp", "20", "--checkpoint", "c", "--resume", "c")
         self.assertEqual(self.bytes_of("d.ppm"), self.bytes_of("b.ppm"))
 
@@ -98,10 +98,10 @@ class Samples(ProgramTest):
             self.assertEqual(result.returncode, 0, result.stderr)
             self.assertRegex(result.stderr, rb"^wrote merged\.ppm: 32 x 20 pixels, 50 samples each, in [0-9.]+ s\n$")
             self.assertEqual(self.bytes_of("merged.ppm"), whole)
-        # Merges with other display options.
+        # A merge may use different display options.
         self.run_program("merge", "part1", "part2", "part3", "-o", "merged.ppm", "--exposure", "1", "--tonemap", "aces")
         self.assertEqual(self.bytes_of("merged.ppm"), self.whole("--spp", "50", "--exposure", "1", "--tonemap", "aces"))
-        # If samples are missing, a picture is written only with --partial; another run can add the samples.
+        # If samples are missing, merge writes a picture only with --partial. Another run can add the missing samples.
         result = self.run_program("merge", "part1", "part3", "-o", "none.ppm")
         self.assertEqual(result.returncode, 2)
         self.assertIn(b"error: samples 16 to 32 of 50 are missing; ", result.stderr)
@@ -150,7 +150,7 @@ class Samples(ProgramTest):
         scene.write_text(json.dumps(gltf))
         self.render("-o", "a.ppm", "--checkpoint", "c", scene=scene)
         self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "2", scene=scene)
-        # The third corner is moved within the same bounds.
+        # Moves the third corner, but keeps the accessor's bounds.
         (self.folder / "a.bin").write_bytes(vertices[:24] + (0x3F000000).to_bytes(4, "little") + vertices[28:])
         message = self.render("-o", "a.ppm", "--checkpoint", "c", "--spp", "3", code=2, scene=scene)
         self.assertIn("made with scene files ", message)
@@ -184,7 +184,7 @@ class Samples(ProgramTest):
         stats = json.loads(self.render("-o", "a.ppm", *options, "-t", "1"))
         self.assertLess(stats["rays"], 512 * 32 * 20)
         self.assertGreaterEqual(stats["rays"], 32 * 32 * 20)
-        # Renders the same with more threads, and after an interruption.
+        # More threads and an interruption must not change the result.
         self.render("-o", "b.ppm", "--spp", "40", *options[2:], "--checkpoint", "c")
         again = json.loads(self.render("-o", "b.ppm", *options, "-t", "3", "--checkpoint", "c"))
         self.assertEqual(again["samples_per_pixel"], stats["samples_per_pixel"])

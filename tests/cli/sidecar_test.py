@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Renders scenes with exact quantities and compares the sidecar with the EXR file, using an independent reader and formulas.
+"""Renders scenes with AOVs, and compares the sidecar with the EXR file by an independent reader and independent formulas.
 
 usage: sidecar_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -20,8 +20,8 @@ ALL = "depth,distance,position,normal,face_normal,uv,barycentric,albedo,id"
 
 
 def distorted(camera, x, y, z):
-    """The pixel of a point right of, below and before the camera by the formulas of OpenCV's documentation, with sums over
-    powers."""
+    """Returns the pixel that shows a point. The point is given by its distances to the right of, below and in front of the
+    camera. Uses the formulas of OpenCV's documentation, with powers summed directly."""
     k = camera["distortion"]
     if k["type"] == "fisheye":
         across = math.hypot(x, y)
@@ -43,7 +43,7 @@ def transformed(rows, point):
 
 class Sidecar(ProgramTest):
     def draw(self, scene, *options):
-        """Renders a scene, makes the checks that apply to every scene, and returns the sidecar and the picture."""
+        """Renders a scene and makes the checks that apply to every scene. Returns the sidecar and the picture."""
         result = self.run_program(SOURCE / "scenes" / scene, "--aov", ALL, "-o", "a.exr", "--size", "60x45", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["a.exr", "a.exr.json"])
@@ -60,7 +60,7 @@ class Sidecar(ProgramTest):
         return sidecar, picture
 
     def pixels(self, picture, *names):
-        """x and y in the whole picture, then the channels' numbers."""
+        """Yields x and y in the whole picture, followed by the channels' numbers."""
         x0, y0, _, _ = picture.data_window
         for row in range(picture.height):
             for column in range(picture.width):
@@ -96,7 +96,7 @@ class Sidecar(ProgramTest):
         self.assertLessEqual({o["material"] for o in objects}, {0} | {m["id"] for m in sidecar["materials"]})
 
     def check_camera(self, sidecar, picture):
-        """Checks that each position projects to the center of its pixel, at its depth."""
+        """Checks that each visible position projects to the center of its pixel and has the pixel's depth."""
         camera = sidecar["camera"]
         there, back = camera["world_from_camera"], camera["camera_from_world"]
         for a in range(4):
@@ -150,19 +150,20 @@ class Sidecar(ProgramTest):
             with self.subTest(written["name"]):
                 sidecar, picture = self.draw("calibrated.json", "-c", written["name"])
                 camera, image = sidecar["camera"], written["image"]
-                # A picture of 60 x 45 is the resized image; OpenCV's pixel centers are integers.
+                # A picture of 60 x 45 pixels shows the whole calibrated image at another size. In OpenCV, pixel centers
+                # have integer coordinates.
                 self.assertAlmostEqual(camera["fx"], written["fx"] * 60 / image["width"], places=12)
                 self.assertAlmostEqual(camera["fy"], written["fy"] * 45 / image["height"], places=12)
                 self.assertAlmostEqual(camera["cx"], (written["cx"] + 0.5) * 60 / image["width"], places=12)
                 self.assertAlmostEqual(camera["cy"], (written["cy"] + 0.5) * 45 / image["height"], places=12)
                 for name, value in camera["distortion"].items():
                     self.assertEqual(value, written["distortion"].get(name, 0))
-                if index == 1:  # in the axes of OpenCV
+                if index == 1:  # OpenCV's axes differ in sign
                     for r in range(3):
                         for c in range(4):
                             sign = 1 if r == 0 else -1
                             self.assertAlmostEqual(camera["camera_from_world"][r][c] * sign, written["extrinsic"][r][c], places=12)
-                if index == 2:  # the picture shows what is behind the camera, and has no rays in its corners
+                if index == 2:  # the picture shows points behind the camera, and its corners have no rays
                     depths = picture.channels["depth.Z"]
                     self.assertLess(min(min(row) for row in depths), -5)
                     self.assertTrue(all(math.isinf(depths[y][x]) for y in (0, 44) for x in (0, 59)))
@@ -174,7 +175,7 @@ class Sidecar(ProgramTest):
         self.assertEqual((sidecar["width"], sidecar["height"]), (60, 45))
 
     def test_closed_forms(self):
-        """A unit sphere before a wall, seen along -z."""
+        """Compares a unit sphere in front of a wall, seen along -z, with closed-form results."""
         scene = {"version": 1,
                  "cameras": [{"type": "perspective", "position": [0, 0, 4], "direction": [0, 0, -1], "vertical_fov": 60}],
                  "objects": [{"name": "ball", "type": "sphere", "center": [0, 0, 0], "radius": 1},
@@ -189,7 +190,7 @@ class Sidecar(ProgramTest):
         self.assertIsNone(wall["world_box"])
         focal = 30 / math.tan(math.radians(30))
         self.assertAlmostEqual(sidecar["camera"]["fx"], focal, places=9)
-        radius = focal / math.sqrt(15)  # of the ball's outline
+        radius = focal / math.sqrt(15)  # radius of the ball's outline
         self.assertAlmostEqual(ball["visible_pixels"], math.pi * radius * radius, delta=0.02 * math.pi * radius * radius)
         self.assertEqual(ball["visible_pixels"] + wall["visible_pixels"], 80 * 60)
         self.assertEqual(wall["box"], [0, 0, 80, 60])
@@ -200,7 +201,7 @@ class Sidecar(ProgramTest):
             if instance == 2:
                 self.assertEqual((depth, *n), (6, 0, 0, 1))
                 continue
-            # |(right, up, -1) d + (0, 0, 4)| = 1
+            # Solves |(right, up, -1) d + (0, 0, 4)| = 1 for d.
             a, b, c = right * right + up * up + 1, -4, 15
             d = (-b - math.sqrt(b * b - a * c)) / a
             self.assertAlmostEqual(depth, d, delta=1e-6)

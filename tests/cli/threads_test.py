@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Pictures rendered by several threads equal those rendered by one, for every rendering method. Under the thread sanitizer,
-a race ends the program with code 66.
+"""Tests that several threads render the same pictures as one thread, for every rendering method. Under the thread
+sanitizer, a data race ends the program with exit code 66.
 
 usage: threads_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """

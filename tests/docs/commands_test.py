@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs each command and each JSON snippet of README.md, CONTRIBUTING.md and docs/*.md.
 
-Commands are read from code blocks and inline code. Commands of microtrace run in a folder with the files that they name,
-with small pictures. Other commands must be listed below, with the place that runs them.
+Commands are read from code blocks and inline code. Commands of microtrace run with a small picture size, in a folder with
+the files that they name. Each other command must match a pattern below, with a note about the place that runs it.
 
 usage: commands_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
 """
@@ -24,11 +24,11 @@ from program import PROGRAM, ProgramTest, environment
 SOURCE = Path(sys.argv[2]).resolve()
 PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "docs").glob("*.md"))]
 
-# Commands that other tests run.
+# Patterns of commands that other tests run.
 RUN_ELSEWHERE = [
     r"\./demo$|\./test$",  # .ci/run
-    r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test, with other presets
-    r"cmake --build --preset release --target \w+$",  # long checks, by hand; see test_targets_exist
+    r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test run these with other presets
+    r"cmake --build --preset release --target \w+$",  # long checks that are started by hand; see test_targets_exist
     r"cmake --install build/release( --prefix \w+)?$|cpack( .*)?$",  # package.*
     r"cmake --workflow --preset \w+$|scripts/\w+( \w+)*$",  # see test_scripts_and_presets_exist
     r"ctest -L [\w |]+$",
@@ -48,7 +48,7 @@ class Snippet:
 
 
 def blocks(page):
-    """(line, language or None, text) of each code block."""
+    """Returns (line, language or None, text) for each code block."""
     lines, found, fence = page.read_text().split("\n"), [], None
     for number, line in enumerate(lines, 1):
         if line.startswith("```"):
@@ -91,7 +91,7 @@ def has_placeholder(command):
 
 
 def small(command):
-    """The command with few pixels and samples."""
+    """Returns the command with fewer pixels and samples."""
     command = re.sub(r"--size \S+", "", command)
     command = re.sub(r"(--spp|--samples) (\d+)", lambda m: f"{m[1]} {min(int(m[2]), 4)}", command)
     if re.match(r"microtrace (merge|completion)|microtrace --", command):
@@ -141,7 +141,7 @@ class Documentation(ProgramTest):
         count = 0
         for page in PAGES:
             if page.name in ("performance.md", "CONTRIBUTING.md", "architecture.md", "internals.md"):
-                continue  # options of other programs
+                continue  # these pages name options of other programs
             for code in re.findall(r"`(--?[a-z][a-z-]*)(?![\w*])", page.read_text()):
                 count += 1
                 self.assertIn(code, known, page.name)
@@ -185,7 +185,7 @@ class Documentation(ProgramTest):
                 with self.subTest(page=page.name, line=line):
                     count += 1
                     text = text.strip()
-                    # Snippets show parts of a scene without the enclosing braces.
+                    # A snippet may show a part of a scene without the enclosing braces.
                     scene = json.loads(text if text.startswith("{") else "{" + text + "}")
                     scene = {"version": 1, "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}], **scene}
                     (self.folder / "snippet.json").write_text(json.dumps(scene))

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The library with the defaults, used as in README.md, writes the same pictures as the program without options.
+"""Tests that the library with default options, used as in README.md, writes the same pictures as the program without
+options.
 
 usage: library_test.py PROGRAM SOURCE_FOLDER README_PROGRAM [unittest arguments]
 """
@@ -34,7 +35,7 @@ class Library(ProgramTest):
         self.assertEqual(pictures[0], pictures[1], scene)
 
     def write_gltf(self, mode, camera):
-        """Writes a triangle (mode 4) or, for fewer shaded pixels, lines between its corners (mode 2)."""
+        """Writes a triangle (mode 4), or lines between its corners (mode 2), which shade fewer pixels."""
         nodes = [{"mesh": 0}] + [{"camera": 0, "translation": [0, 0, 20]}] * camera
         positions = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
         (self.folder / "scene.gltf").write_text(json.dumps({

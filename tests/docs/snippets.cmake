@@ -1,8 +1,9 @@
-# Writes each C and C++ snippet of a Markdown file to a separate file in a folder, and sets ${result} to the list of files.
+# Writes each C and C++ snippet of a Markdown file to a file of its own in a folder. Sets ${result} to the list of these
+# files.
 function(write_snippets markdown folder result)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${markdown})
   file(READ ${markdown} text)
-  # Semicolons separate the items of CMake's lists.
+  # Escapes semicolons, which separate the items of CMake's lists.
   string(REPLACE ";" "\\;" text "${text}")
   string(REGEX MATCHALL "\n```(c|cpp)\n[^`]*\n```" snippets "${text}")
   cmake_path(GET markdown STEM name)

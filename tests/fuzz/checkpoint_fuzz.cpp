@@ -1,5 +1,5 @@
-// libFuzzer entry point for checkpoints: reads, merges and renders files with a valid digest and
-// arbitrary content.
+// The libFuzzer entry point for checkpoints. Reads, merges and renders files with arbitrary content
+// and a valid digest.
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/digest.hpp>
@@ -22,7 +22,7 @@ void expect(bool promise, const char* words) {
   std::abort();
 }
 
-/// An in-memory file.
+/// A file in memory.
 class MemoryFile {
  public:
   explicit MemoryFile(std::string_view bytes) : descriptor_(memfd_create("checkpoint", 0)) {
@@ -52,7 +52,7 @@ std::string with_digest(std::string_view content) {
 
 }  // namespace
 
-// Name and types are defined by libFuzzer.
+// libFuzzer defines the name and the types.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microtrace;
   const MemoryFile file(with_digest({reinterpret_cast<const char*>(data), size}));

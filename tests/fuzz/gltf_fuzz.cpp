@@ -1,5 +1,6 @@
-// libFuzzer entry point for glTF: JSON text, GLB files, and a third form that mutates well: JSON
-// text, a zero byte, then the binary chunk, which is converted to a GLB file with valid lengths.
+// The libFuzzer entry point for glTF. Inputs may be JSON text or GLB files. A third form is easier
+// to mutate: JSON text, a zero byte, and the binary chunk. It is converted to a GLB file with valid
+// lengths.
 
 #include "read_and_draw.hpp"
 
@@ -27,7 +28,7 @@ std::string glb(std::string_view json, std::string_view binary) {
 
 }  // namespace
 
-// Name and types are defined by libFuzzer.
+// libFuzzer defines the name and the types.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using microtrace::fuzz::read_and_draw;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

@@ -1,5 +1,5 @@
-// libFuzzer entry point for images: the PNG, JPEG, WebP and KTX2 decoders behind the module's
-// interface.
+// The libFuzzer entry point for images. Calls the PNG, JPEG, WebP and KTX2 decoders through the
+// module's interface.
 
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/decode/image_header.hpp"
@@ -21,12 +21,12 @@ void expect(bool promise, const char* words) {
 
 }  // namespace
 
-// Name and types are defined by libFuzzer.
+// libFuzzer defines the name and the types.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace microtrace;
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   const io::ImageHeader header = io::read_image_header(bytes);
-  // Larger images legitimately take much memory and time.
+  // Larger images are valid, but take too much memory and time.
   constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 20;
   if (std::uint64_t{header.width} * header.height > kMostPixels) return 0;
   const io::DecodedImage decoded = io::decode_image(bytes);

@@ -1,4 +1,5 @@
-"""Small JPEG and WebP files of 18 x 11 pixels, as base64; make_seeds.py makes PNG files, and takes KTX2 files from tests/image/ktx2."""
+"""Small JPEG and WebP files of 18 x 11 pixels, as base64. make_seeds.py makes PNG files and takes KTX2 files from
+tests/image/ktx2."""
 
 import base64
 
@@ -58,5 +59,5 @@ FILES = {
 
 
 def decoded():
-    """The files' bytes by their names."""
+    """Returns the bytes of each file by its name."""
     return {name: base64.b64decode(text) for name, text in FILES.items()}

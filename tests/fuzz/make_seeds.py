@@ -3,8 +3,8 @@
 
 usage: make_seeds.py PROJECT_FOLDER FOLDER
 
-Each format gets a folder of small files and a dictionary FORMAT.dict. glTF
-assets with a binary chunk are written in the target's special form: JSON, a zero byte, the chunk.
+Each format gets a folder of small files and a dictionary FORMAT.dict. glTF assets with a binary chunk are written in the
+fuzz target's special form: JSON, a zero byte, and the chunk.
 """
 
 import base64
@@ -39,7 +39,7 @@ data:application/octet-stream;base64, data:image/png;base64, 5120 5121 5122 5123
 
 
 def words_of_schema(value):
-    """All property names and enumerated words of a JSON schema."""
+    """Returns all property names and enumeration values of a JSON schema."""
     if isinstance(value, dict):
         for key, part in value.items():
             if key == "properties":
@@ -61,7 +61,7 @@ def dictionary(words):
 
 
 def png(width, height, depth=8, color=6, interlaced=0, **more):
-    """A PNG image, by default of 8-bit RGBA pixels; `more` are chunks before its pixels."""
+    """Returns a PNG image, by default with 8-bit RGBA pixels. `more` has chunks that precede the pixels."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     row = -(-width * depth * {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}[color] // 8)
@@ -73,7 +73,7 @@ def png(width, height, depth=8, color=6, interlaced=0, **more):
 
 
 def images():
-    """Image files of all kinds, by name."""
+    """Returns image files of all kinds, by name."""
     palette = {"PLTE": bytes(range(48)), "tRNS": b"\0\x80\xff"}
     files = {"grey1.png": png(19, 9, 1, 0), "grey16.png": png(5, 4, 16, 0, tRNS=b"\0\1"), "rgb.png": png(6, 5, 8, 2),
              "palette2.png": png(9, 5, 2, 3, **palette), "palette4.png": png(9, 5, 4, 3, **palette),
@@ -83,7 +83,7 @@ def images():
 
 
 class Asset:
-    """The JSON and the buffer of one asset that has a camera and a node with one quadrilateral."""
+    """The JSON and the buffer of an asset that has a camera, and a node with a quadrilateral."""
 
     def __init__(self):
         self.buffer = b""
@@ -270,7 +270,8 @@ def lit():
 
 
 def materials():
-    """One material of each kind, on quadrilaterals behind one another, with an emitter among them."""
+    """Returns an asset with one material of each kind. The materials are on quadrilaterals behind each other, one of which
+    emits light."""
     asset = Asset()
     asset.attribute("TEXCOORD_0", "2f", "VEC2", [(0, 0), (1, 0), (1, 1), (0, 1)])
     asset.add("images", {"bufferView": asset.view(png(3, 2)), "mimeType": "image/png"})
@@ -303,7 +304,7 @@ def materials():
 
 
 def checkpoint(ranges, width=3, height=2):
-    """A checkpoint as src/io/checkpoint/checkpoint.cpp writes it, without the digest at the end."""
+    """Returns a checkpoint in the format of src/io/checkpoint/checkpoint.cpp, without the digest at the end."""
     identity = b"--seed\t1\n"
     samples = sum(last - first for first, last in ranges)
     head = b"microtrace samples\n" + struct.pack("<II", 1, len(identity)) + identity
@@ -323,7 +324,7 @@ def strips():
 def compressed():
     asset = Asset()
     asset.uses("EXT_meshopt_compression")
-    # The least index sequence that the codec accepts: header, two literal triangles in the table's codes, and the tail.
+    # The shortest index sequence that the codec accepts: a header, codes of two literal triangles, and the tail.
     data = bytes([0xE1, 0xF0, 0x10] + [0] * 16)
     asset.json["bufferViews"][1]["extensions"] = {"EXT_meshopt_compression": {
         "buffer": 0, "byteOffset": asset.json["bufferViews"][asset.view(data)]["byteOffset"], "byteLength": len(data),
@@ -362,7 +363,7 @@ def main():
     for name, ranges in {"none": [], "one": [(0, 4)], "two": [(0, 4), (8, 9)]}.items():
         (folder / "checkpoint" / name).write_bytes(checkpoint(ranges))
     (folder / "checkpoint.dict").write_text('"microtrace samples"\n"--seed"\n')
-    # Markers of JPEG and chunk names of WebP. Those of PNG are omitted, because chunks have checksums.
+    # Markers of JPEG and chunk names of WebP. Most of PNG's are omitted, because PNG chunks have checksums.
     words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]
     words += ["RIFF", "WEBP", "VP8 ", "VP8L", "VP8X", "ALPH", "ANIM", "ICCP", "IDAT", "PLTE", "tRNS"]
     words += ["KTX 20", "KTXorientation", "KTXswizzle", "rgba", "\\x28\\xb5\\x2f\\xfd"]

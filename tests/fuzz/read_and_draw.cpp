@@ -21,7 +21,7 @@ void expect(bool promise, const char* words) {
   std::abort();
 }
 
-// Stays empty, so that files named by scenes don't exist.
+// The folder stays empty, so files that a scene names don't exist.
 const std::filesystem::path& empty_folder() {
   static const std::filesystem::path folder = [] {
     std::string pattern =
@@ -35,7 +35,7 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::optional<LoadedScene> read(std::string_view bytes, const std::string& name) {
-  // Half of the files, selected by their length, are posed.
+  // Poses half of the files. Their length selects them.
   LoadOptions options;
   if (bytes.size() % 2 == 1) options = {.time = 0.5, .animation = "all"};
   try {
@@ -69,7 +69,8 @@ std::optional<Film> draw(const Scene& scene, const RenderOptions& options) {
   }
 }
 
-/// Path traces the scene; if it has no environment, with the studio or with its own lights only.
+/// Path traces the scene. If the scene has no environment, uses the studio or only the scene's own
+/// lights.
 void draw_lit(Scene& scene, bool studio) {
   const PathIntegrator path({.max_depth = 8});
   if (!scene.environment && studio) scene.environment = Environment{.content = Studio{}};

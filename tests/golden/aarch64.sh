@@ -17,7 +17,7 @@ packages=(libpng16-16 libpng-dev libjpeg62-turbo libjpeg62-turbo-dev libwebp7 li
           libzstd1 libzstd-dev libopenexr-3-1-30 libopenexr-dev libimath-3-1-29 libimath-dev
           libglm-dev nlohmann-json3-dev libcli11-dev libtinygltf-dev libtinygltf2d libstb0)
 if [[ $(cat "$folder/unpacked" 2>/dev/null) != "${packages[*]}" ]]; then
-  # Apt for another architecture, with its state in the folder.
+  # Runs apt for another architecture, and keeps its state in the folder.
   state=$folder/apt
   mkdir -p "$state"/state/lists/partial "$state"/cache/archives/partial "$folder/packages" "$sysroot"
   : > "$state/status"
@@ -26,7 +26,7 @@ if [[ $(cat "$folder/unpacked" 2>/dev/null) != "${packages[*]}" ]]; then
   apt-get "${apt[@]}" update
   (cd "$folder/packages" && apt-get "${apt[@]}" download "${packages[@]}")
   for package in "$folder"/packages/*.deb; do dpkg -x "$package" "$sysroot"; done
-  # Architecture-specific headers, in a folder that the cross compiler searches.
+  # Makes architecture-specific headers visible in a folder that the cross compiler searches.
   ln -sf aarch64-linux-gnu/jconfig.h "$sysroot/usr/include/jconfig.h"
   echo "${packages[*]}" > "$folder/unpacked"
 fi
@@ -52,7 +52,7 @@ cmake -S "$source" -B "$folder/build" -G Ninja --toolchain "$folder/toolchain.cm
 cmake --build "$folder/build" --target microtrace microtrace_codecs microtrace_openexr
 
 modules=$folder/build/src/lib/microtrace
-# A program that runs programs of the other architecture.
+# Writes a script that runs a program of the other architecture.
 emulate() {
   cat > "$folder/$1" <<END
 #!/bin/sh

@@ -35,8 +35,8 @@ void complain(void*, const char* text) {
   std::fprintf(stderr, "%s\n", text);
 }
 
-/// False if the library does not export the variable through which it queries the processor's
-/// features.
+/// Returns false if the library does not export the variable through which it queries the
+/// processor's features.
 bool turn_off_vectors_of_webp() {
   void* webp = dlopen("libwebp.so.7", RTLD_NOW | RTLD_NOLOAD);
   void* variable = webp != nullptr ? dlsym(webp, "VP8GetCPUInfo") : nullptr;

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Decodes the images of images/ and ../image/ktx2 with each kind of vector code and without any, and compares the samples with the SHA-256 of
-images/sha256.txt.
+"""Decodes the images of images/ and ../image/ktx2 with each kind of SIMD code and without any. Compares the samples with
+the SHA-256 digests in images/sha256.txt.
 
 usage: decoders_test.py DECODE_IMAGES MODULE [--update]
 
-DECODE_IMAGES may be a script that runs the program of another machine. libjpeg-turbo and libwebp leave open how chroma is
-upsampled, so another version of theirs may have other samples: --update writes the list anew.
+DECODE_IMAGES may be a script that runs the program on another machine. The specifications that libjpeg-turbo and libwebp
+implement do not define how chroma is upsampled, so other versions of these libraries may decode different samples. --update
+rewrites the list.
 """
 
 import hashlib

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the pictures of ./demo and compares their SHA-256 with demo_sha256.txt, which continuous integration expects.
+"""Draws the pictures of ./demo and compares their SHA-256 digests with demo_sha256.txt, which continuous integration
+expects.
 
 usage: demo_test.py PROGRAM [--update]
 
@@ -15,7 +16,7 @@ from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
 LIST = Path(__file__).with_name("demo_sha256.txt")
-# The lines of ./demo that render: a loop, and single commands.
+# The lines of ./demo that render pictures: a loop, and single commands.
 DRAWING = re.compile(r"^(for name in .*|  microtrace .*|done|microtrace scenes/.*)$", re.MULTILINE)
 
 

@@ -2,8 +2,8 @@
 
     golden_test.py PROGRAM SCENES SHA256 FOLDER
 
-Each picture NAME.ppm is rendered flat from SCENES/NAME.json or SCENES/gltf/NAME.glb with one thread and with two, and as ASCII PPM.
-The binary pictures stay in FOLDER. The exit status is 1 if any differs.
+Each picture NAME.ppm is rendered flat from SCENES/NAME.json or SCENES/gltf/NAME.glb: with one thread, with two threads, and
+as ASCII PPM. The binary pictures stay in FOLDER. The exit status is 1 if any picture differs.
 """
 import hashlib
 import pathlib
@@ -12,7 +12,7 @@ import sys
 
 
 def decode_ascii(data):
-    """The binary PPM with the pixels of an ASCII one."""
+    """Returns the binary PPM with the same pixels as an ASCII PPM."""
     magic, width, height, maximum, *values = data.split()
     if magic != b"P3" or maximum != b"255":
         sys.exit("not an ASCII PPM of 8 bit")

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Applies the faults of mutations.txt to a copy of the source, one at a time, builds the program and runs the command lines of
-questions.txt: an output must change, otherwise the fault is undetected.
+"""Applies the faults of mutations.txt one at a time to a copy of the source. Builds the program with each fault and runs
+the command lines of questions.txt. If no output changes, the fault is undetected.
 
 usage: mutations.py PROGRAM FOLDER [NAME...]
 
-PROGRAM is a build of the unchanged source, whose modules are used. FOLDER gets the copy and its build. With NAMEs only faults
-are tried whose name has one of these texts. Not part of ctest: it takes half an hour. The exit status is 1 if a fault goes
-unnoticed or the source has changed so that it can't be made.
+PROGRAM is a build of the unchanged source. Its modules are used. FOLDER receives the copy and the copy's build. If NAMEs
+are given, only faults whose name contains one of them are tried. Not part of ctest, because it takes half an hour. The exit
+status is 1 if a fault is undetected or can no longer be applied to the source.
 """
 
 import os
@@ -21,7 +21,7 @@ PARTS = ["CMakeLists.txt", "CMakePresets.json", "LICENSE", "cmake", "docs", "inc
 
 
 def read(path):
-    """(name, file, text, replacement) of each block."""
+    """Yields (name, file, text, replacement) for each block."""
     for block in path.read_text(encoding="ascii").split("\n\n"):
         lines = [line for line in block.splitlines() if not line.startswith("#")]
         if lines:
@@ -31,7 +31,7 @@ def read(path):
 
 
 def copy_changed(source, target):
-    """Copies a file if it differs, so that nothing else is rebuilt."""
+    """Copies a file only if it differs, so that nothing else is rebuilt."""
     if not Path(target).exists() or Path(source).read_bytes() != Path(target).read_bytes():
         shutil.copyfile(source, target)
 
@@ -41,7 +41,7 @@ def build(copy):
 
 
 def is_caught(copy):
-    """The first output that differs, if any."""
+    """Returns the first output that differs, or None."""
     result = subprocess.run([sys.executable, "-B", TESTS / "pinned_test.py", copy / "build/release/src/cli/microtrace",
                              "--threads", "2", "--first-only"], capture_output=True, text=True, check=False)
     if result.returncode == 0:

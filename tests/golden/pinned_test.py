@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs all command lines of questions.txt and compares the SHA-256 of their outputs with the list.
+"""Runs all command lines of questions.txt and compares the SHA-256 digests of their outputs with the list.
 
 usage: pinned_test.py PROGRAM [--update] [--threads N,...] [--first-only]
 
-PROGRAM may be a script that runs it elsewhere or under an emulator. --update writes the answers into the list instead.
---first-only ends at the first difference. The exit status is 1 if an answer differs.
+PROGRAM may be a script that runs the program elsewhere or under an emulator. --update writes the digests into the list
+instead. --first-only stops at the first difference. The exit status is 1 if a digest differs.
 """
 
 import argparse
@@ -28,7 +28,7 @@ def main():
             question.pins = questions.ask(arguments.program, question)
             continue
         for threads in map(int, arguments.threads.split(",")):
-            # With a checkpoint the picture is rendered in passes, otherwise tile by tile.
+            # With a checkpoint, the picture is rendered in passes. Without one, it is rendered tile by tile.
             answer = questions.ask(arguments.program, question, threads, with_samples=threads < 7)
             wrong = [name for name, digest in answer.items() if question.pins.get(name) != digest]
             print(f"{'DIFFERENT' if wrong else 'the same '}  {question.text}, threads {threads}", *wrong, flush=True)

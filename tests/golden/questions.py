@@ -11,15 +11,16 @@ from pathlib import Path
 
 LIST = Path(__file__).with_name("questions.txt")
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-PIXEL_BYTES, DIGEST_BYTES = 84, 8  # Sizes at the end of a checkpoint, as written by src/io/checkpoint/checkpoint.cpp.
+PIXEL_BYTES, DIGEST_BYTES = 84, 8  # sizes in a checkpoint, see src/io/checkpoint/checkpoint.cpp
 
 
 @dataclasses.dataclass
 class Question:
-    """A command line with the hashes of its outputs; has_light if it is path traced and can write a checkpoint."""
+    """A command line and the hashes of its outputs. has_light is true if the picture is path traced and can write a
+    checkpoint."""
 
     text: str
-    pins: dict  # "picture", and "samples" if path traced
+    pins: dict  # hash by name: "picture", and "samples" if path traced
 
     @property
     def has_light(self):
@@ -27,7 +28,7 @@ class Question:
 
 
 def read():
-    """The comment at the list's beginning and its questions."""
+    """Returns the comment at the beginning of the list, and the list's questions."""
     head, questions = [], []
     for line in LIST.read_text(encoding="ascii").splitlines():
         if line.startswith("#"):
@@ -52,7 +53,7 @@ def sha256(data):
 
 
 def samples_of(checkpoint, picture):
-    """The bytes of a checkpoint's pixels, for as many pixels as the PPM picture has."""
+    """Returns the bytes of a checkpoint's pixels. Their number is that of the PPM picture's pixels."""
     width, height = map(int, picture.split(maxsplit=3)[1:3])
     size = width * height * PIXEL_BYTES
     assert len(checkpoint) > size + DIGEST_BYTES
@@ -60,7 +61,8 @@ def samples_of(checkpoint, picture):
 
 
 def ask(program, question, threads=1, isa=None, with_samples=True):
-    """The hashes of the program's outputs, by the names in pins. A path-traced picture must cast path and shadow rays."""
+    """Returns the hashes of the program's outputs, with the same names as in pins. Checks that a path-traced picture casts
+    path and shadow rays."""
     command = [program, *shlex.split(question.text), "--threads", str(threads)]
     environment = dict(os.environ)
     if isa:

@@ -1,20 +1,19 @@
 #!/usr/bin/env python3
-"""An independent float64 rendering of the three pictures of the assignment, to judge the renderer's.
+"""Renders the three pictures of the assignment independently in float64, to check the renderer's pictures.
 
     reference.py DIFFERENCES NAME=PPM...      NAME: perspective1, perspective2 or perspective3
 
-Compares each binary PPM with the reference, pixel by pixel. A pixel may differ only if the picture's
-exact boundary passes within rounding of the pixel's center, and only if it is listed in the file
-DIFFERENCES as `NAME X Y`. The exit status is 1 if another pixel differs or a listed one does not.
+Compares each binary PPM with the reference, pixel by pixel. A pixel may differ only if the exact boundary of a color is so
+close to the pixel's center that rounding matters. In addition, the file DIFFERENCES must list the pixel as `NAME X Y`. The
+exit status is 1 if any other pixel differs, or if a listed one does not.
 
-It shares no code with the renderer, and neither its formulas: numbers are as written in the
-assignment, not rounded to float32, and every shape is met in a form made for one common origin.
+Shares neither code nor formulas with the renderer. Numbers are as written in the assignment and not rounded to float32. The
+equations of all shapes are relative to the eye, the common origin of all rays.
 
-Rounding: the renderer rounds each component of a unit direction and each coordinate of the scene to
-float32. The first turns a ray by at most sqrt(3) 2^-25 < 2^-24; the second moves a surface by at most
-2^-24 of its coordinates, which are smaller than its distance from the eye, so again by less than 2^-24
-as seen from there. A boundary that passes farther than 2^-23 from a pixel's center, as an angle in
-radians, is therefore a disagreement.
+Rounding: the renderer rounds each component of a unit direction and each coordinate of the scene to float32. The first
+rounding turns a ray by at most sqrt(3) 2^-25 < 2^-24 radians. The second moves a surface by at most 2^-24 of its
+coordinates, which are smaller than its distance from the eye. Seen from the eye, the surface thus moves by less than 2^-24
+radians. If a boundary is farther than 2^-23 radians from a pixel's center, the pixel must therefore be equal.
 """
 import math
 import multiprocessing
@@ -69,17 +68,17 @@ class View:
         self.forward = unit(direction)
         self.right = unit(cross(self.forward, up))
         self.up = cross(self.right, self.forward)
-        # Half the window's height at distance 1; its pixels are square.
+        # Half the window's height at distance 1. Pixels are square.
         self.half = math.tan(math.radians(angle) / 2)
-        # A point eye + t d lies on a sphere where |d|^2 t^2 - 2 (d.m) t + (m.m - r^2) = 0, m from the
-        # eye to the center.
+        # A point eye + t d lies on a sphere if |d|^2 t^2 - 2 (d.m) t + (m.m - r^2) = 0, where m leads from the eye to the
+        # center.
         self.spheres = []
         for center, radius, color in SPHERES:
             m = minus(center, eye)
             self.spheres.append((m, dot(m, m) - radius * radius, color))
         self.planes = [(n, dot(minus(p, eye), n), color) for p, n, color in PLANES]
-        # A ray passes through a triangle if it is on one side of the three planes through the eye and an edge; `sides` has
-        # the normals of these planes.
+        # Three planes contain the eye and an edge of a triangle each. A ray passes through the triangle if it is on the
+        # same side of all three. `sides` has the planes' normals.
         self.triangles = []
         for corners, color in TRIANGLES:
             a, b, c = (minus(corner, eye) for corner in corners)
@@ -88,7 +87,8 @@ class View:
             self.triangles.append((sides, normal, dot(a, normal), color))
 
     def direction(self, x, y):
-        """Towards pixel coordinates (x, y), (0, 0) the upper left corner; not of unit length."""
+        """Returns the direction to the pixel coordinates (x, y), whose origin is the upper left corner. It does not have
+        unit length."""
         across = (2 * x - WIDTH) / HEIGHT * self.half
         above = (HEIGHT - 2 * y) / HEIGHT * self.half
         f, r, u = self.forward, self.right, self.up
@@ -99,7 +99,7 @@ class View:
         )
 
     def color(self, d):
-        """The color of the nearest surface along d."""
+        """Returns the color of the nearest surface in the direction d."""
         dx, dy, dz = d
         nearest, seen = math.inf, BLACK
         dd = dx * dx + dy * dy + dz * dz
@@ -108,7 +108,7 @@ class View:
             discriminant = half_b * half_b - dd * c
             if discriminant < 0:
                 continue
-            # The eye is outside every sphere: c > 0, so both roots have the same sign.
+            # The eye is outside every sphere, so c > 0 and both roots have the same sign.
             t = (half_b - math.sqrt(discriminant)) / dd
             if 0 < t < nearest:
                 nearest, seen = t, color
@@ -128,7 +128,7 @@ class View:
         return seen
 
     def distance_to(self, color, d):
-        """The angle, a power of two in radians, by which d must turn to see another color."""
+        """Returns the smallest angle by which d must turn to see `color`, as a power of two in radians."""
         d = unit(d)
         side = unit(cross(d, self.up))
         above = cross(side, d)

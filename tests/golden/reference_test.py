@@ -14,7 +14,7 @@ PICTURE = reference.render_rows((NAME, 0, reference.HEIGHT))
 
 
 def compare(pixels, listed=()):
-    """The faults found in a picture, and what is printed about them."""
+    """Returns the number of faults found in a picture, and the text that is printed about them."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "a.ppm"
         path.write_bytes(b"P6\n640 480\n255\n" + pixels)
@@ -57,7 +57,7 @@ class Reference(unittest.TestCase):
         self.assertIn("WRONG", text)
 
     def test_a_neighbor_of_an_edge_is_a_fault(self):
-        # The horizon is half a pixel from the centers of row 240, far more than the rounding error.
+        # The horizon is half a pixel away from the pixel centers of row 240. This is far more than the rounding error.
         faults, text = compare(with_pixel(10, 240, (0, 0, 0)))
         self.assertEqual(faults, 1)
         self.assertIn("WRONG", text)
@@ -70,7 +70,7 @@ class Reference(unittest.TestCase):
 
     def test_distance_to_the_horizon(self):
         for angle in (2.0 ** -30, 2.0 ** -20, 2.0 ** -10):
-            # A ray left of every shape; the plane's horizon is at three quarters of the angle above.
+            # The ray passes left of every shape, and the plane's horizon is 0.75 * angle above it.
             below = (-0.6, -math.tan(0.75 * angle) * math.hypot(0.6, 1), -1)
             self.assertEqual(VIEW.distance_to((0, 0, 0), below), angle)
 

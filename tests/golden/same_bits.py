@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Builds the program with another compiler and without optimization, and checks that every build gives the same outputs for
-questions.txt with every instruction set and any number of threads.
+"""Builds the program with another compiler and without optimization. Checks that every build gives the same outputs for
+questions.txt, with every instruction set and any number of threads.
 
 usage: same_bits.py PROGRAM SOURCE_FOLDER BUILD_FOLDER [--long]
 
-One other build is made, by Clang at -O0: it has another compiler's order of evaluation and contractions, none of the
-optimizations, and is made in the least time. --long makes all builds that are listed below.
+By default, one other build is made, by Clang at -O0. It differs in the order of evaluation and in contractions, has no
+optimizations, and takes the least time to build. --long makes all builds that are listed below.
 """
 
 import itertools
@@ -18,7 +18,7 @@ from pathlib import Path
 import questions
 
 PROGRAM, SOURCE, FOLDER = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
-ISAS = ["portable", "avx2", "avx512"]  # one that the machine lacks falls back to portable
+ISAS = ["portable", "avx2", "avx512"]  # an instruction set that the machine lacks falls back to portable
 THREADS = [1, 2, 7]
 VARIANTS = {"clang-O0": ("clang++", "-O0")}
 LONG_VARIANTS = {
@@ -32,7 +32,7 @@ LONG_VARIANTS = {
 
 
 def build(name, compiler, flags):
-    """The program of a build, with the modules that the questions need."""
+    """Returns the program of a build. Also builds the modules that the questions need."""
     folder = FOLDER / name
     subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", f"-DCMAKE_CXX_COMPILER={compiler}",
                     "-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_CXX_FLAGS={flags}",
@@ -47,7 +47,7 @@ def build(name, compiler, flags):
 def main():
     is_long = "--long" in sys.argv[4:]
     variants = VARIANTS | (LONG_VARIANTS if is_long else {})
-    os.environ.pop("MICROTRACE_MODULE_PATH", None)  # each build with its own modules
+    os.environ.pop("MICROTRACE_MODULE_PATH", None)  # each build must use its own modules
     for compiler in {compiler for compiler, _ in variants.values()}:
         if not shutil.which(compiler):
             sys.exit(f"{compiler} is not installed; ./test installs it")

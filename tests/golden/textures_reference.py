@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""An independent float64 rendering of scenes/gltf/textures.glb, to judge the renderer's.
+"""Renders scenes/gltf/textures.glb independently in float64, to check the renderer's picture.
 
     textures_reference.py ASSET PPM
 
-Its rectangles face an orthographic camera, so that texture coordinates and footprints are linear in the pixel. It
-follows docs/gltf.md ("How textures are filtered"): bilinear filters in linear light, mip maps as area means, of which two
-are blended linearly in the width of the footprint, and places along its longer side. It shares no code with the renderer
-and rounds nothing but the last number. A pixel may differ by 1 of 255; where the mask's alpha is within 1e-4 of its cutoff
-a pixel is not judged. The exit status is 1 if any other differs, or more than one in 200 differs at all.
+The asset's rectangles face an orthographic camera, so texture coordinates are linear functions of the pixel position, and
+footprints are constant. Follows docs/gltf.md ("How textures are filtered"): bilinear filters in linear light, mip maps of
+area means, a linear blend of two mip maps by the width of the footprint, and several lookups along its longer side. Shares
+no code with the renderer, and rounds only the final number. A pixel may differ by 1 of 255. Pixels are not compared where
+the mask's alpha is within 1e-4 of its cutoff. The exit status is 1 if any other pixel differs, or if more than one pixel in
+200 differs at all.
 """
 import json
 import math
@@ -36,7 +37,7 @@ def srgb(v):
 
 
 def read_png(data):
-    """Rows of pixels in linear light with alpha, of a file whose rows are not filtered."""
+    """Returns rows of pixels in linear light with alpha. The file's rows must not be filtered."""
     size, pixels, at = struct.unpack_from(">I", data, 16)[0], b"", 8
     channels = {2: 3, 6: 4}[data[25]]
     while at < len(data):
@@ -55,7 +56,7 @@ def read_png(data):
 
 
 def mip_maps(image):
-    """The image and its means over 2 x 2 texels, again and again; its sides are powers of 2."""
+    """Returns the image, and repeatedly its means over 2 x 2 texels. Its sides must be powers of 2."""
     levels = [image]
     while len(image) > 1:
         half = len(image) // 2
@@ -92,7 +93,7 @@ class Texture:
         return mix(row(j), row(j + 1), y - j)
 
     def one(self, u, v, width):
-        """The lookup for a footprint of this many texels in both directions."""
+        """Returns the filtered color for a square footprint with sides of `width` texels."""
         if width <= 1:
             return self.bilinear(0, u, v)
         level = int(math.log2(width))
@@ -100,7 +101,8 @@ class Texture:
         return mix(self.bilinear(level, u, v), self.bilinear(level + 1, u, v), blend)
 
     def look_up(self, u, v, du, dv):
-        """The lookup for steps du to the next pixel in a row and dv to the next row."""
+        """Returns the filtered color. The footprint has sides of du, the step to the next pixel in a row, and dv, the step
+        to the next row."""
         across, down = abs(du) * len(self.levels[0]), abs(dv) * len(self.levels[0])
         longer, shorter = max(across, down), max(min(across, down), 1)
         if longer <= 1:
@@ -113,7 +115,8 @@ class Texture:
 
 
 def rectangle(asset, data, mesh):
-    """Its pixels as x0, y0, x1, y1; u, v in their upper left corner, and the steps to the next pixel; the material."""
+    """Returns the rectangle of pixels (x0, y0, x1, y1), u and v in its upper left corner, their steps to the next pixel,
+    and the material."""
     primitive = mesh["primitives"][0]
 
     def values(name, count):

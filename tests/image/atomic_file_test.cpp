@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// The message of the Error(io) that save_image throws.
+/// Returns the message of the Error(io) that save_image throws.
 std::string failure(const fs::path& path, const Film& film = gradient()) {
   try {
     save_image(film, path);
@@ -33,7 +33,7 @@ std::string failure(const fs::path& path, const Film& film = gradient()) {
   return "saved";
 }
 
-/// Limits files to `bytes`, so that a write fails in the middle.
+/// Limits the size of files to `bytes`. A longer write then fails in the middle.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -138,7 +138,7 @@ TEST(AtomicFile, LinksStayAndTheirTargetIsReplaced) {
   const Folder folder;
   fs::create_directory(folder / "far");
   fs::create_symlink("far/a.ppm", folder / "link.ppm");
-  for (int i = 0; i < 2; ++i) {  // first dangling, then not
+  for (int i = 0; i < 2; ++i) {  // the link dangles in the first round only
     save_image(gradient(), folder / "link.ppm");
     EXPECT_TRUE(fs::is_symlink(folder / "link.ppm"));
     EXPECT_EQ(read_bytes(folder / "far/a.ppm"), encode_ppm(gradient()));

@@ -17,7 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Puts other bytes into the module's file, which is alone in its folder.
+/// Replaces the bytes of the codec module in a temporary folder that contains no other module.
 class BrokenModule : public testing::Test {
  protected:
   void SetUp() override {
@@ -27,7 +27,7 @@ class BrokenModule : public testing::Test {
   }
   void TearDown() override { ::unsetenv("MICROTRACE_MODULE_PATH"); }
 
-  /// The error message of save_image.
+  /// Returns the error message of save_image if the module's file has these bytes.
   std::string complaint(const std::string& bytes) {
     write_bytes(folder_ / io::kCodecModuleFileName, bytes);
     try {

@@ -1,4 +1,4 @@
-// Checks files with channels other than three colors, read back by OpenImageIO itself.
+// Checks files with channels besides red, green and blue. OpenImageIO reads them back directly.
 
 #include "folder.hpp"
 #include "io/image/encode/eight_bits.hpp"
@@ -44,7 +44,7 @@ std::vector<Number> pixels(ImageInput& in, TypeDesc type) {
   return result;
 }
 
-/// The gradient with alpha from 0 on the left to 1 on the right.
+/// The gradient with alpha, which increases from 0 on the left to 1 on the right.
 Film see_through() {
   Film film({19, 7}, Film::Alpha::premultiplied);
   const Film colors = gradient();
@@ -71,7 +71,7 @@ TEST(Alpha, IsUnassociatedInEightBits) {
     EXPECT_EQ(in->spec().alpha_channel, 3) << ending;
     EXPECT_EQ(pixels<std::uint8_t>(*in, TypeDesc::UINT8), expected) << ending;
   }
-  // WebP doesn't keep the exact colors.
+  // WebP is lossy and does not keep the exact colors.
   save_image(film, folder / "a.webp");
   const auto webp = open(folder / "a.webp");
   const auto read = pixels<std::uint8_t>(*webp, TypeDesc::UINT8);
@@ -86,7 +86,7 @@ TEST(Alpha, EightBitsComputedByHand) {
   film.at(1, 0) = {0.3F, 0.3F, 0.3F};
   film.alpha_at(1, 0) = 1;
   film.at(2, 0) = {0, 0, 0};
-  film.at(3, 0) = {9, 9, 9};  // no format can represent light without coverage
+  film.at(3, 0) = {9, 9, 9};  // 8-bit formats can't represent light without coverage
   std::vector<std::uint8_t> row(16);
   io::encode_row(film, 0, row.data());
   EXPECT_THAT(row, ElementsAre(255, 188, 0, 128, 149, 149, 149, 255, 0, 0, 0, 0, 0, 0, 0, 0));
@@ -129,7 +129,7 @@ TEST(Alpha, FormatsWithoutAlphaAreUsageErrors) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-/// Numbers that only float32, or only uint32, represents exactly.
+/// A film with additional channels. Their numbers are exact only in float32 or only in uint32.
 Film with_channels(Film::Alpha alpha, ImageSize size = {19, 131}) {
   Film film(size, alpha);
   const std::size_t count = std::size_t{size.width} * size.height;

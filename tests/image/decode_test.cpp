@@ -20,7 +20,8 @@ using tests::PngPicture;
 using Bytes = std::vector<std::uint8_t>;
 using Shorts = std::vector<std::uint16_t>;
 
-/// A picture of 4 x 3 pixels: two and a half rows of one color, the rest of another.
+/// A picture of 4 x 3 pixels. The first two and a half rows have one color, the other pixels
+/// another.
 const std::string kJpeg = gltf::decode_base64(
                               "/9j/4AAQSkZJRgABAQAAAQABAAD/"
                               "2wBDAA0JCgsKCA0LCgsODg0PEyAVExISEyccHhcgLikxMC4pLSwzOko+MzZGNywt"
@@ -74,7 +75,7 @@ TEST(DecodeImage, PngOfSixteenBits) {
 }
 
 TEST(DecodeImage, PngWithPaletteAndTransparency) {
-  // Four pixels of two bits: colors 0, 1, 2, 1.
+  // Four pixels of two bits each, with the palette indices 0, 1, 2, 1.
   PngPicture picture{.width = 4, .depth = 2, .color = PngColor::palette, .rows = {"\x19"}};
   picture.before_pixels = {{"PLTE", "abcdefghi"}};
   const Image rgb = decode(tests::png_file(picture));
@@ -100,7 +101,7 @@ TEST(DecodeImage, PngGammaAndProfilesChangeNothing) {
 TEST(DecodeImage, DamagedPngGivesTheReason) {
   const std::string file = tests::png_of(1, 1, {1, 2, 3, 4});
   std::string damaged = file;
-  damaged[49] ^= 1;  // in the pixel data
+  damaged[49] ^= 1;  // changes the pixel data
   EXPECT_FALSE(decode_image(damaged).image);
   EXPECT_THAT(decode_image(damaged).complaint, HasSubstr("IDAT"));
   for (std::size_t size = 0; size < file.size() - 12; ++size) {
@@ -145,7 +146,7 @@ TEST(DecodeImage, WebpLosslessAndLossy) {
   EXPECT_FALSE(decode_image(kLosslessWebp.substr(0, 50)).image);
 }
 
-// libwebp would decode the following bytes as a picture without container, of arbitrary size.
+// libwebp would decode the remaining bytes as a picture of arbitrary size that has no container.
 TEST(DecodeImage, WebpWithoutPictureIsRefusedBeforeAllocation) {
   const auto made = [](std::string_view kind) {
     std::string file = kLosslessWebp;
@@ -186,7 +187,7 @@ TEST(ImageHeader, HasTheSizeThatTheDecoderFinds) {
   expect_header(tests::png_file({.width = 70000, .height = 2}), ImageFormat::png, 70000, 2);
   expect_header(kJpeg, ImageFormat::jpeg, 4, 3);
   std::string loose = kJpeg;
-  loose.insert(20, "\xFF\0stray\xFF"sv);  // after the first segment
+  loose.insert(20, "\xFF\0stray\xFF"sv);  // stray bytes after the first segment
   EXPECT_TRUE(decode_image(loose).image);
   expect_header(loose, ImageFormat::jpeg, 4, 3);
   expect_header(kLosslessWebp, ImageFormat::webp, 2, 2);

@@ -1,5 +1,6 @@
 #pragma once
-/// Helpers of image tests: a temporary folder, files as bytes, a picture to save.
+/// Helpers for image tests: a temporary folder, functions that read and write files as bytes, and a
+/// film to save.
 
 #include <microtrace/film.hpp>
 
@@ -13,7 +14,7 @@
 
 namespace microtrace {
 
-/// A new folder, removed with its content by the destructor.
+/// A new temporary folder. The destructor removes it with its content.
 class Folder {
  public:
   Folder() {
@@ -49,7 +50,7 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A picture with different pixels, with values below 0, above 1 and between.
+/// A film whose pixels are all different, with values below 0, between 0 and 1, and above 1.
 inline Film gradient(ImageSize size = {19, 7}) {
   Film film(size);
   for (std::uint32_t y = 0; y < size.height; ++y) {

@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// Encoded from our own pictures by basisu 1.16.4; uastc_modes_56x56 has random bits in each of the
-/// 19 modes and each partition pattern.
+/// Reads a file that basisu 1.16.4 encoded from a picture of this project. uastc_modes_56x56 has
+/// random bits for each of the 19 modes and each partition pattern.
 std::string file(const std::string& name) {
   const auto path = tests::source_folder() / "tests/image/ktx2" / (name + ".ktx2");
   std::ifstream in(path, std::ios::binary);
@@ -53,14 +53,14 @@ constexpr std::size_t kVkFormat = 12, kWidth = 20, kHeight = 24, kDepth = 28, kL
 // Offsets in the data format descriptor.
 constexpr std::size_t kModel = 12, kTransfer = 14, kFlags = 15, kChannel = 31;
 
-/// FNV-1a.
+/// FNV-1a hash.
 std::uint64_t hash(const std::vector<std::uint8_t>& bytes) {
   std::uint64_t result = 0xCBF29CE484222325U;
   for (const std::uint8_t byte : bytes) result = (result ^ byte) * 0x100000001B3U;
   return result;
 }
 
-// The hashes are those of the RGBA32 samples of Basis Universal's transcoder.
+// The expected hashes are those of the RGBA32 samples of Basis Universal's transcoder.
 TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
   struct Case {
     const char* name;
@@ -87,7 +87,7 @@ TEST(DecodeKtx2, GivesTheSamplesOfTheReferenceTranscoder) {
   }
 }
 
-// The picture is a gradient: red x * 7, green y * 5, blue 128 + x - y.
+// The picture is a gradient with red 7 x, green 5 y and blue 128 + x - y.
 TEST(DecodeKtx2, StartsAtTheUpperLeft) {
   const Image image = decode_image(file("uastc_linear_4x4")).image.value();
   const auto& samples = std::get<std::vector<std::uint8_t>>(image.samples);
@@ -155,7 +155,7 @@ TEST(DecodeKtx2, MetadataMayNotFlipOrSwizzle) {
 }
 
 TEST(DecodeKtx2, SizesAreCheckedBeforeAllocation) {
-  // 2^24 x 2^24 texels, whose blocks exceed any file size.
+  // The size is 2^24 x 2^24 texels, whose blocks exceed any file size.
   const DecodedImage etc1s = decode_with(
       file("etc1s_3x5"), {{kWidth, 0}, {kWidth + 3, 1}, {kHeight, 0}, {kHeight + 3, 1}});
   EXPECT_TRUE(etc1s.too_large);
@@ -174,12 +174,12 @@ TEST(DecodeKtx2, DamagedDataGivesTheReason) {
   EXPECT_THAT(decode_with(plain, {{kLevelLength, 15}}).complaint, HasSubstr("size of its blocks"));
   EXPECT_THAT(decode_with(plain, {{plain.size() - 16, 0x45}}).complaint,
               HasSubstr("reserved mode"));
-  // Mode 3 has 11 patterns.
+  // Mode 3 has only 11 patterns.
   EXPECT_THAT(decode_with(plain, {{plain.size() - 16, 3}, {plain.size() - 14, '\xF0'}}).complaint,
               HasSubstr("reserved pattern"));
 }
 
-// Damaged files either decode to some image or fail with a reason.
+// A damaged file must either decode to some image or fail with a reason.
 TEST(DecodeKtx2, NoModifiedByteCrashesTheDecoder) {
   for (const char* name : {"etc1s_3x5", "etc1s_alpha_mips_17x31", "etc1s_runs_100x36"}) {
     const std::string whole = file(name);

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Runs a program of openimageio-tools without output; returns its exit status.
+/// Runs a program of openimageio-tools and discards its output. Returns its exit status.
 int run(const std::string& command) {
   const int status = std::system((command + " >/dev/null 2>&1").c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -50,7 +50,7 @@ TEST(Module, ExrStoresTheFloatsUnchanged) {
       output_of("oiiotool --info -v " + exr, folder / "info"),
       testing::AllOf(HasSubstr("3 channel, float openexr"), HasSubstr("R, G, B"),
                      testing::Not(HasSubstr("DateTime")), testing::Not(HasSubstr("Software"))));
-  // An uncompressed float TIFF stores its samples contiguously.
+  // An uncompressed float TIFF file contains its samples contiguously.
   ASSERT_EQ(
       run("oiiotool " + exr + " -d float --compression none -o " + (folder / "a.tif").string()), 0);
   std::string floats;
@@ -65,8 +65,8 @@ TEST(Module, TwoRunsGiveTheSameBytes) {
   const Folder folder;
   const auto names = {"png", "exr", "tif", "jpg", "webp", "hdr"};
   for (const char* ending : names) save_image(gradient(), folder / (std::string("a.") + ending));
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // long enough that a stored time
-                                                                 // would differ
+  std::this_thread::sleep_for(
+      std::chrono::milliseconds(1100));  // long enough to change a stored time
   for (const char* ending : names) {
     save_image(gradient(), folder / (std::string("b.") + ending));
     EXPECT_EQ(read_bytes(folder / (std::string("a.") + ending)),

@@ -1,4 +1,4 @@
-// PNG pictures, read back by libpng.
+// Tests PNG pictures, which libpng reads back.
 
 #include "folder.hpp"
 #include "io/image/decode/decode_image.hpp"
@@ -57,7 +57,7 @@ TEST(Png, StoresTheSamplesOfTheFilm) {
   expect_samples(gradient(), folder / "a.png");
   expect_samples(gradient({1, 1}), folder / "b.PNG");
   expect_samples(gradient({3, 500}), folder / "c.png");
-  expect_samples(gradient({700, 400}), folder / "large.png");  // several blocks
+  expect_samples(gradient({700, 400}), folder / "large.png");  // large enough for several blocks
   Film numbers = gradient();
   numbers.display = {.srgb = false, .scale = Vec3(0.5F), .offset = Vec3(0.25F)};
   expect_samples(numbers, folder / "d.png");

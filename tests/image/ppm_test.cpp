@@ -56,7 +56,7 @@ TEST(Ppm, AsciiLinesHoldAtMost70Characters) {
 
 TEST(Ppm, SavedFileHoldsTheEncodedBytes) {
   const Folder folder;
-  const Film film = gradient({300, 200});  // more than one write block
+  const Film film = gradient({300, 200});  // needs more than one write block
   for (const PpmEncoding encoding : {PpmEncoding::binary, PpmEncoding::ascii}) {
     save_image(film, folder / "a.PPM", encoding);
     EXPECT_EQ(read_bytes(folder / "a.PPM"), encode_ppm(film, encoding));
@@ -81,7 +81,7 @@ TEST(Ppm, QuantitiesAreShownByTheDisplaySettings) {
   film.at(1, 0) = {1, 0.5F, 0.25F};
   film.at(2, 0) = {INFINITY, -INFINITY, NAN};
   film.at(3, 0) = {-3, 3, -0.1F};
-  film.at(4, 0) = {0, 1.0F / 255, 2.0F / 255};  // codes 127.5, 128 and 1
+  film.at(4, 0) = {0, 1.0F / 255, 2.0F / 255};  // codes 127.5, 128 and 1 before rounding
   EXPECT_EQ(encode_ppm(film, PpmEncoding::ascii),
             "P3\n5 1\n255\n0 128 128 255 191 32 255 0 0 0 255 0 128 128 1\n");
 }

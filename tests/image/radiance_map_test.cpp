@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A picture twice as wide as high, with different colors that are exact in half floats.
+/// A picture twice as wide as high. Its colors are all different and exact in half floats.
 Film panorama() {
   Film film({.width = 8, .height = 4});
   for (std::uint32_t y = 0; y < 4; ++y) {
@@ -28,7 +28,7 @@ Film panorama() {
   return film;
 }
 
-/// Runs oiiotool without output.
+/// Runs oiiotool and discards its output.
 void convert(const std::string& arguments) {
   ASSERT_EQ(std::system(("oiiotool " + arguments + " >/dev/null 2>&1").c_str()), 0) << arguments;
 }
@@ -128,7 +128,7 @@ TEST(RadianceMapFile, SurvivesDamagedOpenExrFiles) {
           << error.what();
     }
   }
-  // A data window of 2^31 by 3 pixels.
+  // The data window has 2^31 by 3 pixels.
   const std::size_t window = whole.find("dataWindow") + 11 + 6 + 4;
   std::string wide = whole;
   wide.replace(window + 8, 4, "\xff\xff\xff\x7f");

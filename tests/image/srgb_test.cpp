@@ -9,8 +9,8 @@
 namespace microtrace::io {
 namespace {
 
-/// 255 times the transfer function of IEC 61966-2-1, with a 64-bit significand. It is the inverse
-/// of the function that the encoder's table represents.
+/// 255 times the transfer function of IEC 61966-2-1, with a 64-bit significand. The encoder's table
+/// represents the inverse of this function.
 long double transfer(float v) {
   const auto x = static_cast<long double>(v);
   const long double encoded =
@@ -23,7 +23,8 @@ TEST(Srgb, EachThresholdIsTheLeastFloatThatRoundsUp) {
     const float threshold = kSrgbThresholds[k];
     const float below = std::nextafter(threshold, 0.0F);
     const long double half = static_cast<long double>(k) + 0.5L;
-    // The margin proves that long double decides every case: its error here is below 1e-16.
+    // The margin proves that long double is precise enough for every case, because its error here
+    // is below 1e-16.
     EXPECT_GT(transfer(threshold) - half, 1e-13L) << k;
     EXPECT_GT(half - transfer(below), 1e-13L) << k;
     EXPECT_EQ(encode_srgb(threshold), k + 1);
@@ -32,7 +33,7 @@ TEST(Srgb, EachThresholdIsTheLeastFloatThatRoundsUp) {
 }
 
 TEST(Srgb, RoundsToNearestEverywhere) {
-  // Steps of 2^-18: every bin of the table, from below black to above white.
+  // Steps of 2^-18 reach every bin of the table. They start below black and end above white.
   for (int i = -1000; i <= (1 << 18) + 1000; ++i) {
     const float v = std::ldexp(static_cast<float>(i), -18);
     const long double wanted = v <= 0 ? 0 : v >= 1 ? 255 : std::round(transfer(v));

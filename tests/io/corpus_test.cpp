@@ -1,4 +1,5 @@
-// Every file in bad/ is refused with exactly the message beside it, every file in good/ is read.
+// Checks that every file in bad/ is refused with exactly the message beside it, and that every file
+// in good/ is read.
 
 #include "io/file.hpp"
 #include "support/source_folder.hpp"
@@ -24,7 +25,7 @@ std::set<std::filesystem::path> files(const char* name, const char* ending) {
   return out;
 }
 
-/// The loader's error message, without the folder.
+/// Returns the loader's error message without the folder's name.
 std::string complaint(const std::filesystem::path& path) {
   try {
     (void)load_scene(path);

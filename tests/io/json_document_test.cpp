@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 using Kind = JsonValue::Kind;
 
-/// Collects the text of every token in the tree by its offsets.
+/// Collects the beginning of every token in the tree by the token's offset.
 void collect(std::string_view text, const JsonValue& value, std::string& out) {
   out.append(text.substr(value.offset, 5)).append("|");
   for (const JsonValue& item : value.items) collect(text, item, out);
@@ -253,7 +253,7 @@ TEST(JsonDocument, ResolvesPointers) {
   }
 }
 
-/// The JSON text after parsing and writing.
+/// Returns the JSON text after parsing and writing it.
 std::string rewritten(std::string_view text, std::span<const std::string_view> left_out = {}) {
   const JsonDocument document(text, "s.json");
   std::string result;

@@ -57,7 +57,7 @@ TEST(JsonScene, ReadsCameras) {
   EXPECT_EQ(perspective.vertical_fov, std::numbers::pi / 2);
   EXPECT_EQ(perspective.focus, 2.5);
   const auto& orthographic = std::get<OrthographicCamera>(scene.cameras[1].camera);
-  EXPECT_EQ(orthographic.pose.position.x, 0.1);  // cameras are stored in float64
+  EXPECT_EQ(orthographic.pose.position.x, 0.1);  // exact, because cameras are stored in float64
   EXPECT_EQ(orthographic.height, 7);
   EXPECT_EQ(std::get<EnvironmentCamera>(scene.cameras[2].camera).pose.position, DVec3(1, 2, 3));
   EXPECT_EQ(scene.cameras[2].name, "cameras/2");
@@ -86,12 +86,12 @@ TEST(JsonScene, ReadsCalibratedCameras) {
   EXPECT_EQ(first.cy, 540);
   EXPECT_EQ(first.distortion, Distortion(RationalDistortion{1, 2, 3, 4, 5, 6, 7, 8}));
   const auto& second = std::get<CalibratedCamera>(scene.cameras[1].camera);
-  // Forward is the matrix's third row, down its second.
+  // Forward is the matrix's third row, and down is its second row.
   EXPECT_EQ(second.pose.direction, DVec3(0, 1, 0));
   EXPECT_EQ(second.pose.up, DVec3(0, 0, 1));
   EXPECT_EQ(second.pose.position, DVec3(-1, -3, 2));
   EXPECT_EQ(second.distortion, Distortion(FisheyeDistortion{0.1, 0.2, 0.3, 0.4}));
-  EXPECT_EQ(scene.size.width, 1920U);  // of the first camera
+  EXPECT_EQ(scene.size.width, 1920U);  // the first camera determines the size
   EXPECT_EQ(scene.size.height, 1080U);
 }
 

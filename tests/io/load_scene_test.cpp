@@ -70,7 +70,8 @@ TEST_F(LoadScene, AcceptsUpperCaseExtensions) {
 }
 
 TEST_F(LoadScene, RefusesGarbageFromItsFirstBytes) {
-  // A sparse file of 900 MB: reading it whole would exceed the test's limits of memory and time.
+  // Sparse files of 900 MB: reading one completely would exceed the test's limits of memory and
+  // time.
   for (const char* name : {"g.json", "g.gltf", "g.dat"}) {
     const std::filesystem::path path = write(name,
                                              "\x7F"

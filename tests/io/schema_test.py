@@ -1,4 +1,4 @@
-"""The JSON Schema and the loader accept and reject the same files.
+"""Checks that the JSON Schema and the loader accept and reject the same files.
 
 usage: schema_test.py SCENE_VERDICT SOURCE_DIR
 """
@@ -10,7 +10,7 @@ import sys
 
 import jsonschema
 
-# Rules that JSON Schema can't express: the schema accepts these files, but the loader must not.
+# Files that violate rules that JSON Schema can't express. The schema accepts them, but the loader must reject them.
 BEYOND_SCHEMA = {
     "calibrated_extrinsic_mirrored": "a determinant",
     "calibrated_extrinsic_scaled": "products of members",
@@ -52,7 +52,7 @@ def schema_accepts(validator, path):
 
 
 def loader_verdicts(program, paths):
-    """{path: accepted}, from lines `accept PATH` or `reject PATH`."""
+    """Returns {path: accepted}, parsed from lines of the form `accept PATH` or `reject PATH`."""
     lines = subprocess.run([program, *map(str, paths)], check=True, capture_output=True, text=True).stdout
     verdicts = {}
     for line in lines.splitlines():

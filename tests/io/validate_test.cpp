@@ -16,7 +16,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLeast = std::numeric_limits<float>::denorm_min();
 constexpr float kMost = std::numeric_limits<float>::max();
 
-/// `field: message` of the first broken rule.
+/// The first broken rule as `field: message`.
 template <typename T>
 std::string broken(const T& part) {
   const auto rule = validate(part);

@@ -23,8 +23,8 @@ Corners<Kernel> corners(const Triangle& t) {
   return {point<Kernel>(t.a), point<Kernel>(t.b), point<Kernel>(t.c)};
 }
 
-/// The CGAL object for the convex hull of three vertices, by dimension: a collinear Triangle_3
-/// would violate preconditions.
+/// The convex hull of three vertices as a CGAL object of its dimension. A collinear Triangle_3
+/// would violate CGAL's preconditions.
 template <class Kernel>
 using Hull =
     std::variant<typename Kernel::Triangle_3, typename Kernel::Segment_3, typename Kernel::Point_3>;
@@ -32,7 +32,7 @@ using Hull =
 template <class Kernel>
 Hull<Kernel> hull(const Corners<Kernel>& c) {
   if (!CGAL::collinear(c[0], c[1], c[2])) return typename Kernel::Triangle_3(c[0], c[1], c[2]);
-  const auto [least, greatest] = std::minmax_element(c.begin(), c.end());  // lexicographic
+  const auto [least, greatest] = std::minmax_element(c.begin(), c.end());  // lexicographic order
   if (*least == *greatest) return *least;
   return typename Kernel::Segment_3(*least, *greatest);
 }
@@ -70,7 +70,7 @@ struct Meet {
   bool operator()(const Ring::Point_3& p, const Ring::Point_3& q) const { return p == q; }
 };
 
-/// The least parameter of a point or segment on the line o + t d.
+/// Returns the least parameter of a point or segment that lies on the line o + t d.
 class LeastParameter {
  public:
   explicit LeastParameter(const Ray& ray) : o_(point<Field>(ray.o)), d_(vector<Field>(ray.d)) {}
@@ -101,8 +101,8 @@ bool hits(const Plane& plane, const Ray& ray) {
 }
 
 Rational first_parameter(const Triangle& triangle, const Ray& ray) {
-  // Uses the line, not the ray: CGAL 5.5 gives a wrong segment for a coplanar ray that points away
-  // from the triangle.
+  // Intersects with the line instead of the ray: CGAL 5.5 returns a wrong segment for a coplanar
+  // ray that points away from the triangle.
   const LeastParameter least(ray);
   const auto of_set = [&](const auto& set) -> Rational {
     const auto common = CGAL::intersection(set, least.line());

@@ -1,6 +1,6 @@
 #pragma once
-/// Intersections of triangles and planes decided by CGAL with exact number types: the reference for
-/// src/exact/.
+/// Decides intersections of triangles and planes by CGAL with exact number types, as a reference
+/// for src/exact/.
 
 #include "oracle/exact_numbers.hpp"
 
@@ -9,12 +9,12 @@
 
 namespace microtrace::oracle {
 
-/// True if the ray is valid and meets the shape within its closed interval, by do_intersect over
-/// Mpzf.
+/// True if the ray is valid and meets the shape within its closed interval. Uses do_intersect with
+/// the number type Mpzf.
 [[nodiscard]] bool hits(const Triangle& triangle, const Ray& ray);
 [[nodiscard]] bool hits(const Plane& plane, const Ray& ray);
 
-/// The parameter of the first hit, over Gmpq; the ray must hit.
+/// The parameter of the first hit, computed with the number type Gmpq. The ray must hit.
 [[nodiscard]] Rational first_parameter(const Triangle& triangle, const Ray& ray);
 
 }  // namespace microtrace::oracle

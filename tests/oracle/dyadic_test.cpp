@@ -14,7 +14,7 @@ using adversarial::Random;
 using exact::Dyadic;
 using exact::Root;
 
-/// A Dyadic and the equal CGAL number.
+/// A Dyadic and a CGAL number with the same value.
 struct Twin {
   Dyadic dyadic;
   Rational rational;
@@ -24,7 +24,7 @@ Twin twin(float x) {
   return {x, Rational(double{x})};
 }
 
-/// The value of a random expression of float32 numbers with the given degree.
+/// Evaluates a random polynomial expression of float32 numbers with the given degree.
 Twin expression(Random& random, int degree, int lo, int hi) {
   if (degree == 1) return twin(random.any_float(lo, hi));
   const int left = random.between(1, degree - 1);
@@ -60,7 +60,7 @@ TEST(DyadicOracle, LeadingBitsBoundTheMagnitude) {
     const auto [mantissa, exponent] = x.dyadic.leading();
     ASSERT_GE(mantissa, 0.5);
     ASSERT_LT(mantissa, 1.0);
-    // Two steps keep the power of two within double's range.
+    // Multiplies in two steps, because 2^exponent may be beyond double's range.
     const Rational half_scale = Rational(std::ldexp(1.0, exponent / 2));
     const Rational scale = half_scale * Rational(std::ldexp(1.0, exponent - exponent / 2));
     ASSERT_LE(Rational(mantissa) * scale, CGAL::abs(x.rational));
@@ -72,14 +72,14 @@ Dyadic integer(Random& random, int lo, int hi) {
   return static_cast<float>(random.between(lo, hi));
 }
 
-/// A root of small integers, so that equal numbers in different forms are frequent: sqrt(8) / 2 =
-/// sqrt(2).
+/// A root of small integers. Numbers that are equal but have different forms are frequent, for
+/// example sqrt(8) / 2 and sqrt(2).
 Root small_root(Random& random) {
   return {integer(random, -8, 8), integer(random, 0, 50), integer(random, 1, 6),
           random.between(-1, 1)};
 }
 
-/// A root with the degrees and magnitudes of a quadric's root.
+/// A root whose parts have the degrees and magnitudes of a quadric's root.
 Root large_root(Random& random, int lo, int hi) {
   const Dyadic p = expression(random, 3, lo, hi).dyadic;
   Dyadic q = expression(random, 6, lo, hi).dyadic;
@@ -120,7 +120,8 @@ TEST(RootOracle, OrderOfLargeRootsAndOfNearlyEqualOnes) {
     const int lo = full_range ? -149 : -9, hi = full_range ? 127 : 9;
     const Root x = large_root(random, lo, hi), y = large_root(random, lo, hi);
     check(x, y);
-    // The same number in another form, then a number that differs from it in a very low bit.
+    // First compares with the same number in another form, then with a number that differs from it
+    // in a very low bit.
     const Dyadic k = 3.0f;
     Root z{x.p * k, x.q * k * k, x.r * k, x.sign};
     check(x, z);
@@ -138,7 +139,7 @@ TEST(RootOracle, RoundingAtMidpointsOfFloats) {
     const Dyadic nudge = static_cast<float>(random.between(-1, 1)) * Dyadic(0x1p-140f) * Dyadic(f);
     const Root rational{middle * r + nudge, {}, r, 0};
     check(rational, exact::rational(f));
-    // The same midpoint as a root: (0 + sqrt(middle^2)) / 1.
+    // The same number as a square root: sqrt((middle r + nudge)^2) / r.
     const Root irrational{{}, square(middle * r + nudge), r, middle.sign()};
     check(irrational, rational);
   }

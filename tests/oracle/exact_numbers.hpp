@@ -1,5 +1,5 @@
 #pragma once
-/// Conversions of float32 and Dyadic to CGAL's number types, for the oracle tests only.
+/// Converts float32 and Dyadic to CGAL's number types. Only the oracle tests use it.
 
 #include "exact/numbers/dyadic.hpp"
 

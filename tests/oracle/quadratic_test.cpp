@@ -1,5 +1,5 @@
-/// Compares first_hit of planes, discs, spheres and quadrics with CGAL's real roots, and the order
-/// of hits of different shapes.
+/// Compares first_hit of planes, discs, spheres and quadrics with CGAL's real roots. Also compares
+/// the order of hits of different shapes.
 
 #include "exact/intersect.hpp"
 #include "oracle/real_roots.hpp"
@@ -19,7 +19,7 @@ namespace {
 using adversarial::ShapeKind;
 using exact::first_hit;
 
-/// A hit's parameter, as computed and according to the oracle.
+/// A hit's parameter as computed, and as computed by the oracle.
 struct Parameter {
   exact::Root found;
   Real expected;
@@ -59,7 +59,7 @@ class OracleComparison {
   [[nodiscard]] int hit_count() const { return hit_count_; }
 
  private:
-  /// Compares a hit's t with those of the last few hits, of any shape.
+  /// Compares the order of a hit and the last few hits of any shape with the oracle.
   ::testing::AssertionResult orders(const Parameter& t) {
     for (const Parameter& other : recent_) {
       if (sign(t.found <=> other.found) != CGAL::compare(t.expected, other.expected)) {

@@ -29,13 +29,13 @@ bool is_zero(const Vec3& v) {
   return v.x == 0 && v.y == 0 && v.z == 0;
 }
 
-/// The parameters at which a polynomial of degree two at most vanishes.
+/// The parameters at which a polynomial of degree two or less is zero.
 struct Zeros {
   bool everywhere;
-  std::vector<Real> roots;  ///< ascending
+  std::vector<Real> roots;  ///< in ascending order
 };
 
-/// The zeros of f(o + t d), a polynomial determined by three values.
+/// The zeros of f(o + t d). Three values determine this polynomial.
 template <class Function>
 Zeros zeros(const Ray& ray, Function f) {
   const Rational before = f(at(ray, -1)), c = f(at(ray, 0)), after = f(at(ray, 1));
@@ -113,7 +113,7 @@ std::optional<Real> first_parameter(const Quadric& q, const Ray& ray) {
 Real to_real(const exact::Root& t) {
   const Rational r = to_rational(t.r);
   const Rational rational_part = to_rational(t.p) / r;
-  // CGAL requires a positive number under the root.
+  // CGAL requires a positive number under the square root.
   if (t.sign == 0 || t.q.sign() == 0) return Real(rational_part);
   return Real(rational_part, t.sign / r, to_rational(t.q));
 }

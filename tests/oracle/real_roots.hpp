@@ -1,7 +1,7 @@
 #pragma once
-/// First hits on planes, discs, spheres and quadrics by CGAL's rationals and their square-root
-/// extensions. Deliberately independent of src/exact/: polynomials come from values of the shape's
-/// equation, roots from CGAL::make_root_of_2.
+/// Computes first hits on planes, discs, spheres and quadrics by CGAL's rationals and their
+/// square-root extensions. Deliberately independent of src/exact/: polynomials are derived from
+/// values of the shape's equation, and roots come from CGAL::make_root_of_2.
 
 #include "exact/numbers/root.hpp"
 #include "oracle/exact_numbers.hpp"
@@ -15,7 +15,7 @@
 
 namespace microtrace::oracle {
 
-/// a + b sqrt(c), comparable with others of any c.
+/// A number a + b sqrt(c). Numbers with different c can be compared.
 using Real = CGAL::Sqrt_extension<Rational, Rational, CGAL::Tag_true, CGAL::Tag_true>;
 
 [[nodiscard]] std::optional<Real> first_parameter(const Plane& plane, const Ray& ray);

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks enclose() and round_to_float() for a number known to the oracle.
+/// Checks enclose() and round_to_float() with numbers that the oracle knows exactly.
 
 #include "exact/numbers/root.hpp"
 #include "oracle/exact_numbers.hpp"
@@ -10,7 +10,7 @@
 
 namespace microtrace::oracle {
 
-/// Real is Rational, or another CGAL number that compares with it.
+/// Real is Rational, or a CGAL number that can be compared with Rational.
 template <class Real>
 [[nodiscard]] bool is_enclosed(const Real& t, const exact::Enclosure& e) {
   const bool above = Rational(e.lo) <= t;
@@ -20,8 +20,8 @@ template <class Real>
   return above && below && tight;
 }
 
-/// True if f is the float32 nearest to t, ties to even, by comparison with the midpoints between f
-/// and its neighbors.
+/// True if f is the float32 number nearest to t, with ties to even. Compares t with the midpoints
+/// between f and its neighbors.
 template <class Real>
 [[nodiscard]] bool is_nearest(float f, const Real& t) {
   const auto value = [](float x) {

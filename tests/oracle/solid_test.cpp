@@ -1,4 +1,4 @@
-// Compares locations and nearest points of solids with those of CGAL over exact numbers.
+// Compares locations and nearest points of solids with the results of CGAL with exact numbers.
 
 #include "oracle/exact_numbers.hpp"
 #include "support/cases/closed_meshes.hpp"
@@ -32,8 +32,8 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-/// Nothing for meshes that CGAL can't represent or whose triangles violate its preconditions: they
-/// are not manifold, or have a triangle without area.
+/// The mesh as a CGAL mesh. Nothing if CGAL can't represent it or it violates CGAL's preconditions:
+/// it is not manifold, or has a triangle without area.
 std::optional<SurfaceMesh> surface_mesh(const Mesh& mesh) {
   SurfaceMesh result;
   std::vector<SurfaceMesh::Vertex_index> vertices;
@@ -66,8 +66,8 @@ std::vector<SolidCase> cases(Random& random) {
   return result;
 }
 
-/// Calls f(case, CGAL's mesh, solid, points) for each case that CGAL can represent, with the
-/// fraction `share` of the points of all tests.
+/// Calls f(case, CGAL's mesh, solid, points) for each case that CGAL can represent. `share` is the
+/// fraction of all tests' points.
 template <class F>
 void for_each_case(Random& random, double share, const F& f) {
   std::vector<std::pair<SolidCase, SurfaceMesh>> known;

@@ -1,5 +1,5 @@
-/// Compares first_hit(Triangle) and first_hit(Plane) with CGAL: every hit or miss, and for some
-/// hits the parameter and its order.
+/// Compares first_hit(Triangle) and first_hit(Plane) with CGAL: whether each ray hits and, for some
+/// hits, the parameter and its order.
 
 #include "exact/grid.hpp"
 #include "exact/intersect.hpp"
@@ -22,7 +22,7 @@ using adversarial::TriangleKind;
 using exact::first_hit;
 using exact::round_to_float;
 
-/// A hit's parameter, as computed and according to the oracle.
+/// A hit's parameter as computed, and as computed by the oracle.
 struct Parameter {
   exact::Root found;
   Rational expected;
@@ -51,7 +51,7 @@ int sign(std::strong_ordering order) {
   return order < 0 ? -1 : order > 0;
 }
 
-/// True if the fixed-width integers either can't represent the numbers or agree with the oracle.
+/// True if the fixed-width integers agree with the oracle or can't represent the numbers.
 template <int Limbs>
 ::testing::AssertionResult is_right(const exact::GridHit<Limbs>& hit, bool is_hit) {
   using exact::Found;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A shared library exports the functions and classes that its headers declare for it, and nothing else.
+"""Checks that a shared library exports the functions and classes that its headers declare for export, and nothing else.
 
 usage: exported_test.py LIBRARY INCLUDE_FOLDER
 """
@@ -26,7 +26,7 @@ def is_declared(symbol):
     name = re.match(r"microtrace::(\w+)(::)?", symbol)
     if not name:
         return False
-    # Excludes classes within a class.
+    # Omits classes within a class.
     is_nested = re.match(r"microtrace::\w+::([A-Z]\w*)::", symbol)
     return name[1] in classes and not is_nested or not name[2] and name[1] in functions
 

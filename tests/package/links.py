@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Relative links in Markdown files lead to files, and their fragments to headings.
+"""Checks that relative links in Markdown files lead to files, and their fragments to headings.
 
 usage: links.py FOLDER    every Markdown file in it, at any depth, except in build folders
 """
@@ -13,13 +13,13 @@ LINK = re.compile(r"!?\[[^\]]*\]\(\s*<?([^()\s>]*(?:\([^()\s]*\)[^()\s>]*)*)>?(?
 
 
 def prose(text):
-    """The text without code, in which brackets have another meaning."""
+    """Returns the text without code, where brackets have another meaning."""
     text = re.sub(r"^(```|~~~).*?^\1", "", text, flags=re.MULTILINE | re.DOTALL)
     return re.sub(r"(`+).*?\1", "", text, flags=re.DOTALL)
 
 
 def anchors(text):
-    """The fragments of the headings, as GitHub makes them."""
+    """Returns the fragments that GitHub generates for the headings."""
     found = {}
     for heading in re.findall(r"^#{1,6} +(.*?) *#*$", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S), re.MULTILINE):
         heading = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading)

@@ -45,7 +45,7 @@ function(install_to folder)
   endforeach()
   file(RENAME ${WORK}/installed ${folder})
   if(FLAGS)
-    return()  # builds with sanitizers contain the path in debugging information, which is allowed
+    return()  # Builds with sanitizers contain the path in debugging information, which is allowed.
   endif()
   file(GLOB_RECURSE files ${folder}/*)
   foreach(file ${files})

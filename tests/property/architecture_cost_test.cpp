@@ -1,5 +1,5 @@
-// Axis-aligned walls that touch and share planes are as fast as others: counts the queries that
-// reach exact arithmetic in path-traced pictures.
+// Checks that axis-aligned walls that touch and share planes cost no more than other walls. Counts
+// the queries that reach exact arithmetic in path-traced pictures.
 
 #include "support/cases/architecture.hpp"
 
@@ -44,7 +44,8 @@ TEST_P(ArchitectureCost, FewQueriesNeedExactArithmetic) {
       ASSERT_GT(questions, 10'000U);
       EXPECT_GT(stages.origins, 0U);
       EXPECT_LE(stages.dyadic * 10'000, questions);
-      // Rays along an axis hit edges exactly, because pixel centers lie on edges.
+      // In the axis-aligned view, pixel centers lie exactly on edges, so more queries need exact
+      // arithmetic.
       const std::uint64_t most = view == 0 ? 1'000 : 30;
       EXPECT_LE(stages.grid * most, questions);
       EXPECT_LE(stages.searched_origins * most, stages.origins);

@@ -1,5 +1,5 @@
-// Checks boxes that are certainly clear of a surface: no segment between two of their points meets
-// it.
+// Tests boxes that are certainly clear of a surface: no segment between two points of such a box
+// may meet the surface.
 
 #include "accel/spawn/box_clearance.hpp"
 
@@ -14,8 +14,8 @@ namespace {
 
 using adversarial::Random;
 
-// Vertices on a grid, where many triangles have no area; some are near a vertex that they almost
-// share.
+// Returns a triangle with vertices on a grid. Many have no area, or a vertex that lies nearly on an
+// edge's line.
 Triangle triangle_on_grid(Random& random) {
   Triangle t{random.on_grid(4), random.on_grid(4), random.on_grid(4)};
   switch (random.between(0, 4)) {
@@ -42,7 +42,7 @@ TEST(BoxClearance, CertainClearanceOfTriangles) {
   for (int i = 0; i < 200000 && !testing::Test::HasFatalFailure(); ++i) {
     const Triangle t = triangle_on_grid(random);
     const float radius = random.power_of_two(-12, 0);
-    // On an edge, or beside it at a distance of about the box's size.
+    // A point on an edge, or at a distance of about the box's size from it.
     const float share = 0.125F * static_cast<float>(random.between(0, 8));
     const Vec3 p = t.a + (t.b - t.a) * share + random.on_grid(3, 0.75F * radius);
     const bool passes_it = clears_box(t, DVec3(p), DVec3(radius));
@@ -60,7 +60,7 @@ TEST(BoxClearance, CertainClearanceOfTriangles) {
   EXPECT_GT(met, 10000);
 }
 
-// Projects along each of the axes.
+// Tests projections along each of the axes.
 TEST(BoxClearance, CertainClearanceOfSegments) {
   Random random(42);
   for (int i = 0; i < 10000; ++i) {
@@ -68,7 +68,7 @@ TEST(BoxClearance, CertainClearanceOfSegments) {
     const Vec3 b = a + 2.0F * half, c = i % 2 == 0 ? a : a + half;
     const int axis = random.between(0, 2);
     Vec3 across(0);
-    // Perpendicular to the segment and to the axis.
+    // A vector perpendicular to the segment and to the axis.
     across[(axis + 1) % 3] = half[(axis + 2) % 3];
     across[(axis + 2) % 3] = -half[(axis + 1) % 3];
     if (across == Vec3(0)) continue;

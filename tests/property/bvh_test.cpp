@@ -1,5 +1,5 @@
-// The Bvh returns the hit defined as the least (t, PrimitiveId) over all primitives, each decided
-// exactly.
+// Checks that Bvh returns the hit with the least (t, PrimitiveId) over all primitives, where each
+// primitive is decided exactly.
 
 #include "exact/intersect.hpp"
 #include "support/cases/adversarial_rays.hpp"
@@ -35,7 +35,8 @@ void add(Scene& scene, Shape shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-// Small integers cause coincidences: shared edges, equal t, tangents, rays within planes.
+// A point with small integer coordinates. These cause coincidences: shared edges, equal t,
+// tangents, and rays within planes.
 Vec3 grid_point(Random& random) {
   return random.on_grid(3);
 }
@@ -63,7 +64,7 @@ Scene coincident_scene(Random& random) {
                        .j = c.x * c.x + c.y * c.y + c.z * c.z - sphere.radius * sphere.radius});
   }
   add(scene, mesh);
-  add(scene, mesh);  // every hit is a tie
+  add(scene, mesh);  // the copy makes every hit a tie
   add(scene, Triangle{Vec3(NAN, 0, 0), Vec3(1), Vec3(2)});
   add(scene, Sphere{Vec3(0), -1});
   add(scene, Sphere{Vec3(0x1p70F, 0, 0), 0x1p70F});
@@ -117,7 +118,7 @@ TEST(Bvh, BatchesEqualSingleRays) {
   }
 }
 
-// A tree without triangle blocks.
+// This tree has no triangle blocks.
 TEST(Bvh, PacketsHitATreeOfSpheres) {
   Scene scene;
   for (int i = 0; i < 100; ++i) add(scene, Sphere{Vec3(i % 10, i / 10, -5), 0.5F});

@@ -1,5 +1,5 @@
-// Triangles without area and duplicate triangles take almost no time: counts the queries that reach
-// exact arithmetic. ctest runs this for every instruction set of the machine.
+// Checks that triangles without area and duplicate triangles cost almost no time. Counts the
+// queries that reach exact arithmetic. ctest runs this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
 #include "support/cases/adversarial_rays.hpp"
@@ -38,7 +38,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-// Packets of 64 rays with common origins, and as many incoherent rays, within a cube.
+// Packets of 64 rays with a common origin, and equally many incoherent rays, in a cube.
 std::vector<Ray> rays_in_cube(float half_width) {
   Random random(31);
   std::vector<Ray> rays;
@@ -51,7 +51,7 @@ std::vector<Ray> rays_in_cube(float half_width) {
   return rays;
 }
 
-// Queries that float64 did not decide.
+// The number of queries that float64 did not decide.
 std::uint64_t exact(const StageCounts& counts) {
   return counts.grid + counts.dyadic;
 }
@@ -61,7 +61,7 @@ struct Asked {
   std::size_t hits = 0;
 };
 
-// Uses every function, including ray origins.
+// Calls every function, including those for ray origins.
 Asked ask(const Scene& scene, const std::vector<Ray>& rays) {
   const Bvh bvh(scene);
   const StageCounts before = stage_counts();
@@ -91,7 +91,7 @@ void add_triangle(Mesh& mesh, const Vec3& a, const Vec3& b, const Vec3& c) {
   mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-// Each copy has its vertices in another order.
+// Copies all triangles. Each copy has its vertices in a different order.
 Mesh copies_of(const Mesh& once, int count) {
   Mesh copies = once;
   for (int copy = 1; copy < count; ++copy) {
@@ -117,7 +117,7 @@ TEST_P(DegenerateCost, DuplicatesCostNothing) {
   }
 }
 
-// First too few triangles for a tree, then enough.
+// The first counts are too small for a tree, the last one is large enough.
 TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   Mesh once;
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
@@ -132,8 +132,8 @@ TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   }
 }
 
-// The next hit after one of a duplicate is the copy's, at the same t. Rays that leave the copy have
-// the same origins as rays that leave the first.
+// The next hit after a hit of a triangle is that of its copy, at the same t. Rays that leave the
+// copy have the same origins as rays that leave the triangle.
 TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
@@ -172,8 +172,8 @@ TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   }
 }
 
-// Single points, fewer and more than the minimum for a tree, among other triangles, on their
-// vertices and beside them.
+// Adds single points among other triangles, on their vertices and beside them. Some scenes have too
+// few points for a tree.
 TEST_P(DegenerateCost, PointsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
@@ -196,7 +196,8 @@ TEST_P(DegenerateCost, PointsCostNothing) {
   }
 }
 
-// Short and long segments, with two vertices at one end or one in the interior.
+// Adds short and long segments: triangles with two vertices at one end, or with one vertex between
+// the others.
 TEST_P(DegenerateCost, SegmentsCostNothing) {
   const std::vector<Ray> rays = rays_in_cube(1.5F);
   const Mesh sphere = generated::displaced_sphere(5000);
@@ -222,8 +223,8 @@ TEST_P(DegenerateCost, SegmentsCostNothing) {
   }
 }
 
-// Rays in the plane of segments and triangles, and origins on a segment's line: the filters must be
-// certain that these miss.
+// Casts rays in the plane of segments and triangles, and rays that start on a segment's line. The
+// filters must be certain that these miss.
 TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
   Random random(34);
   for (const std::size_t count : {4U, 40U}) {
@@ -239,7 +240,7 @@ TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
     std::vector<Ray> rays;
     for (int i = 0; i < 512; ++i) rays.push_back({.o = in_plane(2), .d = in_plane(2)});
     const Asked asked = ask(scene_of(mesh), rays);
-    // Rays that hit an edge in the plane are decided exactly, by every function.
+    // Every function decides rays that hit an edge within its plane exactly.
     EXPECT_LT(exact(asked.counts), 32 * asked.hits + 64) << count;
     EXPECT_LT(asked.hits, rays.size() / 2);
   }

@@ -1,6 +1,6 @@
-// No path leaves a closed mesh without passing through a surface on purpose. The meshes have few
-// triangles, are tiny to huge, far away or a few ulps thick, alone and with other shapes inside;
-// every function is tested.
+// Checks that no path leaves a closed mesh unless it is transmitted. The meshes have few triangles.
+// They are tiny to huge, far away or a few ulps thick, alone or with other shapes inside. Tests
+// every function.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -53,7 +53,7 @@ bool is_closed(const Mesh& mesh) {
   return std::ranges::all_of(triangles_at, [](const auto& edge) { return edge.second % 2 == 0; });
 }
 
-/// A closed body, and obstacles in it.
+/// A closed body with other shapes in it.
 class World {
  public:
   World(Random& random, BodyKind kind) : random_(random) {
@@ -69,7 +69,7 @@ class World {
     for (PrimitiveId id = 0; id < triangles_; ++id)
       has_area_.push_back(exact::TrianglePlane(triangle_of(mesh(), id)).has_area());
     if (random.one_in(3)) add_others();
-    // Too many triangles for a single leaf.
+    // Adds so many triangles that a single leaf can't contain them.
     if (random.one_in(3)) {
       const Vec3 away = center_ + Vec3(64 * size_, 0, 0);
       scene_.objects.push_back(
@@ -95,8 +95,8 @@ class World {
     return inside > 0;
   }
 
-  /// True if a ray is inside the mesh just behind a hit; nothing if further hits at the same t may
-  /// be on an edge or a vertex.
+  /// True if a ray is inside the mesh just behind a hit. Nothing if two further hits have the same
+  /// t, because they may be on an edge or a vertex.
   [[nodiscard]] std::optional<bool> is_inside_behind(const Ray& ray, const Hit& hit) const {
     bool odd = false;
     float t = hit.t;
@@ -108,7 +108,8 @@ class World {
     return odd;
   }
 
-  /// A point inside and on no surface, if there is one between random points of the mesh.
+  /// A point inside the mesh and on no surface. Nothing if none is found between random points of
+  /// the mesh.
   [[nodiscard]] std::optional<Vec3> start() const {
     for (int i = 0; i < 8; ++i) {
       const float s = random_.one_in(2) ? 0.5F : static_cast<float>(random_.unit());
@@ -118,7 +119,7 @@ class World {
     return std::nullopt;
   }
 
-  /// A vertex, or a point of an edge or of a face.
+  /// A random vertex, or a point of an edge or of a face.
   [[nodiscard]] Vec3 point_of_mesh() const {
     const Triangle t = triangle_of(mesh(), random_.bits() % triangles_);
     if (random_.one_in(3)) return t.a;
@@ -126,7 +127,7 @@ class World {
     return random_.one_in(2) ? ab : ab + (t.c - ab) * static_cast<float>(random_.unit());
   }
 
-  /// The side of q for each surface without edges.
+  /// The side on which q lies, for each surface without edges.
   [[nodiscard]] std::vector<int> sides(const Vec3& q) const {
     std::vector<int> result;
     for (const Object& object : scene_.objects) {
@@ -156,7 +157,7 @@ class World {
           shape = Disc{.center = at, .normal = normal, .radius = r};
           break;
         case 2: {
-          // An ellipsoid around `at`, as precisely as its coefficients allow.
+          // An ellipsoid around `at`, as precise as its rounded coefficients allow.
           const Vec3 linear = Vec3(-2, -4, -2) * at, squares = Vec3(1, 2, 1) * at * at;
           shape = Quadric{.a = 1,
                           .b = 2,
@@ -191,7 +192,7 @@ class World {
   Vec3 center_{0};
   float size_;
   PrimitiveId triangles_;
-  std::vector<bool> has_area_;  // of each triangle
+  std::vector<bool> has_area_;  // by triangle
   std::unique_ptr<const Bvh> bvh_;
 };
 
@@ -199,7 +200,7 @@ struct Path {
   Ray ray;
   bool inside = true;
   std::vector<int> sides;
-  bool reflects = true;  ///< reflections only
+  bool reflects = true;  ///< false after a transmission
 };
 
 class Escape : public testing::TestWithParam<BodyKind> {
@@ -211,7 +212,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     while (paths_.size() < 32) {
       const auto o = world.start();
       if (!o) return;
-      // Some have a common origin, as in packets.
+      // Some rays have a common origin, as in packets.
       const int together = random_.one_in(2) ? 1 : 16;
       for (int i = 0; i < together; ++i)
         paths_.push_back(
@@ -236,7 +237,7 @@ class Escape : public testing::TestWithParam<BodyKind> {
     } else if (random_.one_in(2)) {
       bvh.intersect(rays, hits);
     } else {
-      // Casts each ray as one of a packet.
+      // Casts each ray as a member of a packet.
       for (std::size_t i = 0; i < rays.size(); ++i) {
         std::array<Ray, 8> tile;
         for (Ray& ray : tile) ray = {.o = rays[i].o, .t_min = 0, .d = random_.jitter(rays[i].d, 9)};
@@ -260,7 +261,8 @@ class Escape : public testing::TestWithParam<BodyKind> {
     }
   }
 
-  // Computes the origins in a batch; sometimes also one by one, with the same results.
+  // Computes the origins in a batch. Sometimes also computes them one by one, which must give the
+  // same results.
   std::vector<std::optional<Vec3>> ask_origins(const Bvh& bvh,
                                                const std::vector<Bvh::Spawn>& spawns) {
     std::vector<std::optional<Vec3>> origins(spawns.size());

@@ -1,5 +1,5 @@
-// Every certain filter result must equal the exact answer, and every interval must contain the
-// exact t.
+// Checks that every certain filter result equals the exact answer, and that every interval contains
+// the exact t.
 
 #include "accel/filters/shape_filter.hpp"
 #include "exact/intersect.hpp"
@@ -50,7 +50,7 @@ void check(const Ray& ray, const S& shape, Count& count) {
   }
 }
 
-// Checks cases unchanged, and with the ends of the ray's interval at the hit or one ulp away.
+// Checks each case unchanged, and with the ends of the ray's interval at the hit or one ulp away.
 template <class MakeCase>
 Count check_kind(std::uint64_t seed, MakeCase make_case) {
   Random random(seed);
@@ -76,8 +76,7 @@ TEST(Filter, Triangle) {
   }
 }
 
-// Points, and ends of segments, that rays hit exactly although a - o needs more bits than float64
-// has.
+// Rays hit points and ends of segments exactly, although a - o needs more bits than float64 has.
 TEST(Filter, TriangleWithoutAreaWithRoundedOffset) {
   Random random(3);
   Count count;

@@ -1,5 +1,5 @@
-// A host program's rounding mode, precision, traps and flushing of subnormals change no result, and
-// are restored afterwards.
+// Checks that a host program's rounding mode, precision, traps and flushing of subnormals change no
+// result, and that they are restored afterwards.
 
 #include "float_environment.hpp"
 
@@ -34,14 +34,14 @@ bool is_flushing() {
 }
 
 #if defined(__x86_64__)
-/// The x87 control word: rounding and precision of long double.
+/// Returns the x87 control word, which sets rounding and precision of long double.
 std::uint16_t x87_control() {
   std::uint16_t control = 0;
   __asm__ volatile("fnstcw %0" : "=m"(control));
   return control;
 }
 
-/// Sets the precision to 24 or to 64 bits.
+/// Sets the precision of long double to 24 or to 64 bits.
 void set_x87_precision(bool is_short) {
   const auto control =
       static_cast<std::uint16_t>((x87_control() & ~0x300U) | (is_short ? 0U : 0x300U));
@@ -105,8 +105,9 @@ TEST_P(HostRules, ChangeNoPicture) {
   }
 }
 
-// Decimal numbers without exact binary values, lights and materials of many kinds, and no camera,
-// so that every step from text to picture bytes computes something.
+// A scene whose decimal numbers have no exact binary values, with lights and materials of many
+// kinds. It has no camera, so that one is computed. Every step from text to picture bytes thus
+// computes something.
 constexpr const char* kLit = R"({
   "version": 1,
   "image": {"width": 24, "height": 18},
@@ -143,8 +144,8 @@ std::string lit_ppm(const Scene& scene) {
   return encode_ppm(film);
 }
 
-/// Created once: the standard library computes path capacities in floating point, which the host's
-/// traps would abort.
+/// Returns the folder of scenes. It is computed only once, because the standard library computes
+/// path capacities in floating point, which the host's traps would abort.
 const std::filesystem::path& scenes_folder() {
   static const std::filesystem::path folder = tests::source_folder() / "scenes";
   return folder;
@@ -169,7 +170,7 @@ TEST_P(HostRules, ChangeNoPathTracedPicture) {
   }
 }
 
-// The steps that a program may call separately.
+// Tests the steps that a program may call separately.
 TEST_P(HostRules, ChangeNoStep) {
   const auto steps = [] {
     const Scene scene = parse_scene(kLit, "lit.json", scenes_folder()).scene;
@@ -200,7 +201,7 @@ TEST_P(HostRules, ChangeNoStep) {
   EXPECT_EQ(actual, expected);
 }
 
-// The C library's strtod uses the x87 rounding mode.
+// Tests numbers because the C library's strtod depends on the x87 rounding mode.
 TEST_P(HostRules, ChangeNoParsedNumber) {
   const auto camera = [] {
     const Scene scene =
@@ -221,7 +222,8 @@ TEST_P(HostRules, ChangeNoParsedNumber) {
   EXPECT_EQ(actual.pose.position, expected.pose.position);
 }
 
-// A host that traps its own divisions by zero must not be stopped by the library's.
+// The host traps divisions by zero of its own. The library's divisions must not trigger these
+// traps.
 TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   const std::string expected = lit_json_ppm();
   set();
@@ -240,7 +242,8 @@ TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   EXPECT_TRUE(actual == expected);
 }
 
-// A triangle smaller than the least normal number; flushed to zero, it would be a point.
+// The triangle is smaller than the least normal number. If subnormals were flushed to zero, it
+// would be a point.
 TEST_P(HostRules, ChangeNoHit) {
   constexpr float kLeast = std::numeric_limits<float>::denorm_min();
   Scene scene;

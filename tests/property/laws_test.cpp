@@ -1,6 +1,6 @@
-// Changes that must not affect a result: the order of a triangle's vertices and of primitives,
-// mirrored or permuted axes, powers of two in size or position, the build method and its number of
-// threads.
+// Tests changes that must not affect results: the order of a triangle's vertices and of primitives,
+// mirrored or permuted axes, scaling or translating by powers of two, the build method, and its
+// number of threads.
 
 #include "exact/intersect.hpp"
 #include "support/cases/adversarial_scenes.hpp"
@@ -25,7 +25,7 @@ using namespace adversarial;
 using Answers = std::vector<std::optional<Hit>>;
 using Move = std::function<Vec3(Vec3)>;
 
-/// The scene with its points and normals transformed, and its lengths scaled.
+/// Returns the scene with its points and normals transformed and its lengths scaled.
 Scene moved(Scene scene, const Move& point, const Move& normal, float length) {
   for (Object& object : scene.objects) {
     if (auto* mesh = std::get_if<Mesh>(&object.shape)) {
@@ -68,14 +68,15 @@ void expect_equal(const Answers& a, const Answers& b, float scale = 1) {
     ASSERT_EQ(a[i]->id, b[i]->id) << "ray " << i;
     const float t = a[i]->t * scale;
     const auto has_all_bits = [](float x) { return std::isnormal(x) || x == 0; };
-    if (!has_all_bits(t) || !has_all_bits(a[i]->t)) continue;  // rounded at different magnitudes
+    if (!has_all_bits(t) || !has_all_bits(a[i]->t))
+      continue;  // subnormal numbers are rounded differently
     ASSERT_EQ(t, b[i]->t) << "ray " << i;
   }
 }
 
 class Laws : public testing::TestWithParam<SceneKind> {
  protected:
-  /// Calls f(random, case) for some scenes of the kind.
+  /// Calls f(random, case) for several scenes of the kind.
   void for_each_case(std::uint64_t test, const std::function<void(Random&, Case)>& f) {
     Random random = traversal::announced_random(50 + test);
     const std::size_t rounds = traversal::ray_count(0.02) / 200;
@@ -100,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfSize,
                                          SceneKind::slivers, SceneKind::walls),
                          kind_name);
 
-// Kinds of scenes whose coordinates have few bits.
+// Kinds of scenes whose coordinates have only a few significant bits.
 using LawsOfPlace = Laws;
 INSTANTIATE_TEST_SUITE_P(Scenes, LawsOfPlace, testing::Values(SceneKind::lattice, SceneKind::walls),
                          kind_name);
@@ -120,7 +121,7 @@ TEST_P(Laws, OrderOfVerticesHasNoEffect) {
   });
 }
 
-// Among equal t another primitive may be first, but t must not change.
+// If several hits have equal t, another primitive may be returned, but t must not change.
 TEST_P(Laws, OrderOfPrimitivesOnlyDecidesTies) {
   for_each_case(2, [](Random& random, const Case& c) {
     Scene shuffled = c.scene;
@@ -182,7 +183,7 @@ TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
   });
 }
 
-// Scaling must neither overflow nor underflow.
+// The test uses only numbers that scaling neither overflows nor underflows.
 TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
   for_each_case(4, [](Random& random, Case c) {
     const bool exact =

@@ -1,4 +1,4 @@
-// No ray leaves a closed mesh from inside, not even through a vertex or along an edge.
+// Checks that no ray leaves a closed mesh from inside, not even through a vertex or along an edge.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -28,7 +28,7 @@ class Leak : public testing::TestWithParam<std::size_t> {
 INSTANTIATE_TEST_SUITE_P(Meshes, Leak, testing::Range<std::size_t>(0, 5),
                          [](const auto& i) { return std::string(closed_meshes()[i.param].name); });
 
-// Casts a fifth of the rays for each mesh: each ray alone, in a packet and in a stream, with
+// Uses a fifth of all rays for each mesh. Casts each ray alone, in a packet and in a stream, with
 // alternating kernels.
 TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
@@ -73,7 +73,7 @@ TEST_P(Leak, NoRayFromWithinLeavesThroughCornersOrEdges) {
       stream.occluded(apart, std::span(occluded.get(), kBatch));
       ASSERT_TRUE(std::all_of(occluded.get(), occluded.get() + kBatch, [](bool b) { return b; }));
     }
-    ++turn;  // so that each kernel is used by each function
+    ++turn;  // shifts the assignment of kernels, so that each function uses each kernel
   }
 }
 
@@ -83,8 +83,8 @@ std::size_t count_hits(const Bvh& bvh, const Ray& ray) {
   return count;
 }
 
-// Paths of many reflections, each starting at a vertex, on an edge or next to one: spawned origins
-// are inside again.
+// Follows paths of many reflections. Each starts at a vertex, on an edge, or next to one. Spawned
+// origins must be inside again.
 TEST_P(Leak, NoPathFromWithinLeaves) {
   const ClosedMesh closed = closed_meshes()[GetParam()];
   Scene scene;
@@ -102,8 +102,9 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
       const auto hit = bvh.intersect(ray);
       ASSERT_TRUE(hit.has_value()) << "path " << path << ", bounce " << bounce;
       const exact::Implicit face(triangle_of(closed.mesh, hit->id));
-      const exact::Root t = exact::rational(0.0F);  // without effect on the slope of a plane
-      // Reflects to the side of the incoming ray; sometimes along a neighboring edge or the face.
+      const exact::Root t = exact::rational(0.0F);  // any t gives the same slope of a plane
+      // Reflects to the side of the incoming ray. The direction is sometimes along a neighboring
+      // edge or the face.
       Vec3 d = random.in_cube(1);
       if (random.one_in(3)) d = aimed_exactly(random, closed, o).d;
       const int side = face.sign_behind(ray, t, -ray.d), there = face.sign_behind(ray, t, d);
@@ -126,7 +127,7 @@ TEST_P(Leak, NoPathFromWithinLeaves) {
         ASSERT_TRUE(bvh.occluded({.o = *q, .t_min = 0, .d = random.in_cube(1)}))
             << "path " << path << ", bounce " << bounce;
       }
-      // Also transmits through the face: from outside, a ray that hits no edge crosses an even
+      // Also transmits through the face. From outside, a ray that hits no edge must cross an even
       // number of faces.
       if (bounce > 0 && side * there != 0) {
         const auto outside = bvh.spawn_origin(ray, *hit, -d);

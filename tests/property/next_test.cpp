@@ -1,4 +1,4 @@
-// All hits of a ray, enumerated by Bvh::next, compared with all exact roots in order. ctest runs
+// Compares all hits of a ray, as enumerated by Bvh::next, with all exact roots in order. ctest runs
 // this for every instruction set of the machine.
 
 #include "accel/kernels/dispatch.hpp"
@@ -88,7 +88,7 @@ TEST_P(Next, EnumeratesAllHitsInExactOrder) {
   EXPECT_GT(ties, 1000U);
 }
 
-// Sixty coplanar copies, then sixty at distances of one ulp.
+// Casts rays through sixty coplanar copies, followed by sixty triangles at distances of one ulp.
 TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   Scene scene;
   const auto add = [&](float z) {
@@ -108,8 +108,8 @@ TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   }
 }
 
-// Triangles that start at another vertex or have the opposite winding, among other triangles with
-// the same t.
+// Duplicates may start at another vertex or have the opposite winding. Other triangles have hits
+// with the same t.
 TEST_P(Next, FindsDuplicateTriangles) {
   Random random(23);
   std::size_t ties = 0;
@@ -148,7 +148,7 @@ TEST_P(Next, HasNoSuccessorOfAMiss) {
   EXPECT_EQ(bvh.next(ray, {.id = 2})->id, 3U);
   EXPECT_EQ(bvh.next(ray, {.id = 2})->t, 11);
   EXPECT_FALSE(bvh.next(ray, {.id = 6}).has_value());   // the last within t_max
-  EXPECT_FALSE(bvh.next(ray, {.id = 30}).has_value());  // beyond it
+  EXPECT_FALSE(bvh.next(ray, {.id = 30}).has_value());  // beyond t_max
   EXPECT_FALSE(bvh.next(ray, {.id = 1000}).has_value());
   EXPECT_FALSE(bvh.next({.d = Vec3(0)}, {.id = 0}).has_value());
   EXPECT_FALSE(bvh.next({.o = {5, 0, 0}}, {.id = 0}).has_value());

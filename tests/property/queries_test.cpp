@@ -1,4 +1,4 @@
-// Queries of many rays and points, compared with a test of all primitives.
+// Compares queries of many rays and points with tests of all primitives.
 
 #include "exact/crossing.hpp"
 #include "exact/intersect.hpp"
@@ -36,7 +36,8 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-// The hits that PreparedScene::next enumerates, which Next.* compares with all exact roots.
+// Returns the hits that PreparedScene::next enumerates. The tests Next.* compare these with all
+// exact roots.
 std::vector<Hit> one_after_another(const PreparedScene& scene, const Ray& ray) {
   std::vector<Hit> hits;
   for (auto hit = scene.intersect(ray); hit; hit = scene.next(ray, *hit)) hits.push_back(*hit);
@@ -61,7 +62,7 @@ TEST(AllHits, AreThoseOfRepeatedNext) {
   for (int round = 0; round < 60; ++round) {
     Scene scene = random_scene(random);
     if (round % 3 == 0) {
-      // Duplicates, also among others with the same t.
+      // Adds duplicates. Some hits of other shapes have the same t.
       for (int copy = 0; copy < 30; ++copy) {
         const auto last = static_cast<int>(scene.objects.size()) - 1;
         const Object object = scene.objects[static_cast<std::size_t>(random.between(0, last))];
@@ -102,7 +103,7 @@ TEST(AllHits, OfNoRays) {
   EXPECT_TRUE(intersect_all(scene, std::span(&ray, 1)).of(0).empty());
 }
 
-// Every kernel against the hits and locations above, which only the best one gave.
+// Compares the results of every kernel. The tests above use only the best one.
 TEST(Queries, HaveTheSameResultsWithAllInstructionSets) {
   Random random(65);
   Scene scene = random_scene(random);
@@ -194,9 +195,10 @@ TEST(Solid, LocatesPointsAsATestOfAllTriangles) {
   EXPECT_GT(boundary, 1000U);
 }
 
-// The first ray from the origin passes exactly through a vertex, and through the middle of an edge.
+// The first ray from the origin passes exactly through a vertex of the octahedron, and through the
+// middle of an edge of the tetrahedron.
 TEST(Solid, TriesAnotherRayAtEdgesAndVertices) {
-  // The tree of a few triangles has no bounds.
+  // Uses empty bounds, because the tree of a few triangles has none.
   const Vec3 d = crossing_direction(Bounds(), Vec3(0), 0);
   const Mesh octahedron{
       .positions = {d, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {0, 0, -1}, -d},

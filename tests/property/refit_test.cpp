@@ -1,4 +1,4 @@
-// A refitted tree keeps the invariants of a tree and gives the same hits as a new tree.
+// Checks that a refitted tree keeps the invariants of a tree and gives the same hits as a new tree.
 
 #include "accel/build/refit.hpp"
 
@@ -35,7 +35,7 @@ Scene scene_of(std::vector<Shape> shapes) {
   return scene;
 }
 
-/// A mesh with duplicates, points and a triangle that is too large for blocks, among other shapes.
+/// A mesh with duplicates and points, a triangle that is too large for blocks, and other shapes.
 Scene mixed() {
   Mesh mesh = generated::hall(4000);
   for (std::size_t i = 0; i < 50; ++i) {
@@ -79,7 +79,8 @@ struct Deformation {
   std::size_t rays = 300;
 };
 
-/// Rays beyond the kernels' limits and coordinates of all magnitudes need exact arithmetic.
+/// The number of rays for slow deformations: rays beyond the kernels' limits and coordinates of all
+/// magnitudes need exact arithmetic.
 constexpr std::size_t kFewRays = 10;
 
 Deformation of_points(const char* name, std::function<void(Vec3&, Random&)> move,
@@ -144,7 +145,7 @@ const std::vector<Deformation>& deformations() {
   return all;
 }
 
-/// Rays between points of the scene, including rays through vertices and along edges.
+/// Returns rays between points of the scene, including rays through vertices and along edges.
 std::vector<Ray> rays_in(const Scene& scene, Random& random, std::size_t count) {
   const Primitives primitives(scene);
   std::vector<Vec3> points;
@@ -252,7 +253,7 @@ TEST_P(Refit, GivesTheHitsOfANewTreeForEveryDeformation) {
     const Bvh expected(second),
         actual(second, {.threads = 1, .previous = before.tree(), .max_cost_growth = kAny});
     expect_same_answers(expected, actual, rays_in(second, random, deformation.rays));
-    // Moves the scene back to its first position.
+    // Moves the scene back to its first pose.
     const Bvh again(first, {.threads = 1, .previous = actual.tree(), .max_cost_growth = kAny});
     expect_same_answers(before, again, rays_in(first, random, 100));
     if (HasFailure()) return;
@@ -310,7 +311,8 @@ TEST(RefitTree, OfAStillSceneIsTheTreeItself) {
 }
 
 TEST(RefitTree, KeepsTheBoxesOfWhatDoesNotMove) {
-  // A static hall whose walls are in boxes of their pieces, and a sphere that moves in it.
+  // The scene has a static hall whose split triangles have separate boxes, and a mesh that moves in
+  // it.
   const Mesh hall = generated::turned(generated::hall(20000));
   Scene scene = scene_of({generated::displaced_sphere(20000), hall});
   const auto built = tree_of(scene);
@@ -331,7 +333,7 @@ TEST(RefitTree, ThatCostsTooMuchIsBuiltAnew) {
   const auto built = tree_of(second, tree_of(first), 1.2);
   EXPECT_FALSE(is_refitted(*built));
   EXPECT_EQ(cost(*built), cost(*tree_of(second)));
-  // The cost is relative to the last build, however many refits there were since.
+  // The cost is compared with that of the last build, however many refits followed it.
   Scene twisted = first;
   auto tree = tree_of(first);
   int builds = 0;
@@ -359,7 +361,7 @@ TEST(RefitTree, IsNotMadeWhereATreeOfOtherPrimitivesWouldBe) {
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = {0, 0, 0}; }));  // a point
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = mesh(s).triangles[4]; }));
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit().back() = {0, 1, 2}; }));
-  Scene one = still, other = still;  // as many duplicates, but other ones
+  Scene one = still, other = still;  // equally many duplicates, but of other triangles
   mesh(one).triangles.edit()[3] = mesh(one).triangles[4];
   mesh(other).triangles.edit()[5] = mesh(other).triangles[6];
   EXPECT_FALSE(is_refitted(*tree_of(other, tree_of(one))));
@@ -374,7 +376,7 @@ TEST(RefitTree, PositionsThatAreNotFiniteAreRefused) {
   const PreparedScene first(scene);
   std::get<Mesh>(scene.objects[0].shape).positions.edit()[5].y = std::nanf("");
   EXPECT_THROW(validate(scene), Error);
-  // PreparedScene treats triangles with such a vertex as empty.
+  // PreparedScene treats triangles with a non-finite vertex as empty.
   const PreparedScene second(scene, {.tables = first.tables()}), fresh(scene);
   Random random(4);
   expect_same_answers(fresh.bvh(), second.bvh(), rays_in(first.scene(), random, 300));

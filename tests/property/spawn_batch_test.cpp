@@ -1,4 +1,4 @@
-// Bvh::spawn_origins gives the same bits as Bvh::spawn_origin for any batch.
+// Checks that Bvh::spawn_origins gives the same bits as Bvh::spawn_origin for any batch.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/intersect.hpp"
@@ -52,7 +52,7 @@ float signed_zero(Random& random) {
   return random.one_in(2) ? 0.0F : -0.0F;
 }
 
-/// Makes some coordinates zero with either sign, tiny, or close to a power of two.
+/// Makes some coordinates zero with a random sign, tiny, or close to a power of two.
 Vec3 with_odd_coordinates(Random& random, Vec3 v) {
   for (int k = 0; k < 3; ++k) {
     switch (random.between(0, 11)) {
@@ -91,8 +91,8 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Computes the origins of each hit for some directions: one by one, in a batch, and in another
-/// order, with both kinds of trees.
+/// Computes the origins of each hit for several directions: in a batch, one by one with another
+/// kind of tree, and in a batch of another order.
 std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& hits) {
   std::vector<Bvh::Spawn> spawns;
   for (const Known& known : hits) {
@@ -127,8 +127,8 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
   return found;
 }
 
-/// The number of shapes to test: a fraction of MICROTRACE_TRAVERSAL_RAYS, and the maximum per
-/// scene.
+/// The fraction of MICROTRACE_TRAVERSAL_RAYS that gives the number of shapes to test, and the
+/// maximum number of shapes per scene.
 struct Effort {
   double share;
   int most;
@@ -195,7 +195,7 @@ TEST(SpawnBatch, Quadrics) {
   check_all_kinds(84, {.share = 0.00003, .most = 4}, quadric_case);
 }
 
-/// Shapes of all kinds on a grid of any spacing, so that many touch.
+/// Returns shapes of all kinds on a grid with this spacing. Many of them touch.
 Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
   Scene scene;
   for (int i = random.one_in(2) ? random.between(2, 16) : random.between(17, 80); i > 0; --i) {
@@ -223,8 +223,8 @@ Scene touching_shapes(Random& random, float spacing, const Vec3& center) {
   return scene;
 }
 
-// All hits of rays, including hidden ones, many of them at vertices, on edges and where shapes
-// touch.
+// Tests all hits of rays, including hidden ones. Many hits are at vertices, on edges and at points
+// where shapes touch.
 TEST(SpawnBatch, TouchingShapes) {
   Random random = traversal::announced_random(85);
   std::size_t answers = 0;

@@ -1,5 +1,5 @@
-// Compares the float64 bounds of hit points on flat surfaces with exact arithmetic, mostly on
-// planes near coordinate planes, whose points have coordinates near 0.
+// Compares the float64 bounds of hit points on flat surfaces with exact arithmetic. Most surfaces
+// are near coordinate planes, so their points have coordinates near 0.
 
 #include "accel/kernels/dispatch.hpp"
 #include "accel/spawn/origin_search.hpp"
@@ -22,7 +22,8 @@ namespace {
 using namespace adversarial;
 using exact::Dyadic;
 
-/// A triangle on a wall or floor, tilted or offset by ulps or slightly more, sometimes near 0.
+/// A triangle on a wall or floor. It may be tilted or offset by ulps or slightly more, and its
+/// coordinate may be near 0.
 Triangle wall(Random& random) {
   const int axis = random.between(0, 2);
   const float at = random.one_in(3) ? 0 : random.in_cube(1).x * random.power_of_two(-40, 4);
@@ -41,7 +42,7 @@ Case<Triangle> wall_case(Random& random) {
   return {{.o = o, .t_min = 0, .d = (target - o) * random.power_of_two(-3, 3)}, t};
 }
 
-/// The kernel's point if it is certain, otherwise nothing.
+/// Returns the kernel's hit point if it is certain, otherwise nothing.
 std::optional<Vec3> of_lanes(const SpawnKernels& kernels, const Ray& ray, const Triangle& t) {
   HitPointLanes lanes{};
   for (std::size_t i = 0; i < kSpawnLanes; ++i) {
@@ -96,14 +97,15 @@ void check(const Ray& ray, const Triangle& t, Count& count) {
   count.sure_in_lanes += q ? 1 : 0;
 }
 
-// The other coordinates are known exactly, so that only the roundings of this one use the bound.
+// The other two coordinates are known exactly, so the bound has to cover only the roundings of this
+// one.
 TEST(SpawnPoint, BoundsOfACoordinateInAPlaneHold) {
   Random random = traversal::announced_random(97);
   std::size_t bounded = 0;
   for (std::size_t i = 0; i < traversal::ray_count(0.2) && !HasFatalFailure(); ++i) {
     const int k = random.between(0, 2);
-    // Nearly parallel edges, so that the normal has cancellation, and points near a vertex or far
-    // away.
+    // If edges are nearly parallel, the normal suffers from cancellation. The point may be near a
+    // vertex or far away.
     Triangle t{random.in_cube(1), random.in_cube(1), random.in_cube(1)};
     if (random.one_in(2))
       t.c = random.jitter(t.a + (t.b - t.a) * random.symmetric(), 1 << random.between(0, 20));
@@ -135,7 +137,7 @@ TEST(SpawnPoint, BoundsHoldOnWalls) {
     check(ray, triangle, count);
   }
   EXPECT_GT(count.hits, traversal::ray_count(0.05));
-  // The remaining rays hit at grazing angles.
+  // All other rays hit at grazing angles.
   EXPECT_GT(count.sure, count.hits / 100 * 97);
   EXPECT_GT(count.sure_in_lanes, count.hits / 100 * 97);
 }

@@ -1,5 +1,5 @@
-// Checks the guarantees of spawn.hpp with exact arithmetic: side, no spurious hit of the same
-// surface, distance.
+// Checks the guarantees of spawn.hpp with exact arithmetic: the origin's side of the surface, no
+// repeated hit of the same surface, and the distance to the hit point.
 
 #include "accel/kernels/dispatch.hpp"
 #include "exact/implicit.hpp"
@@ -24,7 +24,7 @@ namespace {
 
 using namespace adversarial;
 
-// Fewer cases under sanitizers.
+// Sanitized builds test fewer cases.
 const int kCasesPerKind = static_cast<int>(traversal::kUsualRays / 50);
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -32,7 +32,7 @@ template <class S>
 constexpr bool is_flat =
     std::is_same_v<S, Triangle> || std::is_same_v<S, Plane> || std::is_same_v<S, Disc>;
 
-// Any direction, including grazing ones, tangents, and directions into the surface.
+// Returns any direction, including grazing ones, tangents, and directions into the surface.
 Vec3 any_direction(Random& random, const Ray& ray, const Vec3& towards) {
   switch (random.between(0, 6)) {
     case 0:
@@ -40,7 +40,7 @@ Vec3 any_direction(Random& random, const Ray& ray, const Vec3& towards) {
     case 1:
       return ray.d;
     case 2:
-      return random.jitter(towards, 3);  // nearly within a triangle
+      return random.jitter(towards, 3);  // nearly parallel to the surface
     case 3:
       return random.on_grid(2);
     case 4:
@@ -114,7 +114,8 @@ void check(Random& random, const Ray& ray, const S& shape, Count& count) {
   if (!q) return;
   ++count.spawned;
   const exact::Implicit f(shape);
-  // The side of the outgoing rays, or else of the incoming rays, at the exact point.
+  // At the exact hit point, the outgoing ray determines the side. If it is tangent, the incoming
+  // ray does.
   int side = f.sign_behind(ray, *t, direction);
   if (side == 0) side = f.sign_behind(ray, *t, -ray.d);
   if (side == 0) side = 1;
@@ -151,8 +152,8 @@ TEST(Spawn, Triangle) {
   }
 }
 
-// Rays leave all flat surfaces with an area, however far away, thin or large, except at the ends of
-// the float32 range.
+// Rays must leave every flat surface that has an area, however far away, thin or large, except at
+// the ends of the float32 range.
 TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   Random random(32);
   for (int i = 0; i < 5 * kCasesPerKind; ++i) {
@@ -164,15 +165,17 @@ TEST(Spawn, RaysLeaveEveryTriangleWithArea) {
   }
 }
 
-// Expects an origin for every flat surface unless the hit point exceeds the largest float32, and
-// for every curved surface unless it is about as small as the spacing of float32 numbers.
+// Expects an origin for every flat surface unless the hit point exceeds the largest float32.
+// Expects one for every curved surface unless the surface is about as small as the spacing of
+// float32 numbers.
 template <class MakeCase>
 void check_all_kinds(double least_share, MakeCase make_case) {
   for (const ShapeKind kind : kShapeKinds) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
-    // About one in 25 of the discs across the full float32 range is hit, with random variation.
+    // Of the discs across the full float32 range, about one in 25 is hit. The number varies
+    // randomly.
     EXPECT_GT(count.hits, kCasesPerKind / 40);
   }
 }
@@ -190,7 +193,7 @@ TEST(Spawn, Quadric) {
   check_all_kinds(0.8, quadric_case);
 }
 
-// A ray that leaves a convex body outwards hits none of its faces, edges or vertices.
+// A ray that leaves a convex body must hit none of the body's faces, edges or vertices.
 TEST(Spawn, RaysLeaveConvexBodies) {
   Random random(34);
   int leaves = 0;
@@ -230,8 +233,8 @@ TEST(Spawn, RaysLeaveConvexBodies) {
   EXPECT_GT(leaves, kCasesPerKind / 2);
 }
 
-// Batches are computed by another algorithm, which must find the same origins: among shapes of all
-// kinds, even touching ones, with and without a tree.
+// The batch algorithm must find the same origins as the single one: for shapes of all kinds, even
+// touching ones, with and without a tree.
 TEST(Spawn, BatchesEqualSingleOrigins) {
   Random random = traversal::announced_random(77);
   std::size_t answers = 0;

@@ -1,5 +1,5 @@
 // Checks the guarantees of bvh.hpp for the segment to a spawned origin in degenerate cases: rays
-// within surfaces, triangles without area, hits on vertices and edges.
+// within surfaces, triangles without area, and hits on vertices and edges.
 
 #include "exact/implicit.hpp"
 #include "exact/intersect.hpp"
@@ -47,26 +47,27 @@ Scene touching_scene(Random& random) {
         add(Plane{.point = at, .normal = normal});
         break;
       default:
-        add(Quadric{.a = 1, .b = -1, .j = float(random.between(-1, 1))});  // contains lines
+        add(Quadric{
+            .a = 1, .b = -1, .j = float(random.between(-1, 1))});  // contains straight lines
         break;
     }
   }
   return scene;
 }
 
-/// The point `point` / `weight` with rational coordinates; weight > 0.
+/// A point with rational coordinates: `point` / `weight`, where weight > 0.
 struct Rational {
   Vector point;
   Dyadic weight;
 };
 
-/// The ray's point slightly before or behind t, which is rational.
+/// The ray's point slightly before or behind t. Its coordinates are rational because t is.
 Rational beside(const Ray& ray, const exact::Root& t, bool before) {
   const Dyadic little = before ? Dyadic(-0x1p-200) : Dyadic(0x1p-200);
   return {t.r * exact::vector(ray.o) + (t.p + little * t.r) * exact::vector(ray.d), t.r};
 }
 
-/// True if the segment from w to q, without w, meets a triangle.
+/// True if the segment from w to q, excluding w, meets the triangle.
 bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
   const Vector from = exact::vector(q), to_w = w.point - w.weight * from;
   const Vector a = exact::vector(triangle.a) - from, b = exact::vector(triangle.b) - from,
@@ -80,8 +81,8 @@ bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
               s = dot(to_w, cross(a, b)).sign();
     return u * v >= 0 && v * s >= 0 && s * u >= 0;
   }
-  // The case of a segment in the triangle's plane: they are disjoint if some line through two of
-  // the five points separates them.
+  // The segment is in the triangle's plane. The two are disjoint if a line through two of the five
+  // points separates them.
   const auto side = [&](const Vector& x, const Vector& y) { return dot(n, cross(x, y)).sign(); };
   const std::array<Vector, 3> corners{a, b, c};
   for (std::size_t k = 0; k < 3; ++k) {

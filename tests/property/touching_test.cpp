@@ -1,4 +1,5 @@
-// Checks which triangles the kernels find near a box: all with a point in it, and few others.
+// Checks which triangles the kernels find near a box: all triangles that have a point in the box,
+// and few others.
 
 #include "accel/build/tree.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -37,7 +38,7 @@ class Places {
     tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
   }
 
-  /// Nothing if the query finds too many.
+  /// The triangles that the query finds. Nothing if they are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi) const {
     BoxQuery query{};
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
@@ -59,7 +60,7 @@ class Places {
   Tree tree_;
 };
 
-// Edges exactly through a point whose distances from the vertices are rounded.
+// The edges pass exactly through a point, although its distances from the vertices are rounded.
 TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
   Random random(51);
   for (int round = 0; round < 2000; ++round) {
@@ -81,7 +82,7 @@ TEST_P(Touching, FindsTrianglesWithAnEdgeThroughThePoint) {
   }
 }
 
-// Long segments and slivers; the box is in the bounding boxes of hundreds of them.
+// Tests long segments and slivers. Hundreds of their bounding boxes contain the box.
 TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
   Random random(52);
   int answered = 0, met = 0;

@@ -1,6 +1,6 @@
-// Compares the tree and its kernels with a test of every primitive: each kernel that the machine
-// supports, each function, with adversarial scenes and rays. MICROTRACE_TRAVERSAL_RAYS scales the
-// number of rays.
+// Compares the tree and its kernels with a test of every primitive, for each kernel that the
+// machine supports, each function, and adversarial scenes and rays. MICROTRACE_TRAVERSAL_RAYS
+// scales the number of rays.
 
 #include "accel/kernels/dispatch.hpp"
 #include "accel/ray_packet.hpp"
@@ -30,7 +30,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Answers = std::vector<std::optional<Hit>>;
 
-// The nearest hit by its definition, using only exact arithmetic.
+// The nearest hit by its definition, computed only with exact arithmetic.
 std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   std::optional<exact::Root> nearest;
   std::optional<Hit> best;
@@ -43,8 +43,8 @@ std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   return best;
 }
 
-// The nearest hit by the float64 filters, which filter_test.cpp compares with exact arithmetic;
-// exact arithmetic decides the uncertain cases.
+// The nearest hit computed by the float64 filters, which filter_test.cpp compares with exact
+// arithmetic. Exact arithmetic decides uncertain cases.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   RayPacket bundle(primitives, std::span(&ray, 1));
@@ -72,7 +72,7 @@ bool is_without_area(const Primitives& primitives, PrimitiveId id) {
   });
 }
 
-// Rays with a common origin, often nearly parallel, which form a packet.
+// Adds rays with a common origin, which form a packet. They are often nearly parallel.
 void add_tile(Random& random, const Scene& scene, std::vector<Ray>& rays) {
   const Vec3 o = origin(random, scene);
   const bool coherent = random.one_in(2);
@@ -83,7 +83,8 @@ void add_tile(Random& random, const Scene& scene, std::vector<Ray>& rays) {
   }
 }
 
-// Packets and incoherent rays in turn, now and then more than one batch of a stream.
+// Alternates packets and incoherent rays. Sometimes there are more incoherent rays than fit into
+// one batch of a stream.
 std::vector<Ray> rays_for(Random& random, const Scene& scene) {
   std::vector<Ray> rays;
   for (int part = random.between(1, 6); part > 0; --part) {
@@ -95,7 +96,7 @@ std::vector<Ray> rays_for(Random& random, const Scene& scene) {
   return rays;
 }
 
-// Calls every function, with the kernels that the environment variable selects.
+// Calls every function of the tree and compares the results.
 void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& expected) {
   Answers together(rays.size(), Hit{});
   bvh.intersect(rays, together);
@@ -109,7 +110,8 @@ void check_calls(const Bvh& bvh, const std::vector<Ray>& rays, const Answers& ex
   }
 }
 
-/// Calls f with each of the machine's kernels selected; trees built by f use it.
+/// Calls f with each of the machine's kernels selected. Trees that f builds use the selected
+/// kernels.
 template <class F>
 void with_each_kernel(const F& f) {
   for (const Kernels* kernels : kRayKernels.available()) {
@@ -155,7 +157,7 @@ TEST_P(Traversal, EveryKernelAndFunctionEqualsTestingEveryPrimitive) {
   }
 }
 
-// Kernels scale rays with long directions; shapes anywhere in the float32 range are still hit.
+// Kernels scale rays with long directions. Shapes anywhere in the float32 range must still be hit.
 TEST(TraversalFarAway, LongDirectionsHitDistantShapes) {
   Random random = traversal::announced_random(29);
   std::size_t hits = 0;
@@ -186,8 +188,8 @@ TEST(TraversalFarAway, LongDirectionsHitDistantShapes) {
   EXPECT_GT(hits, 2000U);
 }
 
-// Rays that start next to a triangle's vertex and run along its plane, so that rounding may put the
-// triangle behind them; they still hit it.
+// The rays start next to a vertex and run almost in the triangle's plane. Rounding may put the
+// triangle behind their origins, but they must hit it.
 TEST(TraversalNextToACorner, FindsHitsOfRaysAlmostInThePlane) {
   Random random = traversal::announced_random(28);
   std::size_t hits_of_own = 0;
@@ -205,7 +207,7 @@ TEST(TraversalNextToACorner, FindsHitsOfRaysAlmostInThePlane) {
       const Vec3 opposite = t.b + (t.c - t.b) * static_cast<float>(random.unit());
       const Vec3 d = (opposite - t.a) * random.power_of_two(-6, 6);
       rays.push_back({.o = random.jitter(t.a, 3), .t_min = 0, .d = random.jitter(d, 1)});
-      // Eight rays with a common origin, as in a packet.
+      // Adds seven rays with the same origin, so that eight form a packet.
       for (int k = 0; k < 7; ++k)
         rays.push_back({.o = rays.back().o, .t_min = 0, .d = random.jitter(d, 1)});
       owns.insert(owns.end(), 8, own);

@@ -1,5 +1,5 @@
-// Checks the result of build_tree: it has every primitive that can be hit, every box contains its
-// subtree, and it is the same for any number of threads.
+// Checks the trees of build_tree: a tree has every primitive that can be hit, every box contains
+// its subtree, and the tree is the same for any number of threads.
 
 #include "accel/build/tree.hpp"
 
@@ -29,7 +29,7 @@ Scene scene_of(std::vector<Shape> shapes) {
 
 class Random {
  public:
-  /// A number in [-1, 1).
+  /// A random number in [-1, 1).
   float symmetric() { return static_cast<float>(static_cast<std::int32_t>(bits_())) * 0x1p-31F; }
   Vec3 in_cube() { return {symmetric(), symmetric(), symmetric()}; }
   Triangle triangle(float size) {
@@ -38,7 +38,7 @@ class Random {
   }
 
  private:
-  std::mt19937 bits_{7};  // the same everywhere
+  std::mt19937 bits_{7};  // the same sequence everywhere
 };
 
 Mesh soup(std::size_t triangles, float size) {
@@ -52,8 +52,8 @@ Mesh soup(std::size_t triangles, float size) {
   return mesh;
 }
 
-// Builds and walks the tree. Expects each primitive in the array `expected(id)`, except for
-// duplicates and for points, which are not in blocks.
+// Builds and walks the tree. Expects each primitive in the array `expected(id)`, except duplicates,
+// and except points, which are never in blocks.
 template <class Expected>
 Tree check(const Scene& scene, Expected expected) {
   const Primitives primitives(scene);
@@ -117,7 +117,7 @@ TEST(Tree, SplitsObliqueTriangles) {
     return static_cast<double>(
         TreeWalk(build_tree(primitives, {}), primitives).triangle_references());
   };
-  // Many needles across a cube, and a cluster of tiny triangles.
+  // Many long needles across a cube, and a cluster of tiny triangles.
   Mesh needles = soup(20000, 0.001F);
   Random random;
   for (std::size_t i = 0; i < 3000; i += 3) needles.positions.edit()[i] = random.in_cube();
@@ -145,7 +145,7 @@ TEST(Tree, SplitBoxesContainBothParts) {
     const auto parts = build::cut(t, whole, axis, plane);
     EXPECT_LE(parts[0].hi[axis], plane);
     EXPECT_GE(parts[1].lo[axis], plane);
-    // Points of the edges on either side of the plane must be in the part on their side.
+    // Points of the edges must be in the part on their side of the plane.
     const std::array<DVec3, 4> corners{t.a, t.b, t.c, t.a};
     for (std::size_t edge = 0; edge < 3; ++edge) {
       for (const double beside : {-0.1, -1e-7, 1e-7, 0.1}) {
@@ -224,7 +224,8 @@ TEST(Tree, BoxesOfCurvedShapesAreTight) {
   EXPECT_FLOAT_EQ(flat.hi.y, 1);
 }
 
-// Two or three copies, in any order of the triangles and of their vertices.
+// Adds one or two copies of each triangle, in different orders of the triangles and of their
+// vertices.
 TEST(Tree, StoresDuplicatesOnce) {
   const Mesh once = soup(20001, 0.01F);
   const auto copies = [&](int count, auto change) {
@@ -249,7 +250,7 @@ TEST(Tree, StoresDuplicatesOnce) {
   std::ranges::shuffle(shuffled.triangles.edit(), std::minstd_rand(1));
   EXPECT_EQ(duplicates(shuffled), 20001U);
 
-  // One copy of a few triangles among many others, and zeros of both signs.
+  // Duplicates only a few triangles among many. One duplicate differs in the signs of zeros.
   Mesh few = soup(30000, 0.01F);
   few.triangles.push_back(few.triangles[7]);
   EXPECT_EQ(duplicates(few), 1U);
@@ -261,7 +262,7 @@ TEST(Tree, StoresDuplicatesOnce) {
   few.triangles.push_back({90003, 90004, 90005});
   EXPECT_EQ(duplicates(few), 2U);
 
-  // Triangles too large for blocks, and coincident spheres.
+  // Tests triangles that are too large for blocks, and coincident spheres.
   const Triangle large{{0, 0x1p40F, 0}, {1, 0, 0}, {0, 0, 1}};
   const Tree tree = check(scene_of({large, Sphere{}, Sphere{}, large}), Place::others);
   EXPECT_EQ(tree.duplicates.ids(), std::vector<PrimitiveId>{3});
@@ -286,7 +287,7 @@ TEST(Tree, HandlesInseparableCentroids) {
   duplicates.triangles.assign(100000, {3, 3, 3});
   EXPECT_EQ(check(scene_of({duplicates}), Place::blocks).others.size(), 1U);
 
-  // Different triangles with equal boxes.
+  // Different triangles with equal bounding boxes
   Mesh boxed;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const float t = static_cast<float>(i) * 0x1p-15F;
@@ -296,7 +297,7 @@ TEST(Tree, HandlesInseparableCentroids) {
   }
   EXPECT_TRUE(check(scene_of({boxed}), Place::blocks).duplicates.ids().empty());
 
-  // Common center, different sizes.
+  // Triangles with a common center and different sizes
   Mesh nested;
   for (std::uint32_t i = 0; i < 20000; ++i) {
     const auto r = static_cast<float>(i);
@@ -308,7 +309,7 @@ TEST(Tree, HandlesInseparableCentroids) {
   check(scene_of(std::vector<Shape>(1000, Sphere{})), Place::others);
 }
 
-// Centers at 2^-i: every plane between bins splits off only a few.
+// The centers are at 2^-i, so every plane between bins splits off only a few triangles.
 TEST(Tree, HasBoundedDepth) {
   std::vector<Shape> shapes;
   for (int i = -148; i < 126; ++i) {
@@ -327,7 +328,7 @@ TEST(Tree, HandlesAnyScale) {
     Mesh mesh = soup(3000, 0.1F);
     for (Vec3& p : mesh.positions.edit()) p *= scale;
     check(scene_of({mesh}), Place::blocks);
-    // The mesh with one triangle of maximum size.
+    // Adds a triangle of maximum size to the mesh.
     Scene scene = scene_of({mesh, Triangle{Vec3(-0x1p38F), Vec3(0x1p38F), Vec3(0, 0x1p38F, 0)}});
     check(scene, Place::blocks);
   }

@@ -1,5 +1,5 @@
-// Preloaded library: makes thread creation fail if more than MOST_THREADS threads besides the first
-// were started and not joined, even if they have ended.
+// This preloaded library limits the number of threads. Creating a thread fails if more than
+// MOST_THREADS threads besides the first were started and not joined, even if they have ended.
 
 #include <atomic>
 #include <cerrno>

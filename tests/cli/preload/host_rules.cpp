@@ -1,5 +1,6 @@
-// Preloaded library: before main, sets the rounding mode ROUNDING (an argument of fesetround), the
-// flushing of subnormals, and float precision for long double.
+// This preloaded library changes the floating-point environment before main. It sets the rounding
+// mode to ROUNDING (an argument of fesetround), flushes subnormals, and reduces long double to
+// float precision.
 
 #include <cfenv>
 #include <cstdint>

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the images of the folders beside it, which together reach the vector code of the decoders: every subsampling, sizes that are not
-multiples of a block, progressive and restarted scans, loop filters, alpha. Needs libjpeg-turbo-progs and webp.
+"""Writes the images in the folders beside this script. Together they reach the SIMD code of the decoders: every chroma
+subsampling, sizes that are not multiples of a block, progressive scans and restarts, loop filters, and alpha. Needs
+libjpeg-turbo-progs and webp.
 """
 
 import math
@@ -43,7 +44,7 @@ SMALL = [(1, 1), (2, 3), (5, 1), (17, 16)]
 
 
 def pixel(x, y, noise):
-    """Smooth, striped and noisy parts with hard edges between them."""
+    """Returns a pixel. The picture has smooth, striped and noisy parts with hard edges between them."""
     if (x - 40) ** 2 + (y - 18) ** 2 < 150:
         return (255, 0, 255 * ((x + y) % 2))
     if x > 90:
@@ -62,7 +63,7 @@ def chunk(name, data):
 
 
 def predict(kind, left, above, corner):
-    """PNG's filters (ISO/IEC 15948, 9.2)."""
+    """Computes the predictor of a PNG filter (ISO/IEC 15948, section 9.2)."""
     if kind == 4:
         p = left + above - corner
         return min((abs(p - left), 0, left), (abs(p - above), 1, above), (abs(p - corner), 2, corner))[2]
@@ -70,7 +71,7 @@ def predict(kind, left, above, corner):
 
 
 def png(rows, color_type, depth=8):
-    """A PNG whose rows use all five filters in turn; rows hold tuples of samples."""
+    """Returns a PNG file whose rows use all five filters in turn. Each row is a list of tuples of samples."""
     size = len(rows[0][0]) * depth // 8
     lines = [b"".join(struct.pack(f">{len(p)}{'BH'[depth == 16]}", *p) for p in row) for row in rows]
     data, above = b"", bytes(len(lines[0]))

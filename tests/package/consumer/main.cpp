@@ -1,5 +1,5 @@
-// Uses the installed library: all public headers, a scene in memory, the requested pictures, and an
-// integrator that casts shadow rays.
+// Uses the installed library: includes all public headers, makes a scene in memory, renders the
+// requested pictures, and defines an integrator that casts shadow rays.
 #include <microtrace/microtrace.hpp>
 
 #include <cstdio>
@@ -10,7 +10,7 @@ namespace {
 
 using namespace microtrace;
 
-/// Normals as colors, black where the light from above is blocked.
+/// Shows normals as colors. Points are black if light from above is blocked.
 class LitNormals final : public Integrator {
  public:
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> /*ids*/,
@@ -30,7 +30,7 @@ class LitNormals final : public Integrator {
   }
 };
 
-/// The color of the central pixel of a picture of 9 x 9 pixels.
+/// Returns the color of the central pixel of a picture of 9 x 9 pixels.
 Vec3 middle_of(const Film& film) {
   return film.row(4)[4];
 }

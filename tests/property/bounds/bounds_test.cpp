@@ -1,6 +1,6 @@
-// Inputs for which nearly all roundings of a filter have the same sign. If its error bound were
-// halved, the filter would return a certain but wrong result. The inputs were found by search;
-// mutations.py verifies that each bound has one.
+// Tests each filter with inputs for which nearly all roundings have the same sign. If the error
+// bound were halved, the filter would return a certain but wrong result. The inputs were found by
+// search. mutations.py verifies that each bound has such an input.
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/box_clearance.hpp"
@@ -29,7 +29,7 @@ exact::Vector vector(const auto& numbers, std::size_t i) {
 exact::Root number(double t) {
   return exact::rational(exact::Dyadic(t), exact::Dyadic(1.0F));
 }
-// The area of a b p, projected along the z axis.
+// The signed area of the parallelogram spanned by ab and ap, projected along the z axis.
 exact::Dyadic area(const exact::Vector& a, const exact::Vector& b, const exact::Vector& p) {
   return cross(b - a, p - a).z;
 }
@@ -57,7 +57,7 @@ void expect_holds(const FilterResult& filtered, const exact::Root& t) {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kEverywhere{.t_min = -kInfinity, .t_max = kInfinity};
 
-// Certain results must be right, and bounds must hold.
+// Checks that certain results are right and that bounds hold.
 template <class S>
 void check(const S& shape, const Vec3& o, const Vec3& d) {
   const Ray ray{.o = o, .t_min = 0, .d = d};
@@ -89,7 +89,7 @@ TEST(Bounds, Quotient) {
 }
 
 TEST(Bounds, QuotientOfErrors) {
-  // (4 + 1) / (8 - 1) and (4 - 1) / (8 + 1).
+  // The extreme quotients are (4 + 1) / (8 - 1) and (4 - 1) / (8 + 1).
   const FilterResult filtered =
       quotient_result({.value = 4, .error = 1}, {.value = 8, .error = 1}, kEverywhere);
   expect_holds(filtered, exact::rational(exact::Dyadic(5.0F), exact::Dyadic(7.0F)));
@@ -101,14 +101,14 @@ TEST(Bounds, SquareRoot) {
   const exact::Dyadic least(rounded.value - rounded.error), most(rounded.value + rounded.error);
   EXPECT_LE(compare(least * least, exact::Dyadic(0x1.0000000059311p+0)), 0);
   EXPECT_GE(compare(most * most, exact::Dyadic(0x1.0000000059311p+0)), 0);
-  // The roots of 1 and of 1 minus 1/4.
+  // The bounds must contain the square root of 1 - 1/4.
   const Approximate root = square_root({.value = 1, .error = 0.25});
   const exact::Dyadic below(root.value - root.error);
   EXPECT_LE(compare(below * below, exact::Dyadic(0.75)), 0);
 }
 
 TEST(Bounds, FirstRoot) {
-  // a, b, the root of the discriminant, and the error of b.
+  // The coefficients a and b, the square root of the discriminant, and the error of b.
   constexpr std::array<double, 4> v = {0x1.000009dfe11d7p+0, -0x1.00000cef4faafp+0,
                                        0x1.120fea3088868p-41, 0x1.f9dad477ac838p-55};
   const exact::Dyadic a(v[0]), numerator = -exact::Dyadic(v[1]) - exact::Dyadic(v[2]), error(v[3]);
@@ -196,7 +196,7 @@ TEST(Bounds, SideOfATriangle) {
 }
 
 TEST(Bounds, SideOfABox) {
-  // The plane x = 0 passes through a corner of the box around (1, 0, 0), one of the box around it.
+  // The plane x = 0 cuts the larger box around (1, 0, 0), but not the smaller one.
   const Triangle t{{0, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   EXPECT_EQ(certain_side(t.a, normal_of(t), DVec3(1, 0, 0), DVec3(0.75)), 1);
   EXPECT_EQ(certain_side(t.a, normal_of(t), DVec3(1, 0, 0), DVec3(1.25)), 0);
@@ -213,7 +213,7 @@ TEST(Bounds, CoordinateInAPlane) {
   const exact::Vector a = vector(v, 0), n = cross(vector(v, 3) - a, vector(v, 6) - a),
                       from_a = exact::vector(ray.o) - a;
   const exact::Root expected = exact::rational(a.z * n.z - n.x * from_a.x - n.y * from_a.y, n.z);
-  // In float64 the ends would be rounded once more.
+  // Uses exact numbers, because float64 would round the ends of the interval once more.
   EXPECT_LE(exact::rational(exact::Dyadic(z.value) - exact::Dyadic(z.error), 1.0F), expected);
   EXPECT_GE(exact::rational(exact::Dyadic(z.value) + exact::Dyadic(z.error), 1.0F), expected);
 }
@@ -224,7 +224,7 @@ TEST(Bounds, AreaSeenAlongAnAxis) {
                             -0x1.19946ap+0F,  -0x1.5ffd4ep-51F, 0x1.5ffe1ap-51F};  // a, b, p
   expect_holds(area_along(2, vec3(v, 0), vec3(v, 3), DVec3(vec3(v, 6)), DVec3(0)),
                area(vector(v, 0), vector(v, 3), vector(v, 6)));
-  // p is at the corner of a box.
+  // The box around p has p + (0.5, 0.5, 0) as a corner.
   const Approximate beside = area_along(2, {0, 0, 0}, {1, -2, 0}, {3, 5, 0}, DVec3(0.5));
   const Vec3 zero(0), b(1, -2, 0), p(3.5F, 5.5F, 0);
   expect_holds(beside, area(exact::vector(zero), exact::vector(b), exact::vector(p)));
@@ -236,7 +236,8 @@ TEST(Bounds, Ball) {
   const exact::Vector m = vector(v, 4) - vector(v, 0);
   const exact::Dyadic r(v[3]);
   expect_holds(ball_value(vec3(v, 0), v[3], DVec3(vec3(v, 4)), DVec3(0)), dot(m, m) - r * r);
-  // The box is 1 away from (3, 4, 5) on each axis; then the box around the center itself.
+  // The box extends by 1 from (3, 4, 5) along each axis. The second box is around the ball's
+  // center.
   expect_holds(ball_value(Vec3(0), 1, {3, 4, 5}, DVec3(1)), exact::Dyadic(16.0F + 25 + 36 - 1));
   expect_holds(ball_value(Vec3(0), 1, {0, 0, 0}, DVec3(1)), exact::Dyadic(3.0F - 1));
 }
@@ -257,7 +258,7 @@ TEST(Bounds, QuadricPassingABox) {
       EXPECT_EQ(sign_at(q, x), side) << corner;
     }
   }
-  // Zero at a corner of the box: x y + x + y = 3 at (1, 1), and x^2 = 4 at 2.
+  // The quadric is zero at a corner of the box: x y + x + y = 3 at (1, 1), and x^2 = 4 at 2.
   EXPECT_FALSE(
       clears_box(Quadric{.d = 1, .g = 1, .h = 1, .j = -3}, DVec3(0.5, 0.5, 0), DVec3(0.5)));
   EXPECT_FALSE(clears_box(Quadric{.a = 1, .j = -4}, DVec3(1, 0, 0), DVec3(1)));

@@ -1,6 +1,6 @@
-// As bounds_test.cpp, for the kernels of every instruction set: a tree of one triangle, queried by
-// every function. The worst inputs differ with and without fused operations, so each bound has
-// inputs for both.
+// Tests the kernels of every instruction set as bounds_test.cpp tests filters. Each tree has one
+// triangle and is queried by every function. The worst inputs with and without fused multiply-adds
+// differ, so each bound has inputs for both.
 
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -36,7 +36,7 @@ float largest_component(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// A leaf of one block that contains one triangle, with its vertices in the given order.
+// A tree with one leaf, whose only block contains one triangle. Its vertices keep the given order.
 class OneTriangle {
  public:
   explicit OneTriangle(const Numbers& v)
@@ -67,7 +67,7 @@ class OneTriangle {
     in_a_stream(kernels);
   }
 
-  /// Checks the rounding of the parameter in the triangle's plane, whether or not the ray hits the
+  /// Checks the rounding of the ray's parameter at the triangle's plane, even if the ray misses the
   /// triangle.
   void check_rounding(const Kernels& kernels) const {
     SCOPED_TRACE(kernels.name);
@@ -135,7 +135,7 @@ class OneTriangle {
       expect_right({tile.best_lo[i], tile.best_hi[i], tile.best_id[i]});
   }
 
-  // Casts rays from different origins, enough that they traverse the tree in packets.
+  // Casts rays from different origins. They are numerous enough to traverse the tree as packets.
   void in_a_stream(const Kernels& kernels) const {
     const auto stream = std::make_unique<KernelStream>();
     const StreamFallback slow{
@@ -243,7 +243,8 @@ TEST(KernelBounds, ParameterOfAHit) {
 }
 
 TEST(KernelBounds, RoundedParameter) {
-  // A plane and a ray; in the last case a packet's bound of the slope equals the ray's.
+  // Each case is a plane and a ray. In the last case, the packet's bound of the slope equals the
+  // ray's own.
   constexpr std::array<Numbers, 3> cases = {{
       {-0x1.1c343ep+1F, -0x1.6p-26F, 0x1.040022p+1F, -0x1.d2a5acp+0F, 0x1.000004p+1F,
        0x1.000002p+1F, 0x1.80007p-51F, -0x1.6a4a92p-47F, 0x1.4006f4p-50F, 0x1.3ffc6ap-50F,
@@ -261,7 +262,7 @@ TEST(KernelBounds, RoundedParameter) {
   }
 }
 
-// The distance to a plane of a box, (x - o) / d, from below and from above.
+// Checks (x - o) / d, the distance to a plane of a box, rounded down and rounded up.
 TEST(KernelBounds, Slabs) {
   struct Slab {
     float x, o, d;
@@ -284,7 +285,7 @@ TEST(KernelBounds, Slabs) {
       }
       kernels->prepare_stream(*stream);
     };
-    // In float64 the differences and the products with d are exact.
+    // In float64, the differences and the products with d are exact.
     for (const Slab& slab : nearer) {
       ask(slab);
       const float t = (slab.x - slab.o) * stream->near[0][0];

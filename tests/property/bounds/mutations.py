@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Halves the error bounds of mutations.txt one by one in a copy of the source, builds the tests with each and runs them:
-one must fail. For bounds whose entry cites a proof beside the bound, only the presence of the text is checked.
+"""Halves the error bounds of mutations.txt one by one in a copy of the source, builds the tests with each, and runs them.
+At least one test must fail. If an entry cites a proof beside the bound, only the presence of the text is checked.
 
 usage: mutations.py BUILD FOLDER [NAME...]
 
-BUILD is a build by Ninja of the unchanged source; what does not change is taken from there. FOLDER gets the copy. With NAMEs
-only bounds are tried whose name has one of these texts. Not part of ctest: it takes some minutes. The exit status is 1 if a
-halved bound goes unnoticed or is not there any more.
+BUILD is a Ninja build of the unchanged source. Unchanged object files are taken from it. FOLDER receives the copy. If NAMEs
+are given, only bounds whose name contains one of them are tried. Not part of ctest, because it takes some minutes. The exit
+status is 1 if a halved bound is undetected or no longer exists.
 """
 
 import importlib.util
@@ -21,13 +21,13 @@ from pathlib import Path
 TESTS = Path(__file__).resolve().parent
 SOURCE = TESTS.parents[2]
 
-# Imports the parser of mutations, and the function that applies one to a copy.
+# Imports the parser of mutations, and the function that copies changed files.
 spec = importlib.util.spec_from_file_location("golden_mutations", SOURCE / "tests/golden/mutations.py")
 faults = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(faults)
 
 PROGRAM = "tests/property/bounds/bounds_test"
-# The tests that each part of the source is compiled into, in addition to the library.
+# For each part of the source, the files that must be recompiled.
 PARTS = {
     "accel/filters/": ["tests/property/bounds/bounds_test.cpp"],
     "accel/filters/roundings.hpp": ["tests/property/bounds/bounds_test.cpp", "src/accel/kernels/portable.cpp"],
@@ -49,19 +49,20 @@ class Build:
         self.link = next(part for part in last.split(" && ") if f"-o {PROGRAM} " in part)
 
     def make(self, file):
-        """The tests with the copy's version of a file below src/."""
+        """Builds the tests with the copy's version of a file below src/."""
         part = max((part for part in PARTS if file.startswith(part)), key=len)
         link = self.link.replace(f"-o {PROGRAM} ", f"-o {self.copy / 'bounds_test'} ")
         running = []
         for name in PARTS[part]:
             if name not in self.commands:
-                continue  # for another processor
+                continue  # compiled only for other processors
             target = self.copy / (name.replace("/", "_") + ".o")
             command = re.sub(r" -o (\S+\.o) ", f" -o {target} ", self.commands[name])
             running.append(subprocess.Popen(shlex.split(command.replace(str(SOURCE / "src"), str(self.copy / "src"))),
                                             cwd=self.build))
             built = re.search(r" -o (\S+\.o) ", self.commands[name])[1]
-            # Links the object instead of the test's own. It comes before the library, whose object is then not linked.
+            # Links the new object instead of the test's own. If the object replaces one of the library, it comes first, and
+            # the linker omits the library's.
             link = link.replace(f" {built} ", f" {target} ") if f" {built} " in link else link.replace(
                 " -o ", f" {target} -o ", 1)
         if any([process.wait() for process in running]):
@@ -69,7 +70,7 @@ class Build:
         subprocess.run(shlex.split(link), cwd=self.build, check=True)
 
     def failing(self):
-        """The tests that fail."""
+        """Returns the names of the tests that fail."""
         result = subprocess.run([self.copy / "bounds_test", "--gtest_brief=1"], capture_output=True, text=True, check=False)
         return sorted(set(re.findall(r"^\[  FAILED  \] (\w+\.\w+)", result.stdout, re.M))) or result.returncode * ["?"]
 
