@@ -41,8 +41,7 @@ class MICROTRACE_EXPORT Bvh {
   /// Builds the tree. The scene must outlive this object and must not change. Throws Error (limit)
   /// if memory runs out or the scene has too many primitives.
   explicit Bvh(const Scene& scene, BvhOptions options = {});
-  explicit Bvh(const Scene&& scene, BvhOptions options = {}) = delete;  // a temporary scene would
-                                                                        // dangle
+  explicit Bvh(const Scene&& scene, BvhOptions options = {}) = delete;  // would dangle
   ~Bvh();
   Bvh(Bvh&&) noexcept;
   Bvh& operator=(Bvh&&) noexcept;

@@ -124,8 +124,8 @@ using Camera =
 /// applied to (x / w, -y / w) before the scaling.
 struct CameraModel {
   DMat4 world_from_camera{1};  ///< a rigid transform
-  DVec2 center{0};             ///< the principal point in pixels; the first pixel's center is (0.5,
-                               ///< 0.5)
+  DVec2 center{0};             ///< the principal point in pixels; (0.5, 0.5) is the first pixel's
+                               ///< center
   /// The focal lengths in pixels; for orthographic cameras, pixels per world unit; for environment
   /// cameras, 0.
   DVec2 pixels_per_unit{0};

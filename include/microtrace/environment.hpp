@@ -33,8 +33,7 @@ struct Studio {};
 struct Environment {
   /// A Vec3 is uniform radiance, linear Rec. 709. Maps are never null.
   std::variant<Vec3, std::shared_ptr<const RadianceMap>, Studio> content{Vec3{1}};
-  double rotation = 0;  ///< rotation of the content about +y in radians, counterclockwise as seen
-                        ///< from above
+  double rotation = 0;  ///< about +y in radians, counterclockwise as seen from above
   float intensity = 1;  ///< multiplies the content
   /// If true, path-traced pictures show the environment, with alpha 1, where camera rays hit
   /// nothing. Otherwise they show the scene's background there.

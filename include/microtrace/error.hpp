@@ -34,8 +34,7 @@ struct MICROTRACE_EXPORT Diagnostic {
   std::string message;     ///< the problem and the remedy
   std::string excerpt;     ///< the source line, shortened to the width of a screen, and a second
                            ///< line with a caret
-  Severity severity = Severity::warning;  ///< meaningful only for diagnostics that are returned,
-                                          ///< not thrown
+  Severity severity = Severity::warning;  ///< of a diagnostic that is returned, not thrown
 
   /// Returns `file:line:col: /json/pointer: message`, followed by the excerpt on separate lines.
   [[nodiscard]] std::string text() const;

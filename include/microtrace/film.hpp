@@ -27,10 +27,8 @@ struct Display {
   bool srgb = true;  ///< true: values are linear light and are encoded by the sRGB curve; false: a
                      ///< value v is stored as round(255 (scale v + offset)), clamped to [0, 255]
   Vec3 scale{1}, offset{0};
-  double exposure = 0;               ///< for linear light only, in stops: multiplies values by
-                                     ///< 2^exposure
-  ToneMap tone_map = ToneMap::none;  ///< for linear light only, applied after the exposure and
-                                     ///< before the encoding
+  double exposure = 0;               ///< for linear light only, in stops: a factor of 2^exposure
+  ToneMap tone_map = ToneMap::none;  ///< for linear light only, after exposure, before encoding
 };
 
 /// One value per pixel in addition to the colors, row by row from the upper left.

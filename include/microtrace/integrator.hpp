@@ -29,10 +29,8 @@ struct MICROTRACE_EXPORT World {
   const Bvh& bvh;
   const RayGenerator& camera;
   std::uint32_t seed = 0;     ///< random seed
-  std::uint32_t samples = 1;  ///< number of samples per pixel that base_color assumes when it
-                              ///< filters textures
-  const Surfaces& surfaces;   ///< this member and the next two are for the library's own
-                              ///< integrators
+  std::uint32_t samples = 1;  ///< samples per pixel for which base_color() filters textures
+  const Surfaces& surfaces;   ///< this and the next two are for the library's integrators
   const Shading* shading = nullptr;
   const Lighting* lighting = nullptr;
 

@@ -59,8 +59,7 @@ struct Clearcoat {
   float factor = 0, roughness = 0;                ///< each in [0, 1]
   std::optional<TextureUse> texture{};            ///< linear; r: factor
   std::optional<TextureUse> roughness_texture{};  ///< linear; g: roughness
-  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: the surface's
-                                                  ///< normal
+  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: no change
   float normal_scale = 1;                         ///< of the texture's x and y
 
   bool operator==(const Clearcoat&) const = default;
@@ -89,7 +88,7 @@ struct Anisotropy {
 /// A thin film over the surface (KHR_materials_iridescence).
 struct Iridescence {
   float factor = 0;                                        ///< in [0, 1]
-  float ior = 1.3F;                                        ///< index of refraction of the film, at
+  float ior = 1.3F;                                        ///< the film's index of refraction, at
                                                            ///< least 1
   float thickness_minimum = 100, thickness_maximum = 400;  ///< nanometers, not negative
   std::optional<TextureUse> texture{};                     ///< linear; r: factor

@@ -16,8 +16,7 @@ using Vec4 = glm::vec4;      ///< colors with alpha, tangents
 using DVec2 = glm::dvec2;    ///< texture coordinates during computation
 using DVec3 = glm::dvec3;    ///< cameras, transforms and intermediate results in float64
 using DVec4 = glm::dvec4;    ///< colors with alpha, during computation
-using Mat3x2 = glm::mat3x2;  ///< affine maps of the plane: two columns of the linear part and the
-                             ///< translation
+using Mat3x2 = glm::mat3x2;  ///< affine maps of the plane; the third column is the translation
 using DMat4 = glm::dmat4;    ///< node transforms, column-major as in glTF
 
 // GLM's alignment macros would give these types a different layout than in the compiled library.

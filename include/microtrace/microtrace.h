@@ -74,8 +74,7 @@ typedef struct mt_mesh {
   const float* positions; /* three per vertex */
   size_t position_count;
   size_t position_stride;
-  const uint32_t* indices; /* three per triangle; NULL: triangles have the vertices 0 1 2, 3 4 5,
-                            * ... */
+  const uint32_t* indices; /* three per triangle; NULL: the vertices are 0 1 2, 3 4 5, ... */
   size_t triangle_count;
   size_t index_stride;  /* from one triangle to the next */
   const float* normals; /* three per vertex, unit length; or NULL */
@@ -155,8 +154,7 @@ MT_API mt_status mt_next(const mt_scene* scene, const mt_ray* rays, const mt_hit
 typedef struct mt_surface {
   double position[3];
   double normal[3];         /* geometric normal, unit length, on the front side */
-  double shading_normal[3]; /* interpolated from the vertices' normals; unit length, on the front
-                             * side */
+  double shading_normal[3]; /* interpolated from vertices; unit length, on the front side */
   double barycentrics[3];   /* weights of a triangle's vertices; 0 0 0 for other shapes */
   double uv[2];             /* texture coordinates of set 0; 0 0 if there are none */
   uint32_t object;

@@ -15,8 +15,7 @@ namespace microtrace {
 /// false). The camera never sees such backs. Surfaces that enclose a medium (KHR_materials_volume)
 /// are always two-sided.
 enum class Backfaces {
-  pass,     ///< paths pass through, as camera rays do, so a hull seen from inside doesn't block
-            ///< light
+  pass,     ///< paths pass through, like camera rays, so hulls seen from inside don't block light
   occlude,  ///< paths are blocked, so one-sided walls block sunlight that comes from behind them
 };
 

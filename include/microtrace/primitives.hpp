@@ -25,7 +25,7 @@ class MICROTRACE_EXPORT Primitives {
  public:
   /// Throws Error (limit) if the scene has 2^32 primitives or more.
   explicit Primitives(const Scene& scene);
-  explicit Primitives(const Scene&&) = delete;  // a temporary scene would dangle
+  explicit Primitives(const Scene&&) = delete;  // would dangle
 
   /// The number of primitives; PrimitiveIds run from 0 to count() - 1.
   [[nodiscard]] PrimitiveId count() const { return count_; }

@@ -32,8 +32,7 @@ struct RenderTimes {
 
 /// Statistics of a rendering.
 struct RenderCounts {
-  std::uint64_t samples = 0;            ///< number of samples of all pixels, which is the number of
-                                        ///< camera rays
+  std::uint64_t samples = 0;            ///< number of samples (camera rays) of all pixels
   std::uint64_t invalid_samples = 0;    ///< number of samples that were NaN, which count as black
   std::uint32_t samples_per_pixel = 0;  ///< the maximum over the pixels
   RayCounts rays{};                     ///< rays of the integrator, for all its pictures so far
@@ -87,8 +86,7 @@ struct RenderOptions {
   /// of element k among the first n elements of the van der Corput sequence. Monte Carlo
   /// integrators get random positions instead, even for a single sample.
   std::uint32_t samples = 1;
-  PixelFilter filter = PixelFilter::box;  ///< other filters displace the sample positions of the
-                                          ///< box filter
+  PixelFilter filter = PixelFilter::box;  ///< others displace the box filter's samples
   std::uint32_t seed = 0;                 ///< random seed; a different seed gives different noise
   /// If set, renders in passes, which takes 88 bytes of memory per pixel. Otherwise the picture is
   /// finished tile by tile.

@@ -62,8 +62,7 @@ class MICROTRACE_EXPORT SampleSums {
   PixelRect window;                ///< the part of the picture that these sums cover
   Vec3 background{0};              ///< background under the samples, for luminance; black if the
                                    ///< picture has alpha
-  std::vector<PixelSum> pixels{};  ///< the sums of the window's pixels, row by row from the upper
-                                   ///< left
+  std::vector<PixelSum> pixels{};  ///< by pixel of the window, row by row from the upper left
 
   [[nodiscard]] PixelSum& at(std::uint32_t x, std::uint32_t y) { return pixels[index(x, y)]; }
   [[nodiscard]] const PixelSum& at(std::uint32_t x, std::uint32_t y) const {

@@ -22,8 +22,7 @@ namespace microtrace {
 struct Object {
   std::string name;
   Shape shape;
-  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: a default
-                                            ///< Material{}
+  std::optional<std::uint32_t> material{};  ///< index into Scene::materials; nothing: Material{}
 };
 
 struct NamedCamera {
@@ -44,8 +43,7 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<Material> materials;
   std::vector<Texture> textures;
-  std::vector<std::shared_ptr<const Image>> images;  ///< null if the loader did not decode the
-                                                     ///< image
+  std::vector<std::shared_ptr<const Image>> images;  ///< null if the image was not decoded
   std::vector<NamedCamera> cameras;                  ///< if empty, see default_camera
   std::vector<NamedLight> lights{};
   std::optional<Environment> environment{};  ///< has no effect on flat pictures

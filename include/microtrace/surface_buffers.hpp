@@ -25,8 +25,7 @@ struct SurfaceBuffers {
   OutputArray<double> p{};            ///< 3 components; no hit: 0
   OutputArray<float> n{}, ns{};       ///< 3 components; no hit: 0
   OutputArray<float> barycentrics{};  ///< 3 components; 0 unless the shape is a triangle
-  OutputArray<float> uv{};            ///< 2 components, of set 0; 0 if the surface has no texture
-                                      ///< coordinates
+  OutputArray<float> uv{};            ///< 2 components, of set 0; 0 if the surface lacks this set
   OutputArray<bool> front{};          ///< no hit: false
   OutputArray<std::uint32_t> object{}, primitive{};  ///< no hit: kNone
 };

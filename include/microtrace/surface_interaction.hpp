@@ -26,15 +26,13 @@ struct TrianglePoint {
 /// by + - * / and sqrt, so their bits are the same on every machine. The error of positions is
 /// about 1e-15 times the magnitude of the coordinates unless the shape is seen edge on.
 struct MICROTRACE_EXPORT SurfaceInteraction {
-  DVec3 p{0};                 ///< position, computed on the surface, not as the ray's point at
-                              ///< Hit::t
+  DVec3 p{0};                 ///< position on the surface, not the ray's point at Hit::t
   DVec3 n{0, 0, 1};           ///< geometric normal of the front side, unit length
   DVec3 ns{0, 0, 1};          ///< shading normal of the front side, unit length; interpolated from
                               ///< the vertices' normals, or n if they have none
   bool front = true;          ///< true if the ray arrives at the front side
   std::size_t object = 0;     ///< index into Scene::objects; material_of() gives its material
-  PrimitiveId primitive = 0;  ///< index within the object: the index of a mesh's triangle, 0 for
-                              ///< other shapes
+  PrimitiveId primitive = 0;  ///< index within the object; 0 for shapes other than meshes
   std::optional<TrianglePoint> triangle{};  ///< set for triangles only
 
   /// Returns the texture coordinates of a set, or nothing if the surface lacks that set.

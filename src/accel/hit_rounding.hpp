@@ -16,8 +16,7 @@ namespace microtrace {
 struct FoundHits {
   std::span<const Ray> rays;
   const std::uint32_t* ids;
-  const float *o[3], *d[3];  ///< components of the rays' origins and directions, in arrays of
-                             ///< kHitBatch elements
+  const float *o[3], *d[3];  ///< origins and directions, in arrays of kHitBatch elements
 };
 
 /// Sets hits[i] to the hit of rays[i] with primitive ids[i], with t rounded once. The rays must be

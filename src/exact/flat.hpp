@@ -55,17 +55,13 @@ void for_each_end(const VectorOf<Number>& d, const VectorOf<Number>& p, const Ve
   const auto along = offset_q - offset_p;  // d x (q - p)
   const int k = nonzero_component(along);
   if (k < 0) {
-    if (nonzero_component(offset_p) >= 0)
-      return;  // the segment is parallel to the line, but not
-               // on it
+    if (nonzero_component(offset_p) >= 0) return;  // parallel to the line, but not on it
     const int i = nonzero_component(d);
     add(p[i], d[i]);
     add(q[i], d[i]);
     return;
   }
-  if (offset_p[k].sign() * offset_q[k].sign() > 0)
-    return;  // both ends are on the same side of the
-             // line
+  if (offset_p[k].sign() * offset_q[k].sign() > 0) return;  // both ends are on the same side
   // t d = p + s (q - p): taking the cross product with q - p leaves t d x (q - p) = p x q.
   add(cross(p, q)[k], along[k]);
 }

@@ -13,8 +13,7 @@ enum class Feature : std::uint8_t { a, b, c, ab, bc, ca, face };
 
 struct TriangleDistance {
   double lo, hi;    ///< bounds of the exact distance
-  DVec3 weights;    ///< barycentric coordinates of a point of the triangle close to the nearest
-                    ///< point
+  DVec3 weights;    ///< barycentric coordinates of a point that approximates the nearest point
   Feature feature;  ///< the feature on which the nearest point lies
   bool is_certain;  ///< true if `feature` is certainly right
   double position_error;  ///< if is_certain, the maximum distance between the point at `weights`

@@ -57,8 +57,7 @@ struct Tree {
   // The following members are for refitted().
   std::size_t primitives = 0;                ///< number of primitives in leaves
   double area = 0;                           ///< see References::area
-  std::optional<RelativeCost> built_cost{};  ///< for a refitted tree, its relative cost when it was
-                                             ///< built
+  std::optional<RelativeCost> built_cost{};  ///< for a refitted tree, its cost when it was built
 };
 
 /// Builds or refits a tree, which does not refer to the scene. Throws Error (limit) if there are

@@ -41,9 +41,7 @@ HitResolver::HitResolver(const Primitives& primitives, const Ray& ray, double t_
 
 void HitResolver::consider(std::uint32_t id, ClosestSoFar& best) const {
   ++fallback_stages.filters;
-  if (id == best.id)
-    return;  // a triangle with references in several leaves is tested more than
-             // once
+  if (id == best.id) return;  // a triangle can be in several leaves
   ClosestHit closest;
   if (best.id != kNoPrimitive) consider(best.id, closest);
   consider(id, closest);

@@ -29,8 +29,7 @@ class PacketResolver {
 
   const Primitives* primitives_;
   std::span<const Ray> rays_;
-  std::optional<RayPacket> packet_;  // created on first use, because most packets meet only
-                                     // triangles
+  std::optional<RayPacket> packet_;  // created on first use; most packets meet only triangles
 };
 
 }  // namespace microtrace

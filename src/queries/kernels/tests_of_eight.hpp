@@ -36,8 +36,7 @@ inline Double<N> all_doubles(double x) {
 /// covers the roundings of both.
 template <int N>
 unsigned entered(const WideNode& node, const LineInterval& ray) {
-  const float *const lo = node.lo_x, *const hi = node.hi_x;  // the arrays for y and z follow in
-                                                             // memory
+  const float *const lo = node.lo_x, *const hi = node.hi_x;  // arrays for y and z follow
   unsigned lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     Double<N> enter = all_doubles<N>(ray.t_min), leave = all_doubles<N>(ray.t_max);

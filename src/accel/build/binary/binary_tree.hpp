@@ -11,8 +11,7 @@ namespace microtrace::build {
 
 /// The optimal collapse of a node and its subtree; see collapse.hpp.
 struct CollapsePlan {
-  std::array<float, 8> cost{};            ///< cost[i - 1] is the cost if collapsed to at most i
-                                          ///< subtrees
+  std::array<float, 8> cost{};            ///< cost[i - 1]: cost if collapsed to at most i subtrees
   std::array<std::uint8_t, 9> to_left{};  ///< to_left[i] is the number of the i subtrees that come
                                           ///< from the left child; 0: the same collapse as for i -
                                           ///< 1

@@ -38,8 +38,8 @@ Box extended(const Vec3& center, const DVec3& reach) {
 }
 
 Float4 lanes(const Vec3& v) {
-  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, so boxes do not depend on the order
-                                               // of vertices
+  return Float4{v.x, v.y, v.z, 0} + splat(0);  // -0 becomes 0, so the order of vertices has no
+                                               // effect
 }
 
 }  // namespace
