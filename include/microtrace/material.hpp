@@ -59,7 +59,7 @@ struct Clearcoat {
   float factor = 0, roughness = 0;                ///< each in [0, 1]
   std::optional<TextureUse> texture{};            ///< linear; r: factor
   std::optional<TextureUse> roughness_texture{};  ///< linear; g: roughness
-  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: no change
+  std::optional<TextureUse> normal_texture{};     ///< linear; tangent space; nothing: unperturbed
   float normal_scale = 1;                         ///< of the texture's x and y
 
   bool operator==(const Clearcoat&) const = default;

@@ -6,7 +6,7 @@
 /// integer times a power of two. With two limbs, the coordinates of a query may differ by a factor
 /// of 2^80, such as 500 and 1e-17, which a rotation may leave instead of 0. With three limbs they
 /// may differ by a factor of 2^144, such as 10^8 and the least float32 number, 1e-45. Rays that
-/// leave a wall at coordinate 0 may start there.
+/// leave a wall at coordinate 0 may start at such a coordinate.
 
 #include "exact/flat.hpp"
 #include "exact/numbers/integer.hpp"

@@ -34,7 +34,7 @@ class NearestSearch {
   void search_tree(const Vec3& p, Poll& poll);
   void consider(PrimitiveId id, const Triangle& triangle, const Vec3& p);
   /// Returns true if a candidate is nearer than the best so far, or equally near with a lower id.
-  /// For candidates whose bounds of the distance overlap those of the best.
+  /// Must be called only if the bounds of both distances overlap.
   [[nodiscard]] bool precedes(const Candidate& candidate, const Vec3& p);
 
   TreeTarget target_;

@@ -52,8 +52,8 @@ inline Lanes round_t(const SeenPlane<D>& plane, const Double3<Double<N>>& d, con
   const V size = plane.n.x * d.x + plane.n.y * d.y + plane.n.z * d.z;
   // Like quotient_result, but with only one division. t and the ends of its interval have three
   // more roundings than the quotient, so half of the 8 would suffice. If size exceeds 64 times its
-  // error, 1 / (size - error) is at most 64/63 / size, which the factor 1.04 covers; 32 times would
-  // suffice. The result for smaller sizes is too imprecise to round t.
+  // error, 1 / (size - error) is at most 64/63 / size, which the factor 1.04 covers; requiring 32
+  // times its error would suffice. The result for smaller sizes is too imprecise to round t.
   const V inverse = 1.0 / size, middle = plane.height * inverse, distance = magnitude(middle);
   V error = (plane.height_error + distance * size_error) * magnitude(inverse) * 1.04 +
             distance * (8 * kRounding) + kUnderflow;

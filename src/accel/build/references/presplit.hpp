@@ -14,8 +14,8 @@ namespace microtrace::build {
 /// pieces together contain every point of the triangle.
 void presplit(PageVector<Reference>& references, const Primitives& primitives);
 
-/// Cuts the part of a triangle that lies in a box by an axis-aligned plane. Returns a box for each
-/// side of the plane, which contains every point of that part on this side in real arithmetic.
+/// Cuts the part of a triangle within `box` by an axis-aligned plane. Returns a box for each side
+/// of the plane, which contains every real point of this part on that side.
 [[nodiscard]] std::array<Box, 2> cut(const Triangle& triangle, const Box& box, int axis,
                                      float plane);
 
