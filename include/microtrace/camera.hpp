@@ -81,10 +81,9 @@ struct RationalDistortion {
   bool operator==(const RationalDistortion&) const = default;
 };
 
-/// The projection of OpenCV's fisheye module, equidistant if all coefficients are 0. Let a be the
-/// angle in radians between a direction and the viewing direction, which may exceed pi / 2. The
-/// direction appears at the distance a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8) from the principal
-/// point, in units of the focal lengths.
+/// The projection of OpenCV's fisheye module, equidistant if all coefficients are 0. A direction at
+/// the angle a from the viewing direction (radians, may exceed pi / 2) appears at the distance a (1
+/// + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8) from the principal point, in units of the focal lengths.
 struct FisheyeDistortion {
   double k1 = 0, k2 = 0, k3 = 0, k4 = 0;
 

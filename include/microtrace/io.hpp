@@ -30,7 +30,8 @@ enum class SurfaceDetail {
   shape,  ///< loads normals, texture coordinates, and images whose alpha affects visibility;
           ///< sufficient for depth, ids and other quantities without color
   color,  ///< loads base colors, with images and texture coordinates; sufficient for flat pictures
-  shape_and_color,  ///< loads both; sufficient for albedo, and for flat pictures with AOVs
+  shape_and_color,  ///< loads all of shape and color; sufficient for albedo, and for flat pictures
+                    ///< with AOVs
   all,    ///< loads everything that path tracing reads, including tangents and the images of all
           ///< textures except occlusion and thickness
   usual,  ///< color for JSON scenes, all for glTF assets, as the default integrators require

@@ -23,7 +23,7 @@ struct DirectionalLight {
 
 /// Light from a point in all directions.
 struct PointLight {
-  DVec3 position{0};                                       ///< world space
+  DVec3 position{0};                                       ///< scene coordinates
   Vec3 color{1};                                           ///< linear Rec. 709
   float intensity = 1;                                     ///< luminous intensity, candela
   double range = std::numeric_limits<double>::infinity();  ///< world units; the light fades to zero
@@ -33,7 +33,7 @@ struct PointLight {
 /// Light from a point into a cone. The intensity is full within the inner angle, falls off to the
 /// outer angle, and is zero from there on.
 struct SpotLight {
-  DVec3 position{0};          ///< world space
+  DVec3 position{0};          ///< scene coordinates
   DVec3 direction{0, 0, -1};  ///< direction of the cone's axis; world space, unit length
   Vec3 color{1};              ///< linear Rec. 709
   float intensity = 1;        ///< luminous intensity along the axis, candela

@@ -82,13 +82,13 @@ struct OpenEdge {
 /// The triangles of a scene, whether separate or in meshes, as the surface of a solid. Other shapes
 /// are ignored.
 ///
-/// A point is on the boundary if it lies in a triangle, which includes the triangle's edges and
-/// vertices. Otherwise a point is inside if a ray that starts there and avoids all edges and
-/// vertices crosses an odd number of triangles. The decision is exact for the real numbers that the
-/// float32 numbers of the scene and the point represent. It is therefore never wrong for a closed
-/// surface, in which each edge belongs to an even number of triangles. Vertices at equal positions
-/// count as one vertex, because glTF duplicates vertices at seams. Triangles may be oriented in any
-/// way, intersect, or coincide. docs/exactness.md has the definitions.
+/// A point is on the boundary if it lies in a triangle, on an edge or on a vertex. Otherwise a
+/// point is inside if a ray that starts there and avoids all edges and vertices crosses an odd
+/// number of triangles. The decision is exact for the real numbers that the float32 numbers of the
+/// scene and the point represent. It is therefore never wrong for a closed surface, in which each
+/// edge belongs to an even number of triangles. Vertices at equal positions count as one vertex,
+/// because glTF duplicates vertices at seams. Triangles may be oriented in any way, intersect, or
+/// coincide. docs/exactness.md has the definitions.
 ///
 /// Points are in world space. If Scene::origin is not zero, they are translated in float64 and
 /// rounded to float32 once, as PreparedScene does with the origins of rays.
