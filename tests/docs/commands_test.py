@@ -27,7 +27,7 @@ PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", *sorted((SOURCE / "do
 # Patterns of commands that other tests run.
 RUN_ELSEWHERE = [
     r"\./demo$|\./test$",  # .ci/run
-    r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test run these with other presets
+    r"cmake --preset \w+ && cmake --build --preset \w+( && ctest --preset \w+)?( --target \w+)?$",  # ./demo and ./test, with other presets
     r"cmake --build --preset release --target \w+$",  # long checks that are started by hand; see test_targets_exist
     r"cmake --install build/release( --prefix \w+)?$|cpack( .*)?$",  # package.*
     r"cmake --workflow --preset \w+$|scripts/\w+( \w+)*$",  # see test_scripts_and_presets_exist

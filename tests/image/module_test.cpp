@@ -65,8 +65,8 @@ TEST(Module, TwoRunsGiveTheSameBytes) {
   const Folder folder;
   const auto names = {"png", "exr", "tif", "jpg", "webp", "hdr"};
   for (const char* ending : names) save_image(gradient(), folder / (std::string("a.") + ending));
-  std::this_thread::sleep_for(
-      std::chrono::milliseconds(1100));  // long enough to change a stored time
+  // Waits long enough to change a stored time.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   for (const char* ending : names) {
     save_image(gradient(), folder / (std::string("b.") + ending));
     EXPECT_EQ(read_bytes(folder / (std::string("a.") + ending)),

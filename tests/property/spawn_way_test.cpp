@@ -47,8 +47,7 @@ Scene touching_scene(Random& random) {
         add(Plane{.point = at, .normal = normal});
         break;
       default:
-        add(Quadric{
-            .a = 1, .b = -1, .j = float(random.between(-1, 1))});  // contains straight lines
+        add(Quadric{.a = 1, .b = -1, .j = float(random.between(-1, 1))});  // contains lines
         break;
     }
   }

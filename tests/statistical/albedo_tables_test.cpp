@@ -1,5 +1,5 @@
-// Compares tables of albedos with integrals by another method: over light directions instead of
-// visible normals.
+// Compares tables of albedos with integrals that use a different method: they integrate over light
+// directions instead of visible normals.
 
 #include "render/bsdf/anisotropic_albedo.hpp"
 #include "render/bsdf/coating.hpp"
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The integral of f over the hemisphere, by the midpoint rule in cos(theta)^(1/2) and the azimuth.
+/// Integrates f over the hemisphere by the midpoint rule in cos(theta)^(1/2) and the azimuth.
 template <class F>
 double integral(int steps, const F& f) {
   double sum = 0;
@@ -114,8 +114,8 @@ TEST(AlbedoTables, NodesOfTheCoatingIntegrate) {
   }
 }
 
-// If everything except the Fresnel reflection is transmitted, all energy not returned by single
-// scattering is lost.
+// If everything that is not reflected is transmitted, the energy deficit is the energy that single
+// scattering does not return.
 TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
   double rms = 0, most = 0;
   int count = 0;
@@ -128,7 +128,7 @@ TEST(AlbedoTables, EnergyDeficitOfRoughGlass) {
         const Ggx<1> ggx(roughness);
         for (const double theta : {0.1, 0.6, 1.0, 1.3}) {
           const Vec3 wo = direction(theta);
-          // Integrates over the normals visible from wo.
+          // Integrates over the normals that are visible from wo.
           double sum = 0;
           constexpr int steps = 150;
           for (int i = 0; i < steps * steps; ++i) {

@@ -1,4 +1,4 @@
-/// Light at the backs of one-sided surfaces.
+/// Tests light at the backs of one-sided surfaces.
 #include "support/pictures.hpp"
 
 #include <array>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t kMatt = 0, kHull = 1, kLamp = 2;
 
-/// A box of triangles whose fronts face outwards, or inwards.
+/// Returns a box of triangles whose fronts face inward if `faces_inwards` is true, otherwise
+/// outward.
 Mesh box(const Vec3& center, const Vec3& half, bool faces_inwards) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,7 +34,8 @@ Mesh box(const Vec3& center, const Vec3& half, bool faces_inwards) {
   return mesh;
 }
 
-/// A diffuse box of half width 1, one-sided like its hull, whose top the camera sees.
+/// A diffuse, one-sided box of half width 1, whose top the camera sees. A one-sided hull may be
+/// added around it.
 struct Model {
   Model() {
     scene.materials = {{.base_color = {0.6F, 0.6F, 0.6F, 1}, .double_sided = false, .roughness = 1},
@@ -63,7 +65,7 @@ struct Model {
       .height = 0.5};
 };
 
-/// Models without a hull, each with another kind of light.
+/// Returns models without a hull, each lit by a different kind of light.
 std::array<std::pair<std::string, Model>, 8> lit_models() {
   std::array<std::pair<std::string, Model>, 8> models;
   std::size_t i = 0;
@@ -86,8 +88,8 @@ std::array<std::pair<std::string, Model>, 8> lit_models() {
   return models;
 }
 
-// Light passes through surfaces that are invisible to the camera: shadow rays and paths, combined
-// by multiple importance sampling.
+// Light must pass through surfaces that are invisible to the camera. Both shadow rays and paths are
+// tested, combined by multiple importance sampling.
 TEST(Backfaces, HullsDoNotBlockLight) {
   for (auto& [name, model] : lit_models()) {
     const Estimate bare = model.seen(Backfaces::pass);
@@ -101,7 +103,7 @@ TEST(Backfaces, HullsDoNotBlockLight) {
   }
 }
 
-// Two nested hulls, and one with an alpha mask.
+// Tests two nested hulls, one of which is blended.
 TEST(Backfaces, HullsOfHulls) {
   Model model;
   model.scene.environment = Environment{.content = Studio{}};
@@ -116,18 +118,19 @@ TEST(Backfaces, HullsOfHulls) {
   EXPECT_NEAR(transmittance.mean, bare.mean, 5 * (bare.deviation + transmittance.deviation));
 }
 
-// Seen from inside; the walls face inwards.
+// The camera is inside a room whose walls face inward.
 TEST(Backfaces, RoomUnderASun) {
   Model model;
   model.scene.objects.clear();
   model.add(box({0, 1, 0}, Vec3(2), true), kMatt);
   model.add_light(DirectionalLight{.direction = {0.6, -0.8, 0}, .intensity = 10});
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
-  // The diffuse part of a dielectric with f0 = 0.04, plus a small specular part.
+  // The expected value is the diffuse part of a dielectric with f0 = 0.04. The tolerance allows for
+  // a small specular part.
   EXPECT_NEAR(model.seen(Backfaces::pass).mean, 0.6 * 0.96 * 8 / 3.1416, 0.1);
 }
 
-// Light that passes a wall replaces the wall's reflection: no room is brighter than the
+// If light passes through a wall, the wall does not reflect it too, so no room is brighter than the
 // environment.
 TEST(Backfaces, WhiteRoomInWhiteLight) {
   Model model;
@@ -140,14 +143,14 @@ TEST(Backfaces, WhiteRoomInWhiteLight) {
   EXPECT_NEAR(model.seen(Backfaces::pass, 32).mean, 1, 0.01);
 }
 
-// A sheet above the box casts a shadow on it if the sheet's front faces the light.
+// A sheet above the box must cast a shadow on it if the sheet's front faces the light.
 TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   Model model;
   model.add_light(DirectionalLight{.direction = {0, -1, 0}, .intensity = 3});
   model.camera.pose.position.y = 1.5;
   const double lit = model.seen(Backfaces::pass).mean;
   Mesh sheet = box({0, 2, 0}, {3, 0, 3}, false);
-  sheet.triangles = {sheet.triangles[6], sheet.triangles[7]};  // the upper side
+  sheet.triangles = {sheet.triangles[6], sheet.triangles[7]};  // keeps only the upper side
   model.add(sheet, kMatt);
   EXPECT_EQ(model.seen(Backfaces::pass).mean, 0);
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
@@ -157,7 +160,7 @@ TEST(Backfaces, SheetsCastShadowsOfTheirFronts) {
   EXPECT_EQ(model.seen(Backfaces::occlude).mean, 0);
 }
 
-/// The same picture for both values, and the same number of rays.
+/// Expects the same picture and the same number of rays for both values of Backfaces.
 void expect_same(const Scene& scene, const Camera& camera) {
   std::array<std::vector<DVec3>, 2> pixels;
   std::array<RayCounts, 2> rays;
@@ -175,8 +178,8 @@ void expect_same(const Scene& scene, const Camera& camera) {
   EXPECT_EQ(rays[0].beyond, rays[1].beyond);
 }
 
-// Surfaces that enclose a medium always have a back; the backs of thin panes transmit light for
-// both values.
+// Surfaces that enclose a medium always have a back, and the backs of thin panes transmit light.
+// Both values therefore give the same picture.
 TEST(Backfaces, GlassIsTheSame) {
   for (const bool is_body : {true, false}) {
     Model model;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The directional albedo for wo, by sampling.
+/// Estimates the directional albedo for wo by sampling.
 template <class Model>
 DVec3 reflected(const Model& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
@@ -27,7 +27,7 @@ DVec3 reflected(const Model& bsdf, std::uint32_t samples) {
   return sum / double(samples);
 }
 
-/// The same by the midpoint rule, without sampling.
+/// Computes the directional albedo by the midpoint rule, without sampling.
 DVec3 integrated(const Scattering& bsdf, int steps) {
   DVec3 sum(0);
   for (int i = 0; i < steps; ++i) {
@@ -102,7 +102,7 @@ TEST(Bsdf, IsReciprocal) {
   }
 }
 
-// Snell's law: a smooth surface refracts to sin(theta) / eta.
+// Tests Snell's law: a smooth surface refracts to sin(theta) / eta.
 TEST(Bsdf, SmoothGlassRefracts) {
   const Scattering bsdf({.roughness = 0, .transmission = 1, .eta = 1.5F}, direction(0.8, 0));
   int below = 0;
@@ -116,7 +116,7 @@ TEST(Bsdf, SmoothGlassRefracts) {
   EXPECT_GT(below, 150);
 }
 
-// A body that is half opaque: light from inside eventually leaves, without a gain of energy.
+// In a half-opaque body, light from inside must eventually leave without a gain of energy.
 TEST(Bsdf, HalfGlassGainsNoEnergy) {
   for (const float roughness : {0.05F, 0.3F, 0.8F}) {
     for (const float eta : {1.5F, 1 / 1.5F, 1 / 2.0F}) {
@@ -135,7 +135,7 @@ TEST(Bsdf, HalfGlassGainsNoEnergy) {
   }
 }
 
-// White light through both walls of a body is multiplied by the base color once.
+// If white light passes through both walls of a body, the base color must multiply it only once.
 TEST(Bsdf, GlassMultipliesTheBaseColorOnce) {
   const Parameters in{.base_color = {0.25F, 1, 1}, .roughness = 0, .transmission = 1, .eta = 1.5F};
   Parameters out = in;

@@ -1,4 +1,4 @@
-/// Rate of convergence, and unbiasedness of pictures with few samples.
+/// Tests the rate of convergence, and that pictures with few samples are unbiased.
 #include "support/effort.hpp"
 #include "support/pictures.hpp"
 
@@ -12,7 +12,7 @@
 namespace microtrace {
 namespace {
 
-/// Diffuse and specular objects on a floor under an area light and a sky.
+/// Returns a scene of diffuse and specular objects on a floor under an area light and a sky.
 Scene still_life() {
   Scene scene;
   scene.materials = {
@@ -42,7 +42,8 @@ double error(const std::vector<DVec3>& a, const std::vector<DVec3>& b) {
   return std::sqrt(sum / double(a.size()));
 }
 
-/// The slope of log(error) over log(samples), relative to a reference picture with many samples.
+/// Returns the slope of log(error) over log(samples). The error is relative to a reference picture
+/// with many samples.
 double slope(const Scene& scene, const Camera& camera, Shot shot, std::uint32_t most) {
   Shot reference = shot;
   reference.samples = 8 * most;
@@ -58,7 +59,7 @@ double slope(const Scene& scene, const Camera& camera, Shot shot, std::uint32_t 
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
-// Direct light of an area light without visible edges is a smooth function of the points on the
+// If an area light has no visible edges, its direct light is a smooth function of the point on the
 // light.
 TEST(Convergence, SmoothLightConvergesAtTheSobolRate) {
   Scene scene;
@@ -81,9 +82,9 @@ TEST(Convergence, NoPictureConvergesSlowerThanIndependentSampling) {
   EXPECT_LT(slope(still_life(), kCamera, shot, 64), -0.5);
 }
 
-// Compares pictures with few samples and several seeds with a reference: the deviation of each
-// pixel's mean follows Student's t distribution, so its square has the mean n / (n - 2) with n
-// degrees of freedom, and one in 270 exceeds 3.6 (16 seeds).
+// Compares pictures with few samples and 16 seeds with a reference. The error of each pixel's mean,
+// divided by its estimated deviation, follows Student's t distribution with n = 15 degrees of
+// freedom. The mean of its square is n / (n - 2), and it exceeds 3.6 in one of about 270 cases.
 TEST(Convergence, PicturesWithFewSamplesAreUnbiased) {
   const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
   constexpr std::uint32_t seeds = 16;
@@ -103,7 +104,8 @@ TEST(Convergence, PicturesWithFewSamplesAreUnbiased) {
       continue;
     }
     ++n;
-    // The reference also has an error: at most that of 512 samples, compared with 16 times 4.
+    // The reference has an error too. Its variance is at most that of 512 samples, compared with 16
+    // * 4 samples here.
     const double t = (pixel.mean - right[i].y) / (pixel.deviation * std::sqrt(1 + 64.0 / 512));
     far += std::abs(t) > 3.6 ? 1 : 0;
     sum += t;
@@ -115,7 +117,7 @@ TEST(Convergence, PicturesWithFewSamplesAreUnbiased) {
   EXPECT_LT(far / n, 0.02);
 }
 
-// Alpha must end paths with the right probability over many layers.
+// Alpha must end paths with the right probability, even over many layers.
 TEST(Convergence, LayersTransmitByOpacity) {
   Scene scene;
   scene.materials = {{.base_color = {0, 0, 0, 0.25F}, .alpha_mode = AlphaMode::blend},
@@ -138,8 +140,8 @@ TEST(Convergence, LayersTransmitByOpacity) {
   }
   const auto n = double(pixels.size());
   EXPECT_NEAR(sum / n, share, 5 * std::sqrt(expected_squares / n));
-  EXPECT_LT(squares / n,
-            expected_squares);  // Sobol points have a smaller variance than independent samples
+  // Sobol points have a smaller variance than independent samples.
+  EXPECT_LT(squares / n, expected_squares);
 }
 
 }  // namespace

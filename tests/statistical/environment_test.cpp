@@ -1,4 +1,4 @@
-// Compares light from maps with quadrature by an independent float64 lookup.
+// Compares light from maps with quadrature that uses an independent float64 lookup.
 
 #include "support/shading/scattering.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A sky that is bluer at the top, a ground, and a sun of a few pixels.
+/// Returns a map of a sky that is bluer at the top, a ground, and a sun of a few pixels.
 std::shared_ptr<const RadianceMap> sky() {
   RadianceMap map{.width = 48, .height = 24};
   for (std::uint32_t y = 0; y < map.height; ++y) {
@@ -32,7 +32,7 @@ std::shared_ptr<const RadianceMap> sky() {
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// The map's radiance by the definition in environment.hpp.
+/// Returns the map's radiance as defined in environment.hpp.
 DVec3 lookup(const RadianceMap& map, const DVec3& d) {
   const double u = std::atan2(d.z, d.x) / (2 * kPi) + 0.5, v = std::acos(d.y) / kPi;
   const double x = u * map.width - 0.5, y = v * map.height - 0.5;
@@ -48,8 +48,8 @@ DVec3 lookup(const RadianceMap& map, const DVec3& d) {
          fy * ((1 - fx) * pixel(left, above + 1) + fx * pixel(left + 1, above + 1));
 }
 
-/// The reflected radiance of a wall with normal n, seen along n: the integral of radiance, cosine
-/// and reflectance.
+/// Returns the reflected radiance of a wall with normal n, seen along n. Integrates the product of
+/// radiance, cosine and reflectance.
 DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float albedo) {
   const bsdf::Scattering bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   constexpr int kRows = 512;
@@ -71,7 +71,7 @@ DVec3 reflected(const RadianceMap& map, double rotation, const DVec3& n, float a
   return sum * (2 * kPi / kRows / kRows);
 }
 
-/// The mean picture of a wall with this normal.
+/// Renders a wall with this normal and returns the mean of the picture.
 DVec3 seen(const std::shared_ptr<const RadianceMap>& map, double rotation, const DVec3& n,
            float albedo) {
   Scene scene;
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(All, Walls,
                          testing::Values(DVec3(0, 1, 0), DVec3(1, 0, 0), DVec3(0, 0, -1),
                                          DVec3(0, -1, 0), DVec3(-0.6, 0.64, 0.48)));
 
-// The camera sees the map itself, filtered over the pixels.
+// The camera must see the map itself, filtered over each pixel.
 TEST(EnvironmentBackground, IsTheMap) {
   const auto map = sky();
   Scene scene;
@@ -122,7 +122,8 @@ TEST(EnvironmentBackground, IsTheMap) {
       render(scene, camera, {.width = 48, .height = 24}, {.integrator = &path, .samples = 256});
   for (std::uint32_t y = 0; y < 11; ++y) {
     for (std::uint32_t x = 0; x < 48; ++x) {
-      if (x >= 28 && x < 35 && y >= 3 && y < 9) continue;  // steep near the sun
+      if (x >= 28 && x < 35 && y >= 3 && y < 9)
+        continue;  // skips pixels near the sun, where the map is steep
       EXPECT_NEAR(film.row(y)[x].z, map->pixels[y * 48 + x].z, 0.02) << x << ' ' << y;
     }
   }

@@ -1,4 +1,5 @@
-/// Lights with extreme float32 parameters: minimum and maximum sizes, intensities and distances.
+/// Tests lights with extreme float32 parameters: minimum and maximum sizes, intensities and
+/// distances.
 #include "render/lights/light_tree.hpp"
 #include "render/prepared/content.hpp"
 #include "support/pictures.hpp"
@@ -25,7 +26,7 @@ namespace {
 
 constexpr float kMax = std::numeric_limits<float>::max();
 
-/// Numbers of all magnitudes; often equal ones, or the ends of the float32 range.
+/// Generates numbers of all magnitudes, often equal ones or ends of the float32 range.
 struct Extremes {
   explicit Extremes(unsigned seed) : bits(seed) {}
 
@@ -46,7 +47,7 @@ struct Extremes {
     if (below(4) == 0) return Vec3(any());
     return {any(), any(), any()};
   }
-  /// A point at the least possible distances from another point.
+  /// A point whose coordinates equal those of p or are neighboring numbers.
   Vec3 place_near(const Vec3& p) {
     Vec3 result = p;
     for (int i = 0; i < 3; ++i)
@@ -90,14 +91,15 @@ std::vector<LightBounds> lights(Extremes& random, std::size_t count) {
   return result;
 }
 
-/// The importance without its cosine factors.
+/// The light's importance without its cosine factors.
 double head_on(const LightBounds& light, const Vec3& p) {
   const DVec3 low(light.low), high(light.high), way = DVec3(p) - (low + high) / 2.0;
   const double square = std::max(glm::dot(way, way), glm::dot(high - low, high - low) / 4);
   return square > 0 ? light.power / square : 0;
 }
 
-// Excludes lights at grazing angles below the rounding error.
+// The probability need not be positive for lights at grazing angles, whose importance is below the
+// rounding error.
 TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
   for (unsigned seed = 0; seed < 3000; ++seed) {
     Extremes random(seed);
@@ -132,7 +134,8 @@ TEST(ExtremeLights, ProbabilitiesAddUpToOne) {
   }
 }
 
-/// Punctual lights, emissive meshes and shapes, and an environment, of any size at any position.
+/// Returns a scene with punctual lights, emissive meshes and shapes, and an environment, all of any
+/// size and at any position.
 Scene scene_of(Extremes& random) {
   Scene scene;
   for (int i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// White furnace test: under uniform white light, non-absorbing objects are as bright as the light,
-// and no object is brighter.
+// White furnace test: under uniform white light, non-absorbing objects must be as bright as the
+// light, and no object may be brighter.
 
 #include "render/sampling/sobol.hpp"
 #include "support/shading/direction_pdf.hpp"
@@ -16,7 +16,7 @@
 namespace microtrace::bsdf {
 namespace {
 
-/// The directional albedo for wo.
+/// Estimates the directional albedo for wo.
 DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Vec3& wo,
               std::uint32_t samples, const Vec3& coat_normal = {0, 0, 1}) {
   const Scattering bsdf(p, layers, wo, coat_normal);
@@ -28,16 +28,16 @@ DVec3 furnace(const Parameters& p, const std::optional<Layers>& layers, const Ve
   return sum / double(samples);
 }
 
-/// The bound includes the remaining noise of the samples.
+/// The maximum albedo. It allows for the remaining noise of the samples.
 constexpr double kMost = 1.003;
 
-/// Expects a loss of at most `loss` of the light at any angle and roughness.
+/// Expects that at most the fraction `loss` of the light is lost, at any angle and roughness.
 void expect_white(const char* what, Parameters p, const std::optional<Layers>& layers, double loss,
                   double azimuth = 0.3, double most = kMost) {
   for (const float roughness : {0.05F, 0.25F, 0.45F, 0.7F, 1.0F}) {
     p.roughness = roughness;
     for (const double theta : {0.05, 0.5, 0.9, 1.2, 1.4, 1.5}) {
-      // Starts with few samples.
+      // Starts with few samples, and uses more if the result is not within the bounds.
       const Vec3 wo = direction(theta, azimuth);
       double white = furnace(p, layers, wo, 1U << 14U).x;
       if (white < 1 - loss || white > 1.001) white = furnace(p, layers, wo, 1U << 17U).x;
@@ -116,7 +116,7 @@ TEST(Furnace, Anisotropic) {
   }
 }
 
-/// Any material, usually with some parameters at the ends of their ranges.
+/// Generates random materials. Some parameters are usually at the ends of their ranges.
 class AnyMaterial {
  public:
   explicit AnyMaterial(unsigned seed) : random_(seed) {}
@@ -145,7 +145,7 @@ class AnyMaterial {
     return p;
   }
 
-  /// The layers, and the coat's normal.
+  /// Layers, and the coat's normal.
   struct Cover {
     std::optional<Layers> layers{};
     Vec3 coat_normal{0, 0, 1};
@@ -179,7 +179,7 @@ TEST(Furnace, NothingGainsEnergy) {
     DVec3 sum = furnace(p, layers, wo, 1U << 11U, coat_normal);
     if (std::max({sum.x, sum.y, sum.z}) > kMost)
       sum = furnace(p, layers, wo, 1U << 17U, coat_normal);
-    // The bounds for anisotropic facets and films are not strict.
+    // The energy bounds of anisotropic facets and thin films are not strict.
     const double bound = p.anisotropy > 0 || p.film ? 1.01 : kMost;
     for (int c = 0; c < 3; ++c)
       EXPECT_LT(sum[c], bound) << i << ": " << p.roughness << ' ' << p.metallic << ' '
@@ -195,7 +195,7 @@ TEST(Furnace, PdfsAreThoseOfTheSamples) {
   for (int i = 0; i < 40; ++i) {
     Parameters p = any.parameters();
     p.roughness = 0.35F + 0.65F * p.roughness;
-    // If the surface hardly refracts, the lobes are narrower than the cells.
+    // If a surface hardly refracts, its lobes are narrower than the histogram's cells.
     if (p.eta) p.eta = *p.eta > 1 ? std::max(*p.eta, 1.2F) : std::min(*p.eta, 0.8F);
     auto [layers, coat_normal] = any.cover(p);
     if (layers) layers->coat_roughness = 0.35F + 0.65F * layers->coat_roughness;

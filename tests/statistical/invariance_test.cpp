@@ -1,4 +1,4 @@
-/// Changes that must not affect path-traced pictures.
+/// Tests changes that must not affect path-traced pictures.
 #include "support/cases/closed_meshes.hpp"
 #include "support/effort.hpp"
 #include "support/pictures.hpp"
@@ -13,8 +13,9 @@
 namespace microtrace {
 namespace {
 
-// Inside a closed surface no outside light is ever visible, however thin and creased the surface is
-// and wherever it is. The materials don't absorb, so any leak would remain visible.
+// Inside a closed surface, outside light must never be visible, however thin and creased the
+// surface is and wherever it is. The materials don't absorb light, so any leak would remain
+// visible.
 TEST(Invariance, ClosedSurfacesLetNoLightIn) {
   const auto effort = std::max(std::uint32_t(traversal::ray_count(1e-6)), 1U);
   for (const auto& closed : adversarial::closed_meshes()) {
@@ -34,7 +35,8 @@ TEST(Invariance, ClosedSurfacesLetNoLightIn) {
   }
 }
 
-/// A square with edges of 64 in the plane y = 0, of 2 n^2 triangles with vertices on a grid.
+/// A square in the plane y = 0 with edges of length 64. Its 2 n^2 triangles have vertices on a
+/// grid.
 Mesh tiled_floor(std::uint32_t n) {
   Mesh mesh;
   for (std::uint32_t j = 0; j <= n; ++j) {
@@ -52,8 +54,8 @@ Mesh tiled_floor(std::uint32_t n) {
   return mesh;
 }
 
-// Under grazing light, a floor of many triangles looks like one of two: no triangle shadows its
-// neighbors.
+// Under grazing light, a floor of many triangles must look like a floor of two triangles. No
+// triangle may shadow its neighbors.
 TEST(Invariance, FlatTrianglesCastNoShadows) {
   Scene scene;
   scene.materials = {{.base_color = {0.8F, 0.8F, 0.8F, 1}, .metallic = 0.5F, .roughness = 0.6F}};
@@ -77,7 +79,8 @@ TEST(Invariance, FlatTrianglesCastNoShadows) {
   }
 }
 
-/// A specular and a diffuse block on a floor under an area light, with vertices on a grid of 1/8.
+/// A specular and a diffuse block on a floor under an area light. All vertices are on a grid of
+/// 1/8.
 Scene blocks(const Vec3& shift) {
   Scene scene;
   scene.materials = {{.base_color = {0.7F, 0.6F, 0.5F, 1}},
@@ -100,7 +103,8 @@ Scene blocks(const Vec3& shift) {
   return scene;
 }
 
-// The scene with the same float32 offsets, far away: it must be as precise as near the origin.
+// Translates the scene far from the origin without changing offsets in float32. The picture must be
+// as precise as near the origin.
 TEST(Invariance, FarFromTheOriginPicturesAreEqual) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Shot shot{.size = {.width = 64, .height = 48}, .samples = 16};
@@ -119,7 +123,7 @@ TEST(Invariance, FarFromTheOriginPicturesAreEqual) {
   EXPECT_LT(difference / light, 1e-5);
 }
 
-// Exact quantities of a path-traced picture refer to the original coordinates.
+// The AOVs of a path-traced picture must refer to the original coordinates.
 TEST(Invariance, FarFromTheOriginExactQuantitiesAreUnchanged) {
   const Vec3 shift(0x1p20F, -0x1p19F, 0x1p20F);
   const Scene scene = blocks(shift);
@@ -142,7 +146,7 @@ TEST(Invariance, FarFromTheOriginExactQuantitiesAreUnchanged) {
   }
 }
 
-// An integrator that has rendered a lit scene renders a scene without lights correctly.
+// After an integrator has rendered a lit scene, it must render a scene without lights correctly.
 TEST(Invariance, ScenesWithoutLightsAreBlackAfterOthers) {
   Scene lit = blocks(Vec3(0)), unlit = lit;
   lit.lights.push_back(
@@ -160,8 +164,8 @@ TEST(Invariance, ScenesWithoutLightsAreBlackAfterOthers) {
   EXPECT_EQ(pixels(unlit, used), pixels(unlit, fresh));
 }
 
-// Area lights, a map, blending, smooth and rough surfaces must not depend on the number of threads
-// or the window.
+// Pictures with area lights, a map, blending, and smooth and rough surfaces must not depend on the
+// number of threads or on the crop window.
 TEST(Invariance, ThreadsAndCropsKeepAllBytes) {
   Scene scene = blocks(Vec3(0));
   RadianceMap map{.width = 8, .height = 4};

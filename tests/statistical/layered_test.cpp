@@ -24,8 +24,8 @@ struct Example {
   Vec3 coat_normal{0, 0, 1};
 };
 
-/// At least one material of each kind, without absorption except for colored reflection at normal
-/// incidence.
+/// Returns at least one material of each kind. None absorbs light, except for colored reflection at
+/// normal incidence.
 std::vector<Example> surfaces() {
   std::vector<Example> result;
   for (const float roughness : {0.3F, 0.8F}) {
@@ -76,7 +76,7 @@ std::vector<Example> surfaces() {
   return result;
 }
 
-/// For wo on the other side of the surface: rotated upside down about x.
+/// The material as seen from the other side of the surface: rotated by 180 degrees about x.
 Example turned(Example s) {
   if (s.base.eta) s.base.eta = 1 / *s.base.eta;
   s.base.along.y = -s.base.along.y;
@@ -97,7 +97,7 @@ std::string text(const Example& s, double theta) {
   return std::string(s.name) + " " + std::to_string(s.base.roughness) + " " + std::to_string(theta);
 }
 
-/// The directional albedo for wo, by sampling.
+/// Estimates the directional albedo for wo by sampling.
 DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
   DVec3 sum(0);
   for (std::uint32_t k = 0; k < samples; ++k) {
@@ -107,7 +107,7 @@ DVec3 scattered(const Scattering& bsdf, std::uint32_t samples) {
   return sum / double(samples);
 }
 
-/// The same by the midpoint rule, without sampling.
+/// Computes the directional albedo by the midpoint rule, without sampling.
 DVec3 integrated(const Scattering& bsdf, int steps) {
   DVec3 sum(0);
   for (int i = 0; i < 2 * steps; ++i) {

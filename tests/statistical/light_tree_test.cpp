@@ -43,7 +43,8 @@ std::vector<LightBounds> lights(Random& random, int count) {
   return result;
 }
 
-// Excludes nodes neither of whose children contributes, although their union seems to.
+// The sum may be below 1, because a node may have bounds that contribute although neither of its
+// children does.
 TEST(LightTree, ProbabilitiesAddUpToOne) {
   Random random;
   for (const int count : {1, 2, 3, 17, 300}) {
@@ -78,8 +79,8 @@ TEST(LightTree, ChoosesEachByItsProbability) {
   }
 }
 
-// The bounds of a tree are nonzero wherever those of a light are, so no contributing light is left
-// out.
+// The bounds of a tree must contribute wherever the bounds of one of its lights do. No contributing
+// light is then omitted.
 TEST(LightTree, UnitedBoundsContainBoth) {
   Random random;
   for (int i = 0; i < 20000; ++i) {
@@ -92,7 +93,7 @@ TEST(LightTree, UnitedBoundsContainBoth) {
   }
 }
 
-// A floor under many lights, compared with the sum of all lights.
+// Compares a floor under many lights with the sum over single lights.
 TEST(LightTree, ManyLightsOverAFloor) {
   Scene scene;
   scene.materials = {{.base_color = {0.5F, 0.5F, 0.5F, 1}, .metallic = 1, .roughness = 1}};
@@ -118,8 +119,8 @@ TEST(LightTree, ManyLightsOverAFloor) {
   }
   scene.lights = all;
   EXPECT_NEAR(brightness(16384), sum, 0.01 * sum);
-  // Few samples must suffice too: selection by power alone would have an error of half with 256
-  // samples.
+  // Few samples must suffice too. With 256 samples, selecting lights by power alone would have an
+  // error of about one half.
   EXPECT_NEAR(brightness(256), sum, 0.1 * sum);
 }
 

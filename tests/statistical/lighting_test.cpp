@@ -1,4 +1,4 @@
-/// Compares directions from light sampling with their pdf.
+/// Compares directions from light sampling with the pdf of light sampling.
 #include "render/prepared/content.hpp"
 #include "support/pictures.hpp"
 #include "support/shading/chi_square.hpp"
@@ -22,15 +22,15 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kRows = 16, kColumns = 32;
 
-/// Cells of equal solid angle.
+/// Returns the index of the direction's cell. All cells have the same solid angle.
 std::size_t cell_of(const Vec3& d) {
   const double u = std::atan2(double{d.z}, double{d.x}) / (2 * kPi) + 0.5;
   const auto row = std::min(int((double{d.y} + 1) / 2 * kRows), kRows - 1);
   return std::size_t(row * kColumns + std::min(int(u * kColumns), kColumns - 1));
 }
 
-/// Area lights on all sides of the origin: one-sided and two-sided, facing it or not, a large one
-/// close by, and shapes; a map with a bright spot.
+/// A scene with area lights on all sides of the origin. They are one-sided or two-sided, and face
+/// the origin or not. A large one is close, and some are shapes. The map has a bright spot.
 Scene lamps(bool with_map) {
   Scene scene;
   scene.materials = {{.double_sided = false, .emissive = Vec3(3)}, {.emissive = Vec3(1)}};
@@ -59,7 +59,7 @@ Scene lamps(bool with_map) {
   return scene;
 }
 
-/// The sum of the pdfs of all lights in a direction, including hidden ones.
+/// Returns the sum of the pdfs of all lights in a direction, including hidden lights.
 double pdf(const Lighting& lighting, const Shading& shading, const Bvh& bvh,
            const LightSampleContext& context, const Vec3& d) {
   double sum = double{lighting.environment(context, d).pdf};
@@ -94,13 +94,13 @@ TEST_P(Lamps, SamplesHaveTheirPdf) {
       const auto light = light_sample(lighting, context, place, u(random));
       ++counts[light ? cell_of(light->wi) : counts.size() - 1];
       if (!light || i >= 2000) continue;
-      // Compares the sample's own pdf, without other lights in the same direction.
+      // Compares the sample's own pdf, which excludes other lights in the same direction.
       ASSERT_NEAR(glm::dot(light->wi, light->wi), 1, 1e-5);
       differ += double{light->pdf} > 1.01 * pdf(lighting, shading, bvh, context, light->wi) + 1e-6
                     ? 1
                     : 0;
     }
-    EXPECT_LE(differ, 10);  // at edges of lights and of the map's pixels
+    EXPECT_LE(differ, 10);  // samples at edges of lights and of the map's pixels
     double within = 0;
     for (int row = 0; row < kRows * fine; ++row) {
       const double y = 2 * (row + 0.5) / (kRows * fine) - 1, r = std::sqrt(1 - y * y);
@@ -121,7 +121,7 @@ TEST_P(Lamps, SamplesHaveTheirPdf) {
 
 INSTANTIATE_TEST_SUITE_P(Environment, Lamps, testing::Bool());
 
-// Samples of a light are uniform over its triangles.
+// Samples of a light must be uniform over each of its triangles.
 TEST(Lighting, PointsOnAnEmitterAreUniform) {
   Scene scene;
   scene.materials = {{.emissive = Vec3(1)}};
@@ -134,8 +134,8 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
   constexpr int samples = 100000, side = 10, half = side / 2;
-  // Triangles are selected by their contribution at the context, so each is counted separately, in
-  // two cells of equal area for each square of the grid over the parallelogram.
+  // Triangles are selected by their contribution at the context, so samples are counted separately
+  // for each triangle. Each square of the grid over the parallelogram has two cells of equal area.
   std::array<std::vector<double>, 2> counts{std::vector<double>(side * half),
                                             std::vector<double>(side * half)};
   std::array<double, 2> all{};
@@ -144,9 +144,10 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
     const auto light = light_sample(lighting, context, place, u(random));
     ASSERT_TRUE(light && light->target);
     const DVec3 p = DVec3(context.p) + DVec3(light->to_light);
-    const double b = p.z / 3, a = (p.x - b) / 2;  // along, up
+    const double b = p.z / 3, a = (p.x - b) / 2;  // coordinates along the edges `along` and `up`
     const auto triangle = std::size_t(*light->target);
-    // Barycentric coordinates: s is the distance from the diagonal, t the position along the rest.
+    // Coordinates that are uniform over the triangle: s depends on the distance from the shared
+    // corner, t on the position across.
     const double low = triangle == 0 ? b : a, high = triangle == 0 ? a : b;
     const double s = std::clamp(high * high, 0.0, 1 - 1e-9),
                  t = std::clamp(low / high, 0.0, 1 - 1e-9);

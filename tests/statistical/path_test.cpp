@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The mean of all pixels.
+/// Renders a picture and returns the mean of all pixels.
 DVec3 mean(const Scene& scene, const Camera& camera, std::uint32_t samples,
            const PathOptions& options = {}, ImageSize size = {16, 16}) {
   const PathIntegrator path(options);
@@ -30,7 +30,8 @@ Mesh quad(const Vec3& corner, const Vec3& along, const Vec3& up) {
           .triangles = {{{0, 1, 2}}, {{0, 2, 3}}}};
 }
 
-/// A floor at y = 0 facing up, seen from straight above through a small window around (0, 0, 0).
+/// A floor at y = 0 that faces up. The camera sees a small window around (0, 0, 0) from straight
+/// above.
 struct Floor {
   explicit Floor(const Material& material) {
     scene.materials = {material};
@@ -43,7 +44,7 @@ struct Floor {
       .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.01};
 };
 
-/// The BSDF of a rough dielectric, seen from straight above and lit at an angle.
+/// Returns the BSDF of a rough dielectric that is seen from straight above and lit at an angle.
 double rough_reflectance(float albedo, double cosine) {
   const bsdf::Scattering bsdf({.base_color = Vec3(albedo)}, {0, 0, 1});
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.x / cosine;
@@ -81,7 +82,7 @@ TEST(Path, DirectionalAndSpotLightOverFloor) {
   EXPECT_EQ(shine(0.7), 0);
 }
 
-// A square area light over the floor, by the midpoint rule over the light.
+// Compares a square area light over the floor with the midpoint rule over the light.
 TEST(Path, AreaLightOverFloor) {
   Floor floor({.base_color = {0.5F, 0.5F, 0.5F, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = {2, 3, 4}});
@@ -101,7 +102,7 @@ TEST(Path, AreaLightOverFloor) {
   EXPECT_NEAR(got.z / got.x, 2, 1e-5);
 }
 
-// In a uniform environment a non-absorbing object is invisible.
+// In a uniform environment, a non-absorbing object must be invisible.
 TEST(Path, WhiteMetalVanishesInTheFurnace) {
   Scene scene;
   scene.materials = {{.metallic = 1, .roughness = 0.6F}, {.metallic = 1, .roughness = 0.1F}};
@@ -120,7 +121,7 @@ TEST(Path, DepthOneIsEmissionOnly) {
   EXPECT_GT(mean(floor.scene, floor.camera, 2, {.max_depth = 2}).x, 1);
 }
 
-// Half-opaque panes are blended over an emitter behind them.
+// A half-opaque pane must be blended over the emitter behind it.
 TEST(Path, BlendedSurfacesTransmitByOpacity) {
   Floor floor({.emissive = {1, 1, 1}});
   floor.scene.materials.push_back({.base_color = {0, 0, 0, 0.5F}, .alpha_mode = AlphaMode::blend});

@@ -1,4 +1,5 @@
-/// Compares radiance with closed forms or quadrature, within the deviation of the estimates.
+/// Compares radiance with closed-form results or quadrature. The tolerance is a multiple of the
+/// estimate's standard deviation.
 #include "support/pictures.hpp"
 #include "support/shading/scattering.hpp"
 
@@ -16,15 +17,15 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr ImageSize kSize{.width = 8, .height = 8};
 constexpr std::uint32_t kSeeds = 12;
-/// A mean of kSeeds exceeds this deviation once in 10 000 times (Student's t, 11 degrees of
-/// freedom).
+/// The error of a mean of kSeeds estimates exceeds this multiple of its standard deviation once in
+/// 10 000 times (Student's t, 11 degrees of freedom).
 constexpr double kFar = 5.8;
 
 void expect_mean(const Estimate& got, double expected) {
   EXPECT_NEAR(got.mean, expected, kFar * got.deviation + 1e-5 * expected) << got.deviation;
 }
 
-/// A floor at y = 0, seen from straight above through a small window.
+/// A floor at y = 0. The camera sees a small window of it from straight above.
 struct Floor {
   explicit Floor(const Material& material) {
     scene.materials = {material};
@@ -38,7 +39,7 @@ struct Floor {
       .pose = {.position = {0, 1, 0}, .direction = {0, -1, 0}, .up = {0, 0, -1}}, .height = 0.001};
 };
 
-/// The BSDF of the floor's material toward its camera, times |cos|.
+/// Returns the BSDF of the floor's material toward its camera, multiplied by the cosine.
 double scattered(const Material& m, double cosine) {
   const bsdf::Scattering bsdf(
       {.base_color = Vec3(m.base_color), .metallic = m.metallic, .roughness = m.roughness},
@@ -46,8 +47,8 @@ double scattered(const Material& m, double cosine) {
   return bsdf.evaluate({std::sqrt(1 - cosine * cosine), 0, cosine}).value.y;
 }
 
-/// The radiance reflected straight up by the floor, for light that depends only on the zenith
-/// angle.
+/// Returns the radiance that the floor reflects straight up, for light that depends only on the
+/// zenith angle.
 template <class Radiance>
 double lit_by(const Material& material, Radiance&& radiance) {
   double sum = 0;
@@ -62,7 +63,7 @@ double lit_by(const Material& material, Radiance&& radiance) {
 const Material kMatt{.base_color = {0.6F, 0.6F, 0.6F, 1}, .roughness = 1};
 const Material kShiny{.base_color = {0.9F, 0.9F, 0.9F, 1}, .metallic = 1, .roughness = 0.4F};
 
-/// Triangles whose vertices are on the sphere.
+/// Returns triangles whose vertices are on the sphere.
 Mesh ball(const DVec3& center, double radius) {
   constexpr std::uint32_t rows = 40, columns = 80;
   Mesh mesh;
@@ -84,7 +85,7 @@ Mesh ball(const DVec3& center, double radius) {
   return mesh;
 }
 
-// A ball straight above the floor: its light is within the cone tangent to it.
+// A ball is straight above the floor. Its light comes from the cone that is tangent to it.
 TEST(Radiance, EmissiveBallOverFloor) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   const Shot shot{.size = kSize, .samples = 64, .max_depth = 2};
@@ -92,18 +93,18 @@ TEST(Radiance, EmissiveBallOverFloor) {
     const double expected = lit_by(material, [&](double c) { return c > edge ? 5.0 : 0.0; });
     Floor floor(material);
     floor.scene.materials.push_back({.base_color = {0, 0, 0, 1}, .emissive = Vec3(5)});
-    // Paths find the sphere only by chance; its mesh is also sampled.
+    // Tests the sphere, and then a mesh with the sphere's form.
     floor.scene.objects.push_back({.name = "ball", .shape = Sphere{{0, 3, 0}, 1}, .material = 1});
     expect_mean(estimate(floor.scene, floor.camera, shot, kSeeds), expected);
     floor.scene.objects.back().shape = ball({0, 3, 0}, 1);
     const Estimate mesh = estimate(floor.scene, floor.camera, shot, kSeeds);
-    // The mesh is inside the sphere, by up to 1 - cos(pi / 40).
+    // The mesh lies inside the sphere, by at most 1 - cos(pi / 40).
     EXPECT_NEAR(mesh.mean, expected, kFar * mesh.deviation + 0.008 * expected);
   }
 }
 
-// The camera doesn't see the back of one-sided surfaces. Closed objects cast their shadows
-// regardless of which side is the back.
+// The camera must not see the back of one-sided surfaces. Closed objects must cast the same shadows
+// if they are turned inside out.
 TEST(Radiance, OneSidedWalls) {
   const double edge = std::sqrt(1 - 1 / 9.0);
   Floor floor(kMatt);
@@ -117,7 +118,7 @@ TEST(Radiance, OneSidedWalls) {
   const double expected = lit_by(kMatt, [&](double c) { return c > edge ? 0.0 : 1.0; });
   EXPECT_NEAR(shaded.mean, expected, kFar * shaded.deviation + 0.004 * expected);
 
-  // Faces the floor, between the floor and the camera.
+  // A wall between the floor and the camera, which faces the floor.
   floor.scene.objects.back().shape = parallelogram({-50, 0.5, -50}, {100, 0, 0}, {0, 0, 100});
   floor.scene.materials[0].emissive = Vec3(2);
   const Shot seen{.size = kSize, .samples = 4, .max_depth = 1};
@@ -126,7 +127,7 @@ TEST(Radiance, OneSidedWalls) {
   EXPECT_NEAR(estimate(floor.scene, floor.camera, seen, 2).mean, 0, 1e-5);
 }
 
-// A map that increases linearly from the horizon to the zenith; bilinear between its rows.
+// A map that increases linearly from the horizon to the zenith. It is bilinear between its rows.
 TEST(Radiance, EnvironmentOverFloor) {
   constexpr std::uint32_t width = 64, height = 256;
   RadianceMap map{.width = width, .height = height};
@@ -149,8 +150,9 @@ TEST(Radiance, EnvironmentOverFloor) {
   }
 }
 
-// In a closed room of emissive, non-absorbing walls each path segment contributes as much as the
-// first. Missed light would make it darker, light counted twice brighter.
+// In a closed room of emissive, non-absorbing walls, each path segment contributes as much as the
+// first one. Missing light would make the room darker, and light that is counted twice would make
+// it brighter.
 TEST(Radiance, RoomOfEmissiveWhiteWalls) {
   for (const float metallic : {0.0F, 1.0F}) {
     for (const float roughness : {0.3F, 1.0F}) {
@@ -169,8 +171,8 @@ TEST(Radiance, RoomOfEmissiveWhiteWalls) {
   }
 }
 
-// An emissive ball as a quadric, which is found only by BSDF sampling, and as shapes with light
-// sampling: both estimators must agree.
+// A quadric is found only by BSDF sampling. Compares an emissive quadric with shapes of the same
+// form that have light sampling. Both estimators must agree.
 TEST(Radiance, SampledAndUnsampledEmittersAgree) {
   const Shot shot{.size = kSize, .samples = 64};
   for (const Material& material : {kMatt, kShiny}) {
@@ -193,7 +195,8 @@ TEST(Radiance, SampledAndUnsampledEmittersAgree) {
   }
 }
 
-/// An emissive shape above the floor, where it subtends up to this zenith angle.
+/// An emissive shape above the floor, and the cosine of the zenith angle up to which the shape
+/// extends.
 struct Lamp {
   Shape shape;
   double cosine;
@@ -201,8 +204,8 @@ struct Lamp {
 
 class LampShapes : public testing::TestWithParam<Lamp> {};
 
-// One sample per pixel is nearly sufficient; with BSDF sampling alone, the error for lights of this
-// size would exceed the mean.
+// One sample per pixel is nearly sufficient. If only BSDFs were sampled, the error for lights of
+// this size would exceed the mean.
 TEST_P(LampShapes, HaveTheExpectedRadiance) {
   for (const Material& material : {kMatt, kShiny}) {
     Floor floor(material);
@@ -223,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(All, LampShapes,
                                          Lamp{Disc{{0, 2, 0}, {0, -3, 0}, 0.5F},
                                               2 / std::sqrt(4.25)}));
 
-// Irradiance of a sphere that is not overhead: pi L (r / d)^2 cos.
+// The irradiance of a sphere that is not overhead is pi L (r / d)^2 cos.
 TEST(Radiance, ObliqueSphere) {
   const Material material{
       .base_color = {0.5F, 0.5F, 0.5F, 1}, .roughness = 1, .specular = Specular{.factor = 0}};
@@ -236,7 +239,7 @@ TEST(Radiance, ObliqueSphere) {
       expected);
 }
 
-// A single triangle emits the same light as one in a mesh.
+// A single triangle must emit the same light as a mesh of one triangle.
 TEST(Radiance, SingleTriangle) {
   const Vec3 a(-1, 2, -1), b(1, 2, -1), c(0.5F, 2.5F, 1);
   std::vector<double> means;
@@ -252,7 +255,7 @@ TEST(Radiance, SingleTriangle) {
   EXPECT_NEAR(means[0], means[1], 1e-4 * means[1]);
 }
 
-// A half-opaque emitter emits half as much, by light sampling and by BSDF sampling.
+// A half-opaque emitter must emit half as much light, both by light sampling and by BSDF sampling.
 TEST(Radiance, EmitterWithHalfOpacity) {
   const auto lit = [](float alpha, const Shape& shape) {
     Floor floor(kShiny);

@@ -1,5 +1,5 @@
-// White furnace test of the whole renderer: spheres that absorb nothing can't be seen in a uniform
-// environment, at any angle and whatever their layers are.
+// White furnace test of the whole renderer: in a uniform environment, spheres that absorb nothing
+// must be invisible, at any angle and with any layers.
 
 #include <microtrace/path.hpp>
 #include <microtrace/render.hpp>
@@ -13,8 +13,8 @@
 namespace microtrace {
 namespace {
 
-/// The mean radiance of a sphere of radius 1 in light of radiance 1, up to this distance from its
-/// center.
+/// Returns the mean radiance of a sphere of radius 1 in light of radiance 1. The mean extends up to
+/// this distance from the sphere's center.
 double brightness(const Material& material, double radius) {
   Scene scene;
   scene.materials = {material};

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks that no function of the AVX2 and AVX-512 kernels is also defined in another translation unit.
 
-The linker keeps one copy of a function that several translation units define (a weak symbol). Were one of them compiled for
-AVX-512 and kept, the program would end with an illegal instruction on older processors.
+The linker keeps one copy of a function that several translation units define (a weak symbol). If it kept a copy compiled
+for AVX-512, the program would end with an illegal instruction on older processors.
 
 usage: kernels.py NM LIBRARY.a
 """
@@ -12,9 +12,9 @@ import sys
 
 symbols = subprocess.run([sys.argv[1], "-A", "--defined-only", sys.argv[2]], capture_output=True, text=True,
                          check=True).stdout
-owners = {}  # of each weak function
+owners = {}  # object files by the weak function that they define
 for line in symbols.splitlines():
-    _, place, symbol = line.split(":", 2)  # the library, the object file, "address kind name"
+    _, place, symbol = line.split(":", 2)  # the library, the object file, and "address kind name"
     _, kind, name = symbol.split(maxsplit=2)
     if kind == "W":
         owners.setdefault(name, []).append(place)

@@ -10,7 +10,8 @@ from pathlib import Path
 
 ROOT = Path(sys.argv[1])
 
-# part -> parts of src/ that it may include besides itself. Public headers belong to no part; HIDDEN below restricts them.
+# Maps each part of src/ to the other parts that it may include. Public headers belong to no part. HIDDEN below restricts
+# them.
 MAY_INCLUDE = {
     "base": set(),
     "simd": {"base"},
@@ -24,7 +25,7 @@ MAY_INCLUDE = {
     "capi": {"base", "scene"},
     "modules": {"io"},
 }
-# The folders of src/io/gltf; each may include itself and those before it.
+# The folders of src/io/gltf. Each may include itself and those before it.
 GLTF_FOLDERS = ["document", "bytes", "extensions", "check", "material", "mesh", "animation", "pose", "scene"]
 MOST_FILES = 20  # in a folder of src/io/gltf
 # Public headers that a part must not include.

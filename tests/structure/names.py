@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(sys.argv[1])
-# A trait such as is_mesh is a predicate, like std::is_same_v. PlainFeatures has the members of Features as constants.
+# Type traits such as is_mesh are predicates, like std::is_same_v. PlainFeatures has the members of Features as constants.
 MEMBERS = {"layers"}
 CONSTANT = re.compile(r"^(?:  )?((?:static |inline )*constexpr [\w:<>*&, ]*?)\b([A-Za-z_]\w*)(?:\[[^\]]*\])?(?: =|\{)", re.MULTILINE)
 BRITISH = re.compile(r"\b\w*(?:colour|grey|normalis|behaviour|neighbour|centre\b|honour|optimis|initialis|quantis|favour)\w*", re.IGNORECASE)

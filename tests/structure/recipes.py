@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the recipes "To add one: ..." in the public headers: a recipe names every source file that handles each existing
-alternative of its set, and every named place exists and handles them.
+"""Checks the recipes "To add one: ..." in the public headers. A recipe must name every source file that handles each
+existing alternative of its set. Every place that it names must exist and handle these alternatives.
 
 usage: recipes.py SOURCE_FOLDER
 """
@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(sys.argv[1])
 HEADERS = "include/microtrace"
 
-# header -> the alternatives in code, and their names in files and on the command line
+# Maps each header to the alternatives in code, and to their names in files and on the command line.
 SETS = {
     "camera": (["PerspectiveCamera", "OrthographicCamera", "EnvironmentCamera", "CalibratedCamera"],
                ["perspective", "orthographic", "environment", "calibrated"]),
@@ -29,7 +29,7 @@ SETS = {
 
 
 def recipe_of(header: Path) -> str:
-    """The paragraph of the header that begins with "To add", on one line."""
+    """Returns the paragraph of the header that begins with "To add", on one line."""
     text = header.read_text()
     paragraph = re.search(r"/// To add (.*?)\n(?!/// \S)", text, re.DOTALL)
     return "" if paragraph is None else re.sub(r"\s*\n/// ", " ", paragraph[1])

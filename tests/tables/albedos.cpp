@@ -37,11 +37,11 @@ struct Interval {
   double begin = 0, end = 0;
 };
 
-/// The interval of t >= 0 of the facets that transmit light, in the terms of over_facets(); c is
-/// the cosine of the critical angle: z + p t >= c sqrt(1 + q t^2). The left side is linear, the
-/// right side convex.
+/// Returns the interval of t >= 0 in which facets transmit light, in the terms of over_facets().
+/// There, z + p t >= c sqrt(1 + q t^2), where c is the cosine of the critical angle. The left side
+/// is linear and the right side convex, so this is an interval.
 Interval transmitting(double z, double p, double q, double c) {
-  // a t^2 + 2 b t + d >= 0
+  // Squared, the condition is a t^2 + 2 b t + d >= 0.
   const double a = p * p - c * c * q, b = z * p, d = z * z - c * c, square = b * b - a * d;
   if (square < 0) return {};
   const double root = std::sqrt(square);
@@ -58,7 +58,7 @@ double refraction_loss(double alpha, double z, double eta, const Quadrature& poi
   const double root = alphas.root(wo), masking = 2 * z / (z + root);
   const double head_on = (eta - 1) * (eta - 1) / ((eta + 1) * (eta + 1));
   const double critical = eta < 1 ? std::sqrt(1 - eta * eta) : 0;
-  double turn = std::numbers::pi / 2;  // at greater angles no facet transmits light
+  double turn = std::numbers::pi / 2;  // at larger angles, no facet transmits light
   if (z < critical) {
     const double cosine = std::sqrt((critical * critical - z * z) / (1 - z * z));
     turn = atan_radians(std::sqrt(1 - cosine * cosine) / cosine);
@@ -92,7 +92,7 @@ double refraction_loss(double alpha, double z, double eta, const Quadrature& poi
 }
 
 double Sheen::lambda(double z) const {
-  // The fit of the paper.
+  // The fit published in the paper.
   const double t = (1 - alpha_) * (1 - alpha_);
   const auto mix = [t](double rough, double smooth) { return rough + t * (smooth - rough); };
   const auto fit = [&](double x) {
@@ -118,7 +118,7 @@ double Sheen::around(double z, double z_in, double masking, const Quadrature& po
 double Sheen::albedo(double z, const Quadrature& points) const {
   const double here = 1 + lambda(z);
   double sum = 0;
-  for (const double from : {0.0, 0.5}) {  // the fit has a discontinuous derivative between the two
+  for (const double from : {0.0, 0.5}) {  // the fit's derivative is discontinuous at 0.5
     for (std::size_t k = 0; k < points.at.size(); ++k) {
       const double z_in = from + 0.5 * points.at[k];
       sum += 0.5 * points.weights[k] * z_in * around(z, z_in, here + lambda(z_in), points);

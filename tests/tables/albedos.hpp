@@ -1,17 +1,17 @@
 #pragma once
-/// The integrals that the tables of src/render/bsdf approximate, in float64.
+/// Computes the integrals that the tables of src/render/bsdf approximate, in float64.
 
 #include "tables/facets.hpp"
 #include "tables/quadrature.hpp"
 
 namespace microtrace::tables {
 
-/// As in bsdf::Ggx.
+/// The alpha of bsdf::Ggx for this roughness.
 [[nodiscard]] double alpha_of(double roughness);
 
 [[nodiscard]] double fifth_power(double x);
 
-/// The albedo for F = 1 and for F = (1 - cos)^5.
+/// The albedo for a Fresnel term of F = 1, and for F = (1 - cos)^5.
 struct Albedo {
   double f1 = 0, schlick = 0;
 };
@@ -20,22 +20,22 @@ struct Albedo {
 [[nodiscard]] Albedo ggx_albedo(const Alphas& alphas, const Direction& wo,
                                 const Quadrature& points);
 
-/// The fraction of light from z = cos(theta) that single scattering at a rough boundary neither
-/// reflects nor refracts. eta is the index of refraction behind the boundary divided by that on the
-/// light's side. The Fresnel term is Schlick's for the cosine in the medium with the lower index;
-/// of the two masking terms of refraction, the smaller one applies.
+/// Returns the fraction of light from z = cos(theta) that single scattering at a rough boundary
+/// neither reflects nor refracts. eta is the index of refraction behind the boundary divided by
+/// that in front of it. The Fresnel term is Schlick's, for the cosine in the medium with the lower
+/// index. Of the two masking terms of refraction, the smaller one applies.
 [[nodiscard]] double refraction_loss(double alpha, double z, double eta, const Quadrature& points);
 
-/// Sheen as published (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen BRDF,
-/// 2017).
+/// The published sheen model (A. Conty Estevez and C. Kulla, Production friendly microfacet sheen
+/// BRDF, 2017).
 class Sheen {
  public:
   explicit Sheen(double roughness) : alpha_(roughness * roughness) {}
 
   [[nodiscard]] double lambda(double z) const;
 
-  /// The integral of D V over the azimuth between directions with the cosines z of wo and z_in of
-  /// wi; `points` must be graded. masking is 1 + lambda(z) + lambda(z_in).
+  /// Integrates D V over the azimuth. z and z_in are the cosines of wo and wi, and `masking` is 1 +
+  /// lambda(z) + lambda(z_in). `points` must be graded.
   [[nodiscard]] double around(double z, double z_in, double masking,
                               const Quadrature& points) const;
 

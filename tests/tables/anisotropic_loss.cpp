@@ -15,7 +15,8 @@
 namespace microtrace::tables {
 namespace {
 
-/// The numbers of powers of four variables, or of two.
+/// The number of powers of each variable. The loss and its edge term have four variables, and their
+/// means have two.
 constexpr std::size_t kAlphaPowers = 5, kAzimuthPowers = 5, kCosinePowers = 8;
 constexpr std::size_t kEdgeAlphaPowers = 3, kEdgeAzimuthPowers = 3, kEdgeCosinePowers = 4;
 constexpr std::size_t kMeanPowers = 7;
@@ -23,7 +24,7 @@ constexpr double kLossPenalty = 5, kEdgePenalty = 10;
 
 using Points = std::vector<double>;
 
-/// n points in [0, 1], denser at the ends.
+/// Returns n points in [0, 1] that are denser at the ends.
 Points chebyshev(std::size_t n) {
   Points result;
   for (std::size_t i = 0; i < n; ++i) {
@@ -33,7 +34,7 @@ Points chebyshev(std::size_t n) {
   return result;
 }
 
-/// The middles of n equal parts of [0, 1].
+/// Returns the centers of n equal parts of [0, 1].
 Points middles(std::size_t n) {
   Points result;
   for (std::size_t i = 0; i < n; ++i)
@@ -41,7 +42,7 @@ Points middles(std::size_t n) {
   return result;
 }
 
-/// The square roots of two alphas: of the smaller, and of the greater.
+/// The square roots of the smaller and of the larger alpha.
 struct Pair {
   double smaller, greater;
 
@@ -49,9 +50,9 @@ struct Pair {
   [[nodiscard]] double alpha_y() const { return smaller * smaller; }
 };
 
-/// The pairs that KHR_materials_anisotropy defines.
+/// Returns the pairs that KHR_materials_anisotropy defines for these roughnesses and strengths.
 std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
-  constexpr double least = 0.0316227766016837933;  // of the least alpha
+  constexpr double least = 0.0316227766016837933;  // square root of the smallest alpha
   std::vector<Pair> result;
   for (const double roughness : roughnesses) {
     const double smaller = std::max(roughness, least), alpha = smaller * smaller;
@@ -62,7 +63,7 @@ std::vector<Pair> pairs(const Points& roughnesses, const Points& strengths) {
   return result;
 }
 
-/// Appends powers of 2 x - 1.
+/// Appends the first powers of 2 x - 1.
 void append_powers(Points& row, double x, std::size_t count) {
   double power = 1;
   for (std::size_t k = 0; k < count; ++k) {
@@ -77,7 +78,7 @@ Points powers_of(double x, std::size_t count) {
   return row;
 }
 
-/// The matrix of the polynomials at these points, with each row multiplied by a weight.
+/// Returns the matrix of the polynomials at these points. Each row is multiplied by a weight.
 Factors polynomials(const Points& at, std::size_t count, const Points& weights) {
   Points matrix;
   for (std::size_t i = 0; i < at.size(); ++i)
@@ -99,8 +100,9 @@ Factors pair_polynomials(const std::vector<Pair>& at, std::size_t count, const P
   return {matrix, count * count};
 }
 
-/// The direction of cosine z for whose azimuth the alpha is c; c is given by its position between
-/// the square roots.
+/// The azimuth in whose direction the effective alpha has a given value. `place` is the position of
+/// this alpha's square root between those of the pair. direction(z) is the direction with cosine z
+/// and this azimuth.
 struct Azimuth {
   double alpha, cosine, sine;
 
@@ -123,7 +125,7 @@ double bent_cosine(double s, double alpha) {
   return std::min(alpha * s / (1 + alpha - s), 1.0);
 }
 
-/// The polynomial's coefficients and its value.
+/// The coefficients of a polynomial, and the function that evaluates it.
 struct Polynomial4 {
   Points coefficients;
   std::size_t alphas, azimuths, cosines;
@@ -179,11 +181,11 @@ Polynomial4 loss_fit() {
 
 Polynomial4 edge_fit() {
   const std::vector<Pair> at = pairs(middles(kRoughnesses), middles(kStrengths));
-  Points azimuths = middles(16);  // equidistant angles, for pairs with one much greater alpha
+  Points azimuths = middles(16);  // equidistant angles, for pairs in which one alpha is much larger
   for (double& place : azimuths) place = cos_radians(place * std::numbers::pi / 2);
   const Points cosines = middles(12);
-  // Errors of rougher facets count more: a polynomial can't follow the sharpest facets, and would
-  // be worse everywhere else.
+  // Errors of rougher facets have larger weights. A polynomial can't follow the sharpest facets,
+  // and trying to do so would make it worse everywhere else.
   Points differences, pair_weights, cosine_weights;
   for (const Pair& pair : at) pair_weights.push_back(pair.smaller * (pair.greater - pair.smaller));
   for (const double root : cosines) cosine_weights.push_back(1 - root);
@@ -200,7 +202,8 @@ Polynomial4 edge_fit() {
       }
     }
   }
-  // Fits the negative term, because the term should rarely be too small.
+  // Fits the negative of the term, because low_fit() rarely exceeds its targets and the term should
+  // rarely be too small.
   Polynomial4 result{.coefficients = low_fit(
                          {pair_polynomials(at, kEdgeAlphaPowers, pair_weights),
                           polynomials(azimuths, kEdgeAzimuthPowers, Points(azimuths.size(), 1)),
@@ -214,7 +217,8 @@ Polynomial4 edge_fit() {
   return result;
 }
 
-/// Polynomials in the square roots of both alphas.
+/// Polynomials in the square roots of both alphas, which approximate the means of the loss and of
+/// the edge term.
 struct Means {
   Points loss, edge;
 };

@@ -16,8 +16,8 @@ constexpr double kUnit = 1.0 / 16384;
 
 using Nodes = std::array<double, kNodes>;
 
-/// The polynomials that are orthogonal over [0, 1] with weight 2 z, by the method of Stieltjes:
-/// p_k+1 = (z - a_k) p_k - b_k p_k-1.
+/// The polynomials that are orthogonal over [0, 1] with weight 2 z, computed by the method of
+/// Stieltjes: p_k+1 = (z - a_k) p_k - b_k p_k-1.
 struct Orthogonal {
   Nodes a{}, b{};
 
@@ -37,7 +37,7 @@ struct Orthogonal {
     }
   }
 
-  /// p_degree(z).
+  /// Returns p_degree(z).
   [[nodiscard]] double value(std::size_t degree, double z) const {
     double last = 0, result = 1;
     for (std::size_t k = 0; k < degree; ++k) {
@@ -48,7 +48,7 @@ struct Orthogonal {
     return result;
   }
 
-  /// The zeros of p_degree, which are between those of p_degree-1.
+  /// Returns the zeros of p_degree. Those of p_degree-1 separate them.
   [[nodiscard]] std::vector<double> zeros(std::size_t degree) const {
     if (degree == 0) return {};
     std::vector<double> bounds = zeros(degree - 1), result;
@@ -74,7 +74,7 @@ Nodes gauss_nodes() {
   return result;
 }
 
-/// The values of the nodes' Lagrange polynomials at z.
+/// Returns the values of the nodes' Lagrange polynomials at z.
 Nodes lagrange(const Nodes& nodes, double z) {
   Nodes result{};
   for (std::size_t k = 0; k < kNodes; ++k) {
@@ -95,7 +95,7 @@ Nodes gauss_weights(const Nodes& nodes) {
   return result;
 }
 
-/// The table for F = 1 or F = (1 - cos)^5.
+/// Returns the table for F = (1 - cos)^5 if `schlick` is true, otherwise for F = 1.
 std::vector<double> deficits(bool schlick) {
   const Nodes nodes = gauss_nodes();
   const Quadrature points = graded(40);

@@ -7,7 +7,7 @@
 namespace microtrace::tables {
 namespace {
 
-/// Replaces the axis of size `from` by one of size `to`: result(..., j, ...) is the sum over i of
+/// Replaces the axis of size `from` by one of size `to`. result(..., j, ...) is the sum over i of
 /// weight(i, j) value(..., i, ...).
 template <typename Weight>
 std::vector<double> contracted(const std::vector<double>& values, std::size_t from, std::size_t to,
@@ -28,7 +28,7 @@ std::vector<double> contracted(const std::vector<double>& values, std::size_t fr
   return result;
 }
 
-/// Multiplies all axes by Q^T or by Q.
+/// Multiplies all axes by Q^T (to_q) or by Q (from_q).
 std::vector<double> to_q(const std::vector<Factors>& axes, std::vector<double> values) {
   std::size_t inner = 1;
   for (std::size_t a = axes.size(); a-- > 0;) {
@@ -92,7 +92,7 @@ std::vector<double> fit(const std::vector<Factors>& axes, const std::vector<doub
   return result;
 }
 
-// Uzawa's method: gradient ascent in the multipliers of the bounds.
+// Uses Uzawa's method: gradient ascent in the Lagrange multipliers of the upper bounds.
 std::vector<double> low_fit(const std::vector<Factors>& axes, const std::vector<double>& targets,
                             double penalty) {
   constexpr int rounds = 400;

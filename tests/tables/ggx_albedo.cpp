@@ -21,14 +21,15 @@ double share_of(std::size_t i) {
   return static_cast<double>(i) / (kSteps - 1);
 }
 
-/// Linear interpolation at s in [0, 1].
+/// Interpolates a row linearly at s in [0, 1].
 double interpolated(const Row& row, double s) {
   const std::size_t first = std::min(static_cast<std::size_t>(s * (kSteps - 1)), kSteps - 2);
   const double share = s * (kSteps - 1) - static_cast<double>(first);
   return row[first] + share * (row[first + 1] - row[first]);
 }
 
-/// The cosine-weighted mean of a row, interpolated at s(z); z(s) is the inverse function.
+/// Returns the cosine-weighted mean of a row. The row is interpolated at s_of(z), and z_of is the
+/// inverse function.
 template <typename S, typename Z>
 double mean(const Row& row, const S& s_of, const Z& z_of) {
   const Quadrature cell = graded(20);

@@ -1,7 +1,7 @@
-// Computes the tables of src/render/bsdf.
+// Computes the headers with tables of src/render/bsdf.
 //
 // make_tables FOLDER           writes all headers
-// make_tables FOLDER HEADER    computes one, and fails unless it equals the one in the folder
+// make_tables FOLDER HEADER    computes one header, and fails unless the folder has an equal one
 
 #include "tables/tables.hpp"
 

@@ -10,11 +10,11 @@ struct Quadrature {
   std::vector<double> at, weights;
 };
 
-/// A quadrature that is exact for polynomials of degree 2 n - 1.
+/// Returns a quadrature that is exact for polynomials of degree 2 n - 1.
 [[nodiscard]] Quadrature gauss_legendre(int n);
 
-/// A quadrature for functions that have square roots or change quickly near 0 and 1: Gauss
-/// quadrature over v where x = v^3 (10 - 15 v + 6 v^2).
+/// Returns a quadrature for functions that have square roots or change quickly near 0 and 1. It is
+/// Gauss quadrature over v, where x = v^3 (10 - 15 v + 6 v^2).
 [[nodiscard]] Quadrature graded(int n);
 
 }  // namespace microtrace::tables

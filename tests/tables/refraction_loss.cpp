@@ -17,7 +17,7 @@ constexpr std::size_t kIndices = 8, kRows = 12, kColumns = 17;
 constexpr double kGreatestCritical = 0.96, kUnit = 1e-4;
 constexpr double kPenalty = 33;
 
-/// Positions from `from` to nodes - 1, with `per_node` for each node.
+/// Returns positions from `from` to nodes - 1, with `per_node` positions for each node.
 std::vector<double> positions(double from, std::size_t nodes, std::size_t per_node) {
   std::vector<double> result;
   for (std::size_t i = 0; i <= (nodes - 1) * per_node; ++i) {
@@ -28,8 +28,8 @@ std::vector<double> positions(double from, std::size_t nodes, std::size_t per_no
   return result;
 }
 
-/// The matrix of interpolation by the parabola through the three nearest nodes, with a row for each
-/// position.
+/// Returns the matrix of interpolation by the parabola through the three nearest nodes. It has a
+/// row for each position.
 Factors parabolas(const std::vector<double>& at, std::size_t nodes) {
   std::vector<double> matrix(at.size() * nodes);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -44,7 +44,7 @@ Factors parabolas(const std::vector<double>& at, std::size_t nodes) {
   return {matrix, nodes};
 }
 
-/// The matrix of linear interpolation.
+/// Returns the matrix of linear interpolation.
 Factors lines(const std::vector<double>& at, std::size_t nodes) {
   std::vector<double> matrix(at.size() * nodes);
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -70,10 +70,11 @@ double cosine_within(double column, double critical) {
   return critical + (1 - critical) * square((column - half) / half);
 }
 
-/// The entries for light from the thinner or the denser side.
+/// Returns the table's entries for light from the denser side if `within` is true, otherwise from
+/// the thinner side.
 std::vector<double> entries(bool within) {
   const Quadrature points = graded(24);
-  // The least index that is refracted is 1.003.
+  // 0.56 is the position of the index 1.003, the smallest one that refracts.
   const std::vector<double> indices = positions(0.56, kIndices, 3), rows = positions(0, kRows, 3),
                             columns = positions(0, kColumns, 3);
   std::vector<double> losses;

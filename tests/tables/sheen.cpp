@@ -18,15 +18,17 @@ double place(std::size_t i, std::size_t size) {
   return static_cast<double>(i) / static_cast<double>(size - 1);
 }
 
-/// cos(theta) at s in [0, 1], i / 31 for column i, with b = roughness / 2.
+/// Returns cos(theta) for s in [0, 1]. Column i of the table has s = i / 31, and b is roughness /
+/// 2.
 double cosine_at(double s, double b) {
   return std::min(b * s / (1 + b - s), 1.0);
 }
 
 using Row = std::vector<double>;
 
-/// The albedo of the published model. It has a maximum in the first columns and diverges very near
-/// the horizon; a divisor has to be the maximum there.
+/// Returns the albedo of the published model. It has a maximum in the first columns and diverges
+/// very near the horizon. The albedo is used as a divisor, so the entries before the maximum are
+/// set to the maximum.
 Row raw_row(double roughness) {
   const Sheen sheen(roughness);
   const Quadrature points = graded(64);
@@ -39,8 +41,8 @@ Row raw_row(double roughness) {
   return result;
 }
 
-/// The albedo for z at s of the model divided by `raw` for z or the other cosine, whichever is
-/// larger, where this exceeds 1.
+/// Returns the albedo of the divided model at s. The published model is divided by `raw` at the
+/// cosine of wo or wi, whichever is larger, if this exceeds 1.
 double scaled_albedo(double roughness, const Row& raw, double s) {
   const Sheen sheen(roughness);
   const Quadrature azimuths = graded(32), cell = graded(12);
@@ -56,7 +58,7 @@ double scaled_albedo(double roughness, const Row& raw, double s) {
     for (std::size_t k = 0; k < cell.at.size(); ++k) {
       const double t = (static_cast<double>(i) + cell.at[k]) / (kColumns - 1);
       const double z_in = cosine_at(t, b);
-      // dz / dt, per column
+      // dz / dt per column
       const double slope = b * (1 + b) / ((1 + b - t) * (1 + b - t)) / (kColumns - 1);
       const double most = std::max({here, raw_at(i, cell.at[k]), 1.0});
       const double masking = 1 + sheen.lambda(z) + sheen.lambda(z_in);
@@ -70,7 +72,7 @@ Row scaled_row(double roughness, const Row& raw) {
   Row result(kColumns);
   for (std::size_t i = 1; i < kColumns; ++i)
     result[i] = scaled_albedo(roughness, raw, place(i, kColumns));
-  // Chosen so that the middle of the first cell is right.
+  // Makes the interpolated value in the middle of the first cell exact.
   result[0] = 2 * scaled_albedo(roughness, raw, 0.5 / (kColumns - 1)) - result[1];
   return result;
 }

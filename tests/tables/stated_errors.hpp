@@ -1,43 +1,43 @@
 #pragma once
-/// The greatest errors of albedos that src/render/bsdf interpolates from its tables. The headers
-/// state them, and table_errors_test measures them.
+/// The largest errors of albedos that src/render/bsdf interpolates from its tables. The headers
+/// state these errors, and table_errors_test measures them.
 
 namespace microtrace::tables {
 
-/// Of the differences between value and integral: the maximum, minus the minimum, and the root of
-/// the mean square.
+/// Statistics of the differences between value and integral: the maximum, the negative minimum, and
+/// the root mean square.
 struct StatedError {
   double above, below, rms;
 };
 
-/// For equal steps of cos(theta) in the column, and equal steps of roughness.
+/// Measured for equal steps of cos(theta) in a column, and equal steps of roughness.
 inline constexpr StatedError kGgxF1Error{.above = 0.006, .below = 0.0006, .rms = 0.0004};
 inline constexpr StatedError kGgxSchlickError{.above = 0.025, .below = 0.017, .rms = 0.0011};
-/// Relative to the means of the interpolated albedos.
+/// Compared with the means of the interpolated albedos.
 inline constexpr StatedError kGgxMeanF1Error{.above = 0.00012, .below = 0.00015, .rms = 0.00005};
 inline constexpr StatedError kGgxMeanSchlickError{
     .above = 0.000001, .below = 0.000001, .rms = 0.000001};
 
-/// Albedos of white metal with multiple scattering, for cos(theta) > 0.02.
+/// The range of albedos of white metal with multiple scattering, for cos(theta) > 0.02.
 inline constexpr double kLeastWhiteMetal = 0.9945, kMostWhiteMetal = 1.0007;
 
-/// For equal steps of row and column, from cos(theta) = 0.0001.
+/// Measured for equal steps of row and column, from cos(theta) = 0.0001.
 inline constexpr StatedError kSheenError{.above = 0.07, .below = 0.03, .rms = 0.006};
-inline constexpr double kMostSheen = 1.01;  ///< albedo of the divided model
+inline constexpr double kMostSheen = 1.01;  ///< maximum albedo of the divided model
 
-/// For a clear coat, over the roughness of both, and sqrt(cos(theta)).
+/// Measured for a clear coat, over the roughness of coat and base, and sqrt(cos(theta)).
 inline constexpr StatedError kDeficitF1Error{.above = 0.003, .below = 0.0045, .rms = 0.0005};
 inline constexpr StatedError kDeficitSchlickError{.above = 0.003, .below = 0.003, .rms = 0.0003};
 
-/// For equal steps of all three table coordinates, from an index of 1.003.
+/// Measured for equal steps of all three table coordinates, from an index of 1.003.
 inline constexpr StatedError kLossOutsideError{.above = 0.011, .below = 0.095, .rms = 0.006};
 inline constexpr StatedError kLossWithinError{.above = 0.011, .below = 0.11, .rms = 0.0065};
 
-/// Over roughness, strength, azimuth, and cos(theta) in equal steps of its square root or of the
-/// last variable of the loss.
+/// Measured over roughness, strength, azimuth, and cos(theta). The cosine has equal steps of its
+/// square root, or of the last variable of the loss.
 inline constexpr StatedError kAnisotropicF1Error{.above = 0.016, .below = 0.0035, .rms = 0.0013};
 inline constexpr StatedError kAnisotropicSchlickError{.above = 0.18, .below = 0.024, .rms = 0.009};
-/// Relative to the means of the polynomials.
+/// Compared with the means of the polynomials.
 inline constexpr StatedError kAnisotropicMeanF1Error{.above = 0, .below = 0.0022, .rms = 0.0016};
 inline constexpr StatedError kAnisotropicMeanSchlickError{
     .above = 0.0007, .below = 0.0003, .rms = 0.0002};

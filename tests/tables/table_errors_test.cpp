@@ -37,7 +37,7 @@ class Errors {
     ++count_;
   }
 
-  /// Measured errors must not exceed the stated ones, nor be much smaller.
+  /// Checks that measured errors do not exceed the stated ones and are not much smaller.
   void expect(const tables::StatedError& stated, const char* what) const {
     constexpr double rounding = 1e-6;  // rounding error of float32
     const double rms = std::sqrt(squares_ / count_);
@@ -52,7 +52,7 @@ class Errors {
   int count_ = 0;
 };
 
-/// Multiples of an irrational number modulo 1, which are spread evenly.
+/// Generates multiples of an irrational number modulo 1, which are spread evenly.
 class Spread {
  public:
   explicit Spread(double step) : step_(step) {}
@@ -67,8 +67,8 @@ class Spread {
   double step_, at_ = 0;
 };
 
-/// Steps for the k-th of n numbers: powers of a root of x^(n+1) = x + 1 (M. Roberts, The
-/// unreasonable effectiveness of quasirandom sequences, 2018).
+/// Returns the generator for the k-th of n numbers. Its step is a power of a root of x^(n+1) = x +
+/// 1 (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 Spread spread(int k, int n) {
   double root = 1.5;
   for (int i = 0; i < 50; ++i) root = std::pow(1 + root, 1.0 / (n + 1));
@@ -141,8 +141,8 @@ TEST(TableErrors, GgxMeans) {
   schlick.expect(tables::kGgxMeanSchlickError, "Schlick");
 }
 
-// By the tables, a lobe whose albedo is the loss divided by its tabulated mean returns the energy
-// that single scattering loses.
+// A lobe whose albedo is the loss divided by the tabulated mean loss must return the energy that
+// single scattering loses.
 TEST(TableErrors, WhiteMetalConservesEnergy) {
   const Quadrature points = tables::graded(32), cosines = tables::graded(64);
   double least = 1, most = 1;
@@ -231,7 +231,7 @@ TEST(TableErrors, RefractionLoss) {
     Errors errors;
     Spread criticals = spread(0, 3), roughnesses = spread(1, 3), columns = spread(2, 3);
     for (int i = 0; i < 4000; ++i) {
-      constexpr double least = 0.0775;  // for an index of 1.003
+      constexpr double least = 0.0775;  // critical cosine for an index of 1.003
       const double critical = least + (kGreatestCritical - least) * criticals();
       const double inverse = std::sqrt(1 - critical * critical);
       const double roughness = roughnesses(), column = columns(), part = 2 * column - 1;

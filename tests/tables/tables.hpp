@@ -1,5 +1,5 @@
 #pragma once
-/// The headers of tables in src/render/bsdf, computed from their definitions.
+/// Generates the headers of tables in src/render/bsdf from their definitions.
 
 #include <array>
 #include <string>
