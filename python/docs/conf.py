@@ -1,4 +1,4 @@
-"""Settings of Sphinx for the reference, see scripts/python_docs."""
+"""Settings of Sphinx for the reference (scripts/python_docs)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exact ray queries and pictures of 3D scenes."""
+"""Exact ray queries on 3D scenes, and pictures of them."""
 
 from ._core import version as __version__
 from .cameras import (

@@ -12,10 +12,10 @@ Array = npt.NDArray[Any]
 
 
 def as_numbers(values: Any, what: str, width: int) -> Array:
-    """An array of shape (..., width) of float32 or float64, in native byte order.
+    """Returns an array of shape (..., width) of float32 or float64, in native byte order.
 
-    Neither copies nor converts float32 and float64 arrays. Throws ValueError for another width and
-    TypeError for anything but real numbers.
+    Neither copies nor converts float32 and float64 arrays. Raises ValueError for a different width,
+    and TypeError for anything but real numbers.
     """
     array: Array = np.asarray(values)
     if array.dtype.kind not in "fiu":
@@ -28,7 +28,7 @@ def as_numbers(values: Any, what: str, width: int) -> Array:
 
 
 def as_rows(values: Any, what: str, width: int) -> Array:
-    """The same for shape (n, width), with strides that C++ code can read."""
+    """Like as_numbers(), for shape (n, width) and with strides that C++ code can read."""
     shape = np.shape(values)
     if len(shape) == 1 and shape[0] == 0:
         return np.zeros((0, width), np.float32)
@@ -38,7 +38,8 @@ def as_rows(values: Any, what: str, width: int) -> Array:
 
 
 def as_indices(values: Any, what: str, width: int) -> Array:
-    """An array of shape (n, width) of 32-bit or 64-bit integers."""
+    """Returns an array of shape (n, width) of 32-bit or 64-bit integers. Raises like
+    as_numbers()."""
     array: Array = np.asarray(values)
     if array.size == 0 and array.ndim < 2:
         array = np.zeros((0, width), np.uint32)
@@ -54,13 +55,14 @@ def as_indices(values: Any, what: str, width: int) -> Array:
 
 
 def readable(array: Array) -> Array:
-    """The array, or a copy if its numbers are not aligned or its strides not whole numbers."""
+    """Returns the array, or a copy if its data are not aligned or its strides are not multiples of
+    the item size."""
     is_plain = array.flags.aligned and all(s % array.itemsize == 0 for s in array.strides)
     return array if is_plain else np.ascontiguousarray(array)
 
 
 def as_integer(value: Any, what: str, low: int, high: int) -> int:
-    """An integer in [low, high]. Throws TypeError or ValueError."""
+    """Returns an integer in [low, high]. Raises TypeError or ValueError otherwise."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -71,7 +73,7 @@ def as_integer(value: Any, what: str, low: int, high: int) -> int:
 
 
 def as_size(value: Any) -> tuple[int, int]:
-    """Width and height in pixels."""
+    """Returns width and height in pixels."""
     if len(value) != 2:
         raise ValueError(f"size must be a width and a height, not {value!r}")
     width, height = (as_integer(v, "size", 1, 65536) for v in value)
@@ -79,12 +81,12 @@ def as_size(value: Any) -> tuple[int, int]:
 
 
 def as_threads(value: Any) -> int:
-    """A number of threads; 0: all processors."""
+    """Returns a number of threads; 0 means all processors."""
     return as_integer(value, "threads", 0, 65536)
 
 
 def as_color(value: Any, what: str) -> tuple[float, float, float]:
-    """Three numbers."""
+    """Returns three finite numbers."""
     numbers = np.asarray(value, np.float64)
     if numbers.shape != (3,) or not np.isfinite(numbers).all():
         raise ValueError(f"{what} must have 3 finite numbers, not {value!r}")

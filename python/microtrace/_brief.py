@@ -9,7 +9,7 @@ import numpy as np
 
 
 class Brief:
-    """repr() of a dataclass that omits defaults and shows the shapes of arrays."""
+    """Gives a dataclass a repr() that omits defaults and shows the shapes of arrays."""
 
     def __repr__(self) -> str:
         shown = []

@@ -1,4 +1,4 @@
-"""Scenes from trimesh's objects, or any others with their attributes."""
+"""Makes scenes from objects of trimesh, or other objects with the same attributes."""
 
 from __future__ import annotations
 
@@ -50,7 +50,8 @@ def _add(scene: Scene, mesh: Any, name: str, transform: Any) -> None:
 
 
 def _loaded_normals(mesh: Any) -> Any:
-    """Normals that came with the mesh, not those that trimesh computes on demand."""
+    """Returns the normals that were loaded with the mesh, not those that trimesh computes on
+    demand."""
     cache = getattr(mesh, "_cache", None)
     if cache is None:
         return getattr(mesh, "vertex_normals", None)
@@ -59,7 +60,7 @@ def _loaded_normals(mesh: Any) -> Any:
 
 
 def _downward(uv: Any) -> Any:
-    """trimesh's v points up, glTF's down."""
+    """Converts texture coordinates: v points up in trimesh and down in glTF."""
     result = np.array(uv, np.float64)
     result[:, 1] = 1 - result[:, 1]
     return result
@@ -78,7 +79,7 @@ def _material(source: Any) -> Material | None:
             factor = factor / 255
         numbers = [float(x) for x in factor] + [1.0] * (4 - len(factor))
         result.base_color_factor = (numbers[0], numbers[1], numbers[2], numbers[3])
-    # Where a file gives no factor, glTF's default is 1.
+    # If a file specifies no factor, glTF's default of 1 applies.
     metallic, roughness = (getattr(source, n, None) for n in ("metallicFactor", "roughnessFactor"))
     result.metallic_factor = 1.0 if metallic is None else float(metallic)
     result.roughness_factor = 1.0 if roughness is None else float(roughness)
@@ -101,7 +102,7 @@ def _material(source: Any) -> Material | None:
 
 
 def _texture(picture: Any) -> Texture | None:
-    """From a Pillow image."""
+    """Makes a texture from a Pillow image."""
     if picture is None:
         return None
     if getattr(picture, "mode", "RGB") not in ("L", "LA", "RGB", "RGBA"):

@@ -17,7 +17,7 @@ Vector = tuple[float, float, float]
 @dataclass(eq=False, repr=False, kw_only=True)
 class _Posed(Brief):
     position: Vector = (0.0, 0.0, 0.0)  #: world space
-    direction: Vector = (0.0, 0.0, -1.0)  #: of view; any length
+    direction: Vector = (0.0, 0.0, -1.0)  #: viewing direction; any length
     up: Vector = (0.0, 1.0, 0.0)  #: need not be perpendicular to direction
     name: str = ""
 
@@ -27,8 +27,8 @@ class PerspectiveCamera(_Posed):
     """Perspective projection with square pixels."""
 
     vertical_fov: float = 1.0  #: radians, in (0, pi)
-    #: If given, a window with this width / height is fitted into the picture, as in glTF; else the
-    #: vertical field of view spans the picture's height.
+    #: If given, the vertical field of view spans the height of a window with this width / height,
+    #: which is fitted into the picture, as in glTF. Otherwise it spans the picture's height.
     aspect_ratio: float | None = None
     near: float = 0.0  #: depth from which surfaces are visible
     far: float = inf  #: depth up to which surfaces are visible
@@ -38,7 +38,7 @@ class PerspectiveCamera(_Posed):
 class OrthographicCamera(_Posed):
     """Orthographic projection with square pixels."""
 
-    height: float = 2.0  #: of the picture, world units
+    height: float = 2.0  #: height of the picture in world units
     aspect_ratio: float | None = None  #: as in PerspectiveCamera
     near: float = 0.0  #: depth from which surfaces are visible
     far: float = inf  #: depth up to which surfaces are visible
@@ -46,12 +46,13 @@ class OrthographicCamera(_Posed):
 
 @dataclass(eq=False, repr=False, kw_only=True)
 class EnvironmentCamera(_Posed):
-    """A latitude-longitude map of all directions, with the viewing direction in the middle."""
+    """A latitude-longitude projection of all directions, with the viewing direction in the
+    center."""
 
 
 @dataclass(eq=False, repr=False)
 class RationalDistortion(Brief):
-    """OpenCV's model of lenses with radial and tangential distortion."""
+    """OpenCV's rational model of radial and tangential lens distortion."""
 
     k1: float = 0.0
     k2: float = 0.0
@@ -65,7 +66,7 @@ class RationalDistortion(Brief):
 
 @dataclass(eq=False, repr=False)
 class FisheyeDistortion(Brief):
-    """OpenCV's model of fisheye lenses."""
+    """OpenCV's model of fisheye lens distortion."""
 
     k1: float = 0.0
     k2: float = 0.0
@@ -75,20 +76,20 @@ class FisheyeDistortion(Brief):
 
 @dataclass(eq=False, repr=False, kw_only=True)
 class CalibratedCamera(_Posed):
-    """A camera with the parameters of OpenCV's calibration; cameras() makes it from matrices.
+    """A camera with the parameters of OpenCV's calibration. cameras() makes it from matrices.
 
-    A picture of another size than `image_size` shows the same view. Pixels where the distortion is
-    not invertible have no rays: nothing is visible there, and color is black.
+    A picture whose size differs from `image_size` shows the same view. Pixels where the distortion
+    is not invertible have no rays: nothing is visible there, and the color is black.
     """
 
     image_size: tuple[int, int] = (640, 480)  #: width and height of the calibration images
-    fx: float = 640.0  #: focal lengths, pixels
+    fx: float = 640.0  #: focal lengths in pixels
     fy: float = 640.0
-    cx: float = 319.5  #: principal point in pixels, whose centers have integer coordinates
+    cx: float = 319.5  #: principal point in pixels; pixel centers have integer coordinates
     cy: float = 239.5
     distortion: RationalDistortion | FisheyeDistortion = field(default_factory=RationalDistortion)
-    near: float = 0.0  #: depth, or distance from a fisheye camera, from which surfaces are visible
-    far: float = inf  #: the same, up to which surfaces are visible
+    near: float = 0.0  #: depth from which surfaces are visible; distance for fisheye lenses
+    far: float = inf  #: depth up to which surfaces are visible; distance for fisheye lenses
 
 
 Camera = PerspectiveCamera | OrthographicCamera | EnvironmentCamera | CalibratedCamera
@@ -97,7 +98,8 @@ Camera = PerspectiveCamera | OrthographicCamera | EnvironmentCamera | Calibrated
 def look_at(
     eye: Vector, target: Vector, up: Vector = (0.0, 1.0, 0.0), vertical_fov_degrees: float = 45.0
 ) -> PerspectiveCamera:
-    """A perspective camera at `eye` that looks at `target`. The field of view is in degrees."""
+    """Returns a perspective camera at `eye` that looks at `target`. The field of view is in
+    degrees."""
     x, y, z = (float(t) - float(e) for t, e in zip(target, eye, strict=True))
     return PerspectiveCamera(
         position=eye, direction=(x, y, z), up=up, vertical_fov=radians(vertical_fov_degrees)
@@ -113,23 +115,23 @@ def cameras(
     distortion: npt.ArrayLike = (),
     fisheye: npt.ArrayLike | None = None,
 ) -> list[CalibratedCamera]:
-    """Cameras from matrices of intrinsic and extrinsic parameters.
+    """Makes cameras from matrices of intrinsic and extrinsic parameters.
 
     Args:
-        K: (3, 3) or (N, 3, 3): fx and fy on the diagonal, cx and cy in the last column, in pixels;
-            no skew.
-        T: (4, 4) or (N, 4, 4), rigid.
-        size: width and height of the images that K belongs to.
-        convention: "opencv": T is camera from world; the camera looks along +z, +y is down; pixel
-            centers have integer coordinates. "opengl": T is world from camera; the camera looks
-            along -z, +y is up; pixel centers are at halves. Both count pixels from the upper left.
-        distortion: k1, k2, p1, p2 and, if known, k3, k4, k5, k6, as cv2.calibrateCamera returns
-            them.
-        fisheye: k1 to k4 of cv2.fisheye, instead of distortion.
+        K: (3, 3) or (N, 3, 3) matrices with fx and fy on the diagonal and cx and cy in the last
+            column, in pixels, without skew.
+        T: (4, 4) or (N, 4, 4) rigid transformations.
+        size: width and height of the images to which K belongs.
+        convention: with "opencv", T maps world space to camera space, the camera looks along +z, +y
+            points down, and pixel centers have integer coordinates. With "opengl", T maps camera
+            space to world space, the camera looks along -z, +y points up, and pixel centers are at
+            integers + 0.5. Both conventions count pixels from the upper left.
+        distortion: k1, k2, p1, p2 and, optionally, k3 to k6, as cv2.calibrateCamera returns them.
+        fisheye: k1 to k4 of cv2.fisheye, in place of `distortion`.
 
     Raises:
-        ValueError: a matrix has a wrong shape, K has skew, T is not rigid, or a coefficient has no
-            counterpart.
+        ValueError: a matrix has a wrong shape, K has skew, T is not rigid, or a distortion
+            coefficient is not supported.
     """
     if convention not in ("opencv", "opengl"):
         raise ValueError(f'convention must be "opencv" or "opengl", not {convention!r}')

@@ -1,4 +1,4 @@
-"""Errors and warnings, with the texts of the program."""
+"""Errors and warnings. Their texts are those of the program microtrace."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """A message about a position in a file; unknown members are empty or 0."""
+    """A message about a position in a file. Unknown members are empty or 0."""
 
-    file: str  #: as the user named it
-    line: int  #: from 1
-    column: int  #: in bytes, from 1
-    pointer: str  #: JSON pointer (RFC 6901)
+    file: str  #: path as the user gave it
+    line: int  #: counted from 1
+    column: int  #: counted in bytes from 1
+    pointer: str  #: JSON pointer to the value (RFC 6901)
     message: str  #: the problem and the remedy
-    text: str  #: all of this, with the source line
+    text: str  #: the whole message, with position and source line
 
 
 class Error(Exception):
@@ -56,14 +56,14 @@ class CanceledError(Error):
 
 
 class SceneWarning(UserWarning):
-    """An oddity of a scene file, an ignored feature or a repaired violation."""
+    """A warning about a scene file: an oddity, an ignored feature or a repaired violation."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
         super().__init__(diagnostic.text)
         self.diagnostic = diagnostic
 
 
-#: By the program's exit code for the same failure.
+#: Maps the program's exit codes to exceptions for the same failures.
 _CLASSES: dict[int, type[Error]] = {
     2: UsageError,
     3: SceneError,
@@ -75,7 +75,7 @@ _CLASSES: dict[int, type[Error]] = {
 
 
 def error_of(code: int, diagnostic: Diagnostic) -> Error:
-    """The exception for an exit code of the program."""
+    """Makes the exception that corresponds to an exit code of the program."""
     kind = _CLASSES.get(code, Error)
     if kind is FileError and not Path(diagnostic.file).exists():
         kind = MissingFileError
@@ -85,7 +85,7 @@ def error_of(code: int, diagnostic: Diagnostic) -> Error:
 
 
 def warn_caller(warning: Warning) -> None:
-    """Warns at the line outside of this package that called it."""
+    """Issues a warning that refers to the caller's line outside this package."""
     package = str(Path(__file__).parent)
     level, frame = 1, sys._getframe()
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
@@ -94,6 +94,6 @@ def warn_caller(warning: Warning) -> None:
 
 
 def warn(diagnostics: Iterable[Diagnostic]) -> None:
-    """Warns of each."""
+    """Issues a warning for each diagnostic."""
     for diagnostic in diagnostics:
         warn_caller(SceneWarning(diagnostic))

@@ -1,4 +1,5 @@
-"""Images of textures and environments. Both are immutable and shared, never copied, by scenes."""
+"""Images of textures and environments. They are immutable; scenes share them instead of copying
+them."""
 
 from __future__ import annotations
 
@@ -13,12 +14,13 @@ from .errors import warn
 
 
 class Image:
-    """Pixels of a texture, as in its file: whether they are sRGB or linear is up to the material.
+    """Pixels of a texture, as stored in its file. The material determines whether they are sRGB or
+    linear.
 
     Args:
-        pixels: (height, width) or (height, width, channels) of uint8 or uint16, copied; the maximum
-            means 1. 1 channel: gray, 2: gray and alpha, 3: rgb, 4: rgb and alpha. Colors are not
-            premultiplied.
+        pixels: (height, width) or (height, width, channels) of uint8 or uint16, which are copied.
+            The maximum value means 1. The channels are gray; gray and alpha; rgb; or rgb and alpha.
+            Colors are not premultiplied.
         name: any text.
     """
 
@@ -38,12 +40,12 @@ class Image:
 
     @property
     def pixels(self) -> npt.NDArray[Any]:
-        """(height, width, channels), read-only and not copied."""
+        """A read-only view of shape (height, width, channels)."""
         return self._data.pixels
 
     @property
     def name(self) -> str:
-        """The name in its file."""
+        """The image's name."""
         return self._data.name
 
     def __reduce__(self) -> Any:
@@ -57,11 +59,11 @@ class Image:
 
 
 class RadianceMap:
-    """A latitude-longitude map of light: the unit direction (x, y, z) is at
-    u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, where (0, 0) is the upper left corner.
+    """A latitude-longitude map of radiance. The unit direction (x, y, z) is at
+    u = atan2(z, x) / 2 pi + 1/2 and v = acos(y) / pi, where (0, 0) is the upper left corner.
 
     Args:
-        pixels: (height, width, 3) real numbers, linear Rec. 709, in [0, 1e9]; copied.
+        pixels: (height, width, 3) real numbers in [0, 1e9], linear Rec. 709, which are copied.
     """
 
     def __init__(self, pixels: npt.ArrayLike) -> None:
@@ -74,7 +76,7 @@ class RadianceMap:
 
     @property
     def pixels(self) -> npt.NDArray[Any]:
-        """(height, width, 3) float32, read-only and not copied."""
+        """A read-only view of shape (height, width, 3), float32."""
         return self._data.pixels
 
     def __reduce__(self) -> Any:
@@ -88,10 +90,11 @@ class RadianceMap:
 
 
 def load_map(path: str | PathLike[str]) -> RadianceMap:
-    """Reads a latitude-longitude map (.exr; .hdr and others where OpenImageIO is installed).
+    """Reads a latitude-longitude map from .exr or, if OpenImageIO is installed, .hdr and other
+    formats.
 
     Warns:
-        SceneWarning: values out of range, which are clamped.
+        SceneWarning: values are out of range and were clamped.
 
     Raises:
         FileError, LimitError, UnsupportedError.

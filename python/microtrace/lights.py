@@ -16,9 +16,9 @@ Vector = tuple[float, float, float]
 class DirectionalLight(Brief):
     """Parallel light from infinitely far away."""
 
-    direction: Vector = (0.0, 0.0, -1.0)  #: in which the light travels; any length
+    direction: Vector = (0.0, 0.0, -1.0)  #: direction in which the light travels; any length
     color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
-    intensity: float = 1.0  #: illuminance of a facing surface, lux
+    intensity: float = 1.0  #: illuminance in lux of a surface that faces the light
     name: str = ""
 
 
@@ -29,21 +29,22 @@ class PointLight(Brief):
     position: Vector = (0.0, 0.0, 0.0)  #: world space
     color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
     intensity: float = 1.0  #: candela
-    range: float = inf  #: distance at which it may be cut off
+    range: float = inf  #: distance at which the light has faded to 0
     name: str = ""
 
 
 @dataclass(eq=False, repr=False)
 class SpotLight(Brief):
-    """Light from a point in a cone, full within the inner angle and none beyond the outer."""
+    """Light from a point in a cone: full intensity within the inner angle, and none beyond the
+    outer."""
 
     position: Vector = (0.0, 0.0, 0.0)  #: world space
-    direction: Vector = (0.0, 0.0, -1.0)  #: of the cone's axis; any length
+    direction: Vector = (0.0, 0.0, -1.0)  #: direction of the cone's axis; any length
     color: Vector = (1.0, 1.0, 1.0)  #: linear Rec. 709
-    intensity: float = 1.0  #: along the axis, candela
-    range: float = inf  #: distance at which it may be cut off
-    inner_cone_angle: float = 0.0  #: from the axis, radians
-    outer_cone_angle: float = pi / 4  #: from the axis, radians, at most pi / 2
+    intensity: float = 1.0  #: candela along the axis
+    range: float = inf  #: distance at which the light has faded to 0
+    inner_cone_angle: float = 0.0  #: radians from the axis
+    outer_cone_angle: float = pi / 4  #: radians from the axis, at most pi / 2
     name: str = ""
 
 
@@ -52,11 +53,12 @@ Light = DirectionalLight | PointLight | SpotLight
 
 @dataclass(eq=False, repr=False)
 class Environment(Brief):
-    """Light from all directions, in path-traced pictures."""
+    """Light from all directions in path-traced pictures."""
 
     #: The built-in studio, uniform radiance (linear Rec. 709), or a latitude-longitude map.
     content: Literal["studio"] | Vector | RadianceMap = (1.0, 1.0, 1.0)
-    rotation: float = 0.0  #: about +y, radians, counterclockwise as seen from above
+    rotation: float = 0.0  #: radians about +y, counterclockwise as seen from above
     intensity: float = 1.0  #: multiplies the content
-    #: Whether pictures show it where camera rays hit nothing, instead of Scene.background.
+    #: True if the environment is visible where camera rays hit nothing, in place of
+    #: Scene.background.
     is_background: bool = False

@@ -1,7 +1,8 @@
 """Materials: the metallic-roughness model of glTF 2.0 and the KHR_materials_* extensions.
 
-Names are those of glTF in snake case; section numbers in comments refer to the glTF 2.0
-specification. Colors are linear Rec. 709. All defaults describe a white, rough, two-sided surface.
+Names are those of glTF in snake case. Section numbers refer to the glTF 2.0 specification. Colors
+are linear Rec. 709. Comments on textures give the encoding, then the channel that stores each
+quantity. The defaults describe a white, rough, two-sided surface.
 """
 
 from __future__ import annotations
@@ -23,28 +24,28 @@ Wrap = Literal["repeat", "mirrored_repeat", "clamp_to_edge"]
 
 @dataclass(eq=False, repr=False)
 class Texture(Brief):
-    """An image with its wrapping and filtering (section 3.8.4)."""
+    """An image with wrapping and filter modes (section 3.8.4)."""
 
-    image: Image | None = None  #: None: white
+    image: Image | None = None  #: None means white
     name: str = ""
     wrap_s: Wrap = "repeat"
     wrap_t: Wrap = "repeat"
     magnification: Literal["nearest", "linear"] = "linear"
     minification: Literal["nearest", "linear"] = "linear"
-    mip: Literal["none", "nearest", "linear"] = "linear"  #: none: always the base level
+    mip: Literal["none", "nearest", "linear"] = "linear"  #: "none": only the base level
 
 
 @dataclass(eq=False, repr=False)
 class TextureUse(Brief):
-    """A texture as a material uses it."""
+    """A texture with the texture coordinates by which a material uses it."""
 
     texture: Texture = field(default_factory=Texture)
     uv_set: int = 0  #: index into Mesh.uv
-    #: Three columns of two numbers, applied to the mesh's (u, v, 1) (KHR_texture_transform).
+    #: The two rows of a matrix that is applied to the mesh's (u, v, 1) (KHR_texture_transform).
     texture_from_uv: tuple[Color, Color] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
 
 
-#: Where a texture is expected, an image or its pixels will do.
+#: Accepted in place of a TextureUse: a texture, an image, or an array of pixels.
 AnyTexture = TextureUse | Texture | Image | npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
 
@@ -54,7 +55,8 @@ class Specular(Brief):
 
     specular_factor: float = 1.0  #: in [0, 1]
     specular_texture: AnyTexture | None = None  #: linear; alpha: factor
-    specular_color_factor: Color = (1.0, 1.0, 1.0)  #: at normal incidence, not negative
+    #: Reflectance factor at normal incidence; not negative.
+    specular_color_factor: Color = (1.0, 1.0, 1.0)
     specular_color_texture: AnyTexture | None = None  #: sRGB
 
 
@@ -78,14 +80,14 @@ class Volume(Brief):
 
 @dataclass(eq=False, repr=False)
 class Clearcoat(Brief):
-    """A coat with index 1.5 over all other layers (KHR_materials_clearcoat)."""
+    """A coat with index of refraction 1.5 over all other layers (KHR_materials_clearcoat)."""
 
     clearcoat_factor: float = 0.0  #: in [0, 1]
     clearcoat_roughness_factor: float = 0.0  #: in [0, 1]
     clearcoat_texture: AnyTexture | None = None  #: linear; r: factor
     clearcoat_roughness_texture: AnyTexture | None = None  #: linear; g: roughness
     clearcoat_normal_texture: AnyTexture | None = None  #: linear; tangent space
-    clearcoat_normal_scale: float = 1.0  #: of the texture's x and y
+    clearcoat_normal_scale: float = 1.0  #: scales the texture's x and y
 
 
 @dataclass(eq=False, repr=False)
@@ -112,7 +114,7 @@ class Iridescence(Brief):
     """A thin film over the surface (KHR_materials_iridescence)."""
 
     iridescence_factor: float = 0.0  #: in [0, 1]
-    iridescence_ior: float = 1.3  #: of the film, at least 1
+    iridescence_ior: float = 1.3  #: index of refraction of the film, at least 1
     iridescence_thickness_minimum: float = 100.0  #: nanometers
     iridescence_thickness_maximum: float = 400.0  #: nanometers
     iridescence_texture: AnyTexture | None = None  #: linear; r: factor
@@ -141,8 +143,9 @@ class SpecularGlossiness(Brief):
 
 @dataclass(eq=False, repr=False)
 class Material(Brief):
-    """A surface. Factors are multiplied with textures. glTF's default for metallic_factor is 1;
-    here it is 0, so that Material(base_color_factor=...) has that color in any light."""
+    """The material of a surface. Factors are multiplied by textures. glTF's default for
+    metallic_factor is 1. Here it is 0, so that a material with only a base_color_factor has this
+    color in any light."""
 
     name: str = ""
     base_color_factor: ColorAlpha = (1.0, 1.0, 1.0, 1.0)  #: with alpha, each in [0, 1]
@@ -155,10 +158,10 @@ class Material(Brief):
     roughness_factor: float = 1.0  #: in [0, 1]
     metallic_roughness_texture: AnyTexture | None = None  #: linear; g: roughness, b: metallic
     normal_texture: AnyTexture | None = None  #: linear; tangent space
-    normal_scale: float = 1.0  #: of the texture's x and y
+    normal_scale: float = 1.0  #: scales the texture's x and y
     occlusion_texture: AnyTexture | None = None  #: linear; r
     occlusion_strength: float = 1.0  #: in [0, 1]
-    emissive_factor: Color = (0.0, 0.0, 0.0)  #: with KHR_materials_emissive_strength
+    emissive_factor: Color = (0.0, 0.0, 0.0)  #: includes KHR_materials_emissive_strength
     emissive_texture: AnyTexture | None = None  #: sRGB
     ior: float = 1.5  #: at least 1, or 0 for infinity (KHR_materials_ior)
     dispersion: float = 0.0  #: 20 / Abbe number (KHR_materials_dispersion)

@@ -1,7 +1,8 @@
-"""Open3D's RaycastingScene, answered exactly; does not need Open3D.
+"""A replacement for Open3D's RaycastingScene with exact results. Doesn't require Open3D.
 
-Scripts work with `from microtrace.open3d import RaycastingScene`. Results are NumPy arrays that
-also have the methods numpy(), cpu() and isfinite() of Open3D's tensors.
+To use it in a script, change the import to `from microtrace.open3d import RaycastingScene`. Results
+are NumPy arrays with the additional methods numpy(), cpu(), to() and isfinite() of Open3D's
+tensors.
 """
 
 from __future__ import annotations
@@ -18,33 +19,34 @@ Array = npt.NDArray[Any]
 
 
 class Tensor(np.ndarray[Any, Any]):
-    """An array with some methods of open3d.core.Tensor."""
+    """A NumPy array with some methods of open3d.core.Tensor."""
 
     def __getitem__(self, index: Any) -> Any:
         return np.asarray(super().__getitem__(index)).view(Tensor)
 
     def numpy(self) -> Array:
-        """The same numbers as a NumPy array."""
+        """Returns the tensor as a plain NumPy array."""
         return np.asarray(self)
 
     def cpu(self) -> Tensor:
-        """This array."""
+        """Returns this array."""
         return self
 
     def to(self, *_: Any, **__: Any) -> Tensor:
-        """This array: there is one device, and types stay."""
+        """Returns this array, because there is only one device. Doesn't convert types."""
         return self
 
     def isfinite(self) -> Tensor:
-        """Whether each number is finite."""
+        """Returns True for each number that is finite."""
         return np.asarray(np.isfinite(self)).view(Tensor)
 
 
 class RaycastingScene:
-    """Rays are arrays of shape (..., 6), float32; ids are uint32, INVALID_ID for misses.
+    """Casts rays against triangles. Rays are float32 arrays of shape (..., 6). Ids are uint32, and
+    INVALID_ID for misses.
 
-    Hits are those of real arithmetic on the float32 numbers; of several at the same t the first
-    triangle added counts.
+    Hits are exact: they are the results of real arithmetic on the float32 numbers. If a ray hits
+    several triangles at the same t, the hit is the one that was added first.
     """
 
     INVALID_ID = 0xFFFFFFFF
@@ -63,13 +65,13 @@ class RaycastingScene:
         triangles: Any = None,
         mesh: Any = None,
     ) -> int:
-        """Adds triangles and returns their geometry's id.
+        """Adds triangles and returns the id of their geometry.
 
         Args:
-            vertex_positions: (V, 3), or a mesh of Open3D.
-            triangle_indices: (F, 3).
-            vertices: another name of vertex_positions.
-            triangles: another name of triangle_indices.
+            vertex_positions: (V, 3) numbers, or a mesh of Open3D.
+            triangle_indices: (F, 3) integers.
+            vertices: another name for vertex_positions.
+            triangles: another name for triangle_indices.
             mesh: a mesh of Open3D or trimesh.
         """
         positions = vertex_positions if vertices is None else vertices
@@ -83,8 +85,9 @@ class RaycastingScene:
         return len(self._scene.objects) - 1
 
     def cast_rays(self, rays: Any, nthreads: int = 0) -> dict[str, Tensor]:
-        """The nearest hit of each ray: t_hit, geometry_ids, primitive_ids, primitive_uvs (weights
-        of the second and third corner), primitive_normals (unit length, by the winding)."""
+        """Returns the nearest hit of each ray: t_hit, geometry_ids, primitive_ids, primitive_uvs
+        (the weights of the second and third corner), and primitive_normals (unit normals of the
+        side from which the winding is counterclockwise)."""
         hits = self._prepared().intersect(
             _numbers(rays),
             fields=("t", "object", "primitive", "barycentrics", "face_normal"),
@@ -102,7 +105,7 @@ class RaycastingScene:
     def test_occlusions(
         self, rays: Any, tnear: float = 0.0, tfar: float = np.inf, nthreads: int = 0
     ) -> Tensor:
-        """Whether each ray hits anything at t in [tnear, tfar]."""
+        """Returns True for each ray that hits anything at t in [tnear, tfar]."""
         low = None if tnear <= 0 else np.float32(tnear)
         return _tensor(
             self._prepared().occluded(
@@ -111,15 +114,15 @@ class RaycastingScene:
         )
 
     def count_intersections(self, rays: Any, nthreads: int = 0) -> Tensor:
-        """The number of hits of each ray, int32. Triangles at the same t count once."""
+        """Returns the number of hits of each ray, int32. Triangles at the same t count once."""
         numbers = _numbers(rays)
         found, is_new = self._all(numbers, nthreads, ("t",))
         counts = np.bincount(found.ray[is_new], minlength=numbers[..., 0].size)
         return _tensor(counts.astype(np.int32).reshape(numbers.shape[:-1]))
 
     def list_intersections(self, rays: Any, nthreads: int = 0) -> dict[str, Tensor]:
-        """All hits, ray by ray, nearest first: ray_splits (rays + 1), ray_ids, t_hit,
-        geometry_ids, primitive_ids, primitive_uvs. Triangles at the same t count once."""
+        """Returns all hits, ray by ray, nearest first: ray_splits (number of rays + 1), ray_ids,
+        t_hit, geometry_ids, primitive_ids and primitive_uvs. Triangles at the same t count once."""
         numbers = _numbers(rays)
         fields = ("t", "object", "primitive", "barycentrics")
         found, is_new = self._all(numbers, nthreads, fields)
@@ -137,8 +140,8 @@ class RaycastingScene:
         }
 
     def compute_closest_points(self, query_points: Any, nthreads: int = 0) -> dict[str, Tensor]:
-        """The nearest point to each: points, geometry_ids, primitive_ids, primitive_uvs,
-        primitive_normals."""
+        """Returns the point on the triangles that is nearest to each query point: points,
+        geometry_ids, primitive_ids, primitive_uvs and primitive_normals."""
         at = self._prepared().closest_point(
             _numbers(query_points), threads=nthreads or self._threads
         )
@@ -151,7 +154,7 @@ class RaycastingScene:
         }
 
     def compute_distance(self, query_points: Any, nthreads: int = 0) -> Tensor:
-        """The distance of each point from the triangles, float32."""
+        """Returns the distance of each point from the triangles, float32."""
         at = self._prepared().closest_point(
             _numbers(query_points), threads=nthreads or self._threads
         )
@@ -160,7 +163,8 @@ class RaycastingScene:
     def compute_signed_distance(
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
     ) -> Tensor:
-        """The same, negative inside. nsamples has no effect: one exact answer needs no vote."""
+        """Returns the distance of each point from the triangles, negative inside, float32.
+        `nsamples` has no effect, because one exact test suffices."""
         points, threads = _numbers(query_points), nthreads or self._threads
         prepared = self._prepared()
         distance = prepared.closest_point(points, threads=threads).distance
@@ -168,17 +172,17 @@ class RaycastingScene:
         return _tensor(np.where(inside, -distance, distance).astype(np.float32))
 
     def compute_occupancy(self, query_points: Any, nthreads: int = 0, nsamples: int = 1) -> Tensor:
-        """1 for points inside of the triangles or on them, else 0, float32."""
+        """Returns 1 for points inside the triangles or on them, and 0 for others, float32."""
         sides = self._prepared()._locate(_numbers(query_points), None, nthreads or self._threads)
         return _tensor((sides >= 0).astype(np.float32))
 
     @staticmethod
     def create_rays_pinhole(*args: Any, **kwargs: Any) -> Tensor:
-        """Rays of a pinhole camera, (height, width, 6) float32, through the pixels' centers.
+        """Returns the rays of a pinhole camera through pixel centers, (height, width, 6) float32.
 
-        Takes either intrinsic_matrix (3, 3), extrinsic_matrix (4, 4, camera from world, +z
-        forward, +y down), width_px, height_px; or fov_deg (horizontal), center, eye, up, width_px,
-        height_px. Directions have depth 1.
+        Takes either intrinsic_matrix (3, 3), extrinsic_matrix (4, 4), width_px and height_px; or
+        fov_deg (horizontal), center, eye, up, width_px and height_px. The extrinsic matrix maps
+        world space to camera space, with +z forward and +y down. Directions are scaled to depth 1.
         """
         is_matrix = "intrinsic_matrix" in kwargs or (bool(args) and np.ndim(_numbers(args[0])) == 2)
         return _rays_by_matrix(*args, **kwargs) if is_matrix else _rays_by_view(*args, **kwargs)
@@ -189,7 +193,7 @@ class RaycastingScene:
         return self._prepared_scene
 
     def _all(self, rays: Array, nthreads: int, fields: Any) -> tuple[Any, Array]:
-        """All hits, and which of them are the first of their ray at their t."""
+        """Returns all hits, and for each hit whether it is the first of its ray at its t."""
         found = self._prepared().intersect_all(
             rays, fields=fields, threads=nthreads or self._threads
         )
@@ -236,7 +240,7 @@ def _rays_by_view(
     position = np.asarray(_numbers(eye), np.float64)
     forward = np.asarray(_numbers(center), np.float64) - position
     forward /= np.sqrt((forward * forward).sum())
-    # As in Open3D, rows of pixels run upward and columns to the left.
+    # As in Open3D, rows are numbered upward and columns to the left.
     left = np.cross(np.asarray(_numbers(up), np.float64), forward)
     left /= np.sqrt((left * left).sum())
     upward = np.cross(forward, left)
@@ -254,14 +258,15 @@ def _rays_from(eye: Array, directions: Array) -> Tensor:
 
 
 def _numbers(values: Any) -> Array:
-    """From arrays, lists and tensors of other libraries."""
+    """Converts lists, arrays, and tensors of other libraries to arrays."""
     if isinstance(values, np.ndarray):
         return np.asarray(values)
     return np.asarray(values.numpy() if hasattr(values, "numpy") else values)
 
 
 def _arrays_of(mesh: Any) -> tuple[Any, Any]:
-    """Vertices and triangles of open3d.t.geometry.TriangleMesh, its older kind, or trimesh."""
+    """Returns vertices and triangles of an open3d.t.geometry.TriangleMesh, an
+    open3d.geometry.TriangleMesh, or a mesh of trimesh."""
     if hasattr(mesh, "vertex"):
         return mesh.vertex.positions, mesh.triangle.indices
     return mesh.vertices, mesh.faces if hasattr(mesh, "faces") else mesh.triangles

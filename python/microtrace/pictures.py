@@ -1,4 +1,4 @@
-"""Rendering of pictures and data into arrays."""
+"""Renders pictures and data into arrays."""
 
 from __future__ import annotations
 
@@ -39,26 +39,29 @@ Quantity = Literal[
 ]
 ToneMap = Literal["none", "khronos-pbr-neutral", "aces", "agx"]
 
-#: The numbers per pixel of each quantity, and whether they are integers.
+#: For each quantity, how many numbers a pixel has, and whether they are integers.
 _QUANTITIES: dict[str, tuple[int, bool]] = {
     name: (width, is_integer) for name, width, is_integer in _core.quantities
 }
 
 
 class Picture(Mapping[str, Array]):
-    """Rendered arrays by name, also as attributes: `picture["depth"] is picture.depth`.
+    """Rendered arrays by name. They are also attributes: `picture["depth"] is picture.depth`.
 
-    Arrays of one picture have shape (height, width) or (height, width, channels), from the upper
-    left; those of several pictures have the number of the camera before that.
+    Arrays of one picture have shape (height, width) or (height, width, channels); pixel (0, 0) is
+    the upper left one. Arrays of several pictures have an additional first axis for the cameras.
 
-    - color: float32, linear Rec. 709; with alpha if it was transparent, then premultiplied.
-    - depth, distance: float32; infinite where nothing is visible. All others are 0 there.
-    - position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: 2. Normals face
-      the viewer.
-    - object, primitive, material: uint32, counted from 1: index + 1 in Scene.objects, in the
-      mesh's faces, in Scene.materials.
-    - variance, samples: float32, of the mean displayed luminance, and the number of samples.
-    - denoise_albedo, denoise_normal: float32, 3 channels, means over the samples.
+    - color: float32, linear Rec. 709, 3 channels. Pictures rendered with transparent=True have
+      premultiplied colors and alpha, 4 channels.
+    - depth, distance: float32; infinite where nothing is visible. The other data arrays are 0
+      there.
+    - position, normal, face_normal, barycentric, albedo: float32, 3 channels; uv: float32, 2
+      channels. Normals face the viewer.
+    - object, primitive, material: uint32; 1 + the index in Scene.objects, the mesh's faces, and
+      Scene.materials.
+    - variance, samples: float32; the variance of the mean displayed luminance, and the number of
+      samples.
+    - denoise_albedo, denoise_normal: float32, 3 channels; means over the samples.
     """
 
     def __init__(self, arrays: dict[str, Array], exposure: float, tone_map: str) -> None:
@@ -93,14 +96,14 @@ class Picture(Mapping[str, Array]):
         return f"Picture({arrays})"
 
     def tonemap(self, exposure: float | None = None, tone_map: ToneMap | None = None) -> Array:
-        """The colors as 8-bit sRGB: the numbers that the program writes into a PNG.
+        """Returns the colors as 8-bit sRGB: the numbers that the program writes to a PNG.
 
         Args:
-            exposure: in stops, multiplies by 2^exposure; default: 0.
-            tone_map: default: khronos-pbr-neutral for path-traced pictures, else none.
+            exposure: in stops; colors are multiplied by 2^exposure. Default: 0.
+            tone_map: default: "khronos-pbr-neutral" for path-traced pictures, "none" for others.
 
         Returns:
-            uint8 of color's shape. With alpha, colors are not premultiplied.
+            A uint8 array of the color's shape. Colors with alpha are not premultiplied.
         """
         color = self["color"]
         result = np.empty(color.shape, np.uint8)
@@ -115,13 +118,13 @@ class Picture(Mapping[str, Array]):
         exposure: float | None = None,
         tone_map: ToneMap | None = None,
     ) -> None:
-        """Writes one picture: .png, .ppm or .exr. The file appears whole or not at all.
+        """Writes one picture to .png, .ppm or .exr. The file appears whole or not at all.
 
-        .exr stores color with all other arrays as channels, in the program's layout; other formats
-        store the color alone.
+        .exr stores color and all other arrays as channels, in the program's layout. Other formats
+        store only the color.
 
         Raises:
-            ValueError: the picture is a stack.
+            ValueError: this is a stack of several pictures.
             FileError: the file can't be written.
         """
         if self["color"].ndim != 3:
@@ -131,7 +134,7 @@ class Picture(Mapping[str, Array]):
         _core.save(self["color"], *self._display(exposure, tone_map), rest, path)
 
     def one(self, index: int) -> Picture:
-        """A picture of a stack, by the camera's index. Arrays are shared."""
+        """Returns one picture of a stack, by its camera's index. The arrays are views."""
         return Picture({k: v[index] for k, v in self.items()}, self._exposure, self._tone_map)
 
     def _display(self, exposure: float | None, tone_map: str | None) -> tuple[float, str]:
@@ -141,7 +144,7 @@ class Picture(Mapping[str, Array]):
         )
 
     def _repr_png_(self) -> bytes | None:
-        """For Jupyter."""
+        """Displays the picture in Jupyter."""
         if "color" not in self or self["color"].ndim != 3:
             return None
         with tempfile.TemporaryDirectory() as folder:
@@ -158,13 +161,13 @@ def frame(
     vertical_fov_degrees: float = 45.0,
     size: tuple[int, int] | None = None,
 ) -> PerspectiveCamera:
-    """A camera that shows the whole scene, for pictures of this size.
+    """Returns a camera that shows the whole scene in pictures of this size.
 
     Args:
-        scene: its bounded shapes are framed.
-        azimuth: degrees about +y: 0 looks from +z, 90 from +x.
-        elevation: degrees above horizontal, in [-90, 90].
-        vertical_fov_degrees: in (0, 180).
+        scene: the scene, whose bounded shapes are framed.
+        azimuth: degrees about +y. The camera is on the +z side at 0, and on the +x side at 90.
+        elevation: degrees above the horizontal, in [-90, 90].
+        vertical_fov_degrees: vertical field of view in degrees, in (0, 180).
         size: width and height; default: the scene's.
     """
     prepared = _prepared(scene)
@@ -195,30 +198,33 @@ def render(
     threads: int = 0,
     progress: Callable[[float], bool | None] | bool = False,
 ) -> Picture:
-    """Renders pictures: the bytes of the program with the same options.
+    """Renders pictures. Their bytes equal those of the program with the same options.
 
     Args:
-        scene: prepare it once to render many pictures.
-        camera: one camera or several; default: the scene's first, or one that frames the scene.
-        size: width and height in pixels; default: the scene's.
-        spp: samples per pixel; default: 64 for path tracing, else 1.
-        aovs: the arrays to render; see Picture. Without color, variance, samples and the denoise
-            arrays no light is computed, which takes milliseconds.
-        integrator: "path" for light or "flat" for base colors; default: the scene's.
-        environment: replaces the scene's.
-        background: replaces the scene's, linear Rec. 709.
-        transparent: omits the background and gives color alpha.
+        scene: the scene. To render it many times, prepare it once.
+        camera: one camera or several. Default: the scene's first camera, or one that frames the
+            scene.
+        size: width and height in pixels. Default: the scene's size.
+        spp: samples per pixel. Default: 64 for path tracing, otherwise 1.
+        aovs: the arrays to render; see Picture. If they include none of color, variance, samples
+            and the denoise arrays, no light is computed and rendering takes only milliseconds.
+        integrator: "path" for path tracing or "flat" for base colors without lighting. Default: the
+            scene's integrator.
+        environment: replaces the scene's environment.
+        background: replaces the scene's background; linear Rec. 709.
+        transparent: omits the background and adds alpha to the color.
         filter: the pixel filter.
-        seed: another seed gives other noise.
-        max_depth: maximum path length: 2 adds direct light.
-        threads: 0: all processors. Has no effect on the arrays.
-        progress: called with the share that is done, in (0, 1]; returning False cancels. True: a
-            bar by tqdm, if that is installed.
+        seed: random seed. Different seeds give different noise.
+        max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
+        threads: number of threads; 0 means all processors. It has no effect on the arrays.
+        progress: a function that is called with the finished fraction of the work, in (0, 1]. It
+            cancels the rendering by returning False. True shows a progress bar if tqdm is
+            installed.
 
     Raises:
         ValueError: an argument is invalid.
         CanceledError: progress returned False.
-        LimitError: memory runs out.
+        LimitError: there is not enough memory.
     """
     prepared = _prepared(scene)
     size = prepared._core.size if size is None else as_size(size)
@@ -280,7 +286,7 @@ def _checked(aovs: Iterable[str]) -> list[str]:
 
 
 class _shown:
-    """The progress function as a context; None for none."""
+    """A context manager that provides the progress function; None if there is none."""
 
     def __init__(self, progress: Callable[[float], bool | None] | bool, pictures: int) -> None:
         self._function = progress if callable(progress) else None

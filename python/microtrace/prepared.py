@@ -22,7 +22,7 @@ HitField = Literal[
     "t", "object", "primitive", "position", "normal", "face_normal", "barycentrics", "uv", "front"
 ]
 
-#: Numbers per ray of each array of Hits; 0: no last axis.
+#: The length of the last axis of each array of Hits; 0 for arrays without this axis.
 _WIDTHS = {
     "t": 0,
     "object": 0,
@@ -44,21 +44,22 @@ _TYPES: dict[str, Any] = {
 
 @dataclass(eq=False, repr=False)
 class Hits(Brief):
-    """Hits of rays, in arrays of the rays' leading shape. None: not asked for."""
+    """Hits of rays, in arrays of the rays' leading shape. Arrays that were not requested are
+    None."""
 
-    t: Array | None = None  #: float32, in multiples of the direction; infinite for misses
+    t: Array | None = None  #: float32, in multiples of the direction's length; infinite for misses
     object: Array | None = None  #: int32, index into Scene.objects; -1 for misses
-    primitive: Array | None = None  #: int32, face of the mesh, else 0; -1 for misses
+    primitive: Array | None = None  #: int32, index of the mesh's face, or 0; -1 for misses
     position: Array | None = None  #: (..., 3) float64, world space; 0 for misses
-    normal: Array | None = None  #: (..., 3) float32, shading normal of the front side; unit length
-    face_normal: Array | None = None  #: (..., 3) float32, geometric normal of the front side
+    normal: Array | None = None  #: (..., 3) float32, unit shading normal of the front
+    face_normal: Array | None = None  #: (..., 3) float32, unit geometric normal of the front
     barycentrics: Array | None = None  #: (..., 3) float32, weights of the triangle's corners
     uv: Array | None = None  #: (..., 2) float32, texture coordinates of set 0
-    front: Array | None = None  #: bool, whether the ray arrives at the front side
+    front: Array | None = None  #: bool; True if the ray arrives at the front side
 
     @property
     def hit(self) -> Array:
-        """bool, whether the ray hits anything."""
+        """A bool array; True for each ray that hits anything."""
         if self.object is not None:
             return np.asarray(self.object >= 0)
         if self.primitive is not None:
@@ -70,42 +71,48 @@ class Hits(Brief):
 
 @dataclass(eq=False, repr=False)
 class AllHits(Hits):
-    """All hits of rays, one after the other. Those of ray i are [offsets[i] : offsets[i + 1]]."""
+    """All hits of rays, ray by ray.
 
-    offsets: Array = field(default_factory=lambda: np.zeros(1, np.int64))  #: int64, (rays + 1)
-    ray: Array = field(default_factory=lambda: np.zeros(0, np.int64))  #: int64, the ray of each hit
+    The hits of ray i are in the slice [offsets[i] : offsets[i + 1]] of each array.
+    """
+
+    #: int64, (number of rays + 1).
+    offsets: Array = field(default_factory=lambda: np.zeros(1, np.int64))
+    #: int64, index of each hit's ray.
+    ray: Array = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 @dataclass(eq=False, repr=False)
 class ClosestPoints(Brief):
-    """Nearest points of surfaces, in arrays of the points' leading shape."""
+    """Nearest points on surfaces, in arrays of the query points' leading shape."""
 
     position: Array  #: (..., 3) float64, world space; NaN if there is none
     distance: Array  #: float64; infinite if there is none
     object: Array  #: int32, index into Scene.objects; -1 if there is none
-    primitive: Array  #: int32, face of the mesh
+    primitive: Array  #: int32, index of the mesh's face
     barycentrics: Array  #: (..., 3) float64, weights of the triangle's corners
     sign: Array | None = None  #: int8: -1 inside, 0 on the surface, 1 outside
 
     @property
     def signed_distance(self) -> Array:
-        """float64, negative inside."""
+        """The distance as float64, negative inside."""
         if self.sign is None:
             raise ValueError("ask for it by closest_point(..., signed=True)")
         return np.asarray(np.where(self.sign < 0, -self.distance, self.distance))
 
 
 class OpenMeshWarning(UserWarning):
-    """Triangles don't enclose a solid, so that inside and outside depend on the ray."""
+    """Triangles don't enclose a solid, so whether a point is inside depends on the test ray."""
 
 
 class PreparedScene:
-    """A scene with its tree: immutable, and shared by any number of threads.
+    """A scene with its bounding volume hierarchy. Immutable; any number of threads may use it.
 
-    Rays are arrays of shape (..., 6): origin and direction, world space. Directions have any
-    nonzero length. float32 arrays are used as they are; float64 is rounded to float32, origins
-    after Scene.origin is subtracted. Answers are those of real arithmetic on the float32 numbers
-    of scene and rays. A ray with a number that is not finite hits nothing.
+    Rays are arrays of shape (..., 6): origin and direction in world space. Directions may have any
+    nonzero length. Scene.origin is subtracted from origins in float64, and the results are rounded
+    to float32. float32 rays remain unchanged if Scene.origin is zero. Results are those of real
+    arithmetic on the float32 numbers of scene and rays. A ray that contains a number that is not
+    finite hits nothing.
     """
 
     def __init__(
@@ -124,7 +131,7 @@ class PreparedScene:
 
     @property
     def scene(self) -> Scene:
-        """A copy of the scene, as it was prepared. Its arrays are read-only and not copied."""
+        """A copy of the scene as it was prepared. Its arrays are read-only views."""
         from .scene import Scene
 
         return Scene(**self._core.scene())
@@ -149,22 +156,23 @@ class PreparedScene:
         ),
         threads: int = 0,
     ) -> Hits:
-        """The nearest hit of each ray; of several at the same t the lowest object and face.
+        """Returns the nearest hit of each ray. Of several hits at the same t, returns the one with
+        the lowest object and face.
 
         Args:
             rays: (..., 6) real numbers: origin and direction.
-            t_min: least t that counts, broadcast to the leading shape; default: the least float32
-                above 0.
-            t_max: greatest t that counts, broadcast likewise; default: infinity.
-            fields: the arrays to compute. Fewer are faster.
-            threads: 0: all processors.
+            t_min: least t of hits, broadcast to the leading shape. Default: the least float32 above
+                0.
+            t_max: greatest t of hits, broadcast to the leading shape. Default: infinity.
+            fields: the arrays to compute. Computing fewer arrays is faster.
+            threads: number of threads; 0 means all processors.
 
         Returns:
             Arrays of the leading shape; see Hits.
 
         Raises:
-            ValueError: a wrong shape, or an unknown field.
-            TypeError: not real numbers.
+            ValueError: an array has a wrong shape, or a field is unknown.
+            TypeError: an array contains anything but real numbers.
         """
         flat, shape, low, high = _rays(rays, t_min, t_max)
         outputs = _outputs(fields, len(flat))
@@ -179,7 +187,8 @@ class PreparedScene:
         t_max: npt.ArrayLike | None = None,
         threads: int = 0,
     ) -> npt.NDArray[np.bool_]:
-        """Whether each ray hits anything. Arguments as intersect(), but faster."""
+        """Returns True for each ray that hits anything. Takes the arguments of intersect() and is
+        faster."""
         flat, shape, low, high = _rays(rays, t_min, t_max)
         result = np.empty(len(flat), np.bool_)
         self._core.occluded(flat, low, high, result, as_threads(threads))
@@ -194,10 +203,11 @@ class PreparedScene:
         fields: Iterable[HitField] = ("t", "object", "primitive"),
         threads: int = 0,
     ) -> AllHits:
-        """All hits of each ray in exact order: by t, then by object and face.
+        """Returns all hits of each ray in exact order: by t, then by object and face.
 
-        Each primitive counts once: a ray through an edge hits both of its triangles, a ray through
-        a sphere hits it once. Arguments as intersect(); the leading shape is flattened.
+        Each primitive counts once per ray. A ray through an edge hits both of the edge's triangles,
+        and a ray through a sphere hits the sphere once. Takes the arguments of intersect(). The
+        leading shape is flattened.
         """
         flat, _, low, high = _rays(rays, t_min, t_max)
         found = self._core.intersect_all(flat, low, high, as_threads(threads))
@@ -215,37 +225,42 @@ class PreparedScene:
         t_max: npt.ArrayLike | None = None,
         threads: int = 0,
     ) -> npt.NDArray[np.uint32]:
-        """The number of hits of each ray that intersect_all() finds. Arguments as intersect()."""
+        """Returns the number of hits that intersect_all() would find for each ray. Takes the
+        arguments of intersect()."""
         flat, shape, low, high = _rays(rays, t_min, t_max)
         result = np.empty(len(flat), np.uint32)
         self._core.count_crossings(flat, low, high, result, as_threads(threads))
         return result.reshape(shape)
 
     def is_closed(self, object: int | None = None) -> bool:
-        """Whether each edge belongs to an even number of triangles. Equal positions are one vertex.
+        """Returns True if each edge belongs to an even number of triangles. Vertices with equal
+        positions are merged.
 
         Args:
-            object: index into Scene.objects; None: all triangles of the scene together.
+            object: index into Scene.objects; None means all triangles of the scene together.
         """
         return self._solid(object).is_closed()
 
     def open_edges(self, object: int | None = None) -> npt.NDArray[np.float64]:
-        """The ends of edges that belong to an odd number of triangles, (n, 2, 3), world space."""
+        """Returns the ends of edges that belong to an odd number of triangles, (n, 2, 3) float64,
+        in world space."""
         return np.array(self._solid(object).open_edges(), np.float64).reshape(-1, 2, 3)
 
     def locate(
         self, points: npt.ArrayLike, *, object: int | None = None, threads: int = 0
     ) -> npt.NDArray[np.int8]:
-        """Whether points are inside (1), on the surface (0) or outside (-1) of closed meshes.
+        """Returns 1 for points inside closed meshes, 0 for points on them, and -1 for points
+        outside.
 
-        A point is inside if a ray from it crosses an odd number of triangles. The ray avoids all
-        edges and vertices, decided exactly, so that the answer is never wrong for closed meshes.
+        A point is inside if a ray from it crosses an odd number of triangles. The ray is chosen by
+        exact tests to avoid all edges and vertices, so results for closed meshes are always
+        correct.
 
         Args:
-            points: (..., 3) real numbers, world space; float64 is rounded to float32. Points that
-                are not finite are outside.
-            object: index into Scene.objects; None: all triangles of the scene together.
-            threads: 0: all processors.
+            points: (..., 3) real numbers, world space; float64 is rounded to float32. Points with
+                coordinates that are not finite are outside.
+            object: index into Scene.objects; None means all triangles of the scene together.
+            threads: number of threads; 0 means all processors.
 
         Warns:
             OpenMeshWarning: a mesh is not closed.
@@ -265,7 +280,8 @@ class PreparedScene:
     def contains(
         self, points: npt.ArrayLike, *, object: int | None = None, threads: int = 0
     ) -> npt.NDArray[np.bool_]:
-        """Whether points are inside of closed meshes or on them. Arguments as locate()."""
+        """Returns True for points inside closed meshes or on them. Takes the arguments of
+        locate()."""
         return np.asarray(self.locate(points, object=object, threads=threads) >= 0)
 
     def closest_point(
@@ -276,13 +292,14 @@ class PreparedScene:
         object: int | None = None,
         threads: int = 0,
     ) -> ClosestPoints:
-        """The nearest point of the triangles to each point; of several triangles the first.
+        """Returns the point on the triangles that is nearest to each query point. Of several
+        nearest triangles, the first counts.
 
         Args:
             points: (..., 3) real numbers, world space; float64 is rounded to float32.
-            signed: whether to find the sign of the distance, as locate() does.
-            object: index into Scene.objects; None: all triangles of the scene together.
-            threads: 0: all processors.
+            signed: also computes the sign of the distance, as locate() does.
+            object: index into Scene.objects; None means all triangles of the scene together.
+            threads: number of threads; 0 means all processors.
         """
         flat, shape = _points(points)
         count = len(flat)
@@ -321,7 +338,7 @@ def _outputs(fields: Iterable[str], count: int) -> dict[str, Array]:
 
 
 def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:
-    """Points as (n, 3) and their leading shape."""
+    """Returns points as (n, 3), and their leading shape."""
     array = as_numbers(points, "points", 3)
     return np.ascontiguousarray(array, np.float32).reshape(-1, 3), array.shape[:-1]
 
@@ -329,7 +346,7 @@ def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, 
 def _rays(
     rays: npt.ArrayLike, t_min: npt.ArrayLike | None, t_max: npt.ArrayLike | None
 ) -> tuple[Array, tuple[int, ...], Array | None, Array | None]:
-    """Rays as (n, 6), their leading shape, and the ends of their intervals."""
+    """Returns rays as (n, 6), their leading shape, and the ends of their intervals."""
     array = as_numbers(rays, "rays", 6)
     shape = array.shape[:-1]
     flat = readable(array.reshape(-1, 6))

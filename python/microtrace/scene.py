@@ -26,22 +26,23 @@ from .shapes import Disc, Mesh, Object, Plane, Quadric, Sphere
 class Scene(Brief):
     """Shapes, materials, lights and cameras.
 
-    Everything is plain data in world space: change it as you like, then call prepare(). Coordinates
-    of shapes and cameras are relative to `origin`; it is (0, 0, 0) unless a file's geometry is far
-    from zero.
+    Everything is plain data in world space. Change it as you like, then call prepare(). Coordinates
+    of shapes and cameras are relative to `origin`, which is (0, 0, 0) unless a file's geometry is
+    far from zero.
     """
 
     objects: list[Object] = field(default_factory=list)
-    #: Numbered as in the picture's material ids. Others that objects use are added after these.
+    #: In the order of the pictures' material ids. Materials that objects use but that are not in
+    #: this list are appended.
     materials: list[Material] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
     cameras: list[Camera] = field(default_factory=list)
-    environment: Environment | None = None  #: None: a studio if there are no lights either
-    background: Vector | None = None  #: linear Rec. 709; None: gray 0.6 for path tracing, or black
+    environment: Environment | None = None  #: None: the built-in studio if there are no lights
+    background: Vector | None = None  #: linear Rec. 709; None: 0.6 gray if path traced, else black
     size: tuple[int, int] = (640, 480)  #: width and height of pictures, pixels
-    origin: Vector = (0.0, 0.0, 0.0)  #: position of (0, 0, 0) in world space
-    epsilon: float = 0.0  #: camera rays only hit beyond this t
-    #: Whether pictures are path traced by default; scenes from JSON files are flat.
+    origin: Vector = (0.0, 0.0, 0.0)  #: world-space position of the scene's (0, 0, 0)
+    epsilon: float = 0.0  #: camera rays ignore hits up to this t
+    #: The default integrator for pictures; "flat" for scenes from JSON files.
     integrator: Literal["path", "flat"] = "path"
 
     def add_mesh(
@@ -60,12 +61,15 @@ class Scene(Brief):
         Args:
             vertices: (V, 3) real numbers. Stored as float32; float64 is rounded once.
             faces: (F, 3) integers in [0, V), counterclockwise as seen from the front.
-            normals: (V, 3), unit length.
-            uv: (V, 2); (0, 0) is the first pixel of a texture's image, v points down.
-            colors: (V, 3) or (V, 4), linear Rec. 709 in [0, 1], or 8-bit sRGB integers.
+            normals: (V, 3) numbers, unit length.
+            uv: (V, 2) numbers. (0, 0) is the upper left corner of a texture's image, and v points
+                down.
+            colors: (V, 3) or (V, 4), either linear Rec. 709 numbers in [0, 1] or 8-bit sRGB
+                integers.
             material: default: Material().
-            transform: (4, 4), world from mesh, applied in float64 and rounded once; a mirrored mesh
-                is turned so that its front stays outside.
+            transform: (4, 4) matrix from the mesh's space to world space, applied in float64 with
+                results rounded once. If it mirrors the mesh, the winding is reversed, so that the
+                front stays outside.
             name: any text.
 
         Raises:
@@ -123,23 +127,23 @@ class Scene(Brief):
         threads: int = 0,
         fast_build: bool = False,
     ) -> PreparedScene:
-        """Builds what rays and pictures need.
+        """Builds the data structures that ray queries and pictures need.
 
         Args:
-            previous: the same scene with other lights, cameras, materials or vertex positions; its
-                tree and tables are reused as far as they fit. Hits and pictures don't depend on it.
-            threads: for the build; 0: all processors.
-            fast_build: builds the tree faster; rays take longer.
+            previous: the same scene with different lights, cameras, materials or vertex positions.
+                Its tree and tables are reused where possible. Hits and pictures don't depend on it.
+            threads: number of threads for the build; 0 means all processors.
+            fast_build: builds the tree faster, but makes ray queries slower.
 
         Raises:
             SceneError: an index is out of range, arrays of a mesh differ in length, or a number is
                 not finite.
-            LimitError: memory or primitive numbers run out.
+            LimitError: there is not enough memory, or there are too many primitives.
         """
         return PreparedScene(self, previous, threads=threads, fast_build=fast_build)
 
     def copy(self) -> Scene:
-        """A copy that shares only arrays, images and maps."""
+        """Returns a copy that shares only arrays, images and maps."""
         memo: dict[int, Any] = {}
         for shared in self._shared():
             memo[id(shared)] = shared
@@ -161,7 +165,8 @@ class Scene(Brief):
 
 
 def _rotated(columns: Any, vectors: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    """Sums in fixed order without BLAS, whose bits depend on the processor."""
+    """Multiplies a matrix and vectors. Sums in a fixed order without BLAS, whose bits depend on the
+    processor."""
     x, y, z = (vectors[:, k : k + 1].astype(np.float64) for k in range(3))
     return np.asarray(x * columns[0] + y * columns[1] + z * columns[2])
 
@@ -192,7 +197,7 @@ def _cross(a: npt.NDArray[Any], b: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def linear_colors(colors: Any) -> npt.NDArray[Any]:
-    """(n, 4) linear colors, from (n, 3) or (n, 4) linear numbers or 8-bit sRGB integers."""
+    """Returns (n, 4) linear colors from (n, 3) or (n, 4) linear numbers or 8-bit sRGB integers."""
     array = np.asarray(colors)
     if array.ndim != 2 or array.shape[1] not in (3, 4):
         raise ValueError(f"colors must have shape (n, 3) or (n, 4), not {array.shape}")
@@ -207,11 +212,12 @@ def linear_colors(colors: Any) -> npt.NDArray[Any]:
 
 
 def scene_of(source: Any) -> Scene:
-    """A scene from a trimesh.Trimesh, a trimesh.Scene, or any object with `vertices` and `faces`.
+    """Makes a scene from a trimesh.Trimesh, a trimesh.Scene, or any object with `vertices` and
+    `faces`.
 
-    Vertex normals that trimesh only computed are left out, so that faces stay flat. Reads the
+    Ignores vertex normals that trimesh has computed itself, so that faces stay flat. Reads the
     attributes `vertices`, `faces`, `visual` (vertex colors, texture coordinates, a PBR material),
-    `graph` and `geometry`; does not import trimesh.
+    `graph` and `geometry`. Doesn't import trimesh.
     """
     from ._from_trimesh import scene_from
 
@@ -231,15 +237,16 @@ def load(
 
     Args:
         path: the file.
-        detail: the attributes to load. "shape": for rays and all AOVs but albedo; decodes only
-            images whose alpha affects visibility. "color": for flat pictures. "all": for light.
-        variant: material variant of a glTF asset, by name or index.
-        time: animation time in seconds; None: the stored pose.
-        animation: by name, by index or "all"; "": the first.
-        allowed_folders: further folders from which a glTF asset may load buffers and images.
+        detail: the attributes to load. "shape" suffices for rays and all AOVs except albedo, and
+            decodes only images whose alpha affects visibility. "color" suffices for flat pictures,
+            "shape_and_color" for both. "all" is needed for path tracing.
+        variant: name or index of a material variant of a glTF asset.
+        time: animation time in seconds; None means the pose without animation.
+        animation: name or index of an animation, or "all"; "" means the first.
+        allowed_folders: additional folders from which a glTF asset may load buffers and images.
 
     Warns:
-        SceneWarning: oddities, ignored features and repaired violations, one by one.
+        SceneWarning: for each oddity, ignored feature and repaired violation.
 
     Raises:
         SceneError: the file violates its format.
@@ -256,7 +263,8 @@ def load(
 
 
 class SceneFile:
-    """A scene file that is read once and can be posed at many times. Arguments as load()."""
+    """A scene file that is read once, and whose scene can be made for many animation times. Takes
+    the arguments of load()."""
 
     def __init__(
         self,
@@ -272,9 +280,10 @@ class SceneFile:
         )
 
     def at(self, time: float | None) -> Scene:
-        """The scene at a time in seconds, clamped to the animation's range; None: the stored pose.
+        """Returns the scene at a time in seconds, which is clamped to the animation's range; None
+        means without animation.
 
-        Warns and raises as load().
+        Warns and raises like load().
         """
         fields, diagnostics = self._file.at(time)
         warn(diagnostics)

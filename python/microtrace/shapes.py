@@ -1,4 +1,4 @@
-"""Shapes in world space. Numbers are stored as float32, rounded once."""
+"""Shapes in world space. Numbers are rounded once to float32."""
 
 from __future__ import annotations
 
@@ -18,20 +18,21 @@ FloatArray = npt.NDArray[np.floating[Any]]
 
 @dataclass(eq=False, repr=False)
 class Mesh(Brief):
-    """Indexed triangles. Arrays are read when the scene is prepared, not before."""
+    """Indexed triangles. Arrays are not read until the scene is prepared."""
 
     vertices: npt.ArrayLike  #: (V, 3), world space
     faces: npt.ArrayLike  #: (F, 3) integers, counterclockwise as seen from the front
-    normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None: flat
-    tangents: npt.ArrayLike | None = None  #: (V, 4): unit length, handedness 1 or -1
-    uv: Sequence[npt.ArrayLike] = ()  #: sets of (V, 2); (0, 0) is an image's first pixel
+    normals: npt.ArrayLike | None = None  #: (V, 3), unit length or zero; None for flat shading
+    tangents: npt.ArrayLike | None = None  #: (V, 4): unit tangent, and handedness 1 or -1
+    uv: Sequence[npt.ArrayLike] = ()  #: sets of (V, 2); (0, 0) is the upper left corner of an image
     colors: npt.ArrayLike | None = None  #: (V, 4), linear Rec. 709 and alpha
-    segments: npt.ArrayLike | None = None  #: (S, 2) integers: lines, drawn one pixel wide
+    #: (S, 2) integers; lines that are rendered one pixel wide.
+    segments: npt.ArrayLike | None = None
 
 
 @dataclass(eq=False, repr=False)
 class Sphere(Brief):
-    """The points at distance `radius` from `center`."""
+    """The sphere with this center and radius."""
 
     center: Vector = (0.0, 0.0, 0.0)
     radius: float = 1.0
@@ -65,7 +66,7 @@ class Triangle(Brief):
 
 @dataclass(eq=False, repr=False)
 class Quadric(Brief):
-    """a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0."""
+    """The surface a x^2 + b y^2 + c z^2 + d xy + e xz + f yz + g x + h y + i z + j = 0."""
 
     coefficients: Sequence[float] = field(default=(0.0,) * 10)  #: a to j
 
@@ -78,5 +79,5 @@ class Object(Brief):
     """A shape with one material."""
 
     shape: Shape
-    material: Material | None = None  #: None: Material()
+    material: Material | None = None  #: None means Material()
     name: str = ""

@@ -17,12 +17,12 @@ Array = npt.NDArray[Any]
 
 
 class RayMeshIntersector:
-    """The methods of trimesh.ray.ray_triangle.RayMeshIntersector, answered exactly.
+    """A replacement for trimesh.ray.ray_triangle.RayMeshIntersector with exact results.
 
-    Vertices and ray origins are moved by the center of the mesh in float64 and then rounded to
-    float32, like directions. Hits are those of real arithmetic on these numbers, so rays never slip
-    between triangles. Hits at a ray's origin don't count. If the mesh changes, the next query
-    prepares it again.
+    The mesh's center is subtracted from vertices and ray origins in float64. Then they are rounded
+    to float32, and so are directions. Hits are those of real arithmetic on these numbers, so rays
+    never slip between triangles. Hits at a ray's origin don't count. If the mesh has changed, the
+    next query prepares it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -39,18 +39,18 @@ class RayMeshIntersector:
         return_locations: bool = False,
         **_: Any,
     ) -> tuple[Array, ...]:
-        """The triangles that rays hit, ray by ray, nearest first.
+        """Returns the triangles that rays hit, ray by ray, nearest first.
 
         Args:
             ray_origins: (m, 3) real numbers.
-            ray_directions: (m, 3) real numbers, any nonzero length.
-            multiple_hits: False: only the first hit of each ray.
-            max_hits: the greatest number of hits per ray; None: all.
-            return_locations: also returns positions, and of several triangles at one point, such as
-                those at an edge, only the first.
+            ray_directions: (m, 3) real numbers of any nonzero length.
+            multiple_hits: False returns only the first hit of each ray.
+            max_hits: maximum number of hits per ray; None means all hits.
+            return_locations: also returns positions. Of several triangles that a ray hits at one
+                point, such as those at an edge, returns only the first.
 
         Returns:
-            index_tri (h,) int64, index_ray (h,) int64, and locations (h, 3) float64 if asked for.
+            index_tri (h,) int64, index_ray (h,) int64 and, if requested, locations (h, 3) float64.
         """
         rays = self._rays(ray_origins, ray_directions)
         prepared = self._prepared()
@@ -83,7 +83,8 @@ class RayMeshIntersector:
         multiple_hits: bool = True,
         **_: Any,
     ) -> tuple[Array, Array, Array]:
-        """The points at which rays hit: locations (h, 3), index_ray (h,), index_tri (h,)."""
+        """Returns the points at which rays hit: locations (h, 3), index_ray (h,), index_tri
+        (h,)."""
         tri, ray, locations = self.intersects_id(
             ray_origins, ray_directions, multiple_hits=multiple_hits, return_locations=True
         )
@@ -92,7 +93,7 @@ class RayMeshIntersector:
     def intersects_first(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **_: Any
     ) -> Array:
-        """The first triangle of each ray, (m,) int64; -1 without one."""
+        """Returns the first triangle that each ray hits, (m,) int64; -1 for misses."""
         rays = self._rays(ray_origins, ray_directions)
         hits = self._prepared().intersect(rays, fields=("primitive",))
         assert hits.primitive is not None
@@ -101,11 +102,12 @@ class RayMeshIntersector:
     def intersects_any(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **_: Any
     ) -> npt.NDArray[np.bool_]:
-        """Whether each ray hits anything, (m,) bool."""
+        """Returns True for each ray that hits anything, (m,) bool."""
         return self._prepared().occluded(self._rays(ray_origins, ray_directions))
 
     def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
-        """Whether points are in the mesh or on it, (n,) bool; never wrong if it is closed."""
+        """Returns True for points inside the mesh or on it, (n,) bool. Results for closed meshes
+        are always correct."""
         array = np.asarray(points, np.float64)
         if array.ndim != 2 or array.shape[1] != 3:
             raise ValueError("points must be (n,3)")
@@ -138,7 +140,8 @@ class RayMeshIntersector:
         return self._prepared_scene
 
     def _rays(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """In the mesh's moved coordinates, with directions of greatest component 1."""
+        """Returns rays relative to the mesh's center. Scales directions so that their greatest
+        component is 1."""
         self._prepared()
         o, d = np.asarray(origins, np.float64), np.asarray(directions, np.float64)
         if o.shape != d.shape or o.ndim != 2 or o.shape[1] != 3:
@@ -150,7 +153,8 @@ class RayMeshIntersector:
         return np.concatenate([o - self._center, scaled], axis=1)
 
     def _locations(self, rays: Array, tri: Array, t: Array) -> npt.NDArray[np.float64]:
-        """In float64 on the planes of the triangles, or by t where a ray grazes one."""
+        """Computes hit points in float64 on the triangles' planes, or from t where a ray grazes a
+        triangle."""
         corners = np.asarray(self.mesh.vertices, np.float64)[np.asarray(self.mesh.faces)[tri]]
         corners = corners - self._center
         o, d = rays[:, :3], rays[:, 3:]

@@ -1,6 +1,6 @@
-"""The command `microtrace`: runs the program, which is part of the package's library.
+"""The command `microtrace`. It runs the program, which is part of the package's extension module.
 
-A package of its own, so that the command does not import NumPy.
+This is a separate package, so that the command doesn't import NumPy.
 """
 
 import ctypes

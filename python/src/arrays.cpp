@@ -12,7 +12,7 @@ struct Owners {
   std::size_t limit = 64;  // expired entries are removed when there are this many
 };
 
-/// Never destroyed: arrays may outlive this module.
+/// The owners are never destroyed, because arrays may outlive this module.
 Owners& owners() {
   static auto* const result = new Owners;
   return *result;

@@ -11,12 +11,13 @@
 
 namespace microtrace::python {
 
-/// The owner of exported memory that begins here, while it exists; nothing for other memory.
+/// The owner of the exported memory that begins at `data`, if the owner still exists. Null for
+/// other memory.
 std::shared_ptr<const void> owner_of(const void* data);
 /// Makes owner_of(data) return the owner.
 void remember_owner(const void* data, const std::shared_ptr<const void>& owner);
 
-/// A read-only array of NumPy that shares the values. Empty arrays give None.
+/// Returns a read-only NumPy array that shares the values, or None if there are no values.
 template <class T>
 nb::object to_python(const Array<T>& values) {
   using Number = typename Array<T>::Number;
@@ -32,8 +33,8 @@ nb::object to_python(const Array<T>& values) {
       data, {shared->size(), sizeof(T) / sizeof(Number)}, keeper));
 }
 
-/// Rows of numbers of type Source. Values are copied, because Python code may change them at any
-/// time, unless they are those of an array that to_python() made.
+/// Converts rows of numbers of type Source. Copies the values, because Python code may change them
+/// at any time. Shares them only if to_python() made the array.
 template <class T, class Source>
 Array<T> copied(const AnyArray& rows) {
   constexpr std::size_t width = sizeof(T) / sizeof(typename Array<T>::Number);
@@ -47,11 +48,11 @@ Array<T> copied(const AnyArray& rows) {
       values[i][k] = data[static_cast<std::int64_t>(i) * rows.stride(0) +
                           static_cast<std::int64_t>(k) * rows.stride(1)];
   Array<T> result = Array<T>::strided(values.empty() ? nullptr : values[0].data(), values.size());
-  static_cast<void>(result.edit());  // owns its values from now on
+  static_cast<void>(result.edit());  // makes the array own its values
   return result;
 }
 
-/// Throws Error for indices that 32 bits can't hold.
+/// Converts rows to an array. Throws Error for indices that don't fit into 32 bits.
 template <class T>
 Array<T> to_array(const AnyArray& rows) {
   if constexpr (std::is_floating_point_v<typename Array<T>::Number>) {

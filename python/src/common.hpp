@@ -1,5 +1,5 @@
 #pragma once
-/// What all parts of the binding share.
+/// Declarations that all parts of the binding share.
 
 #include <microtrace/microtrace.hpp>
 
@@ -12,21 +12,22 @@ namespace microtrace::python {
 
 namespace nb = nanobind;
 
-/// An array of NumPy or another library, in memory of the processor.
+/// An array of NumPy or another library, in CPU memory.
 using AnyArray = nb::ndarray<nb::ro, nb::device::cpu>;
 
 /// The class or function `name` of microtrace.MODULE.
 nb::object member(const char* module, const char* name);
 
-/// microtrace.errors.Diagnostic.
+/// Converts a diagnostic to microtrace.errors.Diagnostic.
 nb::object to_python(const Diagnostic& diagnostic);
 
-/// Runs f() without the interpreter's lock, on a thread of its own if f can take long, while this
-/// one handles signals: Ctrl-C ends f() soon after `cancel` returns true, and is then raised.
+/// Runs f() without the interpreter's lock, on a separate thread while this thread handles signals.
+/// After Ctrl-C, `cancel` returns true and f() should return soon. KeyboardInterrupt is then
+/// raised.
 void run_interruptible(const std::function<void(const std::function<bool()>& cancel)>& f);
 
-/// f(first, last) for blocks that cover [0, count), on up to `threads` threads without the
-/// interpreter's lock. Ctrl-C ends it between blocks.
+/// Calls f(first, last) for blocks that cover [0, count), on up to `threads` threads, without the
+/// interpreter's lock. Ctrl-C stops it between blocks.
 void for_each_block(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t first, std::size_t last)>& f);
 

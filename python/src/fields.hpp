@@ -1,6 +1,6 @@
 #pragma once
-/// The attributes of Python's dataclasses and the members of the library's structs that they stand
-/// for: the one list that conversions in both directions follow.
+/// Lists the attributes of Python's dataclasses with the corresponding members of the library's
+/// structs. Conversions in both directions use these lists.
 
 #include <microtrace/microtrace.hpp>
 
@@ -17,7 +17,8 @@ struct Field {
 template <class T, class Member>
 Field(const char*, Member T::*) -> Field<T, Member>;
 
-/// For each struct: kModule and kName of the Python class, and kFields.
+/// Specialized for each struct, with the module kModule and the name kName of the Python class, and
+/// the list kFields.
 template <class T>
 struct Class;
 

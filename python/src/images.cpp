@@ -1,4 +1,4 @@
-/// Images and radiance maps: immutable, shared with prepared scenes.
+/// Binds images and radiance maps. They are immutable and shared with prepared scenes.
 
 #include "images.hpp"
 
@@ -20,7 +20,7 @@ std::vector<T> values_of(const AnyArray& pixels) {
   return std::vector<T>(data, data + pixels.size());
 }
 
-/// pixels: C-contiguous, (height, width, channels).
+/// Copies an image from a C-contiguous array of shape (height, width, channels).
 std::shared_ptr<const Image> make_image(const AnyArray& pixels, std::string name) {
   auto image = std::make_shared<Image>();
   image->name = std::move(name);
@@ -34,7 +34,7 @@ std::shared_ptr<const Image> make_image(const AnyArray& pixels, std::string name
   return image;
 }
 
-/// pixels: C-contiguous float32, (height, width, 3).
+/// Copies a map from a C-contiguous float32 array of shape (height, width, 3).
 std::shared_ptr<const RadianceMap> make_map(const AnyArray& pixels) {
   auto map = std::make_shared<RadianceMap>();
   map->height = static_cast<std::uint32_t>(pixels.shape(0));

@@ -5,7 +5,7 @@
 
 namespace microtrace::python {
 
-/// Python's handle of an image. A scene made from Python shares it.
+/// Python's handle to an image, which is shared with the scenes that are made from Python.
 struct SharedImage {
   std::shared_ptr<const Image> image;
 };

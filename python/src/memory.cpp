@@ -1,4 +1,4 @@
-/// Memory of pictures.
+/// Memory for the arrays of pictures.
 
 #include "common.hpp"
 
@@ -14,8 +14,9 @@
 namespace microtrace::python {
 namespace {
 
-/// Keeps the memory of deleted arrays for the next ones of the same size: the system takes as long
-/// to provide cleared pages as the library to fill them.
+/// A block of memory for an array. The memory of deleted arrays is kept for new arrays of the same
+/// size, because the system takes as long to provide cleared pages as the library takes to fill
+/// them.
 class Memory {
  public:
   explicit Memory(std::size_t bytes) : bytes_(rounded(bytes)), data_(take(bytes_)) {
@@ -36,7 +37,7 @@ class Memory {
     void* data;
     std::size_t bytes;
   };
-  /// Blocks that no array uses, the oldest first.
+  /// Blocks that no array uses, oldest first.
   struct Kept {
     std::mutex mutex;
     std::vector<Block> blocks;
@@ -46,13 +47,13 @@ class Memory {
   static constexpr std::size_t kLine = 64, kHugePage = std::size_t{1} << 21U;
   static constexpr std::size_t kMostKept = std::size_t{1} << 26U;
 
-  /// std::aligned_alloc requires a multiple of the alignment.
+  /// Rounds a size up, because std::aligned_alloc requires a multiple of the alignment.
   static std::size_t rounded(std::size_t bytes) {
     const std::size_t unit = bytes >= 2 * kHugePage ? kHugePage : kLine;
     return std::max(unit, (bytes + unit - 1) / unit * unit);
   }
 
-  /// Never destroyed: arrays may outlive this module.
+  /// The blocks are never destroyed, because arrays may outlive this module.
   static Kept& kept() {
     static auto* const result = new Kept;
     return *result;
@@ -89,7 +90,7 @@ class Memory {
   void* data_;
 };
 
-/// An array of 32-bit values, which are not set.
+/// Makes an array of uninitialized 32-bit values.
 nb::object picture_array(const std::vector<std::size_t>& shape, bool is_integer) {
   std::size_t bytes = 4;
   for (const std::size_t extent : shape) {

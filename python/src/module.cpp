@@ -1,5 +1,5 @@
-/// The binding of the library to Python. Everything here is internal to the package microtrace,
-/// whose Python files are the public interface.
+/// Binds the library to Python. All bindings are internal to the package microtrace; its Python
+/// files are the public interface.
 
 #include "common.hpp"
 

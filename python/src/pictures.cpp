@@ -1,4 +1,4 @@
-/// Rendering into arrays of NumPy, and saving.
+/// Renders into NumPy arrays, and saves pictures.
 
 #include "common.hpp"
 #include "io/image/encode/eight_bits.hpp"
@@ -24,15 +24,15 @@ namespace {
 template <class T>
 using Pixels = nb::ndarray<T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
-/// An array by its name in Python, with its AOV and the channels that it contains.
+/// An array's name in Python, its AOV, and the channels that it contains.
 struct Quantity {
   const char* name;
   const char* aov;
-  const char* channels;  ///< a letter each, or the name of one
+  const char* channels;  ///< one letter per channel, or the name of a single channel
   std::size_t id_channel = 0;
 
   [[nodiscard]] bool is_id() const { return std::string_view(aov) == "id"; }
-  /// As in Channel::name.
+  /// The names of the channels as in Channel::name.
   [[nodiscard]] std::vector<std::string> channel_names() const {
     const std::string before = std::string(aov) + ".";
     if (is_id()) return {before + channels};
@@ -59,11 +59,11 @@ constexpr std::array kQuantities = {
     Quantity{"denoise_normal", "denoise_normal", "XYZ"},
 };
 
-/// A channel of the film and where its values go.
+/// A channel of the film, and the destination of its values.
 struct Target {
   std::string channel;  ///< Channel::name
-  void* first;          ///< its value for the first pixel
-  std::size_t step;     ///< from pixel to pixel, in values
+  void* first;          ///< destination of the first pixel's value
+  std::size_t step;     ///< distance between the values of neighboring pixels, in values
 };
 
 void copy_channel(const Film& film, const Target& target) {
@@ -76,7 +76,7 @@ void copy_channel(const Film& film, const Target& target) {
       channel->values);
 }
 
-/// The arrays to fill besides the colors.
+/// The arrays to fill, except for the color.
 struct Outputs {
   explicit Outputs(const nb::dict& outputs) {
     for (const Quantity& quantity : kQuantities) {
@@ -108,7 +108,7 @@ struct Outputs {
   std::vector<Target> targets;
   std::vector<Aov> exact;
   std::vector<SampledAov> sampled;
-  std::vector<AovBuffer> buffers;  ///< of the exact ones
+  std::vector<AovBuffer> buffers;  ///< destinations of the exact AOVs
 };
 
 void copy_colors(const Film& film, const Pixels<float>& to) {
@@ -137,7 +137,7 @@ PixelFilter filter_named(const std::string& name) {
   throw nb::value_error("filter must be \"box\" or \"blackman-harris\"");
 }
 
-/// Calls a function of Python with the share that is done; False cancels.
+/// Calls a Python function with the finished fraction. It cancels the rendering by returning False.
 class Progress {
  public:
   Progress(nb::object function, const std::function<bool()>& cancel)
@@ -156,7 +156,7 @@ class Progress {
     }
   }
 
-  /// Throws what the function threw.
+  /// Rethrows the exception that the function threw, if any.
   void rethrow() const {
     if (failure_) std::rethrow_exception(failure_);
   }
@@ -167,8 +167,8 @@ class Progress {
   std::exception_ptr failure_;
 };
 
-/// Fills outputs["color"], (height, width, 3 or 4) float32 if it is there, and the other arrays.
-/// Returns exposure and tone map for the display of the colors.
+/// Fills the arrays in `outputs`. outputs["color"], if present, is (height, width, 3 or 4) float32.
+/// Returns the exposure and tone map for displaying the colors.
 nb::object render_into(const Prepared& self, const nb::object& camera_object,
                        const nb::dict& outputs, const nb::dict& arguments) {
   const Camera camera = camera_from_python(camera_object);
@@ -224,7 +224,8 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
   return nb::make_tuple(film->display.exposure, std::string(name_of(film->display.tone_map)));
 }
 
-/// A film of these arrays, (height, width, 3 or 4), with colors displayed by exposure and tone map.
+/// Makes a film from `color`, (height, width, 3 or 4), and the other arrays. Its colors are to be
+/// displayed with this exposure and tone map.
 Film film_of(const Pixels<const float>& color, double exposure, const std::string& tone_map,
              const nb::dict& channels) {
   const auto map = tone_map_named(tone_map);

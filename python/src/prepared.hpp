@@ -3,7 +3,7 @@
 
 namespace microtrace::python {
 
-/// What microtrace.PreparedScene holds.
+/// The content of microtrace.PreparedScene.
 struct Prepared {
   PreparedScene scene;
   bool is_flat = false;         ///< pictures are flat by default

@@ -1,6 +1,7 @@
 #include "cli/program.hpp"
 
-/// The program, for the command of the package: a second executable would double its size.
+/// Runs the program for the package's command. A separate executable would double the package's
+/// size.
 extern "C" [[gnu::visibility("default")]] int microtrace_program(int argc, char** argv) {
   return microtrace::cli::run_program(argc, argv);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Rays and hits as arrays of NumPy.
+/// Converts rays and hits from and to NumPy arrays.
 
 #include "common.hpp"
 #include "prepared.hpp"
@@ -12,10 +12,10 @@ namespace microtrace::python {
 
 using FloatRow = nb::ndarray<const float, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-/// Rays as they come from Python.
+/// Rays in arrays from Python.
 class Rays {
  public:
-  /// rays: (n, 6) float32 or float64; the ends of the intervals: (n) float32, or None.
+  /// `rays` is (n, 6) float32 or float64. `t_min` and `t_max` are (n) float32 or None.
   Rays(const AnyArray& rays, const nb::object& t_min, const nb::object& t_max, const DVec3& origin)
       : rays_(rays), is_double_(rays.dtype() == nb::dtype<double>()), origin_(origin) {
     if (!t_min.is_none()) t_min_ = nb::cast<FloatRow>(t_min);
@@ -24,7 +24,7 @@ class Rays {
 
   [[nodiscard]] std::size_t size() const { return rays_.shape(0); }
 
-  /// In scene coordinates.
+  /// Sets `to` to the rays [first, last) in scene coordinates.
   void get(std::size_t first, std::size_t last, std::vector<Ray>& to) const {
     to.resize(last - first);
     if (is_double_)
@@ -61,11 +61,11 @@ T* output(const nb::dict& outputs, const char* name) {
   return nb::cast<nb::ndarray<T, nb::c_contig, nb::device::cpu>>(outputs[name]).data();
 }
 
-/// The arrays to fill; null: not asked for.
+/// The arrays to fill; null for arrays that are not requested.
 struct Outputs {
   explicit Outputs(const nb::dict& d)
       : t(output<float>(d, "t")),
-        // -1, for misses, has the bits of SurfaceBuffers::kNone.
+        // Misses get -1, whose bits equal those of SurfaceBuffers::kNone.
         object(reinterpret_cast<std::uint32_t*>(output<std::int32_t>(d, "object"))),
         primitive(reinterpret_cast<std::uint32_t*>(output<std::int32_t>(d, "primitive"))),
         position(output<double>(d, "position")),
@@ -75,7 +75,7 @@ struct Outputs {
         uv(output<float>(d, "uv")),
         front(output<bool>(d, "front")) {}
 
-  /// Fills the arrays from place `first` on, for rays in scene coordinates.
+  /// Fills the arrays, starting at index `first`, for rays in scene coordinates.
   void fill(const PreparedScene& scene, std::size_t first, std::span<const Ray> rays,
             std::span<const std::optional<Hit>> hits) const {
     if (t != nullptr)

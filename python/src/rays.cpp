@@ -1,4 +1,4 @@
-/// Ray queries in bulk.
+/// Binds ray queries in bulk.
 
 #include "ray_arrays.hpp"
 
@@ -40,18 +40,18 @@ void occluded(const Prepared& self, const AnyArray& array, const nb::object& t_m
   });
 }
 
-/// Hits of rays, taken piece by piece so that the rays are not copied as a whole.
+/// All hits of rays. The rays are processed in pieces, so that they are not copied all at once.
 struct AllHits {
   std::vector<std::uint64_t> offsets{0};
   std::vector<Hit> hits;
 };
 
-/// Options for a query that Ctrl-C ends.
+/// Options for a query that Ctrl-C can stop.
 QueryOptions cancelable(unsigned threads, const std::function<bool()>& cancel) {
   return {.threads = threads, .progress = [&cancel](double) { return !cancel(); }};
 }
 
-/// f(rays, first, options) for pieces of the rays, in world space.
+/// Calls f(rays, first, options) for consecutive pieces of the rays, in world space.
 template <class F>
 void for_each_piece(const Rays& source, unsigned threads, const F& f) {
   constexpr std::size_t kPiece = 1 << 20;

@@ -1,4 +1,4 @@
-/// From the dataclasses of Python to a Scene.
+/// Converts Python's dataclasses to a Scene.
 
 #include "scene_reader.hpp"
 
@@ -26,16 +26,17 @@ Enum named(const std::string& name, const std::array<const char*, n>& names, con
   throw nb::value_error((std::string(what) + " must be one of " + all + ", not " + name).c_str());
 }
 
-/// Adds `item` to `places` unless it is there; returns its place.
+/// Assigns consecutive places to Python objects.
 class Places {
  public:
-  /// Calls add() if the object is new, which appends it to its list.
+  /// Returns the object's place. If the object is new, calls add(), which appends the object to its
+  /// list.
   template <class F>
   std::uint32_t of(const nb::handle& item, const F& add) {
     const auto next = static_cast<std::uint32_t>(places_.size());
     const auto [at, is_new] = places_.try_emplace(item.ptr(), next);
     if (is_new) {
-      kept_.push_back(nb::borrow(item));  // another object must not get its address
+      kept_.push_back(nb::borrow(item));  // keeps other objects from getting its address
       add();
     }
     return at->second;

@@ -1,4 +1,4 @@
-/// From a Scene to the dataclasses of Python.
+/// Converts a Scene to Python's dataclasses.
 
 #include "scene_writer.hpp"
 

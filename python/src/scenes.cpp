@@ -1,4 +1,4 @@
-/// Loading and preparing scenes.
+/// Binds loading and preparing of scenes.
 
 #include "common.hpp"
 #include "prepared.hpp"

@@ -1,4 +1,4 @@
-/// Points inside and outside of meshes, and nearest points.
+/// Binds the queries of points: inside or outside of meshes, and nearest points.
 
 #include "common.hpp"
 #include "prepared.hpp"
@@ -39,7 +39,7 @@ void locate(const Solid& self, const Points& points, const Output<std::int8_t>& 
                                                                       : -1);
 }
 
-/// The scene that a Solid belongs to, for the numbers of objects.
+/// A Solid with its scene, which provides the indices of objects.
 struct SolidOf {
   Solid solid;
   PreparedScene scene;

@@ -14,10 +14,10 @@
 namespace microtrace::python {
 namespace {
 
-/// Between two checks for signals.
+/// The time between two checks for signals.
 constexpr std::chrono::milliseconds kPatience{50};
 
-/// Items that a thread takes at a time.
+/// The number of items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
 }  // namespace

@@ -1,4 +1,4 @@
-"""Draws pictures with an installed package: python smoke.py FOLDER_OF_SCENES
+"""Renders pictures with an installed package: python smoke.py FOLDER_OF_SCENES
 
 Each decoder that the package brings along is used once, and each warning is an error.
 """

@@ -1,4 +1,5 @@
-"""All cells of all notebooks run in order; assertions in them check the numbers."""
+"""Runs all cells of all notebooks in order. The notebooks contain assertions that check the
+numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ray engine with Open3D's interface. Expected numbers follow from the shapes."""
+"""Tests the ray engine with Open3D's interface. Expected numbers follow from the shapes."""
 
 from __future__ import annotations
 

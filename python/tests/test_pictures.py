@@ -1,4 +1,4 @@
-"""Pictures equal the program's, byte by byte."""
+"""Tests that pictures equal those of the program byte for byte."""
 
 from __future__ import annotations
 
@@ -193,11 +193,12 @@ def test_interrupt():
     start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         mt.render(prepared, size=(1920, 1080), spp=4096)
-    assert time.monotonic() - start < 30  # not to the end, which takes hours
+    assert time.monotonic() - start < 30  # stopped before the end, which would take hours
 
 
 def looks_alike(a: mt.Picture, b: mt.Picture) -> bool:
-    """Whether all but a few pixels at outlines show the same primitive at the same depth."""
+    """Returns True if all but a few pixels at outlines show the same primitive at the same
+    depth."""
     same = (a.primitive == b.primitive) & np.isclose(a.depth, b.depth, rtol=1e-5, equal_nan=True)
     return bool((a.primitive > 0).any()) and same.mean() > 0.99
 

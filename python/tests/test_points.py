@@ -1,4 +1,4 @@
-"""Points inside and outside of meshes, and nearest points."""
+"""Tests queries of points inside and outside of meshes, and of nearest points."""
 
 from __future__ import annotations
 

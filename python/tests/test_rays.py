@@ -1,4 +1,4 @@
-"""Ray queries against exact fractions, and the handling of arrays."""
+"""Compares ray queries with exact fractions, and tests the handling of arrays."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from hypothesis.extra.numpy import arrays
 
 
 def exact_hit(ray: np.ndarray, corners: np.ndarray) -> Fraction | None:
-    """t of the nearest point of a nondegenerate triangle, not seen edge on, in real arithmetic."""
+    """The exact t of the hit with a triangle that is not degenerate and not seen edge-on."""
     o, d = ([Fraction(float(x)) for x in part] for part in (ray[:3], ray[3:]))
     a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
 
@@ -57,7 +57,7 @@ def test_nearest_hits_equal_fractions(triangles, rays):
         certain = [f for f in found if f[0] is not None]
         normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         if (normals @ ray[3:] == 0).any():
-            continue  # edge on or without area: the C++ tests decide these
+            continue  # edge-on or without area; C++ tests cover these cases
         if not certain or not ray[3:].any():
             assert hits.primitive[i] == -1 and np.isinf(hits.t[i])
         else:
@@ -125,7 +125,7 @@ def test_float64_is_rounded_once():
     scene = mt.Scene(origin=(1e8, 0, 0))
     scene.add_sphere((0, 0, 0), 1)
     prepared = scene.prepare()
-    # 1e8 + 0.25 is not a float32; relative to the origin it is.
+    # 1e8 + 0.25 is not a float32, but it is one relative to the origin.
     hits = prepared.intersect([1e8 + 0.25, 0, 5, 0, 0, -1], fields=("t", "position"))
     assert hits.t == np.float32(5 - (1 - 0.25**2) ** 0.5)
     assert hits.position[0] == 1e8 + 0.25
@@ -241,4 +241,4 @@ def test_interrupt(rng):
     with pytest.raises(KeyboardInterrupt):
         for _ in range(1000):
             prepared.intersect(rays, threads=1)
-    assert time.monotonic() - start < 30  # not to the end; typically 0.1 s after the signal
+    assert time.monotonic() - start < 30  # stopped before the end, typically 0.1 s after the signal

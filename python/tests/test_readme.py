@@ -1,4 +1,4 @@
-"""The snippets of README.md run, one after the other."""
+"""Runs the snippets of README.md one after the other."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def test_readme_runs(tmp_path, monkeypatch):
     assert len(snippets) > 8
     shutil.copytree(SCENES, tmp_path / "scenes")
     monkeypatch.chdir(tmp_path)
-    # install() replaces the engines for the whole process; they are restored after the test.
+    # install() replaces the engines for the whole process, so they are restored after the test.
     engines = [trimesh.ray.ray_triangle]
     if trimesh.ray.has_embree:
         engines.append(trimesh.ray.ray_pyembree)

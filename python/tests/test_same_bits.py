@@ -1,4 +1,4 @@
-"""The same bytes with every instruction set and number of threads, and as they always were."""
+"""Tests that bytes are the same with every instruction set and number of threads, and unchanged."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import microtrace as mt
 
 threads = int(sys.argv[2])
 prepared = mt.load(sys.argv[1]).prepare(threads=threads)
-# Rays from integers: the bits of random generators could change.
+# Computes rays from integers, because the bits of random generators could change.
 k = np.arange(6 * 20000, dtype=np.int64).reshape(-1, 6)
 rays = ((k * 7919 % 4001 - 2000) / 512).astype(np.float32)
 rays[:, :3] *= np.float32(0.25)
@@ -46,7 +46,8 @@ EXPECTED = "72058fce6b9757962e387428a04591f80ad13ffda7e5e13c38b38f6a160f0b3e"
 @pytest.mark.parametrize("instruction_set", ["portable", "avx2", "avx512"])
 @pytest.mark.parametrize("threads", [1, 3])
 def test_same_bits(instruction_set, threads):
-    """MICROTRACE_ISA limits the kernels; processors without a set use the next lower one."""
+    """MICROTRACE_ISA limits the instruction set of the kernels. Processors without this set use the
+    next lower one."""
     run = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", CODE, SCENES / "gltf" / "knot.glb", str(threads)],
         env={**os.environ, "MICROTRACE_ISA": instruction_set},

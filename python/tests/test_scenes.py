@@ -1,4 +1,4 @@
-"""Scenes as data: loading, editing, preparing, pickling."""
+"""Tests scenes as data: loading, editing, preparing and pickling."""
 
 from __future__ import annotations
 

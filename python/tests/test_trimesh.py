@@ -1,4 +1,4 @@
-"""The ray engine for trimesh, beside trimesh's own."""
+"""Compares the ray engine for trimesh with trimesh's own."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_corners_and_edges_count_once():
     _, index_ray, _ = engine.intersects_location(origins, targets)
     assert (np.bincount(index_ray, minlength=len(targets)) == 1).all()
     index_tri, _ = engine.intersects_id(origins, targets)
-    assert len(index_tri) > len(targets)  # all triangles that share them
+    assert len(index_tri) > len(targets)  # includes all triangles that share the targets
     few, ray = engine.intersects_id(origins, targets, max_hits=1)
     assert len(few) == len(targets) and np.array_equal(ray, np.arange(len(targets)))
 
@@ -77,7 +77,7 @@ def test_contains():
     assert not mesh.contains(mesh.vertices * 1.01).any()
     assert mesh.ray.contains_points(mesh.vertices).all()
     assert mesh.contains([mesh.center_mass]).all()
-    # trimesh's own users of the engine.
+    # trimesh itself uses the engine here.
     depth = trimesh.proximity.signed_distance(mesh, [[0, 0, 0.5], [0, 0, 2]])
     assert depth[0] > 0 > depth[1]
     assert (trimesh.proximity.thickness(mesh, mesh.triangles_center[:20], method="ray") > 1).all()
@@ -111,7 +111,7 @@ def test_changes_and_copies():
 
 
 def test_install():
-    """In another process, because it changes trimesh."""
+    """Runs in another process, because install() changes trimesh."""
     code = """
 import microtrace.trimesh, trimesh
 microtrace.trimesh.install()

@@ -1,4 +1,4 @@
-"""The example that mypy checks also runs."""
+"""Runs the example that mypy checks."""
 
 from __future__ import annotations
 

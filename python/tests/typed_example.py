@@ -1,4 +1,4 @@
-"""What users write, with all types: mypy --strict accepts it, and it runs."""
+"""Code as users write it, with all types. mypy --strict must accept it, and it must run."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from microtrace.trimesh import RayMeshIntersector
 
 
 class Tetrahedron:
-    """Any object with vertices and faces is a mesh."""
+    """An object with vertices and faces, which is accepted as a mesh."""
 
     vertices: npt.NDArray[np.float64] = np.array(
         [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], float

@@ -19,9 +19,9 @@ namespace microtrace::cli {
 // Each parse_ function that takes an OptionValue throws Error (usage) with the option's name and
 // the values that it accepts.
 
-/// /// Parses WIDTHxHEIGHT.
+/// Parses WIDTHxHEIGHT.
 [[nodiscard]] ImageSize parse_size(const OptionValue& value);
-/// /// Parses x0,y0,x1,y1.
+/// Parses x0,y0,x1,y1.
 [[nodiscard]] PixelRect parse_crop(const OptionValue& value);
 
 /// The viewing direction of --view.
