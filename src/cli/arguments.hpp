@@ -123,7 +123,7 @@ struct Arguments {
     return std::holds_alternative<PathOptions>(*integrator);
   }
 
-  // // For the command merge only:
+  // For the command merge only:
   std::vector<std::filesystem::path> checkpoints{};
   bool allows_missing_samples = false;
 };

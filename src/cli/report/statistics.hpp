@@ -15,7 +15,7 @@ class Stopwatch {
  public:
   using Clock = std::chrono::steady_clock;
 
-  // // Each of these functions ends a stage.
+  // Each of these functions ends a stage.
   void loaded(const LoadTimes& times) {
     load_ = lap();
     load_times_ = times;
@@ -26,7 +26,7 @@ class Stopwatch {
   }
   void written() { write_ = lap(); }
 
-  /// /// The time for loading, rendering and writing.
+  /// The time for loading, rendering and writing.
   [[nodiscard]] double seconds() const { return load_ + render_ + write_; }
 
   /// Prints times, numbers of rays and memory use to standard error.

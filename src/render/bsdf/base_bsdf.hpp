@@ -110,7 +110,7 @@ class BaseBsdf {
   F multiply_reflected_;         ///< multiple-scattering factor of the dielectric
   V diffuse_, multiple_;         ///< products of all factors that do not depend on wi
   F facet_probability_;          ///< probability of sampling a microfacet normal
-  // // The members below are set only if their feature is present.
+  // The members below are set only if their feature is present.
   F transmittance_;  ///< transmittance of the coating
   Schlick<N> dielectric_, metal_;
   ThinFilm<N> film_;

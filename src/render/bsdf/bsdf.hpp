@@ -82,7 +82,7 @@ class Bsdf {
   V wo_;
   const Coating<N>* coating_;
   Base base_;
-  // // The members below are set only if there are layers on the side of wo, unless noted
+  // The members below are set only if there are layers on the side of wo, unless noted
   // otherwise.
   V sheen_;
   F coat_;

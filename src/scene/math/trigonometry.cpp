@@ -19,7 +19,7 @@ double atan_kernel(double x) {
 
 using Angle = ReducedAngle<1>;
 
-// // Reduces an angle to [-45, 45] degrees and a multiple of 90 degrees. std::fmod is exact.
+// Reduces an angle to [-45, 45] degrees and a multiple of 90 degrees. std::fmod is exact.
 Angle reduced_degrees(double x) {
   const double turn = std::fmod(x, 360.0);
   const double n = std::floor(turn / 90 + 0.5);

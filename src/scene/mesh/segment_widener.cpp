@@ -46,7 +46,7 @@ SegmentWidener::SegmentWidener(const Camera& camera, ImageSize size)
       down_(rays_.down_),
       low_(-kMargin),
       high_(size.width + kMargin, size.height + kMargin),
-      // // The angle of a pixel at the equator. Closer to the poles, this angle spans more pixels.
+      // The angle of a pixel at the equator. Closer to the poles, this angle spans more pixels.
       angle_(std::max(std::numbers::pi / size.height, 2 * std::numbers::pi / size.width)) {
   if (rays_.kind_ == RayGenerator::Kind::distorted) allow_for_lens();
 }
