@@ -262,41 +262,38 @@ std::string anisotropic_loss_table() {
     return std::vector{p.alphas, p.alphas, p.azimuths, p.cosines};
   };
   return header_text(
-      "Albedos of an anisotropic GGX reflector: polynomials fitted to the integrals of "
-      "ggx_albedo_table.hpp. The fit of the loss is rarely above, the fit of the Schlick term "
-      "rarely "
-      "below.\n"
+      "Albedos of an anisotropic GGX reflector, as polynomials that are fitted to the integrals of "
+      "ggx_albedo_table.hpp. The fit of the loss rarely exceeds the integral, and the fit of the "
+      "Schlick term is rarely below it.\n"
       "\n"
       "As AnisotropicGgxAlbedo evaluates them, albedos for F = 1 are " +
-          error_text(kAnisotropicF1Error) + "; for Schlick's term " +
-          error_text(kAnisotropicSchlickError) + "; means of these are for F = 1 " +
-          error_text(kAnisotropicMeanF1Error) + "; for Schlick's term " +
+          error_text(kAnisotropicF1Error) + ". Albedos for Schlick's term are " +
+          error_text(kAnisotropicSchlickError) + ". Means for F = 1 are " +
+          error_text(kAnisotropicMeanF1Error) + ". Means for Schlick's term are " +
           error_text(kAnisotropicMeanSchlickError) + ".\n",
       {"render/bsdf/polynomial.hpp", "array"},
       "// clang-format off\n"
       "\n"
-      "/// The energy deficit of single scattering for F = 1, by powers of 2 x - 1 in [-1, 1], "
-      "where "
+      "/// The energy deficit of single scattering for F = 1, by powers of four variables 2 x - 1 "
+      "in\n"
+      "/// [-1, 1]. The four x are sqrt(a), sqrt(b), (sqrt(c) - sqrt(a)) / (sqrt(b) - sqrt(a)) "
+      "and\n"
+      "/// z (1 + c) / (z + c). a is the smaller alpha, b the greater alpha, c the alpha along "
       "the\n"
-      "/// four x are sqrt(a), a the smaller alpha; sqrt(b), b the greater alpha; (sqrt(c) - "
-      "sqrt(a)) "
-      "/\n"
-      "/// (sqrt(b) - sqrt(a)), c the alpha along the direction; z (1 + c) / (z + c), z = "
-      "cos(theta).\n"
+      "/// direction, and z = cos(theta).\n"
       "using AnisotropicLossPlane = Polynomial2<5, 8>;\n" +
           table_text("std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropicLoss",
                      loss.coefficients, sizes(loss), 5) +
           "\n"
           "/// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic "
           "reflector of\n"
-          "/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). Same variables, but the last "
-          "x "
-          "is\n"
-          "/// sqrt(z).\n"
+          "/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). The variables are those of\n"
+          "/// kAnisotropicLoss, except that the last x is sqrt(z).\n"
           "using AnisotropicSchlickPlane = Polynomial2<3, 4>;\n" +
           table_text("std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick",
                      edge.coefficients, sizes(edge), 4) +
-          "\n/// The cosine-weighted means of these, by powers of the first two variables.\n" +
+          "\n/// The cosine-weighted means of these albedos, by powers of the first two "
+          "variables.\n" +
           table_text("Polynomial2<7, 7> kMeanAnisotropicLoss", means.loss,
                      {kMeanPowers, kMeanPowers}, 6) +
           table_text("Polynomial2<7, 7> kMeanAnisotropicSchlick", means.edge,

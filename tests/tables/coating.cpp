@@ -127,31 +127,32 @@ std::string deficit_text(const std::string& name, bool schlick) {
 std::string coating_table() {
   const Nodes nodes = gauss_nodes(), weights = gauss_weights(nodes);
   return header_text(
-      "Energy deficit of facets below a coating: the light to or from z = cos(theta) that white "
-      "facets reflect into directions of lower transmittance T, the integral over wi of\n"
+      "Energy deficit of microfacets below a coating. This is the light to or from z = cos(theta) "
+      "that white microfacets reflect into directions of lower transmittance T, the integral over "
+      "wi of\n"
       "\n"
       "  F D(h) G2(wo, wi) / (4 z wi.z) wi.z max(T(z) - T(wi.z), 0).\n"
       "\n"
-      "T is the Lagrange polynomial through its values at eight nodes, so that the deficit is "
-      "linear "
-      "in these, and is assumed to rise with z. Entries are rounded integrals.\n"
+      "T is assumed to increase with z. It is the Lagrange polynomial through its values at eight "
+      "nodes, so the deficit is linear in these values. Entries are rounded integrals.\n"
       "\n"
       "Under a clear coat, deficits for F = 1 are " +
-          error_text(kDeficitF1Error) + "; for F = (1 - cos)^5 " +
+          error_text(kDeficitF1Error) + ". Deficits for F = (1 - cos)^5 are " +
           error_text(kDeficitSchlickError) + ".\n",
       {"array", "cstddef", "cstdint"},
       "inline constexpr std::size_t kCoatingNodes = 8, kCoatingRows = 12, kCoatingColumns = 16;\n"
       "\n"
       "// clang-format off\n"
       "\n"
-      "/// Gauss quadrature of functions of z over the hemisphere, with weight 2 z.\n" +
+      "/// Nodes and weights of Gauss quadrature of functions of z over [0, 1] with weight 2 z.\n" +
           table_text("std::array<float, kCoatingNodes> kCoatingNode", nodes, {kNodes}, 8) +
           table_text("std::array<float, kCoatingNodes> kCoatingWeight", weights, {kNodes}, 8) +
           "\n"
-          "/// Unit of the tables' entries.\n"
+          "/// The unit of the tables' entries.\n"
           "inline constexpr float kDeficitUnit = 1 / 16384.0F;\n"
           "\n"
-          "/// [sqrt(roughness) j / 11][sqrt(z) i / 15][node]: the coefficient of T at the node.\n"
+          "/// Entry [j][i][k] is the coefficient of T at node k for sqrt(roughness) = j / 11 and\n"
+          "/// sqrt(z) = i / 15.\n"
           "using DeficitTable =\n"
           "    std::array<std::array<std::array<std::int16_t, kCoatingNodes>, kCoatingColumns>, "
           "kCoatingRows>;\n"
@@ -162,7 +163,7 @@ std::string coating_table() {
 
 std::string coating_schlick_table() {
   return header_text(
-      "The table of coating_table.hpp for F = (1 - cos)^5.\n",
+      "The counterpart of kDeficitF1 in coating_table.hpp for F = (1 - cos)^5.\n",
       {"render/bsdf/tables/coating_table.hpp"},
       "// clang-format off\n\n" + deficit_text("kDeficitSchlick", true) + "\n// clang-format on\n");
 }

@@ -73,25 +73,27 @@ std::string ggx_albedo_table() {
   }
   const std::vector<std::size_t> square{kSteps, kSteps}, row{kSteps};
   return header_text(
-      "Directional albedos of a GGX reflector with height-correlated masking: the integral over "
-      "wi of\n"
+      "Directional albedos of a GGX reflector with height-correlated masking, the integral over wi "
+      "of\n"
       "\n"
       "  F D(h) G2(wo, wi) / (4 wo.z wi.z) wi.z.\n"
       "\n"
       "Entries are rounded integrals. With the interpolation of GgxAlbedo, albedos for F = 1 are " +
-          error_text(kGgxF1Error) + "; for Schlick's term " + error_text(kGgxSchlickError) +
-          "; means, of the interpolated albedos, for F = 1 " + error_text(kGgxMeanF1Error) +
-          "; for Schlick's term " + error_text(kGgxMeanSchlickError) + ".\n",
+          error_text(kGgxF1Error) + ". Albedos for Schlick's term are " +
+          error_text(kGgxSchlickError) + ". Means of the interpolated albedos for F = 1 are " +
+          error_text(kGgxMeanF1Error) + ". Means for Schlick's term are " +
+          error_text(kGgxMeanSchlickError) + ".\n",
       {"array"},
       "inline constexpr int kAlbedoSteps = 32;\n"
       "\n"
-      "/// [roughness][angle], where roughness r = j / 31, alpha = max(r^2, 0.001).\n"
+      "/// Row j is for roughness r = j / 31 and alpha = max(r^2, 0.001). Columns are angles.\n"
       "using AlbedoTable = std::array<std::array<float, kAlbedoSteps>, kAlbedoSteps>;\n"
       "\n"
       "// clang-format off\n"
-      "/// For F = 1. Entry i is for i / 31 = mu (1 + alpha) / (mu + alpha), mu = cos(theta).\n" +
+      "/// For F = 1. Column i is for i / 31 = mu (1 + alpha) / (mu + alpha) with mu = "
+      "cos(theta).\n" +
           table_text("AlbedoTable kAlbedoF1", white, square, kDecimals) +
-          "\n/// For F = (1 - cos)^5. Entry i is for i / 31 = sqrt(mu).\n" +
+          "\n/// For F = (1 - cos)^5. Column i is for i / 31 = sqrt(mu).\n" +
           table_text("AlbedoTable kAlbedoSchlick", edge, square, kDecimals) +
           "\n/// The cosine-weighted means of the interpolated albedos, by roughness.\n" +
           table_text("std::array<float, kAlbedoSteps> kMeanAlbedoF1", mean_white, row, kDecimals) +

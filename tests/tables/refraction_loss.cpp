@@ -109,35 +109,40 @@ std::string refraction_loss_table() {
       "\n"
       "  D(h) (wo . h) / wo.z (F G2(wo, reflected) + (1 - F) min(G1(wo), G1(refracted))).\n"
       "\n"
-      "F is Schlick's Fresnel term of the index for the cosine in the thinner medium. Entries are "
-      "fitted so that the interpolation of RefractionLoss is rarely above the integral: from the "
-      "thinner side, losses are " +
-          error_text(kLossOutsideError) + "; from the denser side " + error_text(kLossWithinError) +
-          ". The greatest errors are at cos(theta) < 0.03.\n",
+      "F is Schlick's Fresnel term that follows from the index of refraction, for the cosine in "
+      "the thinner medium. Entries are fitted so that the interpolation of RefractionLoss is "
+      "rarely above the integral. From the thinner side, losses are " +
+          error_text(kLossOutsideError) + ". From the denser side, losses are " +
+          error_text(kLossWithinError) + ". The greatest errors are at cos(theta) < 0.03.\n",
       {"array", "cstddef", "cstdint"},
       "inline constexpr std::size_t kLossIndices = 8, kLossRows = 12, kLossColumns = 17;\n"
-      "inline constexpr float kGreatestCritical = 0.96F;  ///< cosine\n"
+      "inline constexpr float kGreatestCritical = 0.96F;  ///< greatest cosine of a critical "
+      "angle\n"
       "inline constexpr float kRefractionUnit = 1 / 10000.0F;\n"
       "\n"
-      "/// [cos(critical angle) = 0.96 k / 7][roughness j / 11][angle], in this unit.\n"
+      "/// Entry [k][j][i] is for cos(critical angle) = 0.96 k / 7, roughness j / 11 and angle i, "
+      "in\n"
+      "/// units of kRefractionUnit.\n"
       "using RefractionLossTable =\n"
       "    std::array<std::array<std::array<std::int16_t, kLossColumns>, kLossRows>, "
       "kLossIndices>;\n"
       "\n"
       "// clang-format off\n"
       "\n"
-      "/// From the thinner side: column i is for cos(theta) = (i / 16)^2.\n" +
+      "/// For light from the thinner side. Column i is for cos(theta) = (i / 16)^2.\n" +
           loss_text("kLossFromOutside", false) + "\n// clang-format on\n");
 }
 
 std::string refraction_loss_within_table() {
   return header_text(
-      "The table of refraction_loss_table.hpp for light from the denser side.\n",
+      "The counterpart of kLossFromOutside in refraction_loss_table.hpp for light from the denser "
+      "side.\n",
       {"render/bsdf/tables/refraction_loss_table.hpp"},
       "// clang-format off\n"
       "\n"
-      "/// Columns 0 to 8 are for cos(theta) = c (i / 8)^2, where c is the cosine of the critical "
-      "angle,\n/// columns 8 to 16 for c + (1 - c) ((i - 8) / 8)^2.\n" +
+      "/// c is the cosine of the critical angle. Columns 0 to 8 are for cos(theta) = c (i / "
+      "8)^2,\n"
+      "/// columns 8 to 16 for cos(theta) = c + (1 - c) ((i - 8) / 8)^2.\n" +
           loss_text("kLossFromWithin", true) + "\n// clang-format on\n");
 }
 

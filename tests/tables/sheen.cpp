@@ -88,8 +88,10 @@ std::string sheen_table() {
     scaled.insert(scaled.end(), divided.begin(), divided.end());
   }
   const std::vector<std::size_t> sizes{kRows, kColumns};
+  std::string most = number_text(kMostSheen, 2);
+  most.pop_back();  // the suffix F
   return header_text(
-      "Directional albedos of sheen: the integral over wi of\n"
+      "Directional albedos of sheen, the integral over wi of\n"
       "\n"
       "  D(h) / (4 (1 + lambda(wo.z) + lambda(wi.z)) wo.z wi.z) wi.z,\n"
       "  D(h) = (2 + 1 / alpha) sin(theta_h)^(1 / alpha) / (2 pi),   alpha = r^2,\n"
@@ -97,24 +99,24 @@ std::string sheen_table() {
       "with lambda as in A. Conty Estevez and C. Kulla, Production friendly microfacet sheen BRDF, "
       "2017.\n"
       "\n"
-      "With the interpolation of SheenLobe, its albedo is " +
-          error_text(kSheenError) + "; the integral is at most " + number_text(kMostSheen, 2) +
-          ".\n",
+      "With the interpolation of SheenLobe, albedos are " +
+          error_text(kSheenError) + ". The integral is at most " + most + ".\n",
       {"array", "cstddef"},
       "inline constexpr std::size_t kSheenRows = 20, kSheenColumns = 32;\n"
       "\n"
-      "/// [roughness r = 0.05 + 0.95 (j / 19)^2][cos(theta) = z, z (1 + b) / (z + b) = i / 31, b "
-      "= r "
-      "/ 2].\n"
+      "/// Row j is for roughness r = 0.05 + 0.95 (j / 19)^2. Column i is for z = cos(theta) with\n"
+      "/// z (1 + b) / (z + b) = i / 31 and b = r / 2.\n"
       "using SheenTable = std::array<std::array<float, kSheenColumns>, kSheenRows>;\n"
       "\n"
       "// clang-format off\n"
       "\n"
-      "/// The published model; its maximum also for directions that are closer to the horizon.\n" +
+      "/// The albedo of the published model. Columns closer to the horizon than the maximum "
+      "repeat the\n"
+      "/// maximum.\n" +
           table_text("SheenTable kRawSheenAlbedo", raw, sizes, kDecimals) +
-          "\n/// The model divided by kRawSheenAlbedo for wo or wi, whichever is larger, where "
-          "this "
-          "is more\n/// than 1.\n" +
+          "\n/// The albedo of the model divided by kRawSheenAlbedo for wo or wi, whichever is "
+          "larger, where\n"
+          "/// this divisor exceeds 1.\n" +
           table_text("SheenTable kSheenAlbedo", scaled, sizes, kDecimals) +
           "\n// clang-format on\n");
 }

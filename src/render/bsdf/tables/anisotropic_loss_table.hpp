@@ -1,12 +1,13 @@
 #pragma once
-/// Albedos of an anisotropic GGX reflector: polynomials fitted to the integrals of
-/// ggx_albedo_table.hpp. The fit of the loss is rarely above, the fit of the Schlick term rarely
-/// below.
+/// Albedos of an anisotropic GGX reflector, as polynomials that are fitted to the integrals of
+/// ggx_albedo_table.hpp. The fit of the loss rarely exceeds the integral, and the fit of the
+/// Schlick term is rarely below it.
 ///
 /// As AnisotropicGgxAlbedo evaluates them, albedos for F = 1 are at most 0.016 above and 0.0035
-/// below the integral, rms 0.0013; for Schlick's term at most 0.18 above and 0.024 below the
-/// integral, rms 0.009; means of these are for F = 1 at most 0 above and 0.0022 below the integral,
-/// rms 0.0016; for Schlick's term at most 0.0007 above and 0.0003 below the integral, rms 0.0002.
+/// below the integral, rms 0.0013. Albedos for Schlick's term are at most 0.18 above and 0.024
+/// below the integral, rms 0.009. Means for F = 1 are at most 0 above and 0.0022 below the
+/// integral, rms 0.0016. Means for Schlick's term are at most 0.0007 above and 0.0003 below the
+/// integral, rms 0.0002.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -18,9 +19,10 @@ namespace microtrace::bsdf {
 
 // clang-format off
 
-/// The energy deficit of single scattering for F = 1, by powers of 2 x - 1 in [-1, 1], where the
-/// four x are sqrt(a), a the smaller alpha; sqrt(b), b the greater alpha; (sqrt(c) - sqrt(a)) /
-/// (sqrt(b) - sqrt(a)), c the alpha along the direction; z (1 + c) / (z + c), z = cos(theta).
+/// The energy deficit of single scattering for F = 1, by powers of four variables 2 x - 1 in
+/// [-1, 1]. The four x are sqrt(a), sqrt(b), (sqrt(c) - sqrt(a)) / (sqrt(b) - sqrt(a)) and
+/// z (1 + c) / (z + c). a is the smaller alpha, b the greater alpha, c the alpha along the
+/// direction, and z = cos(theta).
 using AnisotropicLossPlane = Polynomial2<5, 8>;
 inline constexpr std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropicLoss = {{
 {{{{{{0.14205F, 0.09841F, -0.09001F, -0.07813F, -0.02291F, 0.00443F, 0.01298F, 0.01733F}},
@@ -150,8 +152,8 @@ inline constexpr std::array<std::array<AnisotropicLossPlane, 5>, 5> kAnisotropic
 {{0.00296F, -0.01342F, 0.00521F, 0.05071F, -0.01445F, -0.07699F, 0.00640F, 0.03977F}}}}}}}};
 
 /// For F = (1 - cos)^5, the albedo of single scattering minus that of an isotropic reflector of
-/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). Same variables, but the last x is
-/// sqrt(z).
+/// alpha c, divided by (sqrt(b) - sqrt(a)) (1 - sqrt(z)). The variables are those of
+/// kAnisotropicLoss, except that the last x is sqrt(z).
 using AnisotropicSchlickPlane = Polynomial2<3, 4>;
 inline constexpr std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotropicSchlick = {{
 {{{{{{-0.0050F, 0.0013F, 0.0178F, 0.0105F}},
@@ -182,7 +184,7 @@ inline constexpr std::array<std::array<AnisotropicSchlickPlane, 3>, 3> kAnisotro
 {{-0.0150F, 0.0776F, 0.1794F, 0.0574F}},
 {{-0.0113F, -0.2528F, -0.0952F, 0.1982F}}}}}}}};
 
-/// The cosine-weighted means of these, by powers of the first two variables.
+/// The cosine-weighted means of these albedos, by powers of the first two variables.
 inline constexpr Polynomial2<7, 7> kMeanAnisotropicLoss = {{
 {{0.117581F, 0.168926F, 0.217834F, -0.086687F, 0.062698F, -0.058458F, 0.012560F}},
 {{0.178179F, -0.159108F, 0.241853F, -0.509395F, 0.582913F, -0.345863F, 0.086168F}},

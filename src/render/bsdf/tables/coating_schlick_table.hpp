@@ -1,5 +1,5 @@
 #pragma once
-/// The table of coating_table.hpp for F = (1 - cos)^5.
+/// The counterpart of kDeficitF1 in coating_table.hpp for F = (1 - cos)^5.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 

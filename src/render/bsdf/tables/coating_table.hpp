@@ -1,14 +1,15 @@
 #pragma once
-/// Energy deficit of facets below a coating: the light to or from z = cos(theta) that white facets
-/// reflect into directions of lower transmittance T, the integral over wi of
+/// Energy deficit of microfacets below a coating. This is the light to or from z = cos(theta) that
+/// white microfacets reflect into directions of lower transmittance T, the integral over wi of
 ///
 ///   F D(h) G2(wo, wi) / (4 z wi.z) wi.z max(T(z) - T(wi.z), 0).
 ///
-/// T is the Lagrange polynomial through its values at eight nodes, so that the deficit is linear in
-/// these, and is assumed to rise with z. Entries are rounded integrals.
+/// T is assumed to increase with z. It is the Lagrange polynomial through its values at eight
+/// nodes, so the deficit is linear in these values. Entries are rounded integrals.
 ///
 /// Under a clear coat, deficits for F = 1 are at most 0.003 above and 0.0045 below the integral,
-/// rms 0.0005; for F = (1 - cos)^5 at most 0.003 above and 0.003 below the integral, rms 0.0003.
+/// rms 0.0005. Deficits for F = (1 - cos)^5 are at most 0.003 above and 0.003 below the integral,
+/// rms 0.0003.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -22,7 +23,7 @@ inline constexpr std::size_t kCoatingNodes = 8, kCoatingRows = 12, kCoatingColum
 
 // clang-format off
 
-/// Gauss quadrature of functions of z over the hemisphere, with weight 2 z.
+/// Nodes and weights of Gauss quadrature of functions of z over [0, 1] with weight 2 z.
 inline constexpr std::array<float, kCoatingNodes> kCoatingNode = {{
 0.04463396F, 0.14436626F, 0.28682476F, 0.45481332F, 0.62806784F, 0.78569152F,
   0.90867639F, 0.98222008F}};
@@ -30,10 +31,11 @@ inline constexpr std::array<float, kCoatingNodes> kCoatingWeight = {{
 0.00659038F, 0.03568581F, 0.09087864F, 0.15839920F, 0.21209472F, 0.22501160F,
   0.18223805F, 0.08910161F}};
 
-/// Unit of the tables' entries.
+/// The unit of the tables' entries.
 inline constexpr float kDeficitUnit = 1 / 16384.0F;
 
-/// [sqrt(roughness) j / 11][sqrt(z) i / 15][node]: the coefficient of T at the node.
+/// Entry [j][i][k] is the coefficient of T at node k for sqrt(roughness) = j / 11 and
+/// sqrt(z) = i / 15.
 using DeficitTable =
     std::array<std::array<std::array<std::int16_t, kCoatingNodes>, kCoatingColumns>, kCoatingRows>;
 

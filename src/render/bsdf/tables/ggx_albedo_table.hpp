@@ -1,13 +1,13 @@
 #pragma once
-/// Directional albedos of a GGX reflector with height-correlated masking: the integral over wi of
+/// Directional albedos of a GGX reflector with height-correlated masking, the integral over wi of
 ///
 ///   F D(h) G2(wo, wi) / (4 wo.z wi.z) wi.z.
 ///
 /// Entries are rounded integrals. With the interpolation of GgxAlbedo, albedos for F = 1 are at
-/// most 0.006 above and 0.0006 below the integral, rms 0.0004; for Schlick's term at most 0.025
-/// above and 0.017 below the integral, rms 0.0011; means, of the interpolated albedos, for F = 1 at
-/// most 0.00012 above and 0.00015 below the integral, rms 0.00005; for Schlick's term at most
-/// 0.000001 above and 0.000001 below the integral, rms 0.000001.
+/// most 0.006 above and 0.0006 below the integral, rms 0.0004. Albedos for Schlick's term are at
+/// most 0.025 above and 0.017 below the integral, rms 0.0011. Means of the interpolated albedos for
+/// F = 1 are at most 0.00012 above and 0.00015 below the integral, rms 0.00005. Means for Schlick's
+/// term are at most 0.000001 above and 0.000001 below the integral, rms 0.000001.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -17,11 +17,11 @@ namespace microtrace::bsdf {
 
 inline constexpr int kAlbedoSteps = 32;
 
-/// [roughness][angle], where roughness r = j / 31, alpha = max(r^2, 0.001).
+/// Row j is for roughness r = j / 31 and alpha = max(r^2, 0.001). Columns are angles.
 using AlbedoTable = std::array<std::array<float, kAlbedoSteps>, kAlbedoSteps>;
 
 // clang-format off
-/// For F = 1. Entry i is for i / 31 = mu (1 + alpha) / (mu + alpha), mu = cos(theta).
+/// For F = 1. Column i is for i / 31 = mu (1 + alpha) / (mu + alpha) with mu = cos(theta).
 inline constexpr AlbedoTable kAlbedoF1 = {{
 {{1.000000F, 0.993049F, 0.985802F, 0.978274F, 0.970486F, 0.962474F, 0.954287F, 0.945997F,
   0.937694F, 0.929499F, 0.921560F, 0.914057F, 0.907205F, 0.901248F, 0.896459F, 0.893127F,
@@ -152,7 +152,7 @@ inline constexpr AlbedoTable kAlbedoF1 = {{
   0.528854F, 0.511185F, 0.494052F, 0.477414F, 0.461237F, 0.445491F, 0.430149F, 0.415187F,
   0.400581F, 0.386312F, 0.372362F, 0.358713F, 0.345352F, 0.332263F, 0.319434F, 0.306853F}}}};
 
-/// For F = (1 - cos)^5. Entry i is for i / 31 = sqrt(mu).
+/// For F = (1 - cos)^5. Column i is for i / 31 = sqrt(mu).
 inline constexpr AlbedoTable kAlbedoSchlick = {{
 {{0.972559F, 0.874148F, 0.942313F, 0.945454F, 0.916376F, 0.875026F, 0.825366F, 0.769237F,
   0.708163F, 0.643633F, 0.577135F, 0.510135F, 0.444037F, 0.380147F, 0.319629F, 0.263475F,

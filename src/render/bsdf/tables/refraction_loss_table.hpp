@@ -4,11 +4,11 @@
 ///
 ///   D(h) (wo . h) / wo.z (F G2(wo, reflected) + (1 - F) min(G1(wo), G1(refracted))).
 ///
-/// F is Schlick's Fresnel term of the index for the cosine in the thinner medium. Entries are
-/// fitted so that the interpolation of RefractionLoss is rarely above the integral: from the
-/// thinner side, losses are at most 0.011 above and 0.095 below the integral, rms 0.006; from the
-/// denser side at most 0.011 above and 0.11 below the integral, rms 0.0065. The greatest errors are
-/// at cos(theta) < 0.03.
+/// F is Schlick's Fresnel term that follows from the index of refraction, for the cosine in the
+/// thinner medium. Entries are fitted so that the interpolation of RefractionLoss is rarely above
+/// the integral. From the thinner side, losses are at most 0.011 above and 0.095 below the
+/// integral, rms 0.006. From the denser side, losses are at most 0.011 above and 0.11 below the
+/// integral, rms 0.0065. The greatest errors are at cos(theta) < 0.03.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -19,16 +19,17 @@
 namespace microtrace::bsdf {
 
 inline constexpr std::size_t kLossIndices = 8, kLossRows = 12, kLossColumns = 17;
-inline constexpr float kGreatestCritical = 0.96F;  ///< cosine
+inline constexpr float kGreatestCritical = 0.96F;  ///< greatest cosine of a critical angle
 inline constexpr float kRefractionUnit = 1 / 10000.0F;
 
-/// [cos(critical angle) = 0.96 k / 7][roughness j / 11][angle], in this unit.
+/// Entry [k][j][i] is for cos(critical angle) = 0.96 k / 7, roughness j / 11 and angle i, in
+/// units of kRefractionUnit.
 using RefractionLossTable =
     std::array<std::array<std::array<std::int16_t, kLossColumns>, kLossRows>, kLossIndices>;
 
 // clang-format off
 
-/// From the thinner side: column i is for cos(theta) = (i / 16)^2.
+/// For light from the thinner side. Column i is for cos(theta) = (i / 16)^2.
 inline constexpr RefractionLossTable kLossFromOutside = {{
 {{{{35, 245, -596, -34, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}},
 {{-80, 482, 573, 174, 85, 9, 1, -2, -1, 0, 0, 0, 0, 0, 0, 0, 0}},

@@ -1,5 +1,5 @@
 #pragma once
-/// The table of refraction_loss_table.hpp for light from the denser side.
+/// The counterpart of kLossFromOutside in refraction_loss_table.hpp for light from the denser side.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -9,8 +9,8 @@ namespace microtrace::bsdf {
 
 // clang-format off
 
-/// Columns 0 to 8 are for cos(theta) = c (i / 8)^2, where c is the cosine of the critical angle,
-/// columns 8 to 16 for c + (1 - c) ((i - 8) / 8)^2.
+/// c is the cosine of the critical angle. Columns 0 to 8 are for cos(theta) = c (i / 8)^2,
+/// columns 8 to 16 for cos(theta) = c + (1 - c) ((i - 8) / 8)^2.
 inline constexpr RefractionLossTable kLossFromWithin = {{
 {{{{-191, 1638, 928, -966, -351, -237, 6, 3, 4, 3, 2, 1, 0, 0, 0, 0, 0}},
 {{612, 940, 819, 1667, 937, 694, 549, 308, 165, 66, 5, -3, 0, 0, 0, 0, 0}},

@@ -1,5 +1,5 @@
 #pragma once
-/// Directional albedos of sheen: the integral over wi of
+/// Directional albedos of sheen, the integral over wi of
 ///
 ///   D(h) / (4 (1 + lambda(wo.z) + lambda(wi.z)) wo.z wi.z) wi.z,
 ///   D(h) = (2 + 1 / alpha) sin(theta_h)^(1 / alpha) / (2 pi),   alpha = r^2,
@@ -7,8 +7,8 @@
 /// with lambda as in A. Conty Estevez and C. Kulla, Production friendly microfacet sheen BRDF,
 /// 2017.
 ///
-/// With the interpolation of SheenLobe, its albedo is at most 0.07 above and 0.03 below the
-/// integral, rms 0.006; the integral is at most 1.01F.
+/// With the interpolation of SheenLobe, albedos are at most 0.07 above and 0.03 below the integral,
+/// rms 0.006. The integral is at most 1.01.
 ///
 /// Written by tests/tables/make_tables.cpp; docs/derivations.md derives the integrals.
 
@@ -19,12 +19,14 @@ namespace microtrace::bsdf {
 
 inline constexpr std::size_t kSheenRows = 20, kSheenColumns = 32;
 
-/// [roughness r = 0.05 + 0.95 (j / 19)^2][cos(theta) = z, z (1 + b) / (z + b) = i / 31, b = r / 2].
+/// Row j is for roughness r = 0.05 + 0.95 (j / 19)^2. Column i is for z = cos(theta) with
+/// z (1 + b) / (z + b) = i / 31 and b = r / 2.
 using SheenTable = std::array<std::array<float, kSheenColumns>, kSheenRows>;
 
 // clang-format off
 
-/// The published model; its maximum also for directions that are closer to the horizon.
+/// The albedo of the published model. Columns closer to the horizon than the maximum repeat the
+/// maximum.
 inline constexpr SheenTable kRawSheenAlbedo = {{
 {{3.9957F, 3.9957F, 3.9957F, 3.9295F, 3.8315F, 3.7159F, 3.5890F, 3.4539F, 3.3122F,
   3.1649F, 3.0127F, 2.8558F, 2.6944F, 2.5287F, 2.3585F, 2.1841F, 2.0054F, 1.8226F,
@@ -107,8 +109,8 @@ inline constexpr SheenTable kRawSheenAlbedo = {{
   0.4783F, 0.4557F, 0.4330F, 0.4098F, 0.3863F, 0.3624F, 0.3382F, 0.3146F, 0.2911F,
   0.2673F, 0.2430F, 0.2178F, 0.1914F, 0.1638F}}}};
 
-/// The model divided by kRawSheenAlbedo for wo or wi, whichever is larger, where this is more
-/// than 1.
+/// The albedo of the model divided by kRawSheenAlbedo for wo or wi, whichever is larger, where
+/// this divisor exceeds 1.
 inline constexpr SheenTable kSheenAlbedo = {{
 {{0.9553F, 0.9977F, 1.0000F, 0.9999F, 0.9996F, 0.9992F, 0.9985F, 0.9976F, 0.9965F,
   0.9950F, 0.9930F, 0.9905F, 0.9873F, 0.9832F, 0.9780F, 0.9712F, 0.9626F, 0.9514F,
