@@ -1,7 +1,6 @@
 #include <microtrace/error.hpp>
 #include <microtrace/primitives.hpp>
 
-#include <algorithm>
 #include <limits>
 
 namespace microtrace {
@@ -18,9 +17,14 @@ Primitives::Primitives(const Scene& scene) : scene_(&scene) {
 
 std::size_t Primitives::object_index(PrimitiveId id) const {
   // Takes the last object that starts at or before `id`, because an empty mesh has the same first
-  // id as the next object.
-  const auto after = std::upper_bound(first_ids_.begin(), first_ids_.end(), id);
-  return static_cast<std::size_t>(after - first_ids_.begin()) - 1;
+  // id as the next object. Has no branches, because they would often be mispredicted.
+  const PrimitiveId* begin = first_ids_.data();
+  for (std::size_t size = first_ids_.size(); size > 1;) {
+    const std::size_t half = size / 2;
+    begin = begin[half] <= id ? begin + half : begin;
+    size -= half;
+  }
+  return static_cast<std::size_t>(begin - first_ids_.data());
 }
 
 }  // namespace microtrace

@@ -39,8 +39,8 @@ class Places {
   }
 
   /// The triangles that the query finds. Nothing if they are too many.
-  std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi) const {
-    BoxQuery query{};
+  std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi,
+                                            BoxQuery query = {}) const {
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
@@ -115,6 +115,34 @@ TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
   }
   EXPECT_GT(answered, 900);
   EXPECT_GT(met, 200);
+}
+
+// A triangle that the query omits, and triangles within the plane that it omits; others with only
+// an edge in the plane, and those in parallel planes, are found.
+TEST_P(Touching, OmitsOneTriangleAndAPlane) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto at = [&](float along, float i, float j) {
+      Vec3 p(0);
+      p[axis] = along;
+      p[(axis + 1) % 3] = i;
+      p[(axis + 2) % 3] = j;
+      return p;
+    };
+    Mesh mesh;
+    for (int i = 0; i < 40; ++i) {
+      const float along = i % 4 == 0 ? 3 : 0, tip = i % 4 == 1 ? 5.0F : along;
+      const auto width = static_cast<float>(1 + i);  // the tree has one of equal triangles
+      add_triangle(mesh, at(along, -1, -1), at(along, width, -1), at(tip, 0, 9));
+    }
+    BoxQuery query;
+    query.omitted_id = 8;
+    query.plane_axis = axis;
+    query.plane_at = 0;
+    const auto found = Places(mesh, *GetParam()).near(at(0, -0.25F, -1), at(3, 0.25F, -1), query);
+    ASSERT_TRUE(found);
+    for (PrimitiveId id = 0; id < 40; ++id)
+      EXPECT_EQ(found->contains(id), id % 4 < 2 && id != 8) << axis << " " << id;
+  }
 }
 
 }  // namespace

@@ -132,11 +132,15 @@ struct alignas(64) HitBatch {
   float t[kHitBatch];        ///< results
 };
 
-/// A query for the primitives near a small closed box, and its results.
+/// A query for the primitives near a small closed box, and its results. Triangles that are not
+/// wanted are omitted: a given one, and those within an axis-aligned plane.
 struct BoxQuery {
   static constexpr int kMost = 32;
 
   float lo[3], hi[3];
+  std::uint32_t omitted_id = kNoPrimitive;
+  int plane_axis = -1;         ///< -1: no plane
+  float plane_at = 0;          ///< its coordinate on this axis
   int count;                   ///< number of slots; -1: more than kMost
   std::uint32_t slots[kMost];  ///< slots as in KernelPacket::best_slot; kOtherSlot + index for
                                ///< other primitives

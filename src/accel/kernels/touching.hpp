@@ -9,9 +9,6 @@
 namespace microtrace {
 namespace {
 
-/// Queries with this many results or more also apply clear_triangles.
-constexpr int kFewSlots = 8;
-
 /// The lanes in which [lo, hi] overlaps the box along an axis.
 template <int N>
 inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
@@ -44,6 +41,24 @@ inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) 
       touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
     }
     lanes |= touched << i;
+  }
+  return lanes;
+}
+
+/// The triangles that the query omits.
+template <int N>
+inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
+  Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
+  if (query.plane_axis < 0) return lanes;
+  const float* coordinates = block.a_x + query.plane_axis * kWidth;
+  const Float<N> plane = all<N>(query.plane_at);
+  for (int i = 0; i < kWidth; i += N) {
+    Lanes within = kAllLanes<N>;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Float<N> x = load<N>(coordinates + 3 * kWidth * corner + i);
+      within &= less_equal<N>(x, plane) & less_equal<N>(plane, x);
+    }
+    lanes |= within << i;
   }
   return lanes;
 }
@@ -125,8 +140,8 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
       continue;
     }
     Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
-    // Most queries find few triangles, which are cheaper to test later.
-    if (query.count >= kFewSlots && lanes != 0) {
+    if (lanes != 0) lanes &= ~omitted_triangles<N>(tree.blocks[i], query);
+    if (lanes != 0) {  // else, on axis-aligned walls, this is not worth its time
       const CenteredBox box(query);
       for (int k = 0; k < kWidth; k += N)
         lanes &= ~(clear_triangles<N>(tree.blocks[i], k, box) << k);

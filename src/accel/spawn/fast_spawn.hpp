@@ -83,23 +83,22 @@ class FastSpawns {
 
  private:
   static constexpr std::size_t kHits = kBoxQueries;
-  static constexpr std::size_t kSpawns = 4 * kHits;
   static_assert(kHits == kSpawnLanes);
 
-  /// A surface that rays leave, with a hit point that float64 determines.
+  /// A surface that rays leave.
   struct LeftSurface {
     PrimitiveId id;
     bool is_triangle;                ///< whether hit_points_ holds it, at the index of the hit
-    std::optional<FastSpawn> other;  ///< for surfaces other than triangles
+    bool is_known;                   ///< whether float64 can determine the hit point
     bool is_alone;                   ///< no other surface is between the point and the origins
+    std::optional<FastSpawn> other;  ///< for surfaces other than triangles
   };
 
   void add(const Bvh::Spawn& spawn);
   void put(const Triangle& triangle, const Ray& ray, std::size_t lane);
+  void set_query(std::size_t hit);
   void find_neighbors();
-  [[nodiscard]] std::optional<AxisPlane> axis_plane_of(std::size_t hit) const;
-  [[nodiscard]] bool is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const;
-  void put(std::size_t hit, const Vec3& direction, std::size_t lane);
+  [[nodiscard]] bool is_alone(std::size_t hit) const;
   void leave_triangles(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
   const Primitives& primitives_;
@@ -109,7 +108,7 @@ class FastSpawns {
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
   std::array<LeftSurface, kHits> surfaces_;
-  std::array<std::size_t, kSpawns> hit_of_;  // index of the hit, for each spawn
+  std::array<std::size_t, kHits + 1> first_spawn_;  // of each hit
   std::array<BoxQuery, kHits> queries_;
   HitPointLanes hit_points_{};
   OriginLanes origins_{};

@@ -3,6 +3,7 @@
 #include "accel/spawn/origin_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <type_traits>
 
@@ -55,7 +56,9 @@ void FastSpawns::put(const Triangle& t, const Ray& ray, std::size_t lane) {
 
 void FastSpawns::add(const Bvh::Spawn& spawn) {
   LeftSurface& surface = surfaces_[hits_];
-  surface = {.id = spawn.hit.id, .is_triangle = false, .other = {}, .is_alone = false};
+  surface.id = spawn.hit.id;
+  surface.is_triangle = false;
+  surface.other.reset();
   if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives_.count()) {
     primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
       surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
@@ -69,120 +72,108 @@ void FastSpawns::add(const Bvh::Spawn& spawn) {
   ++hits_;
 }
 
-std::optional<AxisPlane> FastSpawns::axis_plane_of(std::size_t hit) const {
-  if (!surfaces_[hit].is_triangle) return surfaces_[hit].other->axis_plane();
-  return AxisPlane::of(vector_of(hit_points_.a, hit), vector_of(hit_points_.permanent, hit));
+void FastSpawns::set_query(std::size_t hit) {
+  LeftSurface& surface = surfaces_[hit];
+  BoxQuery& query = queries_[hit];
+  query.count = 0;
+  query.omitted_id = surface.id;
+  if (surface.is_triangle) {
+    surface.is_known = hit_points_.is_sure[hit] != 0;
+    for (int k = 0; k < 3; ++k) {
+      query.lo[k] = hit_points_.lo[k][hit];
+      query.hi[k] = hit_points_.hi[k][hit];
+    }
+    query.plane_axis = static_cast<int>(hit_points_.plane_axis[hit]);
+    if (query.plane_axis >= 0) query.plane_at = hit_points_.a[query.plane_axis][hit];
+    return;
+  }
+  surface.is_known = surface.other && surface.other->point();
+  query.plane_axis = -1;
+  if (!surface.is_known) return set_empty(query);
+  set_box(*surface.other->point(), surface.other->reach(), query);
+  if (const std::optional<AxisPlane> plane = surface.other->axis_plane()) {
+    query.plane_axis = plane->axis;
+    query.plane_at = plane->at;
+  }
 }
 
-bool FastSpawns::is_alone(std::size_t hit, const Vec3& p, const DVec3& reach) const {
+bool FastSpawns::is_alone(std::size_t hit) const {
+  const LeftSurface& surface = surfaces_[hit];
   const BoxQuery& found = queries_[hit];
-  if (found.count < 0) return false;
-  const PrimitiveId own = surfaces_[hit].id;
-  const std::optional<AxisPlane> plane = axis_plane_of(hit);
-  // Surfaces in the plane that the ray leaves don't obstruct it.
-  const auto is_clear = [&](const auto& shape) {
-    return (plane && lies_in(*plane, shape)) || clears_box(shape, DVec3(p), reach);
+  if (!surface.is_known || found.count < 0) return false;
+  if (found.count == 0 && outside_.empty()) return true;
+  const bool is_triangle = surface.is_triangle;
+  const DVec3 p(is_triangle ? vector_of(hit_points_.p, hit) : *surface.other->point());
+  const DVec3 reach = is_triangle ? vector_of(hit_points_.reach, hit) : surface.other->reach();
+  // Surfaces in the plane that the ray leaves don't obstruct it. The query omits such triangles.
+  const auto is_in_plane = [&](const auto& shape) {
+    return found.plane_axis >= 0 &&
+           lies_in(AxisPlane{.axis = found.plane_axis, .at = found.plane_at}, shape);
   };
   const auto is_primitive_passed = [&](PrimitiveId id) {
-    return id == own || primitives_.visit(id, [&](const auto& shape) {
-      return is_filterable(shape) && is_clear(shape);
+    return id == surface.id || primitives_.visit(id, [&](const auto& shape) {
+      return is_filterable(shape) && (is_in_plane(shape) || clears_box(shape, p, reach));
     });
   };
   const auto is_passed = [&](std::uint32_t slot) {
     if (slot >= kOtherSlot) return is_primitive_passed(tree_->others[slot - kOtherSlot]);
-    return tree_->blocks[slot / kWidth].id[slot % kWidth] == own ||
-           is_clear(triangle_at(*tree_, slot));
+    return clears_box(triangle_at(*tree_, slot), p, reach);
   };
   return std::all_of(found.slots, found.slots + found.count, is_passed) &&
          std::all_of(outside_.begin(), outside_.end(), is_primitive_passed);
 }
 
 void FastSpawns::find_neighbors() {
-  struct Point {
-    bool is_sure;
-    Vec3 p;
-    DVec3 reach;
-  };
-  std::array<Point, kHits> points;
-  for (std::size_t k = 0; k < hits_; ++k) {
-    const LeftSurface& surface = surfaces_[k];
-    BoxQuery& query = queries_[k];
-    Point& point = points[k];
-    query.count = 0;
-    if (surface.is_triangle) {
-      point = {.is_sure = hit_points_.is_sure[k] != 0,
-               .p = vector_of(hit_points_.p, k),
-               .reach = vector_of(hit_points_.reach, k)};
-    } else {
-      const bool is_sure = surface.other && surface.other->point();
-      point = {.is_sure = is_sure,
-               .p = is_sure ? *surface.other->point() : Vec3(0),
-               .reach = is_sure ? surface.other->reach() : DVec3(0)};
-    }
-    point.is_sure ? set_box(point.p, point.reach, query) : set_empty(query);
-  }
+  for (std::size_t hit = 0; hit < hits_; ++hit) set_query(hit);
   if (tree_) kernels_.touching(*tree_, queries_.data(), static_cast<int>(hits_));
-  for (std::size_t k = 0; k < hits_; ++k) {
-    const auto& [is_sure, p, reach] = points[k];
-    surfaces_[k].is_alone = is_sure && is_alone(k, p, reach);
-  }
-}
-
-void FastSpawns::put(std::size_t hit, const Vec3& direction, std::size_t lane) {
-  put_vector(origins_.a, lane, vector_of(hit_points_.a, hit));
-  put_vector(origins_.p, lane, vector_of(hit_points_.p, hit));
-  origins_.axis[lane] = hit_points_.axis[hit];
-  for (std::size_t k = 0; k < 3; ++k) {
-    origins_.n[k][lane] = hit_points_.n[k][hit];
-    origins_.permanent[k][lane] = hit_points_.permanent[k][hit];
-  }
-  put_vector(origins_.direction, lane, direction);
+  for (std::size_t hit = 0; hit < hits_; ++hit) surfaces_[hit].is_alone = is_alone(hit);
 }
 
 void FastSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
                                  std::span<std::optional<Vec3>> origins) {
-  std::array<std::size_t, kSpawnLanes> spawn_of;
-  std::size_t lanes = 0;
-  const auto finish = [&] {
-    if (lanes == 0) return;
-    spawn_kernels_.find_origins(origins_);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      if (origins_.is_sure[lane] != 0) origins[spawn_of[lane]] = vector_of(origins_.origin, lane);
+  // Each pass leaves all triangles by their next ray.
+  for (std::size_t number = 0;; ++number) {
+    std::uint32_t hits = 0;  // one bit per hit
+    for (std::size_t hit = 0; hit < hits_; ++hit) {
+      const std::size_t i = first_spawn_[hit] + number;
+      if (i >= first_spawn_[hit + 1] || !surfaces_[hit].is_triangle || !surfaces_[hit].is_alone)
+        continue;
+      put_vector(origins_.direction, hit, spawns[i].direction);
+      hits |= 1U << hit;
     }
-    lanes = 0;
-  };
-  for (std::size_t i = 0; i < spawns.size(); ++i) {
-    const LeftSurface& surface = surfaces_[hit_of_[i]];
-    if (!surface.is_triangle || !surface.is_alone) continue;
-    put(hit_of_[i], spawns[i].direction, lanes);
-    spawn_of[lanes++] = i;
-    if (lanes == kSpawnLanes) finish();
+    if (hits == 0) return;
+    spawn_kernels_.find_origins(hit_points_, origins_);
+    for (; hits != 0; hits &= hits - 1) {
+      const auto hit = static_cast<std::size_t>(std::countr_zero(hits));
+      if (origins_.is_sure[hit] != 0)
+        origins[first_spawn_[hit] + number] = vector_of(origins_.origin, hit);
+    }
   }
-  finish();
 }
 
 std::size_t FastSpawns::origins(std::span<const Bvh::Spawn> spawns,
                                 std::span<std::optional<Vec3>> origins) {
   hits_ = 0;
   std::size_t done = 0;
-  for (; done < spawns.size() && done < kSpawns; ++done) {
+  for (; done < spawns.size(); ++done) {
     const Bvh::Spawn& spawn = spawns[done];
-    const bool is_same =
-        done > 0 && spawns[done - 1].ray == spawn.ray && spawns[done - 1].hit.id == spawn.hit.id;
-    if (!is_same) {
-      if (hits_ == kHits) break;
-      add(spawn);
-    }
-    hit_of_[done] = hits_ - 1;
+    if (done > 0 && spawns[done - 1].ray == spawn.ray && spawns[done - 1].hit.id == spawn.hit.id)
+      continue;
+    if (hits_ == kHits) break;
+    first_spawn_[hits_] = done;
+    add(spawn);
   }
+  first_spawn_[hits_] = done;
   const std::span<const LeftSurface> surfaces = std::span(surfaces_).first(hits_);
   if (std::ranges::any_of(surfaces, &LeftSurface::is_triangle))
     spawn_kernels_.find_hit_points(hit_points_);
   find_neighbors();
-  for (std::size_t i = 0; i < done; ++i) {
-    const LeftSurface& surface = surfaces_[hit_of_[i]];
-    origins[i] = surface.other && surface.is_alone ? surface.other->origin(spawns[i].direction)
-                                                   : std::nullopt;
+  for (std::size_t hit = 0; hit < hits_; ++hit) {
+    const LeftSurface& surface = surfaces_[hit];
+    for (std::size_t i = first_spawn_[hit]; i < first_spawn_[hit + 1]; ++i) {
+      origins[i] = surface.other && surface.is_alone ? surface.other->origin(spawns[i].direction)
+                                                     : std::nullopt;
+    }
   }
   leave_triangles(spawns.first(done), origins);
   return done;

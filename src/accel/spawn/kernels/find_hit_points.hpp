@@ -78,9 +78,19 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   store3<N>(normal.value, lanes.n, i);
   store3<N>(normal.permanent, lanes.permanent, i);
   Doubles3<N> reach;
-  for (int k = 0; k < 3; ++k)
+  D plane_axis = D{} - 1;
+  for (int k = 2; k >= 0; --k) {
     reach.v[k] = axis == k ? reach_of(kFlatSteps, 1) * units.v[k] : units.v[k] / 2;
+    // The rounding error of the ends is less than the reach.
+    const D infinite = D{} + __builtin_inf(), margin = 2 * reach.v[k];
+    narrowed<N>(is_sure ? p.v[k] - margin : infinite, lanes.lo[k] + i);
+    narrowed<N>(is_sure ? p.v[k] + margin : -infinite, lanes.hi[k] + i);
+    const auto is_normal =
+        (normal.permanent.v[(k + 1) % 3] == 0) & (normal.permanent.v[(k + 2) % 3] == 0);
+    plane_axis = is_normal ? D{} + k : plane_axis;
+  }
   store3<N>(reach, lanes.reach, i);
+  narrowed<N>(plane_axis, lanes.plane_axis + i);
   narrowed<N>(axis, lanes.axis + i);
   narrowed<N>(is_sure ? D{} + 1 : D{}, lanes.is_sure + i);
 }

@@ -16,13 +16,13 @@ inline Float<N> neighbors(const Float<N>& x, const typename FloatVector<N>::bits
 
 /// Finds N origins starting at i.
 template <int N>
-inline void find_origins_of(OriginLanes& lanes, int i) {
+inline void find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int i) {
   using D = Double<N>;
   using Mask = DoubleMask<N>;
-  const CrossProducts<N> normal(load3<N>(lanes.n, i), load3<N>(lanes.permanent, i));
-  const auto a = widened3<N>(lanes.a, i), direction = widened3<N>(lanes.direction, i);
-  auto q = widened3<N>(lanes.p, i);
-  const D axis = widened<N>(lanes.axis + i);
+  const CrossProducts<N> normal(load3<N>(points.n, i), load3<N>(points.permanent, i));
+  const auto a = widened3<N>(points.a, i), direction = widened3<N>(lanes.direction, i);
+  auto q = widened3<N>(points.p, i);
+  const D axis = widened<N>(points.axis + i);
   const auto slope = normal.along(direction, kSlopeRoundings);
   const Mask to_front = slope.value > slope.error, to_back = slope.value < -slope.error;
   const Mask up = (component<N>(normal.value, axis) > 0) == (to_front != 0);
@@ -50,8 +50,8 @@ inline void find_origins_of(OriginLanes& lanes, int i) {
 }
 
 template <int N>
-void find_origins(OriginLanes& lanes) {
-  for (int i = 0; i < kSpawnLanes; i += N) find_origins_of<N>(lanes, i);
+void find_origins(const HitPointLanes& points, OriginLanes& lanes) {
+  for (int i = 0; i < kSpawnLanes; i += N) find_origins_of<N>(points, lanes, i);
 }
 
 }  // namespace

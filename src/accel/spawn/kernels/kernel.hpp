@@ -34,12 +34,12 @@ struct alignas(64) HitPointLanes {
   double n[3][kSpawnLanes], permanent[3][kSpawnLanes];  ///< CrossProduct
   double reach[3][kSpawnLanes];  ///< bound of the distance of origins and the exact point from p,
                                  ///< per axis
+  SpawnFloats lo[3], hi[3];      ///< a box around p +- reach; empty if the results are not certain
+  SpawnFloats plane_axis;        ///< the normal's axis if it is parallel to one; else -1
 };
 
-/// Directions of rays that leave these points.
+/// The directions of rays that leave these points, one for each.
 struct alignas(64) OriginLanes {
-  SpawnFloats a[3], p[3], axis;  ///< as in HitPointLanes, and the next members too
-  double n[3][kSpawnLanes], permanent[3][kSpawnLanes];
   SpawnFloats direction[3];
   // ---- set by the kernel:
   SpawnFloats is_sure;
@@ -48,7 +48,7 @@ struct alignas(64) OriginLanes {
 
 struct SpawnKernels {
   void (*find_hit_points)(HitPointLanes& lanes);
-  void (*find_origins)(OriginLanes& lanes);
+  void (*find_origins)(const HitPointLanes& points, OriginLanes& lanes);
 };
 
 extern const SpawnKernels kPortableSpawn;
