@@ -95,11 +95,17 @@ class MICROTRACE_EXPORT Bvh {
   /// Sets hits[i] to the nearest hit of rays[i]. Both spans must have the same size. Faster than
   /// single calls, and fastest if consecutive rays are coherent and share an origin, such as the
   /// rays of neighboring pixels.
-  void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const;
+  ///
+  /// `left` is empty or has the same size too. In the latter case each ray must leave a hit with
+  /// primitive left[i] in the direction for which spawn_origin returned its origin. A flat
+  /// primitive can't be hit again, so it is not tested.
+  void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
+                 std::span<const PrimitiveId> left = {}) const;
 
   /// Sets results[i] to true if rays[i] hits anything, otherwise to false. Both spans must have the
-  /// same size. Faster than single calls for any order of the rays.
-  void occluded(std::span<const Ray> rays, std::span<bool> results) const;
+  /// same size. Faster than single calls for any order of the rays. See intersect for `left`.
+  void occluded(std::span<const Ray> rays, std::span<bool> results,
+                std::span<const PrimitiveId> left = {}) const;
 
   [[nodiscard]] const Primitives& primitives() const;
 

@@ -231,9 +231,10 @@ bool Bvh::occluded(const Ray& ray) const {
   return impl_->occluded(ray);
 }
 
-void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) const {
+void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
+                    std::span<const PrimitiveId> left) const {
   const FloatEnvironment environment;
-  assert(rays.size() == hits.size());
+  assert(rays.size() == hits.size() && (left.empty() || left.size() == rays.size()));
   std::unique_ptr<RayStream> stream;
   while (!rays.empty()) {
     const auto whole = rays.first(std::min<std::size_t>(rays.size(), kPacketRays));
@@ -251,19 +252,22 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
       const auto ask_one = [&](std::size_t i) { hits[i] = impl_->intersect(rays[i]); };
       if (done >= kLeastStream) {
         if (!stream) stream = impl_->make_stream();
-        stream->closest(rays.first(done), hits.first(done), ask_one);
+        stream->closest({rays.first(done), left.first(left.empty() ? 0 : done)}, hits.first(done),
+                        ask_one);
       } else {
         for (std::size_t i = 0; i < done; ++i) ask_one(i);
       }
     }
     rays = rays.subspan(done);
     hits = hits.subspan(done);
+    if (!left.empty()) left = left.subspan(done);
   }
 }
 
-void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results) const {
+void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results,
+                   std::span<const PrimitiveId> left) const {
   const FloatEnvironment environment;
-  assert(rays.size() == results.size());
+  assert(rays.size() == results.size() && (left.empty() || left.size() == rays.size()));
   const auto ask_one = [&](std::size_t i) { results[i] = impl_->occluded(rays[i]); };
   if (!impl_->has_tree || rays.size() < kLeastStream) {
     for (std::size_t i = 0; i < rays.size(); ++i) ask_one(i);
@@ -272,8 +276,8 @@ void Bvh::occluded(std::span<const Ray> rays, std::span<bool> results) const {
   const auto stream = impl_->make_stream();
   for (std::size_t first = 0; first < rays.size(); first += kStreamRays) {
     const std::size_t count = std::min<std::size_t>(kStreamRays, rays.size() - first);
-    stream->any(rays.subspan(first, count), results.subspan(first, count),
-                [&](std::size_t i) { ask_one(first + i); });
+    stream->any({rays.subspan(first, count), left.empty() ? left : left.subspan(first, count)},
+                results.subspan(first, count), [&](std::size_t i) { ask_one(first + i); });
   }
 }
 

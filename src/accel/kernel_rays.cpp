@@ -60,6 +60,7 @@ KernelRay kernel_ray(const Ray& ray, double t_scale) {
     k.t_begin = begin_at(bounds.lo);
   }
   k.t_max = no_hit(ray, t_scale).hi;
+  k.omitted_id = kNoPrimitive;
   return k;
 }
 

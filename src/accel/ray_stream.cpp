@@ -8,7 +8,8 @@
 
 namespace microtrace {
 
-void RayStream::fill(std::span<const Ray> rays) {
+void RayStream::fill(const Rays& these) {
+  const auto& [rays, left] = these;
   assert(rays.size() <= kStreamRays);
   rays_ = rays;
   KernelStream& s = stream_;
@@ -24,6 +25,10 @@ void RayStream::fill(std::span<const Ray> rays) {
     s.t_min[i] = ray.t_min;
     s.best_hi[i] = ray.t_max;
   }
+  if (left.empty())
+    std::fill_n(s.omitted_id, rays.size(), kNoPrimitive);
+  else
+    std::ranges::copy(left, s.omitted_id);
   target_.kernels.prepare_stream(s);
   ask_outside();
 }
@@ -50,14 +55,14 @@ StreamFallback RayStream::fallback() {
           }};
 }
 
-void RayStream::find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-  fill(rays);
+void RayStream::find_closest(const Rays& these, std::span<std::optional<Hit>> hits) {
+  fill(these);
   KernelStream& s = stream_;
   target_.kernels.closest_of_stream(target_.tree, s, fallback());
   for_each_unsuited([&](std::size_t i) { s.best_id[i] = kNoPrimitive; });
-  for (std::size_t i = 0; i < rays.size(); i += kHitBatch) {
-    const std::size_t length = std::min<std::size_t>(kHitBatch, rays.size() - i);
-    const FoundHits found{.rays = rays.subspan(i, length),
+  for (std::size_t i = 0; i < rays_.size(); i += kHitBatch) {
+    const std::size_t length = std::min<std::size_t>(kHitBatch, rays_.size() - i);
+    const FoundHits found{.rays = rays_.subspan(i, length),
                           .ids = s.best_id + i,
                           .o = {s.o[0] + i, s.o[1] + i, s.o[2] + i},
                           .d = {s.d[0] + i, s.d[1] + i, s.d[2] + i}};
@@ -65,10 +70,10 @@ void RayStream::find_closest(std::span<const Ray> rays, std::span<std::optional<
   }
 }
 
-void RayStream::find_any(std::span<const Ray> rays, std::span<bool> results) {
+void RayStream::find_any(const Rays& rays, std::span<bool> results) {
   fill(rays);
   target_.kernels.any_of_stream(target_.tree, stream_, fallback());
-  for (std::size_t i = 0; i < rays.size(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
+  for (std::size_t i = 0; i < rays_.size(); ++i) results[i] = stream_.best_id[i] != kNoPrimitive;
 }
 
 }  // namespace microtrace

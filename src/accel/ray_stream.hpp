@@ -24,22 +24,28 @@ class RayStream {
   };
   explicit RayStream(const Target& target) : target_(target) {}
 
-  /// Sets hits[i] and results[i] for rays[i] within the kernels' limits; calls other(i) for other
-  /// rays.
-  void closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits, const auto& other) {
+  /// Rays and, unless empty, the primitives that they have left: see Bvh::intersect.
+  struct Rays {
+    std::span<const Ray> rays;
+    std::span<const PrimitiveId> left;
+  };
+
+  /// Sets hits[i] and results[i] for ray i if it is within the kernels' limits; calls other(i) for
+  /// other rays.
+  void closest(const Rays& rays, std::span<std::optional<Hit>> hits, const auto& other) {
     find_closest(rays, hits);
     for_each_unsuited(other);
   }
-  void any(std::span<const Ray> rays, std::span<bool> results, const auto& other) {
+  void any(const Rays& rays, std::span<bool> results, const auto& other) {
     find_any(rays, results);
     for_each_unsuited(other);
   }
 
  private:
-  void fill(std::span<const Ray> rays);
+  void fill(const Rays& rays);
   void ask_outside();
-  void find_closest(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
-  void find_any(std::span<const Ray> rays, std::span<bool> results);
+  void find_closest(const Rays& rays, std::span<std::optional<Hit>> hits);
+  void find_any(const Rays& rays, std::span<bool> results);
   [[nodiscard]] StreamFallback fallback();
   [[nodiscard]] bool is_suited(std::size_t i) const {
     return (stream_.suited[i / 64] >> i % 64 & 1U) != 0;

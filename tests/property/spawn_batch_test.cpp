@@ -12,8 +12,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,6 +93,30 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
+/// Rays that leave hits have the same answers with and without knowledge of the primitives that
+/// they have left.
+void check_rays(const Bvh& bvh, const std::vector<Bvh::Spawn>& spawns, const Origins& origins) {
+  std::vector<Ray> rays;
+  std::vector<PrimitiveId> left;
+  for (std::size_t i = 0; i < spawns.size(); ++i) {
+    if (!origins[i]) continue;
+    rays.push_back({.o = *origins[i], .t_min = 0, .d = spawns[i].direction});
+    left.push_back(spawns[i].hit.id);
+  }
+  std::vector<std::optional<Hit>> hits(rays.size());
+  bvh.intersect(rays, hits, left);
+  const auto occluded = std::make_unique<bool[]>(rays.size());
+  bvh.occluded(rays, std::span(occluded.get(), rays.size()), left);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::optional<Hit> alone = bvh.intersect(rays[i]);
+    EXPECT_EQ(occluded[i], alone.has_value()) << i;
+    EXPECT_EQ(hits[i].has_value(), alone.has_value()) << i;
+    if (!hits[i] || !alone) continue;
+    EXPECT_EQ(hits[i]->id, alone->id) << i;
+    EXPECT_EQ(hits[i]->t, alone->t) << i;
+  }
+}
+
 /// Computes the origins of each hit for several directions: in a batch, one by one with another
 /// kind of tree, and in a batch of another order.
 std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& hits) {
@@ -115,6 +141,7 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
     for (int k = 0; alone && k < 3; ++k)
       EXPECT_FALSE((*alone)[k] == 0 && std::signbit((*alone)[k]));
   }
+  check_rays(bvh, spawns, together);
   std::vector<std::size_t> order(spawns.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::shuffle(order.begin(), order.end(), std::minstd_rand(random.bits()));

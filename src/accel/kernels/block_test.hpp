@@ -149,7 +149,8 @@ inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, con
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
-    if (id == best.id) continue;  // large triangles can be in several leaves
+    // Large triangles can be in several leaves.
+    if (id == best.id || id == ray.omitted_id) continue;
     const Interval<float> t = test.t(lane);
     bool is_certain = (test.certain >> lane & 1U) != 0;
     if (!is_certain) {

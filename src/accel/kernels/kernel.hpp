@@ -43,8 +43,9 @@ inline constexpr float kLeastBegin = 0x1p-100F;
 /// A ray in the kernels' form, within the limits.
 struct KernelRay {
   float o[3], d[3];
-  float t_min, t_max;  ///< the fallback decides hits that are not certainly at or after t_min
-  float t_begin;       ///< hits certainly before it are dropped; t_min, or 0 if t_min is tiny
+  float t_min, t_max;        ///< the fallback decides hits that are not certainly at or after t_min
+  float t_begin;             ///< hits certainly before it are dropped; t_min, or 0 if t_min is tiny
+  std::uint32_t omitted_id;  ///< a triangle that the ray certainly doesn't hit, or kNoPrimitive
   // ---- set by the kernel:
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
   float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
@@ -104,7 +105,8 @@ inline constexpr int kStreamRays = 31 * kPacketRays;
 struct alignas(64) KernelStream {
   float o[3][kStreamRays], d[3][kStreamRays];
   float t_min[kStreamRays];
-  float best_hi[kStreamRays];  ///< as in ClosestSoFar
+  float best_hi[kStreamRays];             ///< as in ClosestSoFar
+  std::uint32_t omitted_id[kStreamRays];  ///< as in KernelRay
   int count;
   // ---- set by prepare_stream:
   /// One bit per ray that is valid and within KernelRay's limits. Other rays are replaced by some

@@ -180,7 +180,8 @@ class OcclusionPacketWalk {
         const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
         const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
                                     begin, limit);
-        const Lanes maybe = test.maybe & lanes;
+        Lanes maybe = test.maybe & lanes;
+        if (maybe != 0) maybe &= ~equal_to<N>(stream_.omitted_id + at, block.id[k]);
         if (maybe == 0) continue;
         const Interval<F> t = interval(test.height, test.size, test.height_error, test.size_error);
         const Lanes before = less<N>(t.hi, t_max), after = less<N>(t_max, t.lo);

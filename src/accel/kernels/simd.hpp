@@ -135,5 +135,17 @@ inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std
 #endif
 }
 
+/// The lanes whose numbers have this value.
+template <int N>
+inline Lanes equal_to(const std::uint32_t* numbers, std::uint32_t value) {
+  Lanes lanes = 0;
+  if constexpr (N % 8 == 0) {
+    for (int i = 0; i < N; i += 8) lanes |= lanes_within(numbers + i, value, value) << i;
+  } else {
+    for (int i = 0; i < N; ++i) lanes |= static_cast<Lanes>(numbers[i] == value) << i;
+  }
+  return lanes;
+}
+
 }  // namespace
 }  // namespace microtrace

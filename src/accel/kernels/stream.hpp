@@ -57,6 +57,7 @@ void prepare_stream(KernelStream& stream) {
       stream.d[axis][i] = stream.d[axis][i - 1];
     }
     stream.best_hi[i] = stream.best_hi[i - 1];
+    stream.omitted_id[i] = stream.omitted_id[i - 1];
   }
   __builtin_memset(stream.best_id, 0xff, sizeof stream.best_id);
   static_assert(kNoPrimitive == 0xffffffff);
@@ -131,6 +132,7 @@ class StreamWalk {
     flight.ray.t_min = stream_.t_min[i];
     flight.ray.t_begin = stream_.t_begin[i];
     flight.ray.d_sum = stream_.d_sum[i];
+    flight.ray.omitted_id = stream_.omitted_id[i];
     flight.best = {stream_.best_lo[i], stream_.best_hi[i], stream_.best_id[i]};
     flight.number = i;
     flight.stack.clear();

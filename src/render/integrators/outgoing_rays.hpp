@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -21,8 +22,12 @@ class OutgoingRays {
   /// `ray` must remain valid until spawn_origins(), and must have this hit.
   void add_shadow(const Ray& ray, const Hit& hit, const LightSample& light, const Vec3& color,
                   std::size_t slot) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    // A punctual light is at t = 1; an emissive triangle is hit approximately there.
+    const float t_max = light.is_far || light.target ? kInfinity : 1;
+    shadow_spawns_[shadow_count_] = spawn(ray, hit, light.to_light);
     shadows_[shadow_count_++] = {
-        .light = light, .color = color, .slot = slot, .spawn = spawn(ray, hit, light.to_light)};
+        .color = color, .t_max = t_max, .slot = slot, .target = light.target};
   }
 
   /// The state of the path that continues in this direction, to be filled in.
@@ -31,27 +36,26 @@ class OutgoingRays {
     return paths_[path_count_++];
   }
 
+  /// The next rays of paths, and the primitives that they leave.
+  struct Paths {
+    std::span<Ray> rays;
+    std::span<PrimitiveId> left;
+    std::span<PathState> states;
+  };
   /// Computes the origins; rays without an origin are dropped. Returns the number of remaining path
   /// rays.
-  std::size_t spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays, std::span<Ray> rays,
-                            std::span<PathState> paths);
+  std::size_t spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays, const Paths& paths);
 
  private:
-  struct Shadow {
-    LightSample light;
-    Vec3 color;
-    std::size_t slot, spawn;
-  };
-
   std::size_t spawn(const Ray& ray, const Hit& hit, const Vec3& direction) {
     spawns_[spawn_count_] = {.ray = &ray, .hit = hit, .direction = direction};
     return spawn_count_++;
   }
 
   std::size_t shadow_count_ = 0, path_count_ = 0, spawn_count_ = 0;
-  std::array<Shadow, kRandomBatch> shadows_;
+  std::array<ShadowRays::Shadow, kRandomBatch> shadows_;
   std::array<PathState, kRandomBatch> paths_;
-  std::array<std::size_t, kRandomBatch> path_spawns_;
+  std::array<std::size_t, kRandomBatch> shadow_spawns_, path_spawns_;
   std::array<Bvh::Spawn, 2 * kRandomBatch> spawns_;
   std::array<std::optional<Vec3>, 2 * kRandomBatch> origins_;
 };

@@ -1,25 +1,19 @@
 #include "render/integrators/shadow_rays.hpp"
 
-#include <limits>
-
 namespace microtrace {
 
-void ShadowRays::add(const Vec3& origin, const LightSample& light, const Vec3& color,
-                     std::size_t slot) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  // A punctual light is at t = 1; an emissive triangle is hit approximately there.
-  const float t_max = light.is_far || light.target ? kInfinity : 1;
-  Group& group = light.target ? aimed_ : free_;
-  group.add({.o = origin, .t_min = 0, .d = light.to_light, .t_max = t_max}, color, slot,
-            light.target);
+void ShadowRays::add(const Shadow& shadow, const Vec3& origin, const Vec3& direction,
+                     PrimitiveId surface) {
+  Group& group = shadow.target ? aimed_ : free_;
+  group.add(shadow, {.o = origin, .t_min = 0, .d = direction, .t_max = shadow.t_max}, surface);
 }
 
-void ShadowRays::Group::add(const Ray& ray, const Vec3& color, std::size_t slot,
-                            const std::optional<PrimitiveId>& target) {
+void ShadowRays::Group::add(const Shadow& shadow, const Ray& ray, PrimitiveId surface) {
   rays[count] = ray;
-  light[count] = color;
-  slots[count] = slot;
-  targets[count++] = target;
+  light[count] = shadow.color;
+  slots[count] = shadow.slot;
+  targets[count] = shadow.target;
+  left[count++] = surface;
 }
 
 namespace {
@@ -47,10 +41,10 @@ float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, c
 std::uint64_t ShadowRays::pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
                                       Group& group, std::span<Vec3> colors) {
   std::uint64_t beyond = 0;
-  std::array<std::optional<Hit>, kRandomBatch> hits;
-  bvh.intersect(std::span(group.rays).first(group.count), std::span(hits).first(group.count));
+  bvh.intersect(std::span(group.rays).first(group.count), std::span(hits_).first(group.count),
+                std::span(group.left).first(group.count));
   for (std::size_t i = 0; i < group.count; ++i) {
-    colors[group.slots[i]] += transmittance(bvh, shading, passes_backs, group.rays[i], hits[i],
+    colors[group.slots[i]] += transmittance(bvh, shading, passes_backs, group.rays[i], hits_[i],
                                             group.targets[i], beyond) *
                               group.light[i];
   }
@@ -62,12 +56,14 @@ std::uint64_t ShadowRays::trace(const Bvh& bvh, const Shading& shading, Backface
                                 std::span<Vec3> colors) {
   const bool passes_backs = backfaces == Backfaces::pass;
   std::array<bool, kRandomBatch> occluded;
-  bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count));
+  bvh.occluded(std::span(free_.rays).first(free_.count), std::span(occluded).first(free_.count),
+               std::span(free_.left).first(free_.count));
   for (std::size_t i = 0; i < free_.count; ++i) {
     if (!occluded[i]) {
       colors[free_.slots[i]] += free_.light[i];
     } else if (!shading.all_cover() || (passes_backs && shading.has_open_backs())) {
-      met_.add(free_.rays[i], free_.light[i], free_.slots[i], free_.targets[i]);
+      met_.add({.color = free_.light[i], .t_max = 0, .slot = free_.slots[i], .target = {}},
+               free_.rays[i], free_.left[i]);
     }
   }
   free_.count = 0;

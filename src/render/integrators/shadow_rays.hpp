@@ -1,7 +1,6 @@
 #pragma once
 /// Shadow rays, and the light that arrives.
 
-#include "render/lights/light_sample.hpp"
 #include "render/shading/shading.hpp"
 
 #include <microtrace/bvh.hpp>
@@ -19,9 +18,16 @@ namespace microtrace {
 /// Shadow rays, traced in batches.
 class ShadowRays {
  public:
-  /// Adds a ray with a spawned origin. `light` is added to colors[slot] if it is not occluded. At
-  /// most kRandomBatch rays.
-  void add(const Vec3& origin, const LightSample& light, const Vec3& color, std::size_t slot);
+  /// A shadow ray, and the light that is added to colors[slot] if it is not occluded.
+  struct Shadow {
+    Vec3 color;
+    float t_max;
+    std::size_t slot;
+    std::optional<PrimitiveId> target;  ///< the emissive surface at which the ray ends
+  };
+
+  /// Adds a ray with a spawned origin on the primitive that it leaves. At most kRandomBatch rays.
+  void add(const Shadow& shadow, const Vec3& origin, const Vec3& direction, PrimitiveId left);
 
   [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
 
@@ -38,14 +44,15 @@ class ShadowRays {
     std::array<Vec3, kRandomBatch> light;
     std::array<std::size_t, kRandomBatch> slots;
     std::array<std::optional<PrimitiveId>, kRandomBatch> targets;
+    std::array<PrimitiveId, kRandomBatch> left;
 
-    void add(const Ray& ray, const Vec3& color, std::size_t slot,
-             const std::optional<PrimitiveId>& target);
+    void add(const Shadow& shadow, const Ray& ray, PrimitiveId surface);
   };
 
-  static std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs,
-                                   Group& group, std::span<Vec3> colors);
+  std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs, Group& group,
+                            std::span<Vec3> colors);
 
+  std::array<std::optional<Hit>, kRandomBatch> hits_;  // working memory
   Group free_, aimed_;
   Group met_;  ///< rays without a target that hit a surface that may transmit light
 };

@@ -63,10 +63,12 @@ void Wave::trace(const World& world, const PathOptions& options, std::span<const
   for (; count_ > 0; ++step_.depth) {
     {
       const RayTimer timer(step_.depth == 1 ? counts_.camera : counts_.path, count_);
-      world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_));
+      world_->bvh.intersect(std::span(rays_).first(count_), std::span(hits_).first(count_),
+                            std::span(left_).first(step_.depth == 1 ? 0 : count_));
     }
     step();
-    count_ = outgoing_.spawn_origins(world_->bvh, shadow_rays_, rays_, paths_);
+    count_ = outgoing_.spawn_origins(world_->bvh, shadow_rays_,
+                                     {.rays = rays_, .left = left_, .states = paths_});
     const RayTimer timer(counts_.shadow, shadow_rays_.count());
     counts_.beyond += shadow_rays_.trace(world_->bvh, *shading_, options_.backfaces, colors_);
   }

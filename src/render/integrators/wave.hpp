@@ -77,6 +77,7 @@ class Wave {
   HitLanes hit_lanes_{};
   std::size_t count_ = 0;
   std::array<Ray, kRandomBatch> rays_;
+  std::array<PrimitiveId, kRandomBatch> left_;  // by the rays, except for camera rays
   std::array<PathState, kRandomBatch> paths_;
   std::array<std::optional<Hit>, kRandomBatch> hits_;
   std::array<Vec3, kRandomBatch> colors_;

@@ -159,6 +159,7 @@ class OneTriangle {
       for (int k = 0; k < 3; ++k) stream.o[k][i] = ray_.o[k], stream.d[k][i] = ray_.d[k];
       stream.t_min[i] = ray_.t_min;
       stream.best_hi[i] = ray_.t_max;
+      stream.omitted_id[i] = kNoPrimitive;
     }
     kernels.prepare_stream(stream);
   }
