@@ -59,12 +59,12 @@ void FastSpawns::add(const Bvh::Spawn& spawn) {
   surface.id = spawn.hit.id;
   surface.is_triangle = false;
   surface.other.reset();
-  if (exact::is_valid(*spawn.ray) && spawn.hit.id < primitives_.count()) {
+  if (spawn.hit.id < primitives_.count()) {
     primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
       surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
       if constexpr (std::is_same_v<AnyShape, Triangle>) {
-        put(shape, *spawn.ray, hits_);
-      } else {
+        put(shape, *spawn.ray, hits_);  // the kernel is not certain of invalid rays
+      } else if (exact::is_valid(*spawn.ray)) {
         surface.other.emplace(shape, *spawn.ray);
       }
     });

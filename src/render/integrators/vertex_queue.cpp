@@ -158,15 +158,13 @@ void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
 }
 
 void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
-  const bsdf::Parameters parameters = shading_->parameters(vertex.point, vertex.channel);
-  const bsdf::Layers layers = shading_->layers(vertex.point);
-  const bsdf::Features features = features_of(parameters, layers);
-  std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(features.index())];
+  const BsdfInput input = shading_->bsdf_input(vertex.point, vertex.channel);
+  std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(input.features.index())];
   if (!queue) {
-    queue = std::make_unique<VertexQueue>(features, kernels_);
+    queue = std::make_unique<VertexQueue>(input.features, kernels_);
     queue->begin(*lighting_);
   }
-  queue->add(vertex, parameters, layers);
+  queue->add(vertex, input.parameters, input.layers);
   if (queue->is_full()) queue->finish(step, *lighting_, outgoing);
 }
 

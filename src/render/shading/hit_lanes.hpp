@@ -15,10 +15,12 @@ namespace microtrace {
 template <int width>
 void put_attributes(HitArrays<width>& lanes, int lane, const Mesh& mesh,
                     const std::array<std::uint32_t, 3>& corners) {
+  const Vec3* normals = mesh.normals.empty() ? nullptr : mesh.normals.data();
+  const Vec2* uvs = has_uv(mesh) ? mesh.uv_sets[0].data() : nullptr;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t corner = corners[i];
-    put(lanes.normals[i], lane, mesh.normals.empty() ? Vec3(0) : mesh.normals[corner]);
-    const Vec2 uv = has_uv(mesh) ? mesh.uv_sets[0][corner] : Vec2(0);
+    put(lanes.normals[i], lane, normals == nullptr ? Vec3(0) : normals[corner]);
+    const Vec2 uv = uvs == nullptr ? Vec2(0) : uvs[corner];
     lanes.uv[i][0][lane] = uv.x;
     lanes.uv[i][1][lane] = uv.y;
   }
@@ -30,7 +32,8 @@ void put_hit(HitArrays<width>& lanes, int lane, const Ray& ray, const Hit& hit, 
   put(lanes.o, lane, ray.o);
   put(lanes.d, lane, ray.d);
   lanes.t[lane] = hit.t;
-  for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, mesh.positions[corners[i]]);
+  const Vec3* positions = mesh.positions.data();
+  for (std::size_t i = 0; i < 3; ++i) put(lanes.corners[i], lane, positions[corners[i]]);
   put_attributes(lanes, lane, mesh, corners);
 }
 

@@ -27,7 +27,7 @@ void Shading::add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p) {
   p.along = along.x * t + along.y * b;
 }
 
-bsdf::Layers Shading::layers(const ShadingPoint& point) const {
+bsdf::Layers Shading::layers(const ShadingPoint& point) {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Layers result;

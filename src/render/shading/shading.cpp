@@ -48,6 +48,12 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
                                  material.alpha_mode == AlphaMode::opaque && !material.unlit;
     look.has_open_back = !has_back(material) && !look.shines() && !material.transmission &&
                          !material.diffuse_transmission;
+    const bool is_textured = std::ranges::any_of(
+        look.slots, [](const TextureSlot& slot) { return slot.map != nullptr; });
+    // Anisotropy depends on tangents, the boundary of a medium on the side.
+    if (is_textured || material.anisotropy || encloses_medium(material)) return;
+    const ShadingPoint anywhere{.at = {}, .look = &look};
+    look.constant.emplace(parameters(anywhere, 3), layers(anywhere));
   };
   for (const Material& material : scene.materials) add(material);
   add(kNoMaterial);
@@ -92,7 +98,7 @@ void Shading::find_texel_address(ShadingPoint& point) {
   }
 }
 
-Vec4 Shading::base_color(const ShadingPoint& point) const {
+Vec4 Shading::base_color(const ShadingPoint& point) {
   return point.look->material->base_color * point.at.color() *
          (*point.look)[MaterialTexture::base_color].at(point);
 }
@@ -115,7 +121,7 @@ Vec3 Shading::emission(const ShadingPoint& point) const {
          glm::min(color, Vec3(kBrightest)) * Vec3(look[MaterialTexture::emissive].at(point));
 }
 
-bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) const {
+bsdf::Parameters Shading::parameters(const ShadingPoint& point, int channel) {
   const TexturedMaterial& look = *point.look;
   const Material& m = *look.material;
   bsdf::Parameters p{.base_color = glm::clamp(Vec3(base_color(point)), Vec3(0), Vec3(1)),

@@ -38,6 +38,16 @@ struct TextureSlot {
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
 };
 
+/// What a BSDF needs to know about a point.
+struct BsdfInput {
+  bsdf::Parameters parameters;
+  bsdf::Layers layers;
+  bsdf::Features features;
+
+  BsdfInput(const bsdf::Parameters& p, const bsdf::Layers& l)
+      : parameters(p), layers(l), features(features_of(p, l)) {}
+};
+
 /// A material with its textures.
 struct TexturedMaterial {
   /// The textures that most materials have.
@@ -53,6 +63,8 @@ struct TexturedMaterial {
   /// Whether the emitted radiance is the same everywhere on the front, without transparency.
   bool has_constant_emission = false;
   bool has_open_back = false;  ///< whether Backfaces::pass lets light through the back
+  /// The BSDF's input, if it is the same everywhere except where vertices have colors.
+  std::optional<BsdfInput> constant{};
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
     return slots[static_cast<std::size_t>(texture)];
@@ -143,12 +155,13 @@ class Shading {
   /// their color.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
-  /// Material parameters on the ray's side. `channel` is the color channel of a path through
+  /// The BSDF's input on the ray's side. `channel` is the color channel of a path through
   /// dispersive media, 0 to 2; 3: none.
-  [[nodiscard]] bsdf::Parameters parameters(const ShadingPoint& point, int channel) const;
-
-  /// The layers above.
-  [[nodiscard]] bsdf::Layers layers(const ShadingPoint& point) const;
+  [[nodiscard]] BsdfInput bsdf_input(const ShadingPoint& point, int channel) const {
+    const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
+    if (point.look->constant && !has_colors) return *point.look->constant;
+    return {parameters(point, channel), layers(point)};
+  }
 
   /// The absorption of the medium below the surface, in powers of two per length; 0 if there is
   /// none.
@@ -161,7 +174,9 @@ class Shading {
     std::uint32_t look;
   };
 
-  [[nodiscard]] Vec4 base_color(const ShadingPoint& point) const;
+  [[nodiscard]] static bsdf::Parameters parameters(const ShadingPoint& point, int channel);
+  [[nodiscard]] static bsdf::Layers layers(const ShadingPoint& point);
+  [[nodiscard]] static Vec4 base_color(const ShadingPoint& point);
   static void add_anisotropy(const ShadingPoint& point, bsdf::Parameters& p);
 
   const Primitives& primitives_;

@@ -30,8 +30,9 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
       (height.error + magnitude(t) * slope.error) / (size - slope.error) * (1 + 16 * kRounding) +
       magnitude(t) * (kQuotientRoundings * kRounding) + kUnderflow;
   const D lo = t - t_error, hi = t + t_error;
-  is_sure &= (size > 4 * slope.error) & (lo >= widened<N>(lanes.t_min + i)) &
-             (hi <= widened<N>(lanes.t_max + i));
+  const D t_min = widened<N>(lanes.t_min + i);
+  is_sure &=
+      (size > 4 * slope.error) & (t_min >= 0) & (lo >= t_min) & (hi <= widened<N>(lanes.t_max + i));
   // PointOnRay, and the terms of coordinate_in_plane()
   const D middle = (lo + hi) / 2;
   Doubles3<N> x, x_error, term, term_error;
