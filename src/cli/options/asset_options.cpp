@@ -15,7 +15,7 @@ std::filesystem::path parse_folder(const OptionValue& value) {
 constexpr std::array kAssetOptions{
     Option{.names = "--time",
            .metavar = "S",
-           .help = "seconds into the animation of a glTF asset",
+           .help = "time in seconds at which the animation of a glTF asset is evaluated",
            .default_value = "the pose without animation",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.load.time = value.number(); }},
@@ -28,9 +28,10 @@ constexpr std::array kAssetOptions{
         .set = [](Arguments& a, const OptionValue& value) { a.load.animation = value.text; }},
     Option{.names = "--frames",
            .metavar = "A:B",
-           .help = "render one picture for each frame from A to B, both included; frame K is the "
-                   "pose at K / fps seconds; the output name contains the number, such as "
-                   "out_%04d.png",
+           .help =
+               "render one picture for each frame from A to B, both included; frame K shows the "
+               "pose at K / fps seconds; the output name contains a placeholder for the frame "
+               "number, as in out_%04d.png",
            .default_value = "one picture",
            .samples = Samples::change,
            .excludes = "--time --checkpoint --resume --progressive",
@@ -51,8 +52,8 @@ constexpr std::array kAssetOptions{
            .set = [](Arguments& a, const OptionValue& value) { a.load.variant = value.text; }},
     Option{.names = "--allow-path",
            .metavar = "FOLDER",
-           .help = "additional folder from which a glTF asset may load files, and to which "
-                   "symbolic links of any scene's files may lead; may be repeated",
+           .help = "additional folder from which a glTF asset may load files, and into which the "
+                   "symbolic links in any scene's folder may lead; may be repeated",
            .default_value = "none",
            .samples = Samples::keep,
            .completion = Completion::folders,

@@ -11,14 +11,14 @@ namespace {
 constexpr std::size_t kLeft = 27, kRight = 72;
 
 constexpr std::string_view kRenderUsage =
-    R"(microtrace: renders JSON and glTF scenes with exact visibility, the same bytes everywhere
+    R"(microtrace: renders JSON and glTF scenes with exact visibility and the same bytes everywhere
 Usage: microtrace [OPTIONS] SCENE
        microtrace merge [OPTIONS] CHECKPOINT...
        microtrace completion bash|zsh|fish
 )";
 
 constexpr std::string_view kMergeUsage =
-    R"(microtrace merge: makes one picture of the samples in several checkpoints
+    R"(microtrace merge: makes one picture from the samples in several checkpoints
 Usage: microtrace merge [OPTIONS] CHECKPOINT...
 )";
 

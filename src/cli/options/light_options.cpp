@@ -34,9 +34,10 @@ constexpr std::array kLightOptions{
         .names = "--env",
         .metavar = "LIGHT",
         .help = "environment light: studio (built in), #rrggbb in sRGB, r,g,b in linear light, or "
-                "the file of a latitude-longitude map (.hdr, .exr, ...); flat pictures don't "
-                "depend on it",
-        .default_value = "the scene's; the studio if it has neither lights nor environment",
+                "the file of a latitude-longitude map (.hdr, .exr, ...); pictures "
+                "without light don't depend on it",
+        .default_value = "the scene's; the studio if the scene has neither lights nor an "
+                         "environment",
         .samples = Samples::change,
         .completion = Completion::files,
         .words = [] { return std::vector<std::string>{"studio"}; },
@@ -53,7 +54,7 @@ constexpr std::array kLightOptions{
                      const OptionValue& value) { a.environment.rotation = value.number(); }},
     Option{.names = "--env-intensity",
            .metavar = "X",
-           .help = "factor of the environment's radiance",
+           .help = "factor that multiplies the environment's radiance",
            .default_value = "1",
            .samples = Samples::change,
            .set =
@@ -66,8 +67,8 @@ static_assert(is_complete(kLightOptions));
 constexpr std::array kDisplayOptions{
     Option{.names = "--exposure",
            .metavar = "EV",
-           .help = "exposure of 8-bit pictures in stops, -64 to 64: light is multiplied by 2^EV",
-           .default_value = "0; for merge the value in the first checkpoint",
+           .help = "exposure of 8-bit pictures in stops, -64 to 64: radiance is multiplied by 2^EV",
+           .default_value = "0; for merge, the value in the first checkpoint",
            .samples = Samples::keep,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.display.exposure = value.number(-64, 64); }},
@@ -76,7 +77,7 @@ constexpr std::array kDisplayOptions{
         .metavar = "NAME",
         .help = "tone mapping of 8-bit pictures: none, khronos-pbr-neutral, aces or agx",
         .default_value =
-            "khronos-pbr-neutral for path, else none; for merge the value in the first checkpoint",
+            "khronos-pbr-neutral for path, else none; for merge, the value in the first checkpoint",
         .samples = Samples::keep,
         .words = tone_map_names,
         .set = [](Arguments& a,

@@ -31,9 +31,9 @@ constexpr std::array kPictureOptions{
            .set = [](Arguments& a, const OptionValue& value) { a.size = parse_size(value); }},
     Option{.names = "--crop",
            .metavar = "x0,y0,x1,y1",
-           .help =
-               "render only the pixels x0 to x1 - 1 of the rows y0 to y1 - 1, as they are in the "
-               "whole picture; 0,0 is its upper left corner",
+           .help = "render only columns x0 to x1 - 1 and rows y0 to y1 - 1, with the same values "
+                   "as in the "
+                   "whole picture; 0,0 is the upper left corner",
            .default_value = "the whole picture",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue& value) { a.crop = parse_crop(value); }},
@@ -41,7 +41,7 @@ constexpr std::array kPictureOptions{
            .metavar = "COLOR",
            .help = "color behind all objects: #rrggbb in sRGB, r,g,b in linear light from "
                    "0 to 1, env (the environment), or transparent (an alpha channel)",
-           .default_value = "0.6,0.6,0.6 for path-traced glTF, else the scene's, or black",
+           .default_value = "0.6,0.6,0.6 for path-traced glTF; otherwise the scene's, else black",
            .samples = Samples::change,
            .words =
                [] {
@@ -51,21 +51,22 @@ constexpr std::array kPictureOptions{
                [](Arguments& a, const OptionValue& value) {
                  a.environment.background = parse_background(value);
                }},
-    Option{.names = "--aov",
-           .metavar = "LIST",
-           .help =
-               "additional channels of an .exr picture, comma-separated: depth, distance, "
-               "position, normal, face_normal, uv, barycentric, albedo and id are exact values at "
-               "pixel centers; with path also variance, samples, denoise_albedo and "
-               "denoise_normal, means over the samples",
-           .samples = Samples::keep,
-           .words = aov_names,
-           .set = [](Arguments& a, const OptionValue& value) { a.aovs = parse_aovs(value); }},
+    Option{
+        .names = "--aov",
+        .metavar = "LIST",
+        .help =
+            "additional channels of an .exr picture, comma-separated: depth, distance, "
+            "position, normal, face_normal, uv, barycentric, albedo and id are exact values at "
+            "pixel centers; variance, samples, denoise_albedo and denoise_normal are computed from "
+            "the samples and need --integrator path",
+        .samples = Samples::keep,
+        .words = aov_names,
+        .set = [](Arguments& a, const OptionValue& value) { a.aovs = parse_aovs(value); }},
     Option{.names = "--sidecar",
            .metavar = "FILE",
-           .help = "JSON file with the camera, the objects (ids, names, boxes, visible pixels) and "
-                   "the materials",
-           .default_value = "the picture's name with .json added if --aov has id, else none",
+           .help = "JSON file that describes the camera, the objects (ids, names, bounding boxes, "
+                   "visible pixels) and the materials",
+           .default_value = "the picture's name with .json added if --aov contains id, else none",
            .samples = Samples::keep,
            .completion = Completion::files,
            .set = [](Arguments& a, const OptionValue& value) { a.sidecar = value.text; }},

@@ -23,7 +23,7 @@ constexpr std::array kRunningOptions{
     Option{.names = "--max-time",
            .metavar = "S",
            .help = "end the run after S seconds, in any stage, with exit code 6 and no picture; "
-                   "for untrusted scenes",
+                   "meant for untrusted scenes",
            .default_value = "none",
            .samples = Samples::keep,
            .set = [](Arguments& a,
@@ -31,8 +31,8 @@ constexpr std::array kRunningOptions{
     Option{.names = "--memory-limit",
            .metavar = "BYTES",
            .help =
-               "maximum memory, in bytes or with K, M or G for KiB, MiB or GiB: a request beyond "
-               "it ends the run with exit code 6",
+               "maximum memory, in bytes or with K, M or G for KiB, MiB or GiB: an allocation that "
+               "would exceed it ends the run with exit code 6",
            .default_value = "three quarters of the free memory",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue& value) { a.memory_limit = value.bytes(); }},
@@ -47,20 +47,21 @@ constexpr std::array kRunningOptions{
                      const OptionValue& value) { a.statistics = value.choice(kStatistics); }},
     Option{.names = "--progress",
            .metavar = "KIND",
-           .help = "progress on standard error: bar (if it is a terminal), json (one line per "
-                   "update) or none",
+           .help = "how to show progress on standard error: bar (if it is a terminal), json (one "
+                   "line per update) or none",
            .default_value = "bar",
            .samples = Samples::keep,
            .words = [] { return names_of(kProgress); },
            .set = [](Arguments& a,
                      const OptionValue& value) { a.progress = value.choice(kProgress); }},
     Option{.names = "--strict",
-           .help = "treat warnings as errors: exit code 3 and no picture",
+           .help = "treat warnings as errors: end with exit code 3 and write no picture",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.strict = true; }},
     Option{.names = "--validate",
-           .help = "check the scene, print the result, render nothing; exit code 3 if the scene "
-                   "breaks a rule of its format",
+           .help =
+               "check the scene, print the result and render nothing; the exit code is 3 if the "
+               "scene breaks a rule of its format",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.validate = true; }},
 };
@@ -80,7 +81,7 @@ static_assert(is_complete(kReportOptions));
 
 constexpr std::array kCommonOptions{
     Option{.names = "-q,--quiet",
-           .help = "no warnings, no progress bar, no line about the written files",
+           .help = "print no warnings, no progress bar and no line about the written files",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.quiet = true; }},
     Option{.names = "-h,--help", .help = "print this list", .samples = Samples::keep},
@@ -90,7 +91,7 @@ static_assert(is_complete(kCommonOptions));
 constexpr std::array kMergeOptions{
     Option{.names = "CHECKPOINT",
            .metavar = "FILE",
-           .help = "files that --checkpoint wrote for one picture",
+           .help = "checkpoints of one picture, written by --checkpoint",
            .samples = Samples::keep,
            .completion = Completion::files,
            .is_required = true,
@@ -105,7 +106,7 @@ constexpr std::array kMergeOptions{
            .is_required = true,
            .set = [](Arguments& a, const OptionValue& value) { a.output = value.text; }},
     Option{.names = "--partial",
-           .help = "make a picture even if samples are missing, which is an error otherwise",
+           .help = "make a picture even if samples are missing, which is otherwise an error",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.allows_missing_samples = true; }},
 };

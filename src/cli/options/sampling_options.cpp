@@ -18,8 +18,7 @@ constexpr std::array kSamplingOptions{
            .metavar = "NAME",
            .help =
                "rendering method: flat (colors without light), path (path tracing), or one of the "
-               "exact quantities "
-               "of --aov",
+               "exact quantities of --aov, which the picture then shows",
            .default_value = "path for glTF, flat for JSON",
            .samples = Samples::change,
            .words = integrator_names,
@@ -27,23 +26,23 @@ constexpr std::array kSamplingOptions{
                      const OptionValue& value) { a.integrator = parse_integrator(value); }},
     Option{.names = "--spp,--samples",
            .metavar = "N",
-           .help =
-               "samples per pixel, 1 to 65536; a single one without light is at the pixel's center",
+           .help = "samples per pixel, 1 to 65536; a single sample is at the pixel's center, "
+                   "except with path",
            .default_value = "64 for path, else 1",
            .samples = Samples::keep,
            .set =
                [](Arguments& a, const OptionValue& value) {
                  a.sampling.samples = value.whole_number(1, kMaxSamples);
                }},
-    Option{
-        .names = "--filter",
-        .metavar = "NAME",
-        .help = "pixel filter: box (the pixel's square) or blackman-harris (a bell 3 pixels wide)",
-        .default_value = "box",
-        .samples = Samples::change,
-        .words = [] { return names_of(kFilters); },
-        .set = [](Arguments& a,
-                  const OptionValue& value) { a.sampling.filter = value.choice(kFilters); }},
+    Option{.names = "--filter",
+           .metavar = "NAME",
+           .help = "pixel filter: box (the pixel's square) or blackman-harris (bell-shaped, 3 "
+                   "pixels wide)",
+           .default_value = "box",
+           .samples = Samples::change,
+           .words = [] { return names_of(kFilters); },
+           .set = [](Arguments& a,
+                     const OptionValue& value) { a.sampling.filter = value.choice(kFilters); }},
     Option{.names = "--seed",
            .metavar = "N",
            .help = "random seed, 0 to 4294967295: a different seed gives different noise",
@@ -62,16 +61,17 @@ constexpr std::array kSamplingOptions{
         .samples = Samples::change,
         .set = [](Arguments& a,
                   const OptionValue& value) { a.path.max_depth = value.whole_number(1, 65536); }},
-    Option{.names = "--backfaces",
-           .metavar = "KIND",
-           .help =
-               "light paths at backs of one-sided surfaces: pass (let them through, like camera "
-               "rays) or occlude (end them, so that one-sided walls keep the sun out)",
-           .default_value = "pass",
-           .samples = Samples::change,
-           .words = [] { return names_of(kBackfaces); },
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.path.backfaces = value.choice(kBackfaces); }},
+    Option{
+        .names = "--backfaces",
+        .metavar = "KIND",
+        .help =
+            "what happens to light paths that hit the back of a one-sided surface: pass (they go "
+            "through, like camera rays) or occlude (they end, so one-sided walls block sunlight)",
+        .default_value = "pass",
+        .samples = Samples::change,
+        .words = [] { return names_of(kBackfaces); },
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.path.backfaces = value.choice(kBackfaces); }},
 };
 static_assert(is_complete(kSamplingOptions));
 
@@ -97,8 +97,9 @@ constexpr std::array kCheckpointOptions{
                   const OptionValue& value) { a.sampling.target_error = value.positive_number(); }},
     Option{.names = "--time-limit",
            .metavar = "S",
-           .help = "start no further sampling pass S seconds after rendering began; the picture is "
-                   "made of the samples taken",
+           .help =
+               "start no further sampling pass once rendering has taken S seconds; the picture is "
+               "made from the samples taken so far",
            .default_value = "none",
            .samples = Samples::keep,
            .set = [](Arguments& a,
@@ -113,7 +114,7 @@ constexpr std::array kCheckpointOptions{
         .set = [](Arguments& a, const OptionValue& value) { a.sampling.checkpoint = value.text; }},
     Option{.names = "--resume",
            .metavar = "FILE",
-           .help = "continue from this checkpoint too; may be repeated",
+           .help = "continue from this checkpoint as well; may be repeated",
            .samples = Samples::keep,
            .completion = Completion::files,
            .is_repeatable = true,
@@ -121,8 +122,8 @@ constexpr std::array kCheckpointOptions{
                      const OptionValue& value) { a.sampling.resume.emplace_back(value.text); }},
     Option{.names = "--shard",
            .metavar = "I/N",
-           .help = "take only part I of N of the samples, into --checkpoint, and write no picture; "
-                   "microtrace merge makes it",
+           .help = "take only part I of N of the samples, save them to --checkpoint, and write no "
+                   "picture; microtrace merge makes the picture from all parts",
            .samples = Samples::keep,
            .needs = "--checkpoint",
            .excludes = "--output --aov --sidecar --progressive --target-error",
@@ -134,7 +135,7 @@ constexpr std::array kCheckpointOptions{
            .set = [](Arguments& a, const OptionValue&) { a.sampling.is_progressive = true; }},
     Option{.names = "--save-every",
            .metavar = "S",
-           .help = "seconds between writing checkpoints and progressive pictures",
+           .help = "seconds between two saves of the checkpoint and of the progressive picture",
            .default_value = "60",
            .samples = Samples::keep,
            .set = [](Arguments& a,
