@@ -10,7 +10,7 @@
 namespace microtrace::bench {
 
 struct CompareOptions {
-  unsigned threads = 1;  ///< for building and for queries, in both programs
+  unsigned threads = 1;  ///< threads for building and for queries, in both programs
   unsigned runs = 7;     ///< alternating runs of each program, whose median is reported
   /// Size of the picture whose camera rays are traced.
   ImageSize size{.width = 1920, .height = 1080};

@@ -322,7 +322,7 @@ class Reader {
   nb::handle source_;
   Scene scene_;
   Places materials_, textures_, images_;
-  const char* field_ = "";  // for messages
+  const char* field_ = "";  // the field being read, for messages
 };
 
 }  // namespace

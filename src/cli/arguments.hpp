@@ -67,10 +67,10 @@ struct SamplingOptions {
   std::uint32_t samples = 0;  ///< per pixel; 0 until apply_defaults()
   PixelFilter filter = PixelFilter::box;
   std::uint32_t seed = 0;
-  double target_error = 0;                                      ///< 0: none
+  double target_error = 0;                                      ///< 0 if there is no target
   double time_limit = std::numeric_limits<double>::infinity();  ///< seconds
   std::optional<Shard> shard{};                 ///< renders only these samples, and no picture
-  std::filesystem::path checkpoint{};           ///< empty: none
+  std::filesystem::path checkpoint{};           ///< empty if no checkpoint is written
   std::vector<std::filesystem::path> resume{};  ///< checkpoints to continue
   double save_every = 60;                       ///< seconds
   bool is_progressive = false;

@@ -29,7 +29,7 @@ struct SphereSupport {
 
 struct DiscSupport {
   DVec3 center;
-  DVec3 normal;  ///< of unit length
+  DVec3 normal;  ///< unit vector
   double radius;
 
   double operator()(const DVec3& u) const {
@@ -42,7 +42,7 @@ struct DiscSupport {
 /// The ellipsoid (p - center)^T A (p - center) = 1 with positive definite A.
 struct EllipsoidSupport {
   DVec3 center;
-  glm::dmat3 inverse;  ///< of A
+  glm::dmat3 inverse;  ///< inverse of A
 
   double operator()(const DVec3& u) const {
     return glm::dot(u, center) + std::sqrt(std::fmax(glm::dot(u, inverse * u), 0));

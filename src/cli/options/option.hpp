@@ -36,7 +36,7 @@ struct Option {
   std::string_view names;
   std::string_view metavar{};  ///< placeholder of the value: "FILE"; empty: a flag
   std::string_view help;
-  std::string_view default_value{};  ///< a value or a description; empty: none
+  std::string_view default_value{};  ///< a value or its description; empty if there is none
   std::string_view implied_value{};  ///< used if no value is given; empty: a value is required
   Samples samples = Samples::undecided;
   Completion completion = Completion::none;

@@ -56,7 +56,7 @@ void decode(const void* bytes, std::size_t size, const std::string& extension,
   OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // never writes to `bytes`
   const std::string name = "picture." + extension;
   ImageSpec config;
-  config.attribute("oiio:UnassociatedAlpha", 1);  // colors as stored in the file
+  config.attribute("oiio:UnassociatedAlpha", 1);  // returns colors as stored in the file
   const std::unique_ptr<ImageInput> reader = ImageInput::create(extension, false, &config, &memory);
   if (!reader || !reader->supports("ioproxy") || std::string(reader->format_name()) == "null") {
     static_cast<void>(OIIO::geterror());

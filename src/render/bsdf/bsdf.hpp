@@ -86,8 +86,8 @@ class Bsdf {
   // otherwise.
   V sheen_;
   F coat_;
-  F coat_transmittance_;  // for wo
-  F transmittance_;       // of all layers, for wo; set only if all layers are above
+  F coat_transmittance_;  // transmittance of the coat for wo
+  F transmittance_;       // transmittance of all layers for wo; set only if all layers are above
   F sheen_probability_, coat_probability_;  // sampling probabilities
 };
 

@@ -22,8 +22,8 @@ struct alignas(width * sizeof(float)) HitArrays {
   Floats corners[3][3];  ///< [corner][axis]
   Floats normals[3][3];  ///< normals of the vertices; zero if the mesh has none
   Floats uv[3][2];       ///< texture coordinates of set 0; zero if the mesh has none
-  // ---- set by the kernel:
-  Floats is_sure;  ///< 1 if the other results are valid; else 0
+  // The kernel sets the members below.
+  Floats is_sure;  ///< 1 if the other results are valid, otherwise 0
   Floats p[3], n[3], ns[3], weights[3], first_uv[2];
   Floats from_behind;  ///< 1 if the ray hits the back, else 0
   Floats distance, uv_scale;
@@ -44,7 +44,7 @@ struct alignas(64) NormalLanes {
 struct alignas(64) NormalMapLanes {
   LaneFloats texel[3], scale;
   LaneFloats is_mapped;  ///< 0 if there is no texture
-  // ---- set by the kernel:
+  // The kernel sets the members below.
   LaneFloats normal[3];  ///< shading normal on the ray's side
 };
 
@@ -59,7 +59,7 @@ struct alignas(64) ScatterLanes {
   /// Members of LightSample; light is 0 if there is no sample.
   LaneFloats light_wi[3], light[3], light_pdf;
   std::uint32_t key[kShadingLanes], index[kShadingLanes];  ///< key and index of sampling::Sobol
-  // ---- set by the kernel:
+  // The kernel sets the members below.
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none
   LaneFloats is_below;   ///< 1 if the next direction is below the surface, else 0

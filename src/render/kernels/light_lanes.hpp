@@ -24,7 +24,7 @@ struct alignas(width * sizeof(float)) LightChoices {
   float p[3][width], n[3][width];  ///< points, and their unit normals on either side
   float choice[width];  ///< random number in [0, 1); the kernel rescales it to [0, 1) unless no
                         ///< kind is selected
-  // ---- set by the kernel:
+  // The kernel sets the members below.
   LightKind kind[width];
   double probability[width];   ///< selection probability of the environment, the far lights or the
                                ///< near light
@@ -40,7 +40,7 @@ struct alignas(width * sizeof(float)) TriangleLights {
   float emission[3][width], coverage[width];  ///< at the sampled point, as seen from the front
   float has_back[width];                      ///< 1 if the back emits too, else 0
   double probability[width];                  ///< selection probability of the triangle
-  // ---- set by the kernel:
+  // The kernel sets the members below.
   float is_far[width];  ///< 1 if to_light is only a direction, else 0
   float to_light[3][width], wi[3][width], light[3][width];
   float pdf[width];  ///< 0 if the triangle contributes no light

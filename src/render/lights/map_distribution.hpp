@@ -124,7 +124,7 @@ class MapDistribution {
 
   const RadianceMap& map_;
   std::uint32_t width_, height_;
-  float turns_per_row_;  ///< height of a row of cells: angle to the axis in revolutions
+  float turns_per_row_;  ///< height of a row of cells as an angle, in revolutions
   float polar_h_;        ///< (1 - cos(theta)) / 2 at the end of a polar cell
   float scale_ = 0;      ///< scales luminance to a mean of 1
   std::vector<Row> rows_;

@@ -38,7 +38,7 @@ class SharedTables {
   mutable std::mutex mutex_;
   std::map<std::pair<const Image*, ColorEncoding>, std::shared_ptr<TexturePyramid>> pyramids_;
   std::shared_ptr<const BvhTree> tree_;
-  std::shared_ptr<const MapTables> environment_;  // of the last map requested
+  std::shared_ptr<const MapTables> environment_;  // tables of the last map requested
 };
 
 }  // namespace microtrace

@@ -28,7 +28,7 @@ struct alignas(64) SurfaceBatch {
 
   /// Lanes with triangles, one bit each. The other lanes hold undefined values.
   std::uint64_t triangles;
-  Values<const MeshArrays*> mesh;  ///< of lanes with triangles
+  Values<const MeshArrays*> mesh;  ///< set in lanes with triangles
   Values<std::uint32_t> object, primitive;
   // The kernel sets the members below, in lanes with triangles.
   Values<double> p[3];

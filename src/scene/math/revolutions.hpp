@@ -26,7 +26,7 @@ namespace microtrace {
   // avoids a division by 0.
   const float t = std::min(ax, ay) / std::max({ax, ay, std::numeric_limits<float>::min()});
   const float z = t * t, z2 = z * z, z4 = z2 * z2;
-  // atan(t) / (2 pi t) for z = t^2 in [0, 1], with an error of 3e-9, by Estrin's scheme.
+  // Evaluates atan(t) / (2 pi t) for z = t^2 in [0, 1] by Estrin's scheme, with an error of 3e-9.
   const float low = (0.15915494F - 0.053051222F * z) + (0.031819027F - 0.022604093F * z) * z2;
   const float high = (0.01692892F - 0.011929372F * z) + (0.006778028F - 0.0025472797F * z) * z2;
   const float eighth = t * (low + (high + 0.00045105536F * z4) * z4);
@@ -41,7 +41,8 @@ struct SineCosine {
 /// Sine and cosine of an angle in [0, 1] revolutions. The error is at most 2^-23.
 [[nodiscard]] inline SineCosine sin_cos_revolutions(float revolutions) {
   const float quarters = 4 * revolutions;
-  // Not negative, and ties may go either way. NOLINTNEXTLINE(bugprone-incorrect-roundings)
+  // `quarters` is not negative, and ties may round either way.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings)
   const int quadrant = static_cast<int>(quarters + 0.5F);
   const float f = quarters - static_cast<float>(quadrant), z = f * f;  // f in [-1/2, 1/2], exact
   const float s = f * ((1.5707964F - 0.6459635F * z) + (0.07968022F - 0.004602163F * z) * (z * z));

@@ -1,6 +1,6 @@
 #pragma once
-/// ETC1S with BasisLZ: KTX File Format Specification 2.0, appendices "BasisLZ Global Data" and
-/// "BasisLZ/ETC1S Bitstream Specification".
+/// Decodes ETC1S with BasisLZ (KTX File Format Specification 2.0, appendices "BasisLZ Global Data"
+/// and "BasisLZ/ETC1S Bitstream Specification").
 
 #include "modules/codecs/basis/huffman.hpp"
 #include "modules/codecs/basis/ktx2.hpp"
@@ -27,7 +27,8 @@ struct Codebooks {
   std::vector<Selector> selectors;
   HuffmanTable predictions, endpoint_deltas, selector_symbols, history_runs;
   std::uint32_t history_size = 0;
-  Bytes color_slice{}, alpha_slice{};  ///< of the base level; alpha_slice is empty without alpha
+  /// Slices of the base level; alpha_slice is empty if there is no alpha.
+  Bytes color_slice{}, alpha_slice{};
 };
 
 /// Throws Damage.

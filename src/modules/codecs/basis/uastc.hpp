@@ -1,6 +1,6 @@
 #pragma once
-/// UASTC LDR 4x4: "UASTC LDR 4x4 Texture Specification" (Basis Universal, Binomial LLC), which
-/// builds on ASTC (Khronos Data Format Specification 1.3, chapter 23).
+/// Decodes UASTC LDR 4x4 ("UASTC LDR 4x4 Texture Specification", Basis Universal, Binomial LLC).
+/// This format builds on ASTC (Khronos Data Format Specification 1.3, chapter 23).
 
 #include "modules/codecs/basis/bytes.hpp"
 #include "modules/codecs/basis/texels.hpp"
