@@ -305,8 +305,8 @@ TEST(TableErrors, AreDocumented) {
   };
   row("GGX, F = 1", tables::kGgxF1Error);
   row("GGX, F = (1 - cos)^5", tables::kGgxSchlickError);
-  row("mean of these, F = 1", tables::kGgxMeanF1Error);
-  row("mean of these, F = (1 - cos)^5", tables::kGgxMeanSchlickError);
+  row("cosine-weighted mean of GGX, F = 1", tables::kGgxMeanF1Error);
+  row("cosine-weighted mean of GGX, F = (1 - cos)^5", tables::kGgxMeanSchlickError);
   row("sheen", tables::kSheenError);
   row("deficit under a clear coat, F = 1", tables::kDeficitF1Error);
   row("deficit under a clear coat, F = (1 - cos)^5", tables::kDeficitSchlickError);
@@ -314,8 +314,9 @@ TEST(TableErrors, AreDocumented) {
   row("loss of refraction, from the denser side", tables::kLossWithinError);
   row("anisotropic GGX, F = 1", tables::kAnisotropicF1Error);
   row("anisotropic GGX, F = (1 - cos)^5", tables::kAnisotropicSchlickError);
-  row("mean of these, F = 1", tables::kAnisotropicMeanF1Error);
-  row("mean of these, F = (1 - cos)^5", tables::kAnisotropicMeanSchlickError);
+  row("cosine-weighted mean of anisotropic GGX, F = 1", tables::kAnisotropicMeanF1Error);
+  row("cosine-weighted mean of anisotropic GGX, F = (1 - cos)^5",
+      tables::kAnisotropicMeanSchlickError);
 }
 
 }  // namespace
