@@ -7,7 +7,7 @@
 
 namespace microtrace::bench {
 
-/// Throws std::invalid_argument if the text is not a number from 1 to 1024.
+/// Parses a number from 1 to 1024. Throws std::invalid_argument for any other text.
 [[nodiscard]] unsigned number(std::string_view text);
 
 /// Splits a list at its commas.

@@ -87,7 +87,7 @@ class Tracer {
     }
   }
 
-  /// Casts a shadow ray from each hit; returns the next rays of the paths.
+  /// Casts a shadow ray from each hit, and returns the next rays of the paths.
   std::vector<Ray> scatter(const std::vector<Ray>& rays,
                            const std::vector<std::optional<Hit>>& hits, std::uint64_t seed) {
     std::vector<Bvh::Spawn> spawns;

@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays of meshes, shared between scenes in C++ and NumPy.
+/// Shares the arrays of meshes between scenes in C++ and NumPy.
 
 #include "common.hpp"
 

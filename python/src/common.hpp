@@ -15,7 +15,7 @@ namespace nb = nanobind;
 /// An array of NumPy or another library, in CPU memory.
 using AnyArray = nb::ndarray<nb::ro, nb::device::cpu>;
 
-/// The class or function `name` of microtrace.MODULE.
+/// Returns the class or function `name` of the Python module microtrace.`module`.
 nb::object member(const char* module, const char* name);
 
 /// Converts a diagnostic to microtrace.errors.Diagnostic.

@@ -20,7 +20,7 @@
 namespace microtrace::python {
 namespace {
 
-/// A writable array of shape (height, width, channels), C-contiguous.
+/// A writable, C-contiguous array of shape (height, width, channels).
 template <class T>
 using Pixels = nb::ndarray<T, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 

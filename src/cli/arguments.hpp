@@ -64,7 +64,7 @@ struct Shard {
 };
 
 struct SamplingOptions {
-  std::uint32_t samples = 0;  ///< per pixel; 0 until apply_defaults()
+  std::uint32_t samples = 0;  ///< samples per pixel; 0 until apply_defaults()
   PixelFilter filter = PixelFilter::box;
   std::uint32_t seed = 0;
   double target_error = 0;                                      ///< 0 if there is no target
@@ -92,7 +92,7 @@ enum class Progress { none, bar, json };
 struct Arguments {
   std::string scene;              ///< a file, or "-" for standard input
   std::filesystem::path output;   ///< a file, or "-" for standard output
-  std::filesystem::path sidecar;  ///< a file, "-" for standard output, or none
+  std::filesystem::path sidecar;  ///< a file, or "-" for standard output; empty if there is none
   LoadOptions load{};
   std::optional<FrameRange> frames{};  ///< output and sidecar are then patterns
   std::optional<ImageSize> size{};

@@ -37,7 +37,8 @@ class RayBatch {
     integrator_.trace(world, std::span(rays_).first(count_), std::span(ids_).first(count_),
                       std::span(samples_).first(count_));
     for (std::size_t i = 0; i < count_; ++i) {
-      const bool has_ray = rays_[i].t_max >= 0;  // see RayGenerator
+      // RayGenerator marks missing rays by a negative t_max.
+      const bool has_ray = rays_[i].t_max >= 0;
       f(pixels_[i], has_ray || is_data_ ? samples_[i] : no_ray_);
     }
     count_ = 0;

@@ -26,7 +26,7 @@ struct World;
 enum class Visibility : std::uint8_t {
   always,
   in_front,  ///< only if the ray arrives at the front side
-  varies,    ///< depends on the point
+  varies,    ///< depending on the point
 };
 
 /// Immutable; any number of threads may use it.

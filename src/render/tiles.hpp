@@ -12,7 +12,7 @@
 
 namespace microtrace {
 
-/// The rays of a tile form one packet of coherent rays.
+/// The side of a tile in pixels. The rays of a tile form one packet of coherent rays.
 inline constexpr std::uint32_t kTileEdge = 8;
 inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
 
@@ -29,12 +29,12 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileEdge} * kTileEdge;
          (tile.x0 - window.x0) / kTileEdge;
 }
 
-/// The threads that share the tiles, including the calling one.
+/// The threads that share the tiles, including the calling thread.
 struct Threads {
   unsigned wanted = 1;   ///< at least 1
   HostThreads run{};     ///< RenderOptions::run_threads
   unsigned missing = 0;  ///< maximum number of threads that the system refused to start
-  StageCounts stages{};  ///< counts of the rendered tiles
+  StageCounts stages{};  ///< counts summed over the rendered tiles
 };
 
 /// Calls `draw` once for every tile of the window on `threads`, and `progress` with the finished

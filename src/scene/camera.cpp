@@ -234,7 +234,7 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
   const DVec3 d(ray.d);
   switch (kind_) {
     case Kind::perspective: {
-      // d = toward / |toward|, and the end of toward has depth 1.
+      // Differentiates d = toward / |toward|, where `toward` has depth 1.
       const double depth = glm::dot(forward_, d);
       return {.d_dx = depth * (right_ - d * glm::dot(d, right_)),
               .d_dy = depth * (down_ - d * glm::dot(d, down_))};
@@ -242,7 +242,7 @@ RayDifferential RayGenerator::differential(const Ray& ray) const {
     case Kind::orthographic:
       return {.o_dx = right_, .o_dy = down_};
     case Kind::environment: {
-      const DVec3 east = glm::cross(down_, d);  // proportional to the circle of latitude
+      const DVec3 east = glm::cross(down_, d);  // tangent to the circle of latitude
       const double width = std::sqrt(glm::dot(east, east));
       const DVec3 south = width > 0 ? glm::cross(d, east) / width : right_;
       return {.d_dx = east * (2 * std::numbers::pi / size_.width),

@@ -17,7 +17,8 @@ namespace microtrace {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Support functions: the maximum of u . p over a shape's points p, for u of any length.
+/// Support functions. They return the maximum of u . p over a shape's points p, for u of any
+/// length.
 struct SphereSupport {
   DVec3 center;
   double radius;
@@ -49,7 +50,7 @@ struct EllipsoidSupport {
   }
 };
 
-/// Nothing if the quadric is not an ellipsoid, or is empty.
+/// The quadric as an ellipsoid; nothing if it is not an ellipsoid or is empty.
 [[nodiscard]] std::optional<EllipsoidSupport> ellipsoid(const Quadric& quadric);
 
 /// Calls point(DVec3) for points whose convex hull equals that of the shape, or support(f) with the

@@ -5,7 +5,7 @@
 
 namespace microtrace::cli {
 
-/// "microtrace" or "microtrace merge"
+/// Returns "microtrace" or "microtrace merge".
 [[nodiscard]] std::string program_name(Command command);
 
 /// The text of --help, for a terminal with 100 columns.

@@ -34,7 +34,7 @@ struct Option {
   /// Comma-separated names, short ones first: "-o,--output". The name of a positional argument has
   /// no dashes.
   std::string_view names;
-  std::string_view metavar{};  ///< placeholder of the value: "FILE"; empty: a flag
+  std::string_view metavar{};  ///< placeholder of the value, such as "FILE"; empty for flags
   std::string_view help;
   std::string_view default_value{};  ///< a value or its description; empty if there is none
   std::string_view implied_value{};  ///< used if no value is given; empty: a value is required

@@ -14,7 +14,7 @@
 
 namespace microtrace::cli {
 
-/// Accepts only decimal digits, without a sign.
+/// Parses decimal digits without a sign; nothing for any other text.
 [[nodiscard]] std::optional<std::uint32_t> whole_number(std::string_view text);
 
 /// Parses comma-separated finite numbers. Returns an empty list for any other text.
@@ -22,7 +22,7 @@ namespace microtrace::cli {
 
 [[nodiscard]] std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// "a, b or c"
+/// Joins the words, as in "a, b or c".
 [[nodiscard]] std::string listed(std::span<const std::string> words);
 
 /// A name that an option accepts as its value.
@@ -42,7 +42,7 @@ template <class Choices>
 /// The text of an option's value. Each conversion throws Error (usage) with the option's name and
 /// the values that it accepts.
 struct OptionValue {
-  std::string option;  ///< "--size"
+  std::string option;  ///< name of the option, such as "--size"
   std::string text;
 
   [[nodiscard]] std::uint32_t whole_number(std::uint32_t least, std::uint32_t most) const;
@@ -67,7 +67,7 @@ struct OptionValue {
   [[noreturn]] void refuse(const std::string& accepted) const;
 };
 
-/// Throws Error (usage).
+/// Throws Error (usage) with this message.
 [[noreturn]] void refuse_usage(const std::string& message);
 
 }  // namespace microtrace::cli

@@ -42,7 +42,7 @@ class Parser {
     }
   }
 
-  /// Throws CLI::ParseError and Error (usage).
+  /// Returns the given options with their values. Throws CLI::ParseError and Error (usage).
   std::vector<Given> parse(int argc, char** argv) {
     app_.parse(argc, argv);
     std::vector<Given> given;

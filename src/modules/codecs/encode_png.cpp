@@ -46,7 +46,7 @@ int encode_png(const MicrotracePng& picture) {
     for (std::size_t i = 0; i < picture.text_count; ++i) {
       png_text text{};
       text.compression = PNG_TEXT_COMPRESSION_NONE;
-      text.key = const_cast<char*>(picture.texts[i].keyword);  // only read
+      text.key = const_cast<char*>(picture.texts[i].keyword);  // libpng only reads the text
       text.text = const_cast<char*>(picture.texts[i].text);
       png_set_text(png, info, &text, 1);
     }

@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Returns null, or an error message.
+/// Writes the corners of all triangles. Returns null, or an error message.
 const char* write_indices(const draco::Mesh& mesh, std::uint32_t* out) {
   for (std::uint32_t i = 0; i < mesh.num_faces(); ++i) {
     for (const draco::PointIndex& corner : mesh.face(draco::FaceIndex(i))) {

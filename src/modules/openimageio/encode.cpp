@@ -81,7 +81,7 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
   return spec;
 }
 
-/// Returns the bytes of the file, or throws the reason as a std::runtime_error.
+/// Returns the bytes of the file. Throws std::runtime_error with the reason on failure.
 std::vector<unsigned char> encode(const MicrotracePicture& picture, const std::string& extension) {
   const std::unique_ptr<ImageOutput> writer = find_writer(extension);
   if (!writer) throw std::runtime_error("OpenImageIO has no such writer");

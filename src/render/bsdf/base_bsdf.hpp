@@ -117,7 +117,7 @@ class BaseBsdf {
   F metallic_, eta_;
   V diffuse_below_, multiple_below_, transmitted_;
   RefractionLoss<N> loss_;
-  V lost_, lost_below_;  ///< multiple scattering of refraction
+  V lost_, lost_below_;  ///< energy compensation of refraction, above and below
   F below_probability_;  ///< probability of sampling below the surface if no microfacet normal is
                          ///< sampled
 };

@@ -13,8 +13,8 @@ enum class LayerSide : std::uint8_t {
   below,
 };
 
-/// The parts of a BSDF beyond metallic-roughness. Plain data, shared by the kernels of all
-/// instruction sets.
+/// The parts of a BSDF beyond metallic-roughness. This is plain data, because the kernels of all
+/// instruction sets share it.
 struct Features {
   bool is_anisotropic = false, has_film = false;
   bool transmits = false;  ///< light may cross the surface

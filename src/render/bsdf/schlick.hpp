@@ -12,7 +12,7 @@ struct Schlick {
 
   bool operator==(const Schlick&) const requires(N == 1) = default;
 
-  /// The second part of the reflectance is (f90 - f0) times this.
+  /// (1 - cosine)^5. The second part of the reflectance is (f90 - f0) times this factor.
   static Float<N> edge(const Float<N>& cosine) {
     const Float<N> x = 1 - cosine, square = x * x;
     return square * square * x;

@@ -9,7 +9,7 @@
 
 namespace microtrace::bsdf {
 
-/// The minimum roughness. Smoother fibers are visible only within about five degrees of the
+/// The minimum roughness. Smoother fibers would be visible only within about five degrees of the
 /// surface.
 inline constexpr float kLeastSheenRoughness = 0.05F;
 
@@ -20,7 +20,7 @@ struct SheenTerms {
 
   D alpha;
 
-  /// The exponent of the paper's fit of the masking function.
+  /// The exponent in the paper's fit of the masking function.
   [[nodiscard]] D fit(const D& x) const {
     const D t = (1 - alpha) * (1 - alpha);
     const auto mix = [&](double rough, double smooth) { return rough + t * (smooth - rough); };
@@ -58,7 +58,7 @@ class SheenLobe {
                  (kSheenRows - 1),
              kSheenRows) {}
 
-  /// D V without color, for directions above the surface and their half vector.
+  /// D V without the color, for directions wo and wi above the surface and their half vector h.
   [[nodiscard]] F reflectance(const V& wo, const V& wi, const V& h) const {
     constexpr int n = kDoubleLanes<N>;
     alignas(64) float roughness[N], z_o[N], z_i[N], x[N], y[N], values[N];

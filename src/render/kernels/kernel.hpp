@@ -25,7 +25,7 @@ struct alignas(width * sizeof(float)) HitArrays {
   // The kernel sets the members below.
   Floats is_sure;  ///< 1 if the other results are valid, otherwise 0
   Floats p[3], n[3], ns[3], weights[3], first_uv[2];
-  Floats from_behind;  ///< 1 if the ray hits the back, else 0
+  Floats from_behind;  ///< 1 if the ray hits the back, otherwise 0
   Floats distance, uv_scale;
   Floats area;  ///< twice the triangle's area
 };
@@ -62,11 +62,11 @@ struct alignas(64) ScatterLanes {
   // The kernel sets the members below.
   LaneFloats shadow[3];  ///< contribution of the light if it is not occluded
   LaneFloats pdf;        ///< pdf of the next direction; 0 if there is none
-  LaneFloats is_below;   ///< 1 if the next direction is below the surface, else 0
+  LaneFloats is_below;   ///< 1 if the next direction is below the surface, otherwise 0
   LaneFloats wi[3], next_throughput[3];
 };
 
-/// Parameters common to all paths of a ScatterLanes.
+/// Parameters that all paths of a ScatterLanes share.
 struct ScatterSetup {
   bsdf::Features features;
   std::uint32_t direction_pair, lobe_pair;

@@ -18,7 +18,7 @@ struct LightChoiceSetup {
 
 enum class LightKind : std::uint8_t { none, environment, far, near };
 
-/// Points for which lights are selected.
+/// The points for which lights are selected.
 template <int width>
 struct alignas(width * sizeof(float)) LightChoices {
   float p[3][width], n[3][width];  ///< points, and their unit normals on either side
@@ -37,11 +37,12 @@ struct alignas(width * sizeof(float)) TriangleLights {
   float p[3][width];           ///< the illuminated point
   float corners[3][3][width];  ///< [corner][axis]
   float u[2][width];
-  float emission[3][width], coverage[width];  ///< at the sampled point, as seen from the front
-  float has_back[width];                      ///< 1 if the back emits too, else 0
-  double probability[width];                  ///< selection probability of the triangle
+  /// Values at the sampled point, as seen from the front.
+  float emission[3][width], coverage[width];
+  float has_back[width];      ///< 1 if the back emits too, otherwise 0
+  double probability[width];  ///< selection probability of the triangle
   // The kernel sets the members below.
-  float is_far[width];  ///< 1 if to_light is only a direction, else 0
+  float is_far[width];  ///< 1 if to_light is only a direction, otherwise 0
   float to_light[3][width], wi[3][width], light[3][width];
   float pdf[width];  ///< 0 if the triangle contributes no light
 };

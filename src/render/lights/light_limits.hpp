@@ -30,7 +30,7 @@ Double<N> area_pdf(const Double<N>& square, const Double<N>& area, const Float<N
 template <int N>
 struct SelectedLight {
   Floats3<N> to_light;
-  Float<N> is_far;  ///< 1 if to_light is only a direction, else 0
+  Float<N> is_far;  ///< 1 if to_light is only a direction, otherwise 0
   Floats3<N> light;
   Float<N> pdf;
 };

@@ -21,7 +21,7 @@ struct LightNode {
   float cos_e;         ///< cosine of the greatest angle to its normal at which a light emits
   std::uint32_t is_two_sided;  ///< 1 if the lights also emit around -axis
   std::uint32_t is_leaf = 1;
-  std::uint32_t second = 0;  ///< index of the second child; the first follows its parent
+  std::uint32_t second = 0;  ///< index of the second child; the first child follows its parent
   std::uint32_t light = 0;   ///< index of the light in a leaf
 };
 
@@ -46,7 +46,7 @@ struct LightAngle {
   }
 };
 
-/// N nodes.
+/// N nodes, one in each lane.
 template <int N>
 struct LightNodes {
   using F = Float<N>;
@@ -68,7 +68,7 @@ struct LightNodes {
         cos_e(all<N>(node.cos_e)),
         is_two_sided(all<N>(static_cast<float>(node.is_two_sided))) {}
 
-  /// The nodes with these indices.
+  /// Loads the nodes with these indices.
   static LightNodes of(const LightNode* nodes, const std::uint32_t (&indices)[N]) {
     LightNodes result(nodes[indices[0]]);
     std::uint32_t differences = 0;
@@ -150,7 +150,7 @@ Float<N> first_probability(const LightNode* nodes, const std::uint32_t (&indices
 template <int N>
 struct LightChoice {
   std::uint32_t light[N];
-  Double<N> probability;  ///< selection probability at each point; 0: no light reaches the point
+  Double<N> probability;  ///< selection probability at each point; 0 if no light reaches the point
 };
 
 /// Selects a light for each lane. u is in [0, 1).

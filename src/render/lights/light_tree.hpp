@@ -45,7 +45,7 @@ struct LightBounds {
 /// The union of both bounds.
 [[nodiscard]] LightBounds united(const LightBounds& a, const LightBounds& b);
 
-/// Immutable; may be used by any number of threads.
+/// The tree of lights. Immutable; any number of threads may use it.
 class LightTree {
  public:
   /// Builds the tree from the bounds of at least one light. Each power must be positive. Lights

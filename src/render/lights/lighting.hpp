@@ -1,6 +1,5 @@
 #pragma once
-/// The lighting of a picture: emitters and environment, and the selection of lights to sample at a
-/// point.
+/// The lighting of a picture: emitters, the environment, and light sampling.
 
 #include "render/kernels/choose_lights.hpp"
 #include "render/kernels/kernel.hpp"

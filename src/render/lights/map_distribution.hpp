@@ -87,10 +87,11 @@ class MapDistribution {
  private:
   /// A row of cells.
   struct Row {
-    std::array<float, 2> sines;  ///< sines of the angles to the axis at the upper and lower corners
-    float floor;                 ///< minimum weight
-    float pdf;  ///< mean pdf of a cell for each 2^-24 of its probability in the row, per unit of
-                ///< longitude and angle to the axis; at the poles, per solid angle
+    /// Sines of the angles to the y axis at the upper and lower corners.
+    std::array<float, 2> sines;
+    float floor;  ///< minimum weight
+    float pdf;    ///< mean pdf of a cell for each 2^-24 of its probability in the row, per unit of
+                  ///< longitude and angle to the axis; at the poles, per solid angle
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
   /// The weight of a luminance, per solid angle.
@@ -118,7 +119,8 @@ class MapDistribution {
   static Found find(const std::uint32_t* bounds, Index start, std::uint32_t number);
   [[nodiscard]] Point point_in(const Found& line, const Found& column) const;
   void find_mean();
-  /// The mean weights of the cells of each row, without minimum probabilities.
+  /// Makes the columns' cumulative bounds. Returns the mean weight of each row's cells, without
+  /// minimum probabilities.
   std::vector<double> make_columns();
   void make_rows(std::vector<double> weights);
 

@@ -15,8 +15,8 @@ namespace microtrace {
 /// relative to their distance from the origin. The translation along each axis keeps every
 /// coordinate exact, so it changes only the spacing of float32 points.
 
-/// Bounds of all points that define the positions of shapes. Nothing if a shape (a quadric) isn't
-/// defined by points.
+/// Bounds of all points that define the positions of shapes. Nothing if a shape, such as a quadric,
+/// isn't defined by points.
 [[nodiscard]] std::optional<PointBounds> bounds_of_points(const Scene& scene);
 
 /// The translation from the scene to the origin; zero for scenes that are close to the origin or

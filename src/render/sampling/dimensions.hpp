@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kPixelPair = 0;  ///< position within the pixel
 /// Each path vertex has this many pairs, starting at kFirstVertexPair.
 inline constexpr std::uint32_t kFirstVertexPair = 1, kVertexPairs = 5;
 inline constexpr std::uint32_t kDirectionPair = 0;    ///< outgoing direction
-inline constexpr std::uint32_t kLobePair = 1;         ///< lobe, and Russian roulette
+inline constexpr std::uint32_t kLobePair = 1;         ///< choice of the lobe, and Russian roulette
 inline constexpr std::uint32_t kLightPair = 2;        ///< position on a light
 inline constexpr std::uint32_t kLightChoicePair = 3;  ///< selection of the light
 /// Decides if the path passes through a layer, according to the layer's alpha. Each further layer

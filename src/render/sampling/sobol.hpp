@@ -59,12 +59,12 @@ class SobolLanes {
   [[nodiscard]] Floats2<N> pair(std::uint32_t number) const {
     const Bits key = hash(key_, number);
     const Bits n = reversed_bits(scrambled_upwards(index_, key));
-    // The first dimension is the bit-reversed index.
+    // The first dimension of the Sobol sequence is the bit-reversed index.
     return {unit_float(scrambled_upwards(n, hash(key, 1))),
             unit_float(scrambled_upwards(sobol_upwards(n), hash(key, 2)))};
   }
 
-  /// One number in [0, 1), the first dimension of this pair.
+  /// The first number of this pair, in [0, 1).
   [[nodiscard]] Float<N> one(std::uint32_t number) const { return pair(number).x; }
 
  private:

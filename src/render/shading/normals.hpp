@@ -1,5 +1,5 @@
 #pragma once
-/// Shading normals, for N lanes.
+/// Computes shading normals, for N lanes.
 
 #include "simd/vector3.hpp"
 

@@ -19,7 +19,8 @@ class TextureMaps {
   /// Both must outlive this object.
   TextureMaps(const Scene& scene, SharedTables& tables) : scene_(scene), tables_(tables) {}
 
-  /// All slots of a material. The material and this object must outlive the result.
+  /// Returns a material with its texture slots. The material and this object must outlive the
+  /// result.
   [[nodiscard]] TexturedMaterial slots(const Material& material);
 
  private:

@@ -23,7 +23,7 @@ struct TextureFootprint {
 /// separate from color.
 class TextureMap {
  public:
-  /// Makes the pyramid compute its mip maps if the sampler uses them.
+  /// Uses this pyramid, and makes it compute its mip maps if the sampler uses them.
   TextureMap(const std::shared_ptr<TexturePyramid>& pyramid, const Sampler& sampler);
 
   /// Creates a pyramid for this map only. The image must outlive this object.
@@ -47,7 +47,7 @@ class TextureMap {
     std::int32_t first, second;
     float share;
   };
-  /// The texel address of a sample() call.
+  /// The texels that a sample() call reads.
   struct TexelAddress {
     std::size_t level;
     std::uint32_t columns;  ///< width of the level
@@ -58,7 +58,7 @@ class TextureMap {
   /// Prefetches the texels at this address.
   void fetch(const TexelAddress& address) const;
 
-  /// True if both have the same texel addresses.
+  /// True if both maps have equal texel addresses for equal texture coordinates.
   [[nodiscard]] bool is_laid_out_as(const TextureMap& other) const;
 
   static constexpr int kMaxProbes = 8;

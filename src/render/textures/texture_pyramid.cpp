@@ -37,7 +37,8 @@ struct Cover {
   std::array<double, 3> weights{};
 };
 
-/// Pixel i of the m = n / 2 pixels covers [i n / m, (i + 1) n / m) of the n finer ones.
+/// Computes the cover of pixel i of m = n / 2 pixels, which is [i n / m, (i + 1) n / m) of the n
+/// finer pixels.
 Cover cover(std::uint32_t i, std::uint32_t n) {
   const std::uint32_t m = std::max(n / 2, 1U);
   const double begin = double{1} * i * n / m, end = double{1} * (i + 1) * n / m;

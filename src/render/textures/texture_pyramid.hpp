@@ -41,7 +41,7 @@ class TexturePyramid {
   [[nodiscard]] DVec2 level_size(std::size_t level) const;
   [[nodiscard]] DVec4 image_pixel(std::uint32_t x, std::uint32_t y) const;
   void make_levels();
-  /// Fills a level of half the width and height of the finer one, both even.
+  /// Fills a level that has half the width and height of the finer level, which must be even.
   void halve(std::size_t finer, Level& level) const;
 
   std::shared_ptr<const Image> image_;

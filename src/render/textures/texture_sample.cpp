@@ -48,7 +48,7 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
 /// Four floats in one register, because GLM would compute them one by one.
 typedef float FourFloats __attribute__((vector_size(16)));
 
-/// The weighted mean of four texels. fetch(index) returns a texel, row by row.
+/// The weighted mean of four texels. fetch(index) returns a texel by its index, row by row.
 template <class Fetch>
 Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fetch& fetch) {
   const std::size_t top = static_cast<std::size_t>(y.first) * columns;
@@ -94,7 +94,7 @@ TextureMap::TexelAddress TextureMap::texel_address(const Vec2& uv, float width) 
   std::size_t level = 0;
   const float pixels = width * static_cast<float>(std::max(image_.width, image_.height));
   if (pixels >= 2 && sampler_.mip != MipFilter::none) {
-    // The float's exponent is the integer part of its logarithm.
+    // The exponent of a float is the integer part of its binary logarithm.
     const std::size_t exponent = (std::bit_cast<std::uint32_t>(pixels) >> 23U) - 127;
     level = std::min(exponent, levels_.size());
   }

@@ -1,5 +1,5 @@
 #pragma once
-/// Surfaces at hits of triangles.
+/// Computes surfaces at hits of triangles.
 
 #include "scene/kernels/kernel.hpp"
 #include "scene/kernels/triangle.hpp"

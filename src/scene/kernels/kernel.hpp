@@ -1,6 +1,6 @@
 #pragma once
-/// Input and output of the kernels for surfaces and camera rays. Plain data only: kernels must not
-/// share inline functions with other translation units.
+/// Input and output of the kernels for surfaces and camera rays. Contains only plain data, because
+/// kernels must not share inline functions with other translation units.
 
 #include <microtrace/math.hpp>
 #include <microtrace/ray.hpp>
@@ -26,7 +26,7 @@ struct alignas(64) SurfaceBatch {
   template <class T>
   using Values = T[kSurfaceLanes];
 
-  /// Lanes with triangles, one bit each. The other lanes hold undefined values.
+  /// The lanes with triangles, one bit each. Values in the other lanes are undefined.
   std::uint64_t triangles;
   Values<const MeshArrays*> mesh;  ///< set in lanes with triangles
   Values<std::uint32_t> object, primitive;

@@ -1,5 +1,5 @@
 #pragma once
-/// Rays of perspective cameras in float64, for N lanes.
+/// Computes rays of perspective cameras in float64, for N lanes.
 
 #include "scene/kernels/kernel.hpp"
 #include "simd/vector3.hpp"
@@ -48,7 +48,7 @@ void perspective_rays(const PerspectiveRays& camera, double x, double y, Ray* ra
     const LaneRays<N> lanes = rays_toward<N>(
         toward_pixel<N>(corner, right, down, steps + (x + static_cast<double>(first)), y - zero),
         camera.near, camera.far);
-    // Stored first, because loads are faster than the extraction of lanes.
+    // Stores the lanes first, because loading numbers is faster than extracting lanes.
     float d[3][N], t_min[N], t_max[N];
     store3<N>(d, 0, lanes.d);
     store<N>(t_min, lanes.t_min);

@@ -24,7 +24,7 @@ class Lens {
     return std::visit([&](const auto& lens) { return lens.direction(image); }, lens_);
   }
 
-  /// The inverse of direction(), for directions of any length.
+  /// The image point of a direction of any length; the inverse of direction().
   [[nodiscard]] std::optional<DVec2> image(const DVec3& direction) const {
     return std::visit([&](const auto& lens) { return lens.image(direction); }, lens_);
   }

@@ -17,7 +17,7 @@ namespace {
 /// lost: their directions are within a millionth of a radian of perpendicular to the axis.
 constexpr double kMaxRadius = 1e6;
 
-/// A polynomial's coefficients, the constant first.
+/// A polynomial's coefficients, starting with the constant.
 using Polynomial = std::vector<double>;
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
@@ -95,8 +95,8 @@ std::optional<DVec3> RationalLens::direction(const DVec2& image) const {
     if (!(length <= max_distorted_)) return std::nullopt;
     return DVec3(image * (undistorted_radius(length) / length), 1);
   }
-  // The solution in the disk is unique, so every start that converges gives it. The first start is
-  // the fastest.
+  // The solution in the disk is unique, so it doesn't matter which start converges. The first start
+  // converges fastest.
   const double clamped = std::min(1.0, max_radius_ / length);
   std::optional<DVec2> u = undistorted(image, image * clamped);
   if (!u) u = undistorted(image, image * (undistorted_radius(length) / length));

@@ -8,7 +8,7 @@ namespace microtrace {
 /// 2^x for x in [-1000, 1000].
 [[nodiscard]] double power_of_two(double x);
 
-/// x must be a finite normal number above 0.
+/// The binary logarithm of x, which must be a positive, finite, normal number.
 [[nodiscard]] double binary_logarithm(double x);
 
 /// e^x for x <= 690; 0 for x below -690. The relative error is up to 2^-50 for each unit of |x|.

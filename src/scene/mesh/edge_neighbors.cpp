@@ -6,9 +6,9 @@
 namespace microtrace {
 namespace {
 
-/// An edge of a triangle, stored at its lesser vertex.
+/// An edge of a triangle. It is stored in the list of its vertex with the lesser index.
 struct Edge {
-  std::uint32_t greater;  ///< vertex
+  std::uint32_t greater;  ///< the vertex with the greater index
   std::uint32_t corner;   ///< 3 * triangle + edge
 };
 
@@ -20,7 +20,7 @@ std::vector<std::array<std::uint32_t, 3>> edge_neighbors(
   const auto end_of = [&](std::uint32_t corner) { return triangles[corner / 3][(corner + 1) % 3]; };
   const auto corner_count = static_cast<std::uint32_t>(3 * triangles.size());
 
-  // Counting sort by lesser vertex.
+  // Sorts edges by lesser vertex (counting sort).
   std::vector<std::uint32_t> first(vertex_count + 1);
   for (std::uint32_t corner = 0; corner < corner_count; ++corner) {
     ++first[std::min(begin_of(corner), end_of(corner)) + 1];

@@ -5,7 +5,7 @@
 namespace microtrace {
 
 std::uint64_t memory_of(const Mesh& mesh) {
-  // A segment becomes two triangles with four vertices of their own.
+  // Each segment becomes two triangles with four new vertices.
   const std::uint64_t segments = mesh.segments.size();
   const std::uint64_t triangles = mesh.triangles.size() + 2 * segments;
   std::uint64_t of_vertex = sizeof(Vec3);

@@ -19,7 +19,7 @@ class SegmentWidener {
  public:
   SegmentWidener(const Camera& camera, ImageSize size);
 
-  /// Nothing if the camera sees no part of the segment from a to b.
+  /// Widens the segment from a to b. Returns nothing if the camera sees no part of it.
   [[nodiscard]] std::optional<WideSegment> operator()(const Vec3& a, const Vec3& b) const;
 
  private:

@@ -38,7 +38,7 @@ Vec3 unit_or_zero(const Vec3& v) {
   return is_zero(v) ? v : v / std::sqrt(glm::dot(v, v));
 }
 
-/// The unit vector of the projection of v on the plane perpendicular to the unit normal n.
+/// Projects v onto the plane perpendicular to the unit normal n, and normalizes the result.
 Vec3 across(const Vec3& v, const Vec3& n) {
   return unit_or_zero(v - n * glm::dot(n, v));
 }

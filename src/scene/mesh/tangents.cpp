@@ -39,7 +39,7 @@ std::vector<std::uint32_t> split(Mesh& mesh, std::span<const Vec4> tangents) {
   const auto vertex_at = [&](std::size_t corner) -> std::uint32_t& {
     return triangles[corner / 3][corner % 3];
   };
-  // Counting sort of corners by vertex.
+  // Sorts corners by vertex (counting sort).
   std::vector<std::uint32_t> first(vertex_count + 1);
   for (std::size_t i = 0; i < tangents.size(); ++i) ++first[vertex_at(i) + 1];
   for (std::size_t v = 0; v < vertex_count; ++v) first[v + 1] += first[v];

@@ -1,5 +1,5 @@
 #pragma once
-/// Bounds-checked reading of numbers from a file's bytes.
+/// Reads numbers from a file's bytes, with checks of bounds.
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ inline Bytes part_of(Bytes bytes, std::uint64_t offset, std::uint64_t size, cons
   return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
 }
 
-/// A little-endian number of `size` bytes. Throws Damage.
+/// Reads a little-endian number of `size` bytes. Throws Damage.
 inline std::uint64_t number_at(Bytes bytes, std::size_t offset, std::size_t size) {
   const Bytes part = part_of(bytes, offset, size, "the file is cut off");
   std::uint64_t result = 0;

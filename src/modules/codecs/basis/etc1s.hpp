@@ -12,7 +12,7 @@
 
 namespace basis {
 
-/// A base color with 5 bits per channel, and a row of ETC1's table of modifiers.
+/// A base color with 5 bits per channel, and the index of a row in ETC1's table of modifiers.
 struct Endpoint {
   std::array<std::uint8_t, 3> color;
   std::uint8_t intensity;
@@ -31,7 +31,7 @@ struct Codebooks {
   Bytes color_slice{}, alpha_slice{};
 };
 
-/// Throws Damage.
+/// Reads the codebooks. Throws Damage.
 [[nodiscard]] Codebooks read_codebooks(const Ktx2& ktx2);
 
 /// Decodes the color slice into the red, green and blue channels. Throws Damage.

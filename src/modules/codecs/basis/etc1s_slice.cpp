@@ -20,7 +20,7 @@ std::uint64_t read_groups(BitReader& bits, unsigned width) {
   throw Damage(kDamaged);
 }
 
-/// Recently used selectors, with approximate move-to-front order.
+/// A history of recently used selectors, in approximate move-to-front order.
 class History {
  public:
   explicit History(std::size_t size) : values_(size), next_(size / 2) {}
@@ -43,7 +43,7 @@ class History {
   std::size_t next_;
 };
 
-/// Decodes the references of all blocks, row by row.
+/// Decodes the references of blocks to codebook entries, row by row.
 class SliceDecoder {
  public:
   SliceDecoder(const Codebooks& books, Bytes slice, std::uint32_t blocks_x)
@@ -128,7 +128,8 @@ class SliceDecoder {
   std::uint64_t repeats_ = 0, run_ = 0;
 };
 
-/// ETC1's modifiers (Khronos Data Format Specification 1.3, table 116) in the order of selectors.
+/// ETC1's modifiers, in the order of selector values (Khronos Data Format Specification 1.3, table
+/// 116).
 constexpr std::array<std::array<int, 4>, 8> kModifiers = {{{-8, -2, 2, 8},
                                                            {-17, -5, 5, 17},
                                                            {-29, -9, 9, 29},

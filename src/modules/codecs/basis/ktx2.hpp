@@ -17,7 +17,7 @@ struct Ktx2 {
   bool has_alpha = false;
   bool is_zstd = false;      ///< true if the level is compressed by Zstandard
   Bytes level{};             ///< the level's data
-  Bytes global{};            ///< ETC1S: data shared by all levels
+  Bytes global{};            ///< data shared by all levels, for ETC1S
   std::uint32_t levels = 1;  ///< number of levels in the file
 };
 

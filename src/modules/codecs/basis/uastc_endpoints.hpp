@@ -11,7 +11,7 @@ namespace basis {
 
 inline constexpr std::size_t kMaxEndpointValues = 18;
 
-/// Reads `count` numbers from 0 to 255. Throws Damage.
+/// Reads `count` endpoint values, and converts them to the range 0 to 255. Throws Damage.
 [[nodiscard]] std::array<std::uint8_t, kMaxEndpointValues> read_endpoint_values(
     BitReader& bits, const EndpointRange& range, std::size_t count);
 

@@ -37,7 +37,7 @@ struct UastcMode {
   }
 };
 
-/// Index of mode 7, which has its own patterns.
+/// The index of the mode that has its own patterns, mode 7.
 inline constexpr std::size_t kUastcModeOfOtherPatterns = 7;
 
 /// Reads the mode of a block. Throws Damage.

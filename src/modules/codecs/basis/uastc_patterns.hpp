@@ -16,7 +16,7 @@ struct Pattern {
 /// Number of bits of the pattern number in a block with 1 to 3 subsets.
 [[nodiscard]] unsigned pattern_bits(unsigned subsets);
 
-/// Throws Damage if there is no pattern with this number.
+/// Returns the pattern with this number. Throws Damage if there is none.
 [[nodiscard]] const Pattern& pattern(std::size_t mode, unsigned subsets, std::size_t number);
 
 }  // namespace basis
