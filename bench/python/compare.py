@@ -12,6 +12,7 @@ import os
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 
 os.environ["OMP_NUM_THREADS"] = "1"
@@ -33,12 +34,19 @@ def median_times(jobs, rounds):
     return {name: statistics.median(values) for name, values in times.items()}
 
 
+def has_llvm():
+    """Older versions abort on processors with AVX-512, so the choice of one is left to the caller."""
+    return bool(os.environ.get("DRJIT_LIBLLVM_PATH"))
+
+
 def views(quick, rounds):
     """Views of a textured model per processor second: depth, both normals and the object."""
     vertices, faces, uv = meshes.bumpy_sphere(90, 86)
     count, size = (4, (160, 120)) if quick else (100, (640, 480))
     makers = {"microtrace": peers.microtrace_views, "Open3D": peers.open3d_views,
-              "Mitsuba scalar": peers.mitsuba_views, "trimesh + embreex": peers.embreex_views}
+              "Mitsuba scalar": peers.mitsuba_scalar_views, "trimesh + embreex": peers.embreex_views}
+    if has_llvm():
+        makers["Mitsuba LLVM"] = peers.mitsuba_llvm_views
     renderers = {name: make(vertices, faces, uv, size) for name, make in makers.items()}
     eyes = meshes.orbit(count)
     chosen = eyes if quick else eyes[::10]
@@ -54,9 +62,20 @@ def rays(quick, rounds):
     arrays."""
     edge = 60 if quick else 708
     vertices, faces, _ = meshes.bumpy_sphere(edge, edge)
-    batch = meshes.random_rays(10**4 if quick else 10**6)
+    batch = meshes.random_rays(10**4 if quick else 10**7)
     casters = peers.casters(vertices, faces)
-    times = median_times({name: (lambda c=cast: c(batch)) for name, cast in casters.items()}, rounds)
+    jobs = {name: (lambda c=cast: c(batch)) for name, cast in casters.items()}
+    with tempfile.TemporaryDirectory() as folder:
+        program = os.environ.get("MICROTRACE_MANY_RAYS")
+        library = []
+        if program:
+            command = [program] + [os.path.join(folder, name) for name in ("vertices", "faces", "rays")]
+            for path, array in zip(command[1:], (vertices, faces, batch)):
+                array.tofile(path)
+            jobs["C++"] = lambda: library.append(float(subprocess.check_output(command)))
+        times = median_times(jobs, rounds)
+    if library:
+        times["C++"] = statistics.median(library[1:])
     return {name: {"per_second": len(batch) / t, "triangles": len(faces), "rays": len(batch)}
             for name, t in times.items()}
 

@@ -25,14 +25,19 @@ def smooth_normals(vertices, faces):
     return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
 
 
+def frame(eye):
+    """Forward, right, up."""
+    forward = -eye / np.linalg.norm(eye)
+    right = np.cross(forward, (0, 1, 0))
+    right /= np.linalg.norm(right)
+    return forward, right, np.cross(right, forward)
+
+
 def directions(eye, size):
     """Directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
     float32."""
     width, height = size
-    forward = -eye / np.linalg.norm(eye)
-    right = np.cross(forward, (0, 1, 0))
-    right /= np.linalg.norm(right)
-    up = np.cross(right, forward)
+    forward, right, up = frame(eye)
     scale = 2 * np.tan(np.radians(FOV) / 2) / height
     x = (np.arange(width) + 0.5 - width / 2) * scale
     y = (height / 2 - np.arange(height) - 0.5) * scale
@@ -105,18 +110,24 @@ def embreex_views(vertices, faces, uv, size):
     return render
 
 
-def mitsuba_views(vertices, faces, uv, size):
+def mitsuba_scene(vertices, faces, uv, variant):
     import mitsuba as mi
 
-    mi.set_variant("scalar_rgb")
+    mi.set_variant(variant)
     mesh = mi.Mesh("model", len(vertices), len(faces), has_vertex_normals=True, has_vertex_texcoords=True)
     values = mi.traverse(mesh)
-    values["vertex_positions"] = vertices.ravel()
-    values["vertex_normals"] = smooth_normals(vertices, faces).ravel()
-    values["vertex_texcoords"] = uv.ravel()
-    values["faces"] = faces.ravel()
+    arrays = {"vertex_positions": vertices, "vertex_normals": smooth_normals(vertices, faces),
+              "vertex_texcoords": uv, "faces": faces}
+    for name, array in arrays.items():
+        values[name] = type(values[name])(array.ravel())
     values.update()
-    scene = mi.load_dict({"type": "scene", "model": mesh})
+    return mi.load_dict({"type": "scene", "model": mesh})
+
+
+def mitsuba_scalar_views(vertices, faces, uv, size):
+    import mitsuba as mi
+
+    scene = mitsuba_scene(vertices, faces, uv, "scalar_rgb")
     kinds = "depth:depth,shading:sh_normal,geometric:geo_normal,object:shape_index"
     integrator = mi.load_dict({"type": "aov", "aovs": kinds})
     sensor = mi.load_dict({
@@ -127,11 +138,40 @@ def mitsuba_views(vertices, faces, uv, size):
     pose = mi.traverse(sensor)
 
     def render(eye):
+        mi.set_variant("scalar_rgb")
         pose["to_world"] = mi.ScalarTransform4f().look_at(eye.tolist(), [0, 0, 0], [0, 1, 0])
         pose.update()
         film = np.array(mi.render(scene, sensor=sensor, integrator=integrator, spp=1))
         depth = np.where(film[..., -8] > 0, film[..., -8], np.inf)
         return depth, film[..., -7:-4], film[..., -4:-1], film[..., -1]
+
+    return render
+
+
+def mitsuba_llvm_views(vertices, faces, uv, size):
+    """Without a film, whose accumulation takes longer than the rays."""
+    import drjit as dr
+    import mitsuba as mi
+
+    variant = "llvm_ad_rgb"
+    scene = mitsuba_scene(vertices, faces, uv, variant)
+    dr.set_thread_count(1)
+    width, height = size
+    scale = 2 * np.tan(np.radians(FOV) / 2) / height
+
+    def render(eye):
+        mi.set_variant(variant)
+        # Opaque numbers are arguments of the compiled code, which serves all views.
+        o, forward, right, up = (mi.Vector3f(*(dr.opaque(mi.Float, float(x)) for x in v)) for v in (eye, *frame(eye)))
+        pixel = dr.arange(mi.UInt32, width * height)
+        x = (mi.Float(pixel % width) + 0.5 - width / 2) * scale
+        y = (height / 2 - mi.Float(pixel // width) - 0.5) * scale
+        at = scene.ray_intersect(mi.Ray3f(mi.Point3f(o), forward + x * right + y * up))
+        hit = at.is_valid()
+        found = (dr.select(hit, at.t, dr.inf), dr.select(hit, at.sh_frame.n, 0), dr.select(hit, at.n, 0),
+                 dr.select(hit, dr.reinterpret_array(mi.UInt32, at.shape), 0))
+        dr.eval(found)
+        return tuple(np.array(x).T.reshape(*size[::-1], *x.shape[:-1]) for x in found)
 
     return render
 

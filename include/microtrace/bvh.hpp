@@ -3,6 +3,7 @@
 
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
+#include <microtrace/math.hpp>
 #include <microtrace/primitives.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
@@ -13,6 +14,11 @@
 #include <span>
 
 namespace microtrace {
+
+/// An axis-aligned box, closed.
+struct Box {
+  Vec3 lo, hi;
+};
 
 /// The tree of a Bvh, which does not refer to the scene.
 struct BvhTree;
@@ -108,6 +114,9 @@ class MICROTRACE_EXPORT Bvh {
                 std::span<const PrimitiveId> left = {}) const;
 
   [[nodiscard]] const Primitives& primitives() const;
+
+  /// Returns a box that contains all primitives; nothing if some are unbounded or there is no tree.
+  [[nodiscard]] std::optional<Box> bounds() const;
 
   /// Returns the size of the tree in bytes, without the scene.
   [[nodiscard]] std::size_t memory() const;

@@ -156,6 +156,10 @@ class MICROTRACE_EXPORT RayGenerator {
   /// Computes the rays through the centers of consecutive pixels of a row, starting at pixel (x,
   /// y). Faster than single calls.
   void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const;
+  /// The same for rows of `width` pixels, one below the other; rays.size() is a multiple of
+  /// `width`. Each t_min is at least `least_t_min`.
+  void centers(std::uint32_t x, std::uint32_t y, std::uint32_t width, float least_t_min,
+               std::span<Ray> rays) const;
 
   /// Returns the pixel coordinates at which a point appears, whether inside the picture or not.
   /// This is the inverse of operator() and ignores the depth range. Returns nothing for points that

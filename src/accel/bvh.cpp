@@ -176,6 +176,11 @@ const Primitives& Bvh::primitives() const {
   return impl_->primitives;
 }
 
+std::optional<Box> Bvh::bounds() const {
+  if (!impl_->has_tree || !impl_->outside.empty()) return std::nullopt;
+  return Box{.lo = impl_->tree.bounds.lo, .hi = impl_->tree.bounds.hi};
+}
+
 std::size_t Bvh::memory() const {
   return memory_of(impl_->tree);
 }

@@ -2,12 +2,12 @@
 /// The camera rays of pictures.
 
 #include <microtrace/camera.hpp>
+#include <microtrace/film.hpp>
 #include <microtrace/ray.hpp>
 #include <microtrace/scene.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -29,10 +29,9 @@ class CameraRays {
     return ray;
   }
 
-  /// The rays through the centers of consecutive pixels in a row.
-  void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const {
-    camera_.centers(x, y, rays);
-    for (Ray& ray : rays) ray.t_min = std::max(ray.t_min, t_min_);
+  /// The rays through the centers of the tile's pixels, row by row.
+  void centers(const PixelRect& tile, std::span<Ray> rays) const {
+    camera_.centers(tile.x0, tile.y0, tile.size().width, t_min_, rays);
   }
 
  private:

@@ -124,7 +124,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
   const std::vector<AovBuffer> buffers = add_channels(options.aovs, film);
   if (!buffers.empty()) {
     exact_world.emplace(exact.world(1));
-    channels.emplace(*exact_world, buffers, window);
+    channels.emplace(*exact_world, camera, buffers, window);
   }
   const auto paint_channels = [&](const PixelRect& tile) {
     if (channels) channels->paint(tile);

@@ -159,6 +159,11 @@ Ray RayGenerator::operator()(double x, double y) const {
 }
 
 void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const {
+  centers(x, y, static_cast<std::uint32_t>(rays.size()), 0, rays);
+}
+
+void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::uint32_t width, float least_t_min,
+                           std::span<Ray> rays) const {
   const FloatEnvironment environment;
   if (kind_ == Kind::perspective) {
     static const SceneKernels& kernels = kSceneKernels.best();
@@ -166,12 +171,17 @@ void RayGenerator::centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays
                                  .right = right_,
                                  .down = down_,
                                  .origin = Vec3(position_),
+                                 .least_t_min = least_t_min,
                                  .near = depth_.near,
                                  .far = depth_.far};
-    kernels.perspective_rays(camera, x + 0.5, y + 0.5, rays.data(), rays.size());
+    kernels.perspective_rays(camera, x + 0.5, y + 0.5, width, rays.data(), rays.size());
     return;
   }
-  for (Ray& ray : rays) ray = ray_at(x++ + 0.5, y + 0.5);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i] =
+        ray_at(x + static_cast<double>(i % width) + 0.5, y + static_cast<double>(i / width) + 0.5);
+    rays[i].t_min = std::max(rays[i].t_min, least_t_min);
+  }
 }
 
 std::optional<DVec2> RayGenerator::project(const DVec3& point) const {

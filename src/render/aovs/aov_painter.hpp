@@ -22,17 +22,22 @@ namespace microtrace {
 class AovPainter {
  public:
   /// The buffers have the pixels of `window`. All arguments must outlive this object.
-  AovPainter(const World& world, std::span<const AovBuffer> buffers, const PixelRect& window);
+  AovPainter(const World& world, const Camera& camera, std::span<const AovBuffer> buffers,
+             const PixelRect& window);
 
   /// A tile of the window, at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:
+  /// A tile in which nothing is visible.
+  void paint_empty(const PixelRect& tile) const;
+
   const World& world_;
   CameraRays rays_;
   std::span<const AovBuffer> buffers_;
   AovSet aovs_;
   const PixelRect& window_;
+  PixelRect occupied_;  ///< nothing is visible outside
 };
 
 }  // namespace microtrace

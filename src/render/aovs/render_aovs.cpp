@@ -48,7 +48,7 @@ void render_aovs(const PreparedScene& scene, const Camera& camera, ImageSize siz
   (void)view.content->bvh();
   const auto built = Clock::now();
   const World world = view.world(1);
-  const AovPainter painter(world, buffers, window);
+  const AovPainter painter(world, camera, buffers, window);
   for_each_tile(
       window, threads, [&](const PixelRect& tile) { painter.paint(tile); }, options.progress);
   if (options.counts != nullptr) {

@@ -3,8 +3,8 @@
 #include "render/surfaces.hpp"
 #include "scene/surface/surface_finder.hpp"
 
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +16,12 @@ Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs
     : world_(world), rays_(rays) {
   const std::span<std::optional<Hit>> hits = std::span(hits_).first(rays.size());
   world.bvh.intersect(rays, hits);
+  const auto find_seen = [&] {
+    seen_ = 0;
+    for (std::size_t i = 0; i < hits.size(); ++i) seen_ |= std::uint64_t{hits[i].has_value()} << i;
+  };
+  find_seen();
+  if (seen_ == 0) return;
   const SurfaceFinder& finder = world.surfaces.finder();
   const SurfaceParts parts{
       .n = aovs.has(Aov::face_normal), .ns = aovs.has(Aov::normal), .uv = aovs.has(Aov::uv)};
@@ -28,23 +34,23 @@ Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs
   find();
   // Most surfaces are visible, from both sides or from the front.
   bool is_changed = false;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (!hits[i]) continue;
+  for (std::uint64_t left = seen_; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
     const Visibility visibility = world.surfaces.visibility(surfaces_.object[i]);
     if (visibility == Visibility::always ||
         (visibility == Visibility::in_front && aovs.needs_surfaces() && surfaces_.side[i] > 0))
       continue;
     const PrimitiveId first = hits[i]->id;
     hits[i] = world.first_visible(rays[i], hits[i]);
-    is_changed = is_changed || (hits[i] && hits[i]->id != first);
+    is_changed = is_changed || !hits[i] || hits[i]->id != first;
   }
-  if (is_changed) find();
-  for (std::size_t i = 0; i < rays.size(); ++i) seen_ |= std::uint64_t{hits[i].has_value()} << i;
+  if (!is_changed) return;
+  find();
+  find_seen();
 }
 
 void Sights::values_of(Aov aov, Values<float>& values) const {
-  const bool is_length = aov == Aov::depth || aov == Aov::distance;
-  const float none = is_length ? std::numeric_limits<float>::infinity() : 0;
+  const float none = value_of_nothing(aov);
   if (seen_ == 0) {
     for (auto& channel : values) channel.fill(none);
     return;
@@ -103,18 +109,20 @@ void Sights::values_of(Aov aov, Values<float>& values) const {
   }
 }
 
-void Sights::ids(Values<std::uint32_t>& values) const {
+void Sights::ids(std::size_t channel, std::array<std::uint32_t, kSize>& values) const {
   const std::vector<Object>& objects = world_.scene.objects;
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    if (is_seen(i)) {
-      const std::uint32_t object = surfaces_.object[i];
-      values[0][i] = object + 1;
-      values[1][i] = surfaces_.primitive[i] + 1;
-      const std::optional<std::uint32_t> material = objects[object].material;
-      values[2][i] = material ? *material + 1 : 0;
-    } else {
-      values[0][i] = values[1][i] = values[2][i] = 0;
-    }
+  const auto set = [&](const auto& id) {
+    for (std::size_t i = 0; i < rays_.size(); ++i) values[i] = is_seen(i) ? id(i) : 0;
+  };
+  if (channel == 0) {
+    set([&](std::size_t i) { return surfaces_.object[i] + 1; });
+  } else if (channel == 1) {
+    set([&](std::size_t i) { return surfaces_.primitive[i] + 1; });
+  } else {
+    set([&](std::size_t i) {
+      const std::optional<std::uint32_t> material = objects[surfaces_.object[i]].material;
+      return material ? *material + 1 : 0;
+    });
   }
 }
 

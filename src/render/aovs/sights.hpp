@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -36,6 +37,12 @@ class AovSet {
   unsigned bits_ = 0;
 };
 
+/// The value of a quantity where nothing is visible.
+[[nodiscard]] inline float value_of_nothing(Aov aov) {
+  const bool is_length = aov == Aov::depth || aov == Aov::distance;
+  return is_length ? std::numeric_limits<float>::infinity() : 0;
+}
+
 /// The first visible surfaces, as defined by Aov, of up to kMaxBatch rays.
 class Sights {
  public:
@@ -46,14 +53,16 @@ class Sights {
   /// The rays must outlive this object.
   Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs);
 
+  /// Whether no ray hits anything visible. All values are then value_of_nothing().
+  [[nodiscard]] bool is_empty() const { return seen_ == 0; }
   /// False if the ray hits nothing that is visible.
   [[nodiscard]] bool is_seen(std::size_t ray) const { return (seen_ >> ray & 1U) != 0; }
 
   /// All quantities but id, which must be in the set.
   void values_of(Aov aov, Values<float>& values) const;
 
-  /// The ids of instance, primitive and material.
-  void ids(Values<std::uint32_t>& values) const;
+  /// The ids of instance (channel 0), primitive or material.
+  void ids(std::size_t channel, std::array<std::uint32_t, kSize>& values) const;
 
  private:
   [[nodiscard]] bool is_all_seen() const {

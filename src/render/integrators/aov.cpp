@@ -74,12 +74,12 @@ void AovIntegrator::trace(const World& world, std::span<const Ray> rays,
   const Sights sights(world, rays, {aov_});
   Sights::Values<float> v;
   if (aov_ != Aov::id) sights.values_of(aov_, v);
-  Sights::Values<std::uint32_t> ids;
-  if (aov_ == Aov::id) sights.ids(ids);
+  std::array<std::uint32_t, Sights::kSize> ids;
+  if (aov_ == Aov::id) sights.ids(0, ids);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Vec3 color;
     if (aov_ == Aov::id)
-      color = sights.is_seen(i) ? color_of_id(ids[0][i]) : Vec3(0);
+      color = sights.is_seen(i) ? color_of_id(ids[i]) : Vec3(0);
     else if (channels_of(aov_).size() == 1)
       color = Vec3(v[0][i]);
     else if (channels_of(aov_).size() == 2)

@@ -3,6 +3,7 @@
 
 #include "scene/kernels/kernel.hpp"
 #include "scene/kernels/triangle.hpp"
+#include "simd/transpose.hpp"
 
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
@@ -14,8 +15,29 @@ inline Double<N> gathered_doubles(const Get& get) {
   for (int i = 0; i < N; ++i) set_lane(v, i, get(i));
   return to_double<N>(v);
 }
+/// Converts the vectors *get(i) to float64. Four rows are transposed at a time, because inserting
+/// single lanes is slow.
 template <int N, class Get>
 inline Doubles3<N> gathered_vectors(const Get& get) {
+  if constexpr (N % 4 == 0) {
+    Float<4> m[N / 4][4];
+    for (int group = 0; group < N / 4; ++group) {
+      for (int k = 0; k < 4; ++k) {
+        const Vec3* const v = get(4 * group + k);
+        m[group][k] = Float<4>{v->x, v->y, v->z, 0};
+      }
+      transpose(m[group]);
+    }
+    const auto column = [&](int axis) {
+      if constexpr (N == 4)
+        return to_double<N>(m[0][axis]);
+      else
+        return to_double<N>(
+            __builtin_shufflevector(m[0][axis], m[1][axis], 0, 1, 2, 3, 4, 5, 6, 7));
+    };
+    static_assert(N <= 8);
+    return {column(0), column(1), column(2)};
+  }
   return {gathered_doubles<N>([&](int i) { return get(i)->x; }),
           gathered_doubles<N>([&](int i) { return get(i)->y; }),
           gathered_doubles<N>([&](int i) { return get(i)->z; })};
@@ -32,12 +54,12 @@ inline void store_narrowed(const auto& v, Array& to, int i) {
 /// Handles the N lanes that start at `first`. Lanes without triangles repeat the first lane with
 /// one.
 template <int N>
-inline void find_surfaces_from(int first, const Ray* rays, const SurfaceParts& parts,
-                               SurfaceBatch& batch) {
+inline Lanes find_surfaces_from(int first, const Ray* rays, const SurfaceParts& parts,
+                                SurfaceBatch& batch) {
   using D = Double<N>;
   using V = Doubles3<N>;
   const auto lanes = static_cast<Lanes>(batch.triangles >> first) & kAllLanes<N>;
-  if (lanes == 0) return;
+  if (lanes == 0) return 0;
   int from[N];                      // index of each lane's hit
   const std::uint32_t* corners[N];  // of each lane's triangle
   const MeshArrays* meshes[N];
@@ -64,7 +86,7 @@ inline void find_surfaces_from(int first, const Ray* rays, const SurfaceParts& p
   store_narrowed(w.v, batch.barycentrics, first);
   const D zero{}, one = zero + 1;
   narrowed<N>(dot(d, area) > 0 ? D(-one) : one, batch.side + first);
-  narrowed<N>(w.exists & n.exists ? one : zero, batch.is_sure + first);
+  const Lanes sure = less<N>(Float<N>{}, to_single<N>(w.exists & n.exists ? one : zero)) & lanes;
   if (parts.ns) {
     constexpr Vec3 kNone(0);
     const TriangleCorners<N> normals = at_corners([&](int k) {
@@ -89,12 +111,15 @@ inline void find_surfaces_from(int first, const Ray* rays, const SurfaceParts& p
     narrowed<N>(coordinate(0), batch.uv[0] + first);
     narrowed<N>(coordinate(1), batch.uv[1] + first);
   }
+  return sure;
 }
 
 template <int N>
-void find_surfaces(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch) {
+std::uint64_t find_surfaces(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch) {
+  std::uint64_t sure = 0;
   for (int i = 0; i < static_cast<int>(kSurfaceLanes); i += N)
-    find_surfaces_from<N>(i, rays, parts, batch);
+    sure |= std::uint64_t{find_surfaces_from<N>(i, rays, parts, batch)} << i;
+  return sure;
 }
 
 }  // namespace MICROTRACE_KERNELS

@@ -35,8 +35,7 @@ struct alignas(64) SurfaceBatch {
   Values<float> n[3], ns[3];  ///< normals of the front side
   Values<float> side;         ///< 1: the ray arrives at the front side; -1: at the back
   Values<float> barycentrics[3];
-  Values<float> uv[2];    ///< 0 if the mesh has none
-  Values<float> is_sure;  ///< 0: the triangle has no area or is edge-on; values are undefined
+  Values<float> uv[2];  ///< 0 if the mesh has none
 };
 
 /// Selects the outputs of a kernel besides p, side and barycentrics.
@@ -48,16 +47,19 @@ struct SurfaceParts {
 struct PerspectiveRays {
   DVec3 corner, right, down;
   Vec3 origin;
+  float least_t_min;
   double near, far;  ///< depths
 };
 
 struct SceneKernels {
   const char* name;
-  /// Computes the surfaces at the rays' hits in the lanes with triangles.
-  void (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
-  /// Sets rays[i] to the ray through the pixel coordinates (x + i, y).
-  void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, Ray* rays,
-                           std::size_t count);
+  /// Computes the surfaces at the rays' hits in the lanes with triangles. Returns the lanes with
+  /// valid results: not those of triangles without area or seen edge-on.
+  std::uint64_t (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
+  /// Sets rays[i] to the ray through the pixel coordinates (x + i % width, y + i / width). `count`
+  /// is a multiple of `width`.
+  void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, std::size_t width,
+                           Ray* rays, std::size_t count);
 };
 
 extern const SceneKernels kPortableScene;

@@ -2,7 +2,10 @@
 /// Computes rays of perspective cameras in float64, for N lanes.
 
 #include "scene/kernels/kernel.hpp"
+#include "simd/transpose.hpp"
 #include "simd/vector3.hpp"
+
+#include <cstddef>
 
 namespace microtrace {
 inline namespace MICROTRACE_KERNELS {
@@ -36,39 +39,60 @@ inline Doubles3<N> toward_pixel(const Doubles3<N>& corner, const Doubles3<N>& ri
   return corner + right * x + down * y;
 }
 
+/// Stores the first `count` of N rays. Four rays are stored at a time, as rows of a transposed
+/// matrix, because extracting lanes is slow.
 template <int N>
-void perspective_rays(const PerspectiveRays& camera, double x, double y, Ray* rays,
-                      std::size_t count) {
+inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::size_t count) {
+  constexpr int kGroup = N < 4 ? N : 4;
+  float d[3][N], t_min[N], t_max[N];
+  store3<N>(d, 0, lanes.d);
+  store<N>(t_min, lanes.t_min);
+  store<N>(t_max, lanes.t_max);
+  const auto copy = [&](std::size_t i) {
+    Ray& ray = rays[i];
+    ray.o.x = o.x;
+    ray.o.y = o.y;
+    ray.o.z = o.z;
+    ray.t_min = t_min[i];
+    ray.d.x = d[0][i];
+    ray.d.y = d[1][i];
+    ray.d.z = d[2][i];
+    ray.t_max = t_max[i];
+  };
+  std::size_t i = 0;
+  if constexpr (kGroup == 4) {
+    for (; i < N && i + 4 <= count; i += 4) {
+      Float<4> first[4] = {all<4>(o.x), all<4>(o.y), all<4>(o.z), load<4>(t_min + i)};
+      Float<4> second[4] = {load<4>(d[0] + i), load<4>(d[1] + i), load<4>(d[2] + i),
+                            load<4>(t_max + i)};
+      transpose(first);
+      transpose(second);
+      static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, d) == 4 * sizeof(float));
+      for (std::size_t k = 0; k < 4; ++k) {
+        __builtin_memcpy(&rays[i + k].o, &first[k], sizeof first[k]);
+        __builtin_memcpy(&rays[i + k].d, &second[k], sizeof second[k]);
+      }
+    }
+  }
+  for (; i < N && i < count; ++i) copy(i);
+}
+
+template <int N>
+void perspective_rays(const PerspectiveRays& camera, double x, double y, std::size_t width,
+                      Ray* rays, std::size_t count) {
   const Double<N> zero{};
   Double<N> steps{};
   for (int i = 0; i < N; ++i) set_lane(steps, i, double(i));
   const Doubles3<N> corner = all_lanes<N>(camera.corner), right = all_lanes<N>(camera.right),
                     down = all_lanes<N>(camera.down);
-  for (std::size_t first = 0; first < count; first += N) {
-    const LaneRays<N> lanes = rays_toward<N>(
-        toward_pixel<N>(corner, right, down, steps + (x + static_cast<double>(first)), y - zero),
-        camera.near, camera.far);
-    // Stores the lanes first, because loading numbers is faster than extracting lanes.
-    float d[3][N], t_min[N], t_max[N];
-    store3<N>(d, 0, lanes.d);
-    store<N>(t_min, lanes.t_min);
-    store<N>(t_max, lanes.t_max);
-    const auto copy = [&](int i) {
-      Ray& ray = rays[first + static_cast<std::size_t>(i)];
-      ray.o.x = camera.origin.x;
-      ray.o.y = camera.origin.y;
-      ray.o.z = camera.origin.z;
-      ray.t_min = t_min[i];
-      ray.d.x = d[0][i];
-      ray.d.y = d[1][i];
-      ray.d.z = d[2][i];
-      ray.t_max = t_max[i];
-    };
-    const std::size_t left = count - first;
-    if (left >= N) {
-      for (int i = 0; i < N; ++i) copy(i);
-    } else {
-      for (int i = 0; i < static_cast<int>(left); ++i) copy(i);
+  const Float<N> least = all<N>(camera.least_t_min);
+  for (std::size_t row = 0; row < count; row += width, y += 1) {
+    for (std::size_t first = 0; first < width; first += N) {
+      LaneRays<N> lanes = rays_toward<N>(
+          toward_pixel<N>(corner, right, down, steps + (x + static_cast<double>(first)), y - zero),
+          camera.near, camera.far);
+      lanes.t_min = lanes.t_min < least ? least : lanes.t_min;
+      store_rays<N>(camera.origin, lanes, rays + row + first, width - first);
     }
   }
 }

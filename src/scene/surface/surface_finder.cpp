@@ -5,6 +5,7 @@
 #include <microtrace/surface_interaction.hpp>
 
 #include <array>
+#include <bit>
 #include <variant>
 
 namespace microtrace {
@@ -56,34 +57,41 @@ SurfaceFinder::SurfaceFinder(const Primitives& primitives) : primitives_(primiti
   }
 }
 
-void SurfaceFinder::find_ids(Hits hits, SurfaceBatch& batch) const {
+template <class Visit>
+void SurfaceFinder::for_each(Hits hits, const Visit& visit) const {
   const Entry* entry = nullptr;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
     const PrimitiveId id = hits[i]->id;
-    // Most hits are on the same object as the previous hit.
+    // Most hits are in the same object as the one before.
     if (entry == nullptr || id - entry->first_id >= entry->count)
       entry = &entries_[primitives_.object_index(id)];
-    batch.object[i] = static_cast<std::uint32_t>(entry - entries_.data());
-    batch.primitive[i] = id - entry->first_id;
+    visit(i, *entry, id);
   }
+}
+
+void SurfaceFinder::find_ids(Hits hits, SurfaceBatch& batch) const {
+  for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
+    batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
+    batch.primitive[i] = id - entry.first_id;
+  });
 }
 
 void SurfaceFinder::find(std::span<const Ray> rays, Hits hits, const SurfaceParts& parts,
                          SurfaceBatch& batch, const SceneKernels& kernels) const {
-  find_ids(hits, batch);
+  std::uint64_t others = 0;
   batch.triangles = 0;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i]) continue;
-    const MeshArrays& mesh = entries_[batch.object[i]].mesh;
-    batch.mesh[i] = &mesh;
-    if (mesh.positions != nullptr) batch.triangles |= std::uint64_t{1} << i;
-  }
-  if (batch.triangles != 0) kernels.find_surfaces(rays.data(), parts, batch);
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!hits[i]) continue;
-    const bool is_done = (batch.triangles >> i & 1U) != 0 && batch.is_sure[i] != 0;
-    if (!is_done) set(batch, i, interact(primitives_, rays[i], *hits[i]));
+  for_each(hits, [&](std::size_t i, const Entry& entry, PrimitiveId id) {
+    batch.object[i] = static_cast<std::uint32_t>(&entry - entries_.data());
+    batch.primitive[i] = id - entry.first_id;
+    batch.mesh[i] = &entry.mesh;
+    (entry.mesh.positions != nullptr ? batch.triangles : others) |= std::uint64_t{1} << i;
+  });
+  if (batch.triangles != 0)
+    others |= batch.triangles & ~kernels.find_surfaces(rays.data(), parts, batch);
+  for (; others != 0; others &= others - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(others));
+    set(batch, i, interact(primitives_, rays[i], *hits[i]));
   }
 }
 

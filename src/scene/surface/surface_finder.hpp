@@ -39,6 +39,10 @@ class SurfaceFinder {
     PrimitiveId first_id, count;
   };
 
+  /// Calls visit(i, entry of the object, primitive id) for each hit.
+  template <class Visit>
+  void for_each(Hits hits, const Visit& visit) const;
+
   const Primitives& primitives_;
   std::vector<Entry> entries_;  // by object
 };

@@ -6,6 +6,7 @@
 #include <microtrace/camera.hpp>
 #include <microtrace/surface_interaction.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -116,14 +117,19 @@ TEST(SceneKernels, MakeTheSameRays) {
                                .right = {0.0625, -0.0, 0},
                                .down = {-0.0, -0.1, 0},
                                .origin = {1, 2, 3},
+                               .least_t_min = 0.11F,
                                .near = 0.1,
                                .far = 10};
   for (const SceneKernels* kernels : kSceneKernels.available()) {
-    for (const std::size_t count : {0, 1, 2, 3, 7, 8, 9, 64}) {
+    for (const std::size_t count : {0, 1, 2, 3, 7, 8, 9, 33, 64}) {
       std::vector<Ray> rays(count), expected(count);
-      kernels->perspective_rays(camera, 0.5, 2.5, rays.data(), count);
-      kPortableScene.perspective_rays(camera, 0.5, 2.5, expected.data(), count);
-      for (std::size_t i = 0; i < count; ++i) expect_ray(rays[i], expected[i]);
+      const std::size_t width = count % 3 == 0 && count > 0 ? 3 : count;
+      kernels->perspective_rays(camera, 0.5, 2.5, width, rays.data(), count);
+      kPortableScene.perspective_rays(camera, 0.5, 2.5, width, expected.data(), count);
+      for (std::size_t i = 0; i < count; ++i) {
+        expect_ray(rays[i], expected[i]);
+        EXPECT_GE(rays[i].t_min, camera.least_t_min);
+      }
     }
   }
 }
@@ -138,6 +144,12 @@ TEST(SceneKernels, MakeTheRaysOfOtherCameras) {
     std::vector<Ray> row(40);
     rays.centers(0, 30, row);
     for (std::uint32_t i = 0; i < row.size(); ++i) expect_ray(row[i], rays(i + 0.5, 30.5));
+    rays.centers(3, 4, 8, 0.25F, row);
+    for (std::uint32_t i = 0; i < row.size(); ++i) {
+      Ray expected = rays(3 + i % 8 + 0.5, 4 + i / 8 + 0.5);
+      expected.t_min = std::max(expected.t_min, 0.25F);
+      expect_ray(row[i], expected);
+    }
   }
 }
 

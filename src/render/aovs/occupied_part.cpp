@@ -1,0 +1,74 @@
+#include "render/aovs/occupied_part.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <variant>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace microtrace {
+namespace {
+
+/// The first and last pixel coordinates.
+struct Extent {
+  DVec2 least, greatest;
+};
+
+/// The extent of the box as seen by the camera. Nothing if a part of it is beside or behind the
+/// camera, where coordinates become imprecise.
+std::optional<Extent> extent_of(const DVec3& lo, const DVec3& hi, const RayGenerator& camera,
+                                const DVec3& position) {
+  Extent extent{.least = DVec2(std::numeric_limits<double>::infinity()),
+                .greatest = DVec2(-std::numeric_limits<double>::infinity())};
+  for (unsigned k = 0; k < 8; ++k) {
+    const DVec3 corner((k & 1U) != 0 ? hi.x : lo.x, (k & 2U) != 0 ? hi.y : lo.y,
+                       (k & 4U) != 0 ? hi.z : lo.z);
+    const auto pixel = camera.project(corner);
+    if (!pixel || !(camera.depth(corner) >= glm::distance(corner, position) * 0x1p-10))
+      return std::nullopt;
+    extent.least = glm::min(extent.least, *pixel);
+    extent.greatest = glm::max(extent.greatest, *pixel);
+  }
+  return extent;
+}
+
+}  // namespace
+
+PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Bvh& bvh,
+                        const PixelRect& window) {
+  const std::optional<Box> bounds = bvh.bounds();
+  if (!bounds || !std::holds_alternative<PerspectiveCamera>(camera)) return window;
+  const CameraModel model = rays.model();
+  const DVec3 position(model.world_from_camera[3]);
+
+  // A ray's direction differs from the one through its pixel center by roundings to float32: less
+  // than 2^-23 of the length L of the vector with depth 1. In the plane at depth 1 that moves the
+  // point by less than L^2 2^-21.
+  const DVec2 reach = glm::max(glm::abs(DVec2(window.x0, window.y0) - model.center),
+                               glm::abs(DVec2(window.x1, window.y1) - model.center)) /
+                      model.pixels_per_unit;
+  const double square = 1 + glm::dot(reach, reach);
+  const bool is_precise = square <= 0x1p20 && square * 0x1p-21 * model.pixels_per_unit.x <= 0.25;
+  if (!is_precise) return window;
+
+  // The ray's origin is rounded too: moving the origin is moving the box.
+  const DVec3 moved = glm::abs(DVec3(Vec3(position)) - position) + glm::abs(position) * 0x1p-50;
+  const auto extent =
+      extent_of(DVec3(bounds->lo) - moved, DVec3(bounds->hi) + moved, rays, position);
+  if (!extent) return window;
+
+  // The centers of pixels outside of the result are more than a pixel away from the extent.
+  const auto limited = [](double x, std::uint32_t first, std::uint32_t last) {
+    return static_cast<std::uint32_t>(std::clamp(x, double{1} * first, double{1} * last));
+  };
+  return {.x0 = limited(std::floor(extent->least.x) - 1, window.x0, window.x1),
+          .y0 = limited(std::floor(extent->least.y) - 1, window.y0, window.y1),
+          .x1 = limited(std::ceil(extent->greatest.x) + 1, window.x0, window.x1),
+          .y1 = limited(std::ceil(extent->greatest.y) + 1, window.y0, window.y1)};
+}
+
+}  // namespace microtrace
