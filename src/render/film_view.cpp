@@ -19,7 +19,7 @@ float greatest(const Vec3& color) {
   return std::max({color.x, color.y, color.z});
 }
 
-/// Returns true for colors that 8-bit formats store as 0 or 1.
+/// Tests whether 8-bit formats store a color's channels as 0 or 1.
 class Blackness {
  public:
   explicit Blackness(const Display& display)

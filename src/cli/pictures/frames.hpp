@@ -23,9 +23,10 @@ struct FrameRange {
 /// Parses A:B, the frames A to B inclusive. This function and the next throw Error (usage).
 [[nodiscard]] FrameRange parse_frames(const OptionValue& value);
 
-/// Throws Error (usage) unless the pattern contains one placeholder for the frame number, %d or one
-/// like %04d. %% stands for %. "-" is accepted too: it writes all frames to standard output, one
-/// after another. `option` is the option whose value is the pattern.
+/// Throws Error (usage) unless the pattern contains one placeholder for the frame number: %d, or a
+/// form like %04d that adds leading zeros. %% stands for %. The pattern "-" is also accepted; it
+/// writes all frames to standard output, one after another. `option` is the option whose value is
+/// the pattern.
 void check_pattern(const char* option, const std::string& pattern);
 
 /// The file name of one frame.

@@ -52,7 +52,7 @@ TypeDesc type_of(MicrotraceNumber number) {
 void decode(const void* bytes, std::size_t size, const std::string& extension,
             const MicrotraceColorSink& sink) {
   OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);                                    // only the calling thread
+  OIIO::attribute("exr_threads", -1);  // uses only the calling thread
   OIIO::Filesystem::IOMemReader memory(const_cast<void*>(bytes), size);  // never writes to `bytes`
   const std::string name = "picture." + extension;
   ImageSpec config;

@@ -26,7 +26,7 @@ using OIIO::TypeDesc;
 /// Returns the writer for an extension, or null if there is none that can write to memory.
 std::unique_ptr<ImageOutput> find_writer(const std::string& extension) {
   OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);  // only the calling thread
+  OIIO::attribute("exr_threads", -1);  // uses only the calling thread
   std::unique_ptr<ImageOutput> writer = ImageOutput::create(extension);
   // Fetches the error message, which OpenImageIO would otherwise print at exit.
   if (!writer) static_cast<void>(OIIO::geterror());

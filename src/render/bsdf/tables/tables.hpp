@@ -22,7 +22,7 @@ struct Tables {
   // entries.
   const float *coating_node, *coating_weight;
   const std::int16_t *deficit_f1, *deficit_schlick;
-  // Refraction: for each index, kLossRows rows of columns.
+  // Refraction: for each index of refraction, kLossRows rows of kLossColumns entries.
   const std::int16_t *loss_from_outside, *loss_from_within;
   // Sheen: rows of kSheenColumns entries.
   const float *raw_sheen_albedo, *sheen_albedo;
