@@ -15,7 +15,7 @@
 
 namespace microtrace {
 
-/// An axis-aligned box, closed.
+/// A closed, axis-aligned box.
 struct Box {
   Vec3 lo, hi;
 };
@@ -102,20 +102,21 @@ class MICROTRACE_EXPORT Bvh {
   /// single calls, and fastest if consecutive rays are coherent and share an origin, such as the
   /// rays of neighboring pixels.
   ///
-  /// `left` is empty or has the same size too. In the latter case each ray must leave a hit with
-  /// primitive left[i] in the direction for which spawn_origin returned its origin. A flat
-  /// primitive can't be hit again, so it is not tested.
+  /// `left` must be empty or have the same size. If it is not empty, each rays[i] must leave a hit
+  /// with primitive left[i], with an origin that spawn_origin returned for the ray's direction.
+  /// Such a ray can't hit the same triangle again, so it is not tested against that triangle.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits,
                  std::span<const PrimitiveId> left = {}) const;
 
   /// Sets results[i] to true if rays[i] hits anything, otherwise to false. Both spans must have the
-  /// same size. Faster than single calls for any order of the rays. See intersect for `left`.
+  /// same size. Faster than single calls for any order of the rays. For `left` see intersect.
   void occluded(std::span<const Ray> rays, std::span<bool> results,
                 std::span<const PrimitiveId> left = {}) const;
 
   [[nodiscard]] const Primitives& primitives() const;
 
-  /// Returns a box that contains all primitives; nothing if some are unbounded or there is no tree.
+  /// Returns a box that contains all primitives, in scene coordinates. Returns nothing if a
+  /// primitive is unbounded, or if the scene is so small that it has no tree.
   [[nodiscard]] std::optional<Box> bounds() const;
 
   /// Returns the size of the tree in bytes, without the scene.

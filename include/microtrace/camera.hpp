@@ -82,8 +82,9 @@ struct RationalDistortion {
 };
 
 /// The projection of OpenCV's fisheye module, equidistant if all coefficients are 0. A direction at
-/// the angle a from the viewing direction (radians, may exceed pi / 2) appears at the distance a (1
-/// + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8) from the principal point, in units of the focal lengths.
+/// the angle a from the viewing direction (radians, may exceed pi / 2) appears at a distance from
+/// the principal point, in units of the focal lengths, of a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4
+/// a^8).
 struct FisheyeDistortion {
   double k1 = 0, k2 = 0, k3 = 0, k4 = 0;
 
@@ -156,8 +157,9 @@ class MICROTRACE_EXPORT RayGenerator {
   /// Computes the rays through the centers of consecutive pixels of a row, starting at pixel (x,
   /// y). Faster than single calls.
   void centers(std::uint32_t x, std::uint32_t y, std::span<Ray> rays) const;
-  /// The same for rows of `width` pixels, one below the other; rays.size() is a multiple of
-  /// `width`. Each t_min is at least `least_t_min`.
+  /// Computes the rays through the centers of a block of pixels, `width` pixels wide and starting
+  /// at pixel (x, y), row by row. rays.size() must be a multiple of `width`. Each t_min is at least
+  /// `least_t_min`.
   void centers(std::uint32_t x, std::uint32_t y, std::uint32_t width, float least_t_min,
                std::span<Ray> rays) const;
 

@@ -60,7 +60,7 @@ Bvh::Impl::Impl(const Scene& scene, BvhOptions options)
 
 namespace {
 
-// Tests every primitive: for rays beyond the kernels' limits.
+// Tests every primitive, for rays beyond the kernels' limits.
 std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   RayPacket packet(primitives, std::span(&ray, 1));
@@ -68,7 +68,7 @@ std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   return packet.hit(0);
 }
 
-// The number of leading rays with a common origin, at most a packet.
+// Returns the number of leading rays with a common origin, at most kPacketRays.
 std::size_t common_origin_length(std::span<const Ray> rays) {
   const Vec3 o = rays[0].o;
   const std::size_t limit = std::min<std::size_t>(rays.size(), kPacketRays);
@@ -77,11 +77,11 @@ std::size_t common_origin_length(std::span<const Ray> rays) {
   return length;
 }
 
-// Fewer rays are traced faster one by one than as a packet or a stream.
+// Fewer rays than this are traced faster one by one than as a packet or a stream.
 constexpr std::size_t kLeastPacket = 8, kLeastStream = 8;
 
-// The number of leading rays, at least one, before kLeastPacket rays with a common origin; at most
-// a stream.
+// Returns the number of leading rays before the next run of kLeastPacket rays with a common origin:
+// at least 1, and at most kStreamRays.
 std::size_t unrelated_length(std::span<const Ray> rays) {
   const std::size_t limit = std::min<std::size_t>(rays.size(), kStreamRays);
   for (std::size_t i = 1; i + kLeastPacket <= limit; ++i) {
@@ -244,7 +244,7 @@ void Bvh::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hit
   while (!rays.empty()) {
     const auto whole = rays.first(std::min<std::size_t>(rays.size(), kPacketRays));
     std::size_t done = whole.size();
-    // For a few rays the fixed cost of a packet is too high.
+    // For few rays, the fixed cost of a packet is too high.
     bool is_packet = done >= kLeastPacket && whole.front().o == whole.back().o &&
                      impl_->intersect_packet(whole, hits);
     if (!is_packet) {

@@ -11,17 +11,17 @@
 namespace microtrace {
 namespace {
 
-// False for NaN, so numbers within the limit are finite.
+// Returns false for NaN, so all numbers within the limit are finite.
 bool within(const Vec3& v, float limit) {
   return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
 }
 
-// The t before which hits may be culled if hits count from t on.
+// Returns the t before which hits may be culled if only hits from t on count.
 float begin_at(float t) {
   return t < kLeastBegin ? 0 : std::min(t, kFarthestCoordinate);
 }
 
-// Whether a ray is valid and within KernelRay's limits.
+// Returns true if a ray is valid and within KernelRay's limits.
 bool suits_kernels(const Ray& ray) {
   return within(ray.o, kFarthestCoordinate) && within(ray.d, kLongestDirection) &&
          (std::abs(ray.d.x) >= kShortestDirection || std::abs(ray.d.y) >= kShortestDirection ||
@@ -35,9 +35,10 @@ double kernel_t_scale(const Ray& ray) {
   if (suits_kernels(ray)) return 1;
   if (!exact::is_valid(ray) || !within(ray.o, kFarthestCoordinate)) return 0;
   const float size = std::max({std::abs(ray.d.x), std::abs(ray.d.y), std::abs(ray.d.z)});
-  if (size >= kShortestDirection && size <= kLongestDirection) return 1;  // t_min is large
+  if (size >= kShortestDirection && size <= kLongestDirection) return 1;  // only t_min is too large
   const double scale = std::scalbn(1.0, std::ilogb(size));
-  // Multiplying a float32 that is not too large by a power of two is exact unless it underflows.
+  // Multiplying a float32 number by a power of two is exact unless it under- or overflows. Large
+  // numbers can't underflow.
   const auto is_exact = [](double x) {
     return std::abs(x) > 0x1p100 || static_cast<float>(x) == x;
   };
@@ -73,7 +74,7 @@ KernelRay kernel_ray_from(const Ray& ray, double t_scale, const exact::Enclosure
 }
 
 bool fill_packet(std::span<const Ray> rays, const Kernels& kernels, KernelPacket& packet) {
-  // Kernels read rays as eight floats, because they can't include the type.
+  // Kernels read rays as eight floats, because they can't include the header of Ray.
   static_assert(sizeof(Ray) == 8 * sizeof(float) && offsetof(Ray, t_min) == 3 * sizeof(float) &&
                 offsetof(Ray, d) == 4 * sizeof(float) && offsetof(Ray, t_max) == 7 * sizeof(float));
   return kernels.fill_packet(&rays[0].o.x, static_cast<int>(rays.size()), packet);

@@ -1,5 +1,5 @@
 #pragma once
-/// Conversion of rays to the form that kernels use.
+/// Converts rays to the form that kernels use.
 
 #include "accel/kernels/kernel.hpp"
 #include "exact/numbers/root.hpp"
@@ -10,22 +10,22 @@
 
 namespace microtrace {
 
-/// The power of two 2^k for which the ray, written as o + (2^k t) (d / 2^k), is within KernelRay's
-/// limits; 1 if the ray is already within them. Returns 0 if there is none, if a component of d /
-/// 2^k would be rounded, or if the ray is invalid.
+/// Returns the power of two s for which the ray, written as o + (s t) (d / s), is within
+/// KernelRay's limits. Returns 1 if the ray itself is within the limits. Returns 0 if there is no
+/// such s, if s t_max or a component of d / s would be rounded, or if the ray is invalid.
 [[nodiscard]] double kernel_t_scale(const Ray& ray);
 
-/// Fills the caller's part of a KernelRay. t_scale is kernel_t_scale(ray), not 0; all values of t
-/// are multiplied by it.
+/// Fills the members of a KernelRay that kernels don't compute themselves. t_scale is
+/// kernel_t_scale(ray), which must not be 0. All values of t are multiplied by t_scale.
 [[nodiscard]] KernelRay kernel_ray(const Ray& ray, double t_scale);
 
-/// The same for a ray that looks for hits after a number with known bounds. The fallback decides
-/// hits that may be on either side of the number.
+/// Returns a kernel ray that finds only hits after a number with the bounds `begin`. The fallback
+/// must decide hits that may be on either side of the number.
 [[nodiscard]] KernelRay kernel_ray_from(const Ray& ray, double t_scale,
                                         const exact::Enclosure& begin);
 
-/// Fills a packet of 1 to kPacketRays rays, without hits. Returns false if the rays have different
-/// origins or exceed the kernels' limits.
+/// Fills a packet with 1 to kPacketRays rays and no hits. Returns false if the rays have different
+/// origins, are invalid or exceed the kernels' limits.
 [[nodiscard]] bool fill_packet(std::span<const Ray> rays, const Kernels& kernels,
                                KernelPacket& packet);
 

@@ -12,26 +12,26 @@
 
 namespace microtrace {
 
-/// Traces up to kStreamRays rays at a time. Rays beyond the kernels' limits are left to the caller.
+/// Traces up to kStreamRays rays at a time. The caller must trace rays beyond the kernels' limits.
 class RayStream {
  public:
-  /// The scene; all members must outlive the stream.
+  /// The scene to trace. All members must outlive the stream.
   struct Target {
     const Primitives& primitives;
-    std::span<const PrimitiveId> outside;  ///< not in the tree; tested one by one
+    std::span<const PrimitiveId> outside;  ///< primitives outside of the tree
     const Kernels& kernels;
     TreeView tree;
   };
   explicit RayStream(const Target& target) : target_(target) {}
 
-  /// Rays and, unless empty, the primitives that they have left: see Bvh::intersect.
+  /// Rays, and the primitives that they leave or an empty span; see Bvh::intersect.
   struct Rays {
     std::span<const Ray> rays;
     std::span<const PrimitiveId> left;
   };
 
-  /// Sets hits[i] and results[i] for ray i if it is within the kernels' limits; calls other(i) for
-  /// other rays.
+  /// Set hits[i] or results[i] for each ray i within the kernels' limits, and call other(i) for
+  /// each other ray.
   void closest(const Rays& rays, std::span<std::optional<Hit>> hits, const auto& other) {
     find_closest(rays, hits);
     for_each_unsuited(other);

@@ -1,5 +1,5 @@
 #pragma once
-/// Transposition of small matrices.
+/// Transposes small matrices.
 
 #include "simd/vectors.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Tests eight triangles against a ray by the signed volumes of docs/derivations.md, in float32
-/// with an error bound (derived in docs/exactness.md). Each lane is a certain miss, a certain hit
-/// with t in an interval, or left to the fallback.
+/// with an error bound derived in docs/exactness.md. The result for each triangle is a certain
+/// miss, a certain hit with t in an interval, or uncertain; the fallback decides uncertain lanes.
 
 #include "accel/kernels/edge_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -10,20 +10,20 @@
 namespace microtrace {
 namespace {
 
-constexpr float kUnit = 0x1p-24F;   // unit roundoff of float32
-constexpr float kTiny = 0x1p-100F;  // above the total effect of underflow: 2^-107
-constexpr float kFarthestHit =
-    0x1p64F;  // coordinates up to 2^38 and d from 2^-20 keep every hit below 2^60
+constexpr float kUnit = 0x1p-24F;        // unit roundoff of float32
+constexpr float kTiny = 0x1p-100F;       // exceeds the total effect of underflow, 2^-107
+constexpr float kFarthestHit = 0x1p64F;  // coordinates are at most 2^38 and the largest |d_i| is at
+                                         // least 2^-20, so every hit is below 2^60
 
 template <class F>
 struct Interval {
   F lo, hi;
 };
 
-/// The interval of height / size, where size exceeds 16 times its error. Half of the last factor
-/// would suffice, because t and its ends have three roundings. Requiring size to exceed 8 times its
-/// error would suffice too: sizes that small are sums with strong cancellation, whose errors (and
-/// whose height's errors) are below 13/17 of their bounds.
+/// Returns the interval of t = height / size, where size must exceed 16 times its error. Half of
+/// the factor 8 in the last term would suffice, because t and its ends have three roundings.
+/// Requiring only 8 times the error would suffice too: such small sizes are sums with strong
+/// cancellation, for which the errors of size and height are below 13/17 of their bounds.
 template <class F, class G, class H>
 inline Interval<F> interval(const F& height, const F& size, const G& height_error,
                             const H& size_error) {
@@ -42,8 +42,8 @@ inline Float<N> lanes_of(const Float<N>& x) {
   return x;
 }
 
-/// Tests N triangles against one ray, or one triangle against N rays. The operand that is not a
-/// vector is a scalar.
+/// Tests N triangles against one ray, or one triangle against N rays. RayPart is a vector of lanes
+/// if there are N rays, otherwise a scalar.
 template <int N, class RayPart>
 struct VolumeTest {
   using F = Float<N>;
@@ -52,7 +52,8 @@ struct VolumeTest {
   F height, size, height_error;
   RayPart size_error;
 
-  /// a: vector from the origin to the vertex; m: TriangleBlock's edge_product.
+  /// a is the vector from the ray's origin to the first vertex, e1 and e2 are the edges from that
+  /// vertex. em is TriangleBlock::largest_edge, and m is TriangleBlock::edge_product.
   template <class TrianglePart>
   VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
              const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
@@ -63,7 +64,7 @@ struct VolumeTest {
                        nz = e1[0] * e2[1] - e1[1] * e2[0];
     const F signed_size = nx * d[0] + ny * d[1] + nz * d[2];
     size = magnitude(signed_size);
-    // Multiplies all by the sign of signed_size.
+    // u, v and height are multiplied by the sign of signed_size.
     const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
     const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
     height = with_sign_of<N>(nx * a[0] + ny * a[1] + nz * a[2], signed_size);
@@ -72,25 +73,25 @@ struct VolumeTest {
     const F edge_error = (a_sum * em + m) * (15.01F * kUnit * d_sum) + kTiny;
     height_error = a_sum * (17.01F * kUnit * m) + kTiny;
     size_error = 15.01F * kUnit * d_sum * m + kTiny;
-    // The distance inside all three edges; negative outside.
+    // Positive if the ray passes inside all three edges, negative outside.
     const F within = lesser(lesser(u, v), size - (u + v));
     maybe = less_equal<N>(-edge_error, within);
     maybe &= less_equal<N>(height - size * t_limit, height_error + size_error * t_limit);
-    // If signed_size may have the wrong sign, so may height; then the triangle is never certainly
-    // behind.
+    // If signed_size may have the wrong sign, height may too, so the triangle is not certainly
+    // behind the ray.
     maybe &= less_equal<N>(size * t_begin - height, height_error + size_error * t_begin) |
              less_equal<N>(size, lanes_of<N>(size_error));
     certain = maybe & less<N>(edge_error, within) & less<N>(lanes_of<N>(16 * size_error), size);
   }
 };
 
-/// Eight triangles against a ray.
+/// Tests eight triangles against a ray.
 template <int N>
 struct BlockTest {
   Lanes maybe, certain;  ///< as in VolumeTest
 
-  /// Drops hits that are certainly beyond t_limit. Inlined explicitly: GCC would not inline it,
-  /// which makes traversal a tenth slower.
+  /// Tests the triangles of a block; hits certainly beyond t_limit are misses. Always inlined,
+  /// because GCC would not inline it by itself, which makes traversal a tenth slower.
   __attribute__((always_inline)) void run(const TriangleBlock& block, const KernelRay& ray,
                                           float t_limit) {
     using F = Float<N>;
@@ -114,9 +115,9 @@ struct BlockTest {
     }
   }
 
-  /// Whether t() is valid for a lane.
+  /// True if t() is valid for a lane.
   [[nodiscard]] bool has_t(int lane) const { return size_[lane] > 16 * size_error_; }
-  /// Bounds of t for a lane that is a certain hit.
+  /// Returns bounds of t for a lane that is a certain hit.
   [[nodiscard]] Interval<float> t(int lane) const {
     return interval(height_[lane], size_[lane], height_error_[lane], size_error_);
   }
@@ -130,7 +131,7 @@ inline std::uint32_t first_entry(ChildRef leaf) {
   return (leaf & ~child_ref::kKind) >> 3U;
 }
 
-/// Calls f(entry) for the entries of a leaf until it returns true; returns whether it did.
+/// Calls f(entry) for each entry of a leaf until f returns true. Returns true if f did.
 template <class F>
 inline bool for_each_entry(ChildRef leaf, const F& f) {
   const std::uint32_t first = first_entry(leaf);
@@ -141,15 +142,15 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
   return false;
 }
 
-/// Updates best to the nearest hit among the lanes that a block's test has not rejected. With kAny
-/// it stops at the first hit. `fallback` decides the uncertain lanes.
+/// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
+/// is nearer. With kAny, stops at the first hit. `fallback` decides the uncertain lanes.
 template <int N, bool kAny, class Slowly>
 inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, const KernelRay& ray,
                        ClosestSoFar& best, const Slowly& fallback) {
   for (Lanes lanes = test.maybe; lanes != 0; lanes &= lanes - 1) {
     const int lane = first_lane(lanes);
     const std::uint32_t id = block.id[lane];
-    // Large triangles can be in several leaves.
+    // A triangle can be in several leaves.
     if (id == best.id || id == ray.omitted_id) continue;
     const Interval<float> t = test.t(lane);
     bool is_certain = (test.certain >> lane & 1U) != 0;
@@ -167,7 +168,7 @@ inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, con
   }
 }
 
-/// The same for a leaf and a ray.
+/// Tests all entries of a leaf against a ray and updates `best`, as meet_lanes does for one block.
 template <int N, bool kAny, class Slowly>
 inline void meet_leaf(const TreeView& tree, const KernelRay& ray, ChildRef leaf, ClosestSoFar& best,
                       const Slowly& fallback) {

@@ -1,6 +1,7 @@
 #pragma once
-/// Types shared by the kernels of all instruction sets: input, state, and the table of functions.
-/// Plain data only; see simd.hpp for the reason.
+/// Types that the kernels for all instruction sets share: inputs, state, and the table of
+/// functions. This header may contain only plain data, because kernels for several instruction sets
+/// include it.
 
 #include "accel/layout.hpp"
 
@@ -15,7 +16,7 @@ struct TreeView {
   ChildRef root;
 };
 
-/// The nearest hit so far: its exact t is within [lo, hi]. Initially lo = hi = t_max and id is
+/// The nearest hit so far, with its exact t in [lo, hi]. Initially lo = hi = t_max and id =
 /// kNoPrimitive.
 struct ClosestSoFar {
   float lo, hi;
@@ -23,85 +24,88 @@ struct ClosestSoFar {
 };
 inline constexpr std::uint32_t kNoPrimitive = ~0U;
 
-/// Decides a hit that float32 can't decide: whether primitive `id` is hit, and whether before the
-/// nearest hit so far. Updates best.
+/// A callback for hits that float32 can't decide. If the ray hits primitive `id` before the nearest
+/// hit so far, consider() sets `best` to this hit.
 struct Fallback {
   void* context;
   void (*consider)(void* context, std::uint32_t id, ClosestSoFar& best);
 };
 
-/// Limits of the rays and triangles in kernels. Within them no float32 result overflows, and
-/// underflow adds less than 2^-100.
-inline constexpr float kFarthestCoordinate = 0x1p38F;  ///< every |o_i|, t_min, vertex coordinate
-inline constexpr float kLongestDirection = 0x1p20F;    ///< every |d_i|
-inline constexpr float kShortestDirection = 0x1p-20F;  ///< the largest |d_i|
+/// Limits of the rays and triangles in kernels. Within these limits no float32 result overflows,
+/// and underflow adds errors of less than 2^-100.
+inline constexpr float kFarthestCoordinate = 0x1p38F;  ///< for |o_i|, t_min, |vertex coordinate|
+inline constexpr float kLongestDirection = 0x1p20F;    ///< for every |d_i|
+inline constexpr float kShortestDirection = 0x1p-20F;  ///< for the largest |d_i|
 
-/// Culling starts at 0 if t_min is below this number. Most rays start at the least float above 0,
-/// and processors are slow with subnormal numbers. Culling less is always valid.
+/// If t_min is below this number, hits are culled only before t = 0. Most rays start at the least
+/// float above 0, and arithmetic with subnormal numbers is slow. Culling less is always valid.
 inline constexpr float kLeastBegin = 0x1p-100F;
 
-/// A ray in the kernels' form, within the limits.
+/// A ray in the kernels' form, within the limits above.
 struct KernelRay {
   float o[3], d[3];
   float t_min, t_max;        ///< the fallback decides hits that are not certainly at or after t_min
-  float t_begin;             ///< hits certainly before it are dropped; t_min, or 0 if t_min is tiny
-  std::uint32_t omitted_id;  ///< a triangle that the ray certainly doesn't hit, or kNoPrimitive
+  float t_begin;             ///< hits certainly before it are culled; t_min, or 0 below kLeastBegin
+  std::uint32_t omitted_id;  ///< a triangle that is not tested, or kNoPrimitive
   // ---- set by the kernel:
   float near_factor[3], far_factor[3];  ///< see slabs.hpp
   float d_sum;                          ///< |d_x| + |d_y| + |d_z|, rounded up
-  /// Offsets in a WideNode, in floats, of the planes through which the ray enters and leaves boxes.
+  /// Offsets within a WideNode, counted in floats, of the planes through which the ray enters and
+  /// leaves boxes.
   std::uint32_t near_plane[3], far_plane[3];
 };
 
 inline constexpr int kPacketRays = 64;
-/// Rays of a packet that are culled together: two rows of eight pixels.
+/// The rays of a packet are culled in groups, each usually two rows of eight pixels.
 inline constexpr int kGroupRays = 16, kGroups = kPacketRays / kGroupRays;
 
-/// Directions within center +- radius on each axis.
+/// A set of directions: center +- radius on each axis.
 struct Beam {
   float center[3], radius[3];
 };
 
-/// The slot of a triangle in the tree: its block's index times kWidth, plus its lane.
+/// Stands for "no slot". The slot of a triangle in the tree is its block's index times kWidth plus
+/// its lane.
 inline constexpr std::uint32_t kNoSlot = ~0U;
 
-/// Rays with a common origin, preferably nearly parallel; one array per component. Within the
-/// limits of KernelRay. Slots after the last ray repeat it and hit nothing.
+/// Rays with a common origin within the limits of KernelRay, stored in one array per component.
+/// Traversal is fastest if the rays are nearly parallel. Elements after the last ray repeat the
+/// last ray, but hit nothing.
 struct alignas(64) KernelPacket {
   float d[3][kPacketRays];
   float t_min[kPacketRays];
   float best_lo[kPacketRays], best_hi[kPacketRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kPacketRays];
-  std::uint32_t best_slot[kPacketRays];  ///< slot of the nearest hit if it is a mesh triangle
+  std::uint32_t best_slot[kPacketRays];  ///< of the nearest hit, if it is a triangle in a block
   float o[3];
   int count;                                        ///< number of rays
   float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
   float t_begin[kPacketRays];                       ///< t_min, or 0 if it is tiny
-  float least_t_begin;                              ///< least t_begin of all rays
-  Beam beam, group_beam[kGroups];                   ///< beams of all rays and of each group
+  float least_t_begin;                              ///< the least t_begin of all rays
+  Beam beam, group_beam[kGroups];                   ///< beams that contain the directions of all
+                                                    ///< rays and of each group
   float d_sum;          ///< upper bound of |d_x| + |d_y| + |d_z| for all directions of the beam
-  bool negative[3];     ///< sign of d_i, for axes where it is common to all rays
-  bool common_sign[3];  ///< whether the sign is common, and no d_i is so small that 1 / d_i
-                        ///< overflows
-  float least_near[3], greatest_near[3];  ///< bounds of the factors, for axes with a common sign
+  bool negative[3];     ///< true if d_i is negative for all rays; valid if common_sign
+  bool common_sign[3];  ///< true if all d_i have the same sign and no 1 / d_i overflows
+  float least_near[3], greatest_near[3];  ///< bounds of the factors; valid if common_sign
   float least_far[3], greatest_far[3];
 };
 
-/// Fallback for a packet.
+/// Callbacks for hits of a packet's rays that float32 can't decide.
 struct PacketFallback {
   void* context;
-  /// Considers primitive id for one ray.
+  /// Considers primitive `id` for one ray, as Fallback does.
   void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
-  /// Considers primitive id for all rays.
+  /// Considers primitive `id` for all rays of the packet.
   void (*consider_all)(void* context, std::uint32_t id, KernelPacket& packet);
 };
 
-/// A multiple of the packet size, but no power of two, so that the components of a ray are not in
-/// the same cache set.
+/// A multiple of the packet size, but not a power of two, which would put all components of a ray
+/// into the same cache set.
 inline constexpr int kStreamRays = 31 * kPacketRays;
 
-/// Incoherent rays, one array per component. The caller fills the members above the line for
-/// `count` rays, and best_hi with t_max.
+/// Incoherent rays, stored in one array per component. The caller sets the members above the dashed
+/// line for `count` rays, with best_hi = t_max.
 struct alignas(64) KernelStream {
   float o[3][kStreamRays], d[3][kStreamRays];
   float t_min[kStreamRays];
@@ -109,8 +113,8 @@ struct alignas(64) KernelStream {
   std::uint32_t omitted_id[kStreamRays];  ///< as in KernelRay
   int count;
   // ---- set by prepare_stream:
-  /// One bit per ray that is valid and within KernelRay's limits. Other rays are replaced by some
-  /// valid ray, and their results are meaningless.
+  /// One bit per ray, set if the ray is valid and within KernelRay's limits. Other rays are
+  /// replaced by a valid ray, so their results are meaningless.
   std::uint64_t suited[kStreamRays / 64];
   float best_lo[kStreamRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kStreamRays];
@@ -119,7 +123,7 @@ struct alignas(64) KernelStream {
   float d_sum[kStreamRays];                         ///< as in KernelRay
 };
 
-/// Fallback for a stream.
+/// A callback for hits of a stream's rays that float32 can't decide.
 struct StreamFallback {
   void* context;
   void (*consider)(void* context, int ray, std::uint32_t id, ClosestSoFar& best);
@@ -127,25 +131,25 @@ struct StreamFallback {
 
 inline constexpr int kHitBatch = kPacketRays;
 
-/// Hits of triangles, one array per coordinate. Slots without a hit may have any values.
+/// Hits of triangles, stored in one array per coordinate. Elements without a hit may have any
+/// values.
 struct alignas(64) HitBatch {
   float a[3][kHitBatch], b[3][kHitBatch], c[3][kHitBatch];  ///< vertices
-  const float *o[3], *d[3];  ///< of kHitBatch rays within the kernels' limits
-  float t[kHitBatch];        ///< results
+  const float *o[3], *d[3];  ///< origins and directions, within the kernels' limits
+  float t[kHitBatch];        ///< resulting parameters
 };
 
-/// A query for the primitives near a small closed box, and its results. Triangles that are not
-/// wanted are omitted: a given one, and those within an axis-aligned plane.
+/// A query for the primitives that touch a small closed box, and the results. The query omits the
+/// triangle omitted_id, and all triangles in one axis-aligned plane.
 struct BoxQuery {
   static constexpr int kMost = 32;
 
   float lo[3], hi[3];
   std::uint32_t omitted_id = kNoPrimitive;
-  int plane_axis = -1;         ///< -1: no plane
-  float plane_at = 0;          ///< its coordinate on this axis
-  int count;                   ///< number of slots; -1: more than kMost
-  std::uint32_t slots[kMost];  ///< slots as in KernelPacket::best_slot; kOtherSlot + index for
-                               ///< other primitives
+  int plane_axis = -1;         ///< axis perpendicular to the plane; -1: no plane
+  float plane_at = 0;          ///< the plane's coordinate on plane_axis
+  int count;                   ///< number of results; -1: more than kMost
+  std::uint32_t slots[kMost];  ///< triangles; or kOtherSlot + index into TreeView::others
 };
 inline constexpr std::uint32_t kOtherSlot = 1U << 31U;
 inline constexpr int kBoxQueries = 16;
@@ -153,33 +157,33 @@ inline constexpr int kBoxQueries = 16;
 /// The functions of one instruction set.
 struct Kernels {
   const char* name;
-  /// Updates best if the tree has a nearer hit.
+  /// Sets `best` to the nearest hit in the tree, if it is nearer than `best`.
   void (*closest)(const TreeView& tree, KernelRay ray, const Fallback& slow, ClosestSoFar& best);
-  /// Returns whether there is any hit within the ray's interval.
+  /// Returns true if there is any hit within the ray's interval.
   bool (*any)(const TreeView& tree, KernelRay ray, const Fallback& slow);
-  /// Fills a packet, without hits, with up to kPacketRays rays of eight numbers each: o, t_min, d,
-  /// t_max. Returns false if their origins differ or a ray is invalid or beyond the limits; the
-  /// packet is then unusable.
+  /// Fills a packet with up to kPacketRays rays and no hits. Each ray consists of eight numbers: o,
+  /// t_min, d, t_max. Returns false if the origins differ, or if a ray is invalid or exceeds the
+  /// limits; the packet is then unusable.
   bool (*fill_packet)(const float* rays, int count, KernelPacket& packet);
-  /// As closest, for all rays of a prepared packet.
+  /// Does what `closest` does for all rays of a filled packet.
   void (*closest_of_packet)(const TreeView& tree, KernelPacket& packet, const PacketFallback& slow);
-  /// Fills the lower part of a stream, without hits.
+  /// Sets the members of a stream below the dashed line, without hits.
   void (*prepare_stream)(KernelStream& stream);
-  /// As closest, for all rays of a prepared stream.
+  /// Does what `closest` does for all rays of a prepared stream.
   void (*closest_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
-  /// Finds any hit within the interval for every ray that has none yet.
+  /// Finds any hit within the interval of each ray that has no hit yet.
   void (*any_of_stream)(const TreeView& tree, KernelStream& stream, const StreamFallback& slow);
-  /// Fills t with the exact parameters rounded to nearest; returns the set of hits for which the
-  /// result is certain.
+  /// Fills t with the exact parameters rounded to nearest. Returns the set of hits whose t is
+  /// certainly right.
   std::uint64_t (*round_t)(HitBatch& hits);
-  /// The same for the hits of a packet that have a slot.
+  /// Does the same for the hits of a packet that have a slot.
   std::uint64_t (*round_t_of_packet)(const TreeView& tree, const KernelPacket& packet, float* t);
-  /// Finds all primitives with a point in each query's box. May return a primitive twice, and may
-  /// return others: triangles whose bounding boxes overlap the query's box, and all primitives of a
-  /// visited leaf of other primitives. Processes up to kBoxQueries at a time, whose memory accesses
-  /// overlap.
+  /// Finds all primitives with a point in each query's box. May return a primitive twice. May also
+  /// return triangles of which only the bounding boxes overlap the query's box, and all
+  /// non-triangle primitives of a leaf that touches the box. Processes up to kBoxQueries queries at
+  /// a time, so that their memory accesses overlap.
   void (*touching)(const TreeView& tree, BoxQuery* queries, int count);
-  /// The number of triangle edge tests in float64 by this thread.
+  /// Returns the number of triangle edge tests in float64 by this thread.
   std::uint64_t (*edge_tests)();
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Answers any-hit queries for rays with nearby origins. 64 rays traverse the tree together, with a
-/// set of the rays that enter each subtree; boxes and triangles are tested against N rays at a
-/// time. If few rays are left, stream.hpp takes over the remaining work.
+/// Answers any-hit queries for rays with nearby origins. 64 rays traverse the tree together, and
+/// the stack holds the set of rays that enter each subtree. Boxes and triangles are tested against
+/// N rays at a time. Once few rays are left in a subtree, the traversal of stream.hpp takes over.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// An item of remaining work: a ray that must visit a subtree.
+/// An item of remaining work: a ray and a subtree that it must visit.
 struct StreamItem {
   int ray;
   ChildRef child;
@@ -32,7 +32,7 @@ class OcclusionPacketWalk {
                       StreamItems& items)
       : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
 
-  /// Traces the rays from `first` on, a multiple of kRays.
+  /// Traces the packet of rays that starts at ray `first`, which must be a multiple of kRays.
   void run(int first) {
     first_ = first;
     open_ = 0;
@@ -56,7 +56,7 @@ class OcclusionPacketWalk {
 
  private:
   using F = Float<N>;
-  static constexpr int kFew = 10;  // up to this many rays are faster one by one
+  static constexpr int kFew = 10;  // fewer rays than this are traced faster one by one
   static constexpr int kNodeLanes = N < kWidth ? N : kWidth;
   using B = Float<kNodeLanes>;
 
@@ -65,11 +65,11 @@ class OcclusionPacketWalk {
     std::uint64_t rays;
   };
 
-  // Computes a box around all rays from o to o + t_max d. The rounded end has an error of at most u
-  // |t_max d| + u |o + t_max d|. Half of the margin would suffice: a plane that the exact end
-  // reaches is a float32, so the sum is rounded past it by no more than the product was, and the
-  // margin's own rounding doesn't undo this. Infinity times 0 is NaN, which leaves the other
-  // argument of a comparison.
+  // Computes a box around all segments from o to o + t_max d. The rounded end has an error of at
+  // most u |t_max d| + u |o + t_max d|. Half of the margin would suffice: a plane that the exact
+  // end reaches is a float32 number, so the rounding of the sum moves the end past it by no more
+  // than the rounding of the product did, and the margin's own rounding doesn't undo this. If t_max
+  // is infinite and d is 0, the product is NaN, which lesser and greater ignore.
   void bound_segments() {
     const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
     for (int axis = 0; axis < 3; ++axis) {
@@ -86,7 +86,7 @@ class OcclusionPacketWalk {
     }
   }
 
-  // Children that overlap the box around all rays.
+  // Returns the children that overlap the box around all rays.
   [[nodiscard]] Lanes touched(const WideNode& node) const {
     Lanes lanes = 0;
     for (int i = 0; i < kWidth; i += kNodeLanes) {
@@ -102,7 +102,8 @@ class OcclusionPacketWalk {
     return lanes;
   }
 
-  // Calls f(i, lanes) for every N rays starting at i of which some, `lanes`, are in the set.
+  // Calls f(i, lanes) for each group of N rays, starting at ray i, that has rays in the set;
+  // `lanes` are these rays.
   template <class Visit>
   void for_each_lanes(std::uint64_t rays, const Visit& f) const {
     for (int i = 0; i < kRays; i += N) {
@@ -131,7 +132,7 @@ class OcclusionPacketWalk {
         for (int axis = 0; axis < 3; ++axis) {
           const F zero{}, l = all<N>(lo[axis]), h = all<N>(hi[axis]);
           const F near_plane = near[axis] < zero ? h : l, far_plane = near[axis] < zero ? l : h;
-          // A NaN in the first argument is dropped, as in NodeTest.
+          // greater and lesser ignore a NaN in their first argument, as in NodeTest.
           enter = greater((near_plane - o[axis]) * near[axis], enter);
           leave = lesser((far_plane - o[axis]) * far[axis], leave);
         }
@@ -174,7 +175,7 @@ class OcclusionPacketWalk {
       const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
       for (int k = 0; k < kWidth; ++k) {
         const float x = block.a_x[k], y = block.a_y[k], z = block.a_z[k];
-        if (!(x == x)) break;  // NaN: the block's unused slots
+        if (!(x == x)) break;  // unused slots of the block have NaN
         const F a[3] = {x - o[0], y - o[1], z - o[2]};
         const float e1[3] = {block.b_x[k] - x, block.b_y[k] - y, block.b_z[k] - z};
         const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
@@ -196,7 +197,7 @@ class OcclusionPacketWalk {
     });
   }
 
-  // Decides cases that float32 can't decide, mostly triangles that rays have just left.
+  // Decides hits that float32 can't decide, mostly of triangles that the rays have just left.
   void decide(const TriangleBlock& block, int k, std::uint64_t rays) {
     std::uint64_t rest = 0;
     for (; rays != 0; rays &= rays - 1) {
@@ -228,7 +229,7 @@ class OcclusionPacketWalk {
   const StreamFallback& slow_;
   StreamItems& items_;
   int first_ = 0;
-  std::uint64_t open_ = 0;  // rays without a hit
+  std::uint64_t open_ = 0;  // rays without a hit so far
   float lo_[3], hi_[3];
   Entry stack_[kStackSize + kWidth];
 };

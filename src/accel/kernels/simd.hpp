@@ -1,12 +1,12 @@
 #pragma once
-/// Vector functions for tree traversal, in addition to simd/vectors.hpp.
+/// SIMD functions for tree traversal, in addition to simd/vectors.hpp.
 
 #include "simd/vectors.hpp"
 
 namespace microtrace {
 namespace {
 
-/// Stores a number in the given lanes' elements.
+/// Stores a number in the elements of p that belong to the given lanes.
 template <int N>
 inline void store_where(Lanes lanes, std::uint32_t number, std::uint32_t* p) {
 #if defined(__AVX512VL__)
@@ -47,7 +47,8 @@ inline int first_lane(std::uint64_t lanes) {
 }
 
 #if defined(__AVX2__) && !defined(__AVX512VL__)
-/// The indices of the set lanes in ascending order, one byte each, for each set of eight lanes.
+/// For each set of eight lanes, the indices of the lanes in the set in ascending order, one byte
+/// each.
 struct PackingTable {
   std::uint64_t order[256];
 };
@@ -63,7 +64,8 @@ constexpr PackingTable kPacking = [] {
 }();
 #endif
 
-/// Stores the given lanes of eight values consecutively. May overwrite eight elements.
+/// Stores the given lanes of eight values consecutively. May overwrite up to eight elements of
+/// `to`.
 template <class T>
 inline void store_lanes(Lanes lanes, const T* values, T* to) {
   static_assert(sizeof(T) == 4);
@@ -84,11 +86,12 @@ inline void store_lanes(Lanes lanes, const T* values, T* to) {
 #endif
 }
 
-/// Returns the lane, among the given ones, with the least of eight nonnegative keys; without lanes
-/// any number up to 7. Keys that differ only in their last three bits count as equal.
+/// Returns the lane with the least key among the given lanes of eight nonnegative keys. If no lane
+/// is given, returns any number up to 7. Keys that differ only in their last three bits count as
+/// equal.
 inline int least_lane(Lanes lanes, const float* keys) {
 #if defined(__AVX2__)
-  // Stores the lane's index in the key's last bits.
+  // Replaces the last three bits of each key by the index of its lane.
   const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   const __m256i bits = _mm256_castps_si256(_mm256_loadu_ps(keys));
   const __m256i key = _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(7), bits), lane);
@@ -114,7 +117,7 @@ inline int least_lane(Lanes lanes, const float* keys) {
 #endif
 }
 
-/// The lanes whose numbers are within [first, last].
+/// Returns the lanes whose numbers are within [first, last].
 inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std::uint32_t last) {
 #if defined(__AVX2__)
   typedef std::uint32_t Numbers __attribute__((vector_size(32)));
@@ -135,7 +138,7 @@ inline Lanes lanes_within(const std::uint32_t* numbers, std::uint32_t first, std
 #endif
 }
 
-/// The lanes whose numbers have this value.
+/// Returns the lanes whose numbers have this value.
 template <int N>
 inline Lanes equal_to(const std::uint32_t* numbers, std::uint32_t value) {
   Lanes lanes = 0;

@@ -1,7 +1,8 @@
 #pragma once
-/// Traces many incoherent rays at a time. A single ray waits for memory, and each step waits for
-/// the result of the one before. Here one pass steps every ray that is at a node, and the next pass
-/// every ray that is at a leaf, so their steps overlap and the data of the next step is prefetched.
+/// Traces many incoherent rays at a time. A ray traced alone waits for memory, and each step waits
+/// for the result of the previous step. Here, one pass advances all rays that are at a node, and
+/// the next pass all rays that are at a leaf. The steps of different rays overlap, and the data for
+/// each ray's next step is prefetched.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/node_test.hpp"
@@ -50,7 +51,7 @@ void prepare_stream(KernelStream& stream) {
     std::uint64_t& set = stream.suited[i / 64];
     set = (shift == 0 ? 0 : set) | std::uint64_t{suited} << shift;
   }
-  // Fills the last group of a packet by repeating the last ray.
+  // Fills the last packet by repeating the last ray.
   for (int i = stream.count; i % kPacketRays != 0; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       stream.o[axis][i] = stream.o[axis][i - 1];
@@ -66,7 +67,7 @@ void prepare_stream(KernelStream& stream) {
 template <int N, bool kAny>
 class StreamWalk {
  public:
-  /// Without items all rays traverse the whole tree.
+  /// Traces the rays and subtrees in `items`. If `items` is null, all rays traverse the whole tree.
   StreamWalk(const TreeView& tree, KernelStream& stream, const StreamFallback& slow,
              const StreamItems* items)
       : tree_(tree), stream_(stream), slow_(slow), items_(items) {}
@@ -100,7 +101,7 @@ class StreamWalk {
 
   struct List {
     int size = 0;
-    std::uint32_t slot[kInFlight + 8];  // with room for stores of eight elements
+    std::uint32_t slot[kInFlight + 8];  // with room for stores of eight elements at a time
   };
 
   struct MaybeHit {
@@ -108,7 +109,7 @@ class StreamWalk {
     const TriangleBlock* block;
   };
 
-  // Starts the next ray in a slot, if there is one.
+  // Starts the next ray, if there is one, in a slot.
   void start(std::uint32_t slot) {
     const int last = items_ != nullptr ? items_->size : stream_.count;
     const auto item = [&](int i) {
@@ -160,8 +161,8 @@ class StreamWalk {
     }
   }
 
-  // Processes rays at triangles in two loops: all tests, which don't branch, then the few possible
-  // hits.
+  // Processes all rays at triangle leaves in two loops: first the tests, which don't branch, then
+  // the few possible hits.
   void meet_blocks() {
     int hits = 0;
     for_each(leaves_, [&](Flight& flight, ChildRef& next) {
@@ -169,7 +170,7 @@ class StreamWalk {
       flight.test.run(block, flight.ray, flight.best.hi);
       hits_[hits] = {&flight, &block};
       hits += flight.test.maybe != 0;
-      // The leaf's remaining blocks are pushed as a leaf of their own.
+      // The leaf's remaining blocks are pushed as a separate leaf.
       const int top = flight.stack.size;
       flight.stack.child[top] = next + (1U << 3U) - 1;
       flight.stack.near[top] = 0;
@@ -179,7 +180,7 @@ class StreamWalk {
     for (int k = 0; k < hits; ++k) {
       const auto [flight, block] = hits_[k];
       meet_lanes<N, kAny>(*block, flight->test, flight->ray, flight->best, fallback(*flight));
-      ++flight->stack.size;  // the popped entry may be beyond the new hit
+      ++flight->stack.size;  // pushes the popped entry again, which may be beyond the new hit
       next_[flight - flights_] = next_after_leaf(*flight);
     }
   }
@@ -195,8 +196,8 @@ class StreamWalk {
     };
   }
 
-  // Sorts the slots by the kind of subtree their rays visit next, without branches, which would
-  // often be mispredicted. Returns their number.
+  // Sorts the slots in use by the kind of subtree that their rays visit next, and returns the
+  // number of these slots. Avoids branches, which would often be mispredicted.
   int sort_places() {
     nodes_.size = leaves_.size = others_.size = finished_.size = 0;
     for (std::uint32_t first = 0; first < kInFlight; first += 8) {
@@ -215,14 +216,14 @@ class StreamWalk {
     return nodes_.size + leaves_.size + others_.size + finished_.size;
   }
 
-  // The address of the data of a kind of ChildRef: begin + (child & mask) * scale.
+  // Describes where the data of one kind of ChildRef is stored: at begin + (child & mask) * scale.
   struct Place {
     const char* begin;
     std::size_t mask, scale;
-    std::size_t last;  // number of cache lines needed, minus one
+    std::size_t last;  // offset of the last cache line to prefetch, in bytes
   };
 
-  // Inlined explicitly: GCC treats a function with only prefetches as having no effect.
+  // Always inlined, because GCC removes calls of a function that only prefetches.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const Place& slot = slots_[child >> 30U];
     const char* p = slot.begin + (child & slot.mask) * slot.scale;
@@ -237,9 +238,9 @@ class StreamWalk {
   KernelStream& stream_;
   const StreamFallback& slow_;
   const StreamItems* items_;
-  int started_ = 0;  // rays, or items, started so far
+  int started_ = 0;  // number of rays or items started so far
   List nodes_, leaves_, others_, finished_;
-  ChildRef next_[kInFlight];  // the next subtree of the ray in each slot
+  ChildRef next_[kInFlight];  // the subtree that the ray in each slot visits next
   static_assert(sizeof(TriangleBlock) % 8 == 0);
   const Place slots_[4] = {
       {reinterpret_cast<const char*>(tree_.nodes), ~child_ref::kKind, sizeof(WideNode), 192},
@@ -256,7 +257,7 @@ void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamF
   StreamWalk<N, false>(tree, stream, slow, nullptr).run();
 }
 
-/// M: number of rays that packets test at a time.
+/// M is the number of rays that packets test at a time.
 template <int N, int M>
 void any_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
   StreamItems items;

@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the triangles near a box.
+/// Finds the primitives near a box.
 
 #include "accel/kernels/block_test.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -9,7 +9,7 @@
 namespace microtrace {
 namespace {
 
-/// The lanes in which [lo, hi] overlaps the box along an axis.
+/// Returns the lanes in which [lo, hi] overlaps the box along an axis.
 template <int N>
 inline Lanes overlapping(const Float<N>& lo, const Float<N>& hi, const BoxQuery& box, int axis) {
   return less_equal<N>(lo, all<N>(box.hi[axis])) & less_equal<N>(all<N>(box.lo[axis]), hi);
@@ -27,7 +27,8 @@ inline Lanes touched_children(const WideNode& node, const BoxQuery& box) {
   return lanes;
 }
 
-/// Triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap nothing.
+/// Returns the triangles whose bounding boxes overlap the box. Unused slots are NaN and overlap
+/// nothing.
 template <int N>
 inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) {
   Lanes lanes = 0;
@@ -35,7 +36,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) 
     Lanes touched = kAllLanes<N>;
     const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
     for (int axis = 0; axis < 3; ++axis) {
-      // The arrays of the vertices are consecutive.
+      // The arrays of a, b and c are consecutive in memory.
       const Float<N> a = load<N>(axes[axis]), b = load<N>(axes[axis] + 3 * kWidth),
                      c = load<N>(axes[axis] + 6 * kWidth);
       touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
@@ -45,7 +46,7 @@ inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) 
   return lanes;
 }
 
-/// The triangles that the query omits.
+/// Returns the triangles that the query omits.
 template <int N>
 inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
   Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
@@ -63,7 +64,7 @@ inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query
   return lanes;
 }
 
-/// A box as its center and half extents; the half extents are rounded up.
+/// A box as its center and half extents, which are rounded up.
 struct CenteredBox {
   float center[3], reach[3];
 
@@ -75,13 +76,13 @@ struct CenteredBox {
   }
 };
 
-/// Triangles that are certainly clear of the box although their bounding boxes overlap it, as is
-/// common for long thin triangles: along some axis the box is left of one edge and right of
-/// another. With A and B from the center to an edge's ends and r the half extents, the area A_i B_j
-/// - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box. Each of its terms
-/// has three roundings; the rounding of the difference does not change its sign. Half of these
-/// bounds would suffice, both of the eight units and of the margin of the half extents for
-/// second-order roundings.
+/// Returns triangles that certainly don't touch the box: seen along some axis, the box is left of
+/// one edge and right of another. The bounding boxes of long thin triangles often overlap the box
+/// anyway. Let A and B be the vectors from the center to an edge's ends, and r the half extents.
+/// The area A_i B_j - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box.
+/// Each of its terms has three roundings; the rounding of the difference does not change its sign.
+/// Half of the eight units, and half of the margin of the half extents for second-order roundings,
+/// would suffice.
 template <int N>
 inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;
@@ -116,7 +117,7 @@ struct BoxSearch {
   ChildRef stack[kStackSize + kWidth];
 };
 
-/// Visits one node or leaf.
+/// Visits the next node or leaf of a query.
 template <int N>
 inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const ChildRef next = search.stack[--search.size];
@@ -141,7 +142,7 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
     }
     Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
     if (lanes != 0) lanes &= ~omitted_triangles<N>(tree.blocks[i], query);
-    if (lanes != 0) {  // else, on axis-aligned walls, this is not worth its time
+    if (lanes != 0) {  // often false on axis-aligned walls
       const CenteredBox box(query);
       for (int k = 0; k < kWidth; k += N)
         lanes &= ~(clear_triangles<N>(tree.blocks[i], k, box) << k);

@@ -1,5 +1,5 @@
 #pragma once
-/// Float64 tests whether a small box is clear of surfaces.
+/// Tests in float64 whether a small box is clear of surfaces.
 
 #include "accel/filters/shape_filter.hpp"
 #include "accel/spawn/origin_search.hpp"
@@ -19,15 +19,16 @@ inline CrossProduct normal_of(const Triangle& t) {
   return {DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a)};
 }
 
-/// Twice the signed area of the triangle a b p, projected along an axis, for all p in the box p +-
-/// radius.
+/// Returns twice the signed area of the triangle a b x projected along an axis. The error bound
+/// covers all points x in the box p +- radius.
 inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec3& p,
                               const DVec3& radius) {
   const int i = (axis + 1) % 3, j = (axis + 2) % 3;
   const DVec3 edge = DVec3(b) - DVec3(a), from_a = p - DVec3(a);
   const double left = edge[i] * from_a[j], right = edge[j] * from_a[i];
-  // Each factor has one rounding, the products one, the difference one. The change within the box
-  // has four roundings of second order, for which 1 + gamma(4) would suffice.
+  // Each factor has one rounding, the products have one, and the difference has one. The term for
+  // the change within the box has four roundings of second order, for which 1 + gamma(4) would
+  // suffice.
   return {
       .value = left - right,
       .error = gamma(4) * (std::abs(left) + std::abs(right)) +
@@ -35,8 +36,8 @@ inline Approximate area_along(int axis, const Vec3& a, const Vec3& b, const DVec
                kUnderflow};
 }
 
-/// Whether the whole box p +- radius lies beside a triangle that may have no area: projected along
-/// some axis, it is certainly left of one edge and right of another.
+/// Returns true if, projected along some axis, the whole box p +- radius is certainly left of one
+/// edge of the triangle and right of another. The triangle may have zero area.
 inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& radius) {
   for (int axis = 0; axis < 3; ++axis) {
     bool any_positive = false, any_negative = false;
@@ -50,13 +51,13 @@ inline bool is_beside_segment(const Triangle& t, const DVec3& p, const DVec3& ra
   return false;
 }
 
-/// Whether the whole box p +- radius lies beside the triangle, projected along the axis nearest to
-/// its normal. This is the common case for coplanar triangles.
+/// Returns true if, projected along the axis nearest to the triangle's normal, the whole box p +-
+/// radius is certainly outside the triangle. This decides most coplanar triangles.
 inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3& p,
                       const DVec3& radius) {
   const DVec3 size = glm::abs(normal.value);
   const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-  // The normal has four roundings: half of this would suffice.
+  // The normal has four roundings, so half of this bound would suffice.
   if (!(size[axis] > 2 * gamma(4) * normal.permanent[axis] + kUnderflow))
     return is_beside_segment(t, p, radius);
   const bool positive = normal.value[axis] > 0;
@@ -67,12 +68,13 @@ inline bool is_beside(const Triangle& t, const CrossProduct& normal, const DVec3
   return is_outside(t.a, t.b) || is_outside(t.b, t.c) || is_outside(t.c, t.a);
 }
 
-/// |x - center|^2 - r^2 for all x of the box p +- radius.
+/// Returns |x - center|^2 - r^2, with an error bound that covers all x in the box p +- radius.
 inline Approximate ball_value(const Vec3& center, float r, const DVec3& p, const DVec3& radius) {
   const DVec3 from_center = p - DVec3(center), size = glm::abs(from_center);
   const double square = glm::dot(from_center, from_center), r2 = double{r} * r;
-  // Two roundings of the vector, three of the squares, one of the difference. A seventh covers the
-  // change within the box, which is at most radius . (2 |x - center| + radius).
+  // The vector has two roundings, the sum of squares adds three, and the difference adds one. The
+  // seventh covers the roundings of the change within the box, which is at most radius . (2 |x -
+  // center| + radius).
   return {.value = square - r2,
           .error = gamma(7) * (square + r2) + 2 * glm::dot(radius, size + radius) + kUnderflow};
 }
@@ -82,7 +84,8 @@ struct AxisPlane {
   int axis;
   float at;
 
-  /// The plane through a with this normal, if it is axis-aligned.
+  /// Returns the plane through a if it is axis-aligned. normal_permanent is the permanent of its
+  /// normal.
   static std::optional<AxisPlane> of(const Vec3& a, const DVec3& normal_permanent) {
     for (int k = 0; k < 3; ++k) {
       if (normal_permanent[(k + 1) % 3] == 0 && normal_permanent[(k + 2) % 3] == 0)
@@ -92,7 +95,7 @@ struct AxisPlane {
   }
 };
 
-// Whether a surface lies within the plane.
+// Returns true if a surface lies within the plane.
 
 inline bool lies_in(const AxisPlane& plane, const Triangle& t) {
   const int k = plane.axis;
@@ -112,7 +115,8 @@ inline bool lies_in(const AxisPlane&, const Quadric&) {
   return false;
 }
 
-// Whether certainly no segment between two points of the box p +- radius meets the surface.
+// Returns true if the surface certainly doesn't meet any segment between two points of the box p +-
+// radius.
 
 inline bool clears_box(const Triangle& t, const DVec3& p, const DVec3& radius) {
   const CrossProduct normal = normal_of(t);
@@ -135,11 +139,12 @@ inline bool clears_box(const Quadric& q, const DVec3& p, const DVec3& radius) {
            m.x * x.y * x.z;
   };
   const double value = form(squares, mixed, p) + glm::dot(linear, p) + double{q.j};
-  // With all terms positive, the growth of the polynomial bounds its change within the box. The
-  // value has one rounding of the products and eight of sums: five in the form, two in the product,
-  // one of both; the last one is of second order. Near zero the sum of some of the terms is at most
-  // half of the permanent, which leaves at most four roundings; the fifth, and 1 + gamma(16), cover
-  // the second order and a value as large as the growth.
+  // The growth of the polynomial with all coefficients and coordinates replaced by their magnitudes
+  // bounds its change within the box. The value has nine roundings: one of products and eight of
+  // sums (five in the form, two in the dot product, one of both together; the last is of second
+  // order). If the value is near zero, a partial sum is at most half of the permanent, so at most
+  // four roundings matter. The fifth, and 1 + gamma(16), cover second-order terms and a value as
+  // large as the growth.
   const DVec3 size = glm::abs(p), a = glm::abs(squares), m = glm::abs(mixed), l = glm::abs(linear);
   const DVec3 gradient(2 * a.x * size.x + m.z * size.y + m.y * size.z + l.x,
                        2 * a.y * size.y + m.z * size.x + m.x * size.z + l.y,

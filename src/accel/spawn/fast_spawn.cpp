@@ -12,8 +12,8 @@
 namespace microtrace {
 namespace {
 
-/// The maximum number of steps by which an origin is moved off a sphere. spawn_among tries as many
-/// before it tries points further along the ray.
+/// The maximum number of steps by which an origin is moved off a sphere. spawn_among takes the same
+/// number of steps before it tries points farther along the ray.
 constexpr int kBallSteps = 8;
 
 bool is_filterable(const Ray& ray) {
@@ -42,7 +42,7 @@ FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
   const PointOnRay x(ray, {t.lo, t.hi});
   p_ = rounded_point(x);
   if (!p_) return;
-  // The difference has one rounding: half of gamma(2) would suffice.
+  // The difference has one rounding, so half of gamma(2) would suffice.
   surface_ = Ball{.sphere = s,
                   .from_center = x.value - DVec3(s.center),
                   .error = x.error + gamma(2) * glm::abs(x.value - DVec3(s.center))};
@@ -53,8 +53,8 @@ FastSpawn::FastSpawn(const Sphere& s, const Ray& ray) {
     second = std::max(second, std::min(gain, largest));
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // If the two largest gains are nearly equal, exact arithmetic chooses the axis. A gain has one
-  // rounding, far below 2^-31.
+  // If the two largest gains are nearly equal, exact arithmetic must choose the axis. A gain has
+  // one rounding, whose relative error is far below 2^-31.
   if (!(largest > second * (1 + 0x1p-30)))
     p_.reset();
   else
@@ -71,7 +71,7 @@ void FastSpawn::set_reach(int steps) {
 void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
   if (!is_filterable(ray)) return;
   const DVec3 from_a = DVec3(flat.a) - DVec3(ray.o);
-  // As in TrianglePlaneFilter. The normal is exact, so half of this would suffice.
+  // As in TrianglePlaneFilter. The normal is exact, so half of this bound would suffice.
   const Approximate height{
       .value = glm::dot(from_a, flat.normal.value),
       .error = gamma(9) * glm::dot(glm::abs(from_a), flat.normal.permanent) + kUnderflow};
@@ -87,8 +87,8 @@ void FastSpawn::set_flat(const Flat& flat, const Ray& ray) {
     error += gamma(5) * flat.normal.permanent[k] * unit;
     if (gain > largest) axis_ = k, largest = gain;
   }
-  // If the error is larger, exact arithmetic chooses the axis (TriangleSurface::gradient, which
-  // states that half of gamma(5) would suffice).
+  // If the error is larger, exact arithmetic must choose the axis, as in TriangleSurface::gradient.
+  // Half of gamma(5) would suffice, as explained there.
   if (!(error <= 0x1p-9 * largest))
     p_.reset();
   else
@@ -116,7 +116,7 @@ std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) c
   for (int step = 0; step <= kFlatSteps; ++step) {
     const int sign = certain_side(flat.a, flat.normal, DVec3(q), DVec3(0));
     if (sign == side) return q;
-    // If all terms are zero, q is on the plane, which is common on floors and walls.
+    // If all terms are zero, q is exactly on the plane, which is common on floors and walls.
     const DVec3 from_a = DVec3(q) - DVec3(flat.a);
     const bool is_on = glm::dot(glm::abs(from_a), flat.normal.permanent) == 0;
     if (sign == 0 && !is_on) return std::nullopt;
@@ -127,7 +127,7 @@ std::optional<Vec3> FastSpawn::origin(const Flat& flat, const Vec3& direction) c
 
 std::optional<Vec3> FastSpawn::origin(const Ball& ball, const Vec3& direction) const {
   const DVec3 w(direction), size = glm::abs(w);
-  // The product and the sums have three roundings: half of gamma(6) would suffice.
+  // The product and the sums have three roundings, so half of gamma(6) would suffice.
   const Approximate slope{.value = glm::dot(ball.from_center, w),
                           .error = gamma(6) * glm::dot(glm::abs(ball.from_center), size) +
                                    glm::dot(ball.error, size) + kUnderflow};
@@ -140,7 +140,8 @@ std::optional<Vec3> FastSpawn::origin(const Ball& ball, const Vec3& direction) c
     const Approximate f = ball_value(ball.sphere.center, ball.sphere.radius, DVec3(q), DVec3(0));
     if (!f.is_positive() && !f.is_negative()) return std::nullopt;
     if (f.is_positive() == (side > 0)) {
-      // A ray from inside leaves the sphere once; a ray from outside must not enter it.
+      // A ray that starts inside leaves the sphere exactly once. A ray that starts outside must not
+      // enter the sphere.
       if (side < 0 || dot_product(DVec3(q) - center, w, 4).is_positive()) return q;
       return std::nullopt;
     }

@@ -1,6 +1,6 @@
 #pragma once
-/// Computes spawned origins in float64 alone if the result is certain. It nearly always is, and
-/// this is much faster than exact arithmetic.
+/// Computes spawned origins in float64 if the result is certain. The result nearly always is
+/// certain, and float64 is much faster than exact arithmetic.
 
 #include "accel/filters/triangle_filter.hpp"
 #include "accel/kernels/kernel.hpp"
@@ -21,26 +21,27 @@
 
 namespace microtrace {
 
-/// The point where a ray hits a surface other than a triangle, and origins of rays that leave it.
-/// The answers equal those of spawn_among.
+/// The point where a ray hits a non-triangle surface, and the origins of rays that leave this
+/// point. The results equal those of spawn_among.
 class FastSpawn {
  public:
   /// `ray` must hit the surface.
   FastSpawn(const Plane& surface, const Ray& ray);
   FastSpawn(const Disc& surface, const Ray& ray);
   FastSpawn(const Sphere& surface, const Ray& ray);
-  /// Not implemented for quadrics: the result is never certain.
+  /// Not implemented for quadrics, for which point() returns nothing.
   FastSpawn(const Quadric& surface, const Ray& ray);
 
-  /// The rounded point; nothing if it is too imprecise to search its neighborhood.
+  /// Returns the rounded hit point, or nothing if float64 is too imprecise to determine it.
   [[nodiscard]] const std::optional<Vec3>& point() const { return p_; }
-  /// Upper bound of the distance from the rounded point to origins and to the exact point, per
-  /// axis.
+  /// Returns an upper bound, per axis, of the distances from the rounded point to the origins and
+  /// to the exact point.
   [[nodiscard]] const DVec3& reach() const { return reach_; }
-  /// The surface's plane, if it is axis-aligned.
+  /// Returns the surface's plane, if the surface is flat and axis-aligned.
   [[nodiscard]] std::optional<AxisPlane> axis_plane() const;
 
-  /// Nothing if float64 can't decide. Valid only if no other surface is near.
+  /// Returns the origin, or nothing if float64 can't decide. The result is valid only if no other
+  /// surface is near.
   [[nodiscard]] std::optional<Vec3> origin(const Vec3& direction) const;
 
  private:
@@ -50,7 +51,7 @@ class FastSpawn {
   };
   struct Ball {
     Sphere sphere;
-    DVec3 from_center, error;  ///< vector to the exact point, with its error per axis
+    DVec3 from_center, error;  ///< vector from the center to the exact point, error per axis
   };
 
   void set_flat(const Flat& flat, const Ray& ray);
@@ -61,13 +62,14 @@ class FastSpawn {
   std::variant<std::monostate, Flat, Ball> surface_;
   std::optional<Vec3> p_;
   DVec3 reach_{0};
-  int axis_ = 0;  // axis along which origins are moved
+  int axis_ = 0;  // the axis along which origins are moved
 };
 
-/// Computes the origins of several hits at a time.
+/// Computes the origins of rays that leave several hits at a time.
 class FastSpawns {
  public:
-  /// `outside` lists the primitives that are not in the tree. A tree without leaves is not passed.
+  /// `outside` lists the primitives that are not in the tree. `tree` must be empty if the tree has
+  /// no leaves.
   FastSpawns(const Primitives& primitives, std::span<const PrimitiveId> outside,
              const Kernels& kernels, const SpawnKernels& spawn_kernels,
              const std::optional<TreeView>& tree)
@@ -77,21 +79,23 @@ class FastSpawns {
         spawn_kernels_(spawn_kernels),
         tree_(tree) {}
 
-  /// Computes a number of origins from the front, at least one if there are any, and returns this
-  /// number. An origin is empty if only exact arithmetic can find it.
+  /// Computes the origins of some of the first spawns, at least one, and returns their number. An
+  /// origin is empty if float64 can't decide it.
   std::size_t origins(std::span<const Bvh::Spawn> spawns, std::span<std::optional<Vec3>> origins);
 
  private:
   static constexpr std::size_t kHits = kBoxQueries;
   static_assert(kHits == kSpawnLanes);
 
-  /// A surface that rays leave.
+  /// A surface that rays leave, and its hit point.
   struct LeftSurface {
     PrimitiveId id;
-    bool is_triangle;                ///< whether hit_points_ holds it, at the index of the hit
-    bool is_known;                   ///< whether float64 can determine the hit point
-    bool is_alone;                   ///< no other surface is between the point and the origins
-    std::optional<FastSpawn> other;  ///< for surfaces other than triangles
+    bool is_triangle;                ///< true if hit_points_ holds the triangle, in the lane with
+                                     ///< the index of the hit
+    bool is_known;                   ///< true if float64 can determine the hit point
+    bool is_alone;                   ///< true if certainly no other surface is between the exact
+                                     ///< hit point and the origins
+    std::optional<FastSpawn> other;  ///< set for non-triangle surfaces
   };
 
   void add(const Bvh::Spawn& spawn);
@@ -108,7 +112,7 @@ class FastSpawns {
   const std::optional<TreeView> tree_;
   std::size_t hits_ = 0;
   std::array<LeftSurface, kHits> surfaces_;
-  std::array<std::size_t, kHits + 1> first_spawn_;  // of each hit
+  std::array<std::size_t, kHits + 1> first_spawn_;  // index of each hit's first spawn
   std::array<BoxQuery, kHits> queries_;
   HitPointLanes hit_points_{};
   OriginLanes origins_{};

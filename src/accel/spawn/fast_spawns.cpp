@@ -28,7 +28,8 @@ DVec3 vector_of(const double (&lanes)[3][kSpawnLanes], std::size_t lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
 
-/// Sets the query to the box p +- reach; the rounding error is less than the reach.
+/// Sets the query to a box that contains p +- reach. The margin of another `reach` exceeds the
+/// rounding errors.
 void set_box(const Vec3& p, const DVec3& reach, BoxQuery& query) {
   for (int k = 0; k < 3; ++k) {
     query.lo[k] = static_cast<float>(p[k] - 2 * reach[k]);
@@ -63,7 +64,7 @@ void FastSpawns::add(const Bvh::Spawn& spawn) {
     primitives_.visit(spawn.hit.id, [&]<class AnyShape>(const AnyShape& shape) {
       surface.is_triangle = std::is_same_v<AnyShape, Triangle>;
       if constexpr (std::is_same_v<AnyShape, Triangle>) {
-        put(shape, *spawn.ray, hits_);  // the kernel is not certain of invalid rays
+        put(shape, *spawn.ray, hits_);  // the kernel reports invalid rays as uncertain
       } else if (exact::is_valid(*spawn.ray)) {
         surface.other.emplace(shape, *spawn.ray);
       }
@@ -105,7 +106,8 @@ bool FastSpawns::is_alone(std::size_t hit) const {
   const bool is_triangle = surface.is_triangle;
   const DVec3 p(is_triangle ? vector_of(hit_points_.p, hit) : *surface.other->point());
   const DVec3 reach = is_triangle ? vector_of(hit_points_.reach, hit) : surface.other->reach();
-  // Surfaces in the plane that the ray leaves don't obstruct it. The query omits such triangles.
+  // Surfaces in the same plane as the surface that the ray leaves don't obstruct the ray. The query
+  // already omits such triangles.
   const auto is_in_plane = [&](const auto& shape) {
     return found.plane_axis >= 0 &&
            lies_in(AxisPlane{.axis = found.plane_axis, .at = found.plane_at}, shape);
@@ -131,7 +133,7 @@ void FastSpawns::find_neighbors() {
 
 void FastSpawns::leave_triangles(std::span<const Bvh::Spawn> spawns,
                                  std::span<std::optional<Vec3>> origins) {
-  // Each pass leaves all triangles by their next ray.
+  // Each pass computes the next origin for every triangle that still has one.
   for (std::size_t number = 0;; ++number) {
     std::uint32_t hits = 0;  // one bit per hit
     for (std::size_t hit = 0; hit < hits_; ++hit) {

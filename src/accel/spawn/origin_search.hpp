@@ -1,6 +1,6 @@
 #pragma once
-/// Steps in the search for the origin of a ray that leaves a surface; docs/exactness.md proves that
-/// they are sufficient.
+/// The parts of the search for the origin of a ray that leaves a surface. docs/exactness.md proves
+/// that the search succeeds.
 
 #include "accel/filters/shape_filter.hpp"
 #include "exact/implicit.hpp"
@@ -24,10 +24,11 @@
 
 namespace microtrace {
 
-/// The distance from |x| to the next larger float32. The rounding error of x is at most half of it.
+/// Returns the distance from |x| to the next larger float32. The rounding error of a number that
+/// was rounded to x is at most half of this distance.
 inline double spacing(float x) {
   const std::uint32_t exponent = std::bit_cast<std::uint32_t>(x) >> 23U & 255U;
-  // 2^(exponent - 150), far above the least float64.
+  // 2^(exponent - 150), which is far above the least float64 number.
   return std::bit_cast<double>(std::uint64_t{std::max(exponent, 1U) + 1023 - 150} << 52U);
 }
 
@@ -39,7 +40,7 @@ inline Vec3 unsigned_zeros(const Vec3& v) {
   return v + Vec3(0.0F);
 }
 
-/// The next float32 above x (`up`) or below it; x must be finite.
+/// Returns the next float32 above x if `up`, otherwise below x. x must be finite.
 inline float neighbor(float x, bool up) {
   if (x == 0)
     return up ? std::numeric_limits<float>::denorm_min()
@@ -48,7 +49,7 @@ inline float neighbor(float x, bool up) {
   return unsigned_zero(std::bit_cast<float>((x > 0) == up ? bits + 1 : bits - 1));
 }
 
-/// A step that moves an origin off a surface: one coordinate to the next float32.
+/// A step that moves an origin off a surface, by moving one coordinate to the next float32.
 struct OriginStep {
   int axis;
   bool up;
@@ -56,7 +57,7 @@ struct OriginStep {
   void apply(Vec3& p) const { p[axis] = neighbor(p[axis], up); }
 };
 
-/// The step along the axis that increases the surface's function most. v is the surface's gradient
+/// Returns the step that increases the surface's function most. v is the gradient of this function
 /// or a substitute.
 [[nodiscard]] inline OriginStep best_step(const Vec3& p, const DVec3& v) {
   int best = 0;
@@ -76,21 +77,21 @@ inline DVec3 gradient_of(const exact::Implicit& f, const Vec3& p) {
   return g;
 }
 
-/// Whether p is on the given side, and a ray from p has as many zeros of F as a ray from the
-/// surface itself: one if F returns to zero, else none.
+/// Returns true if p is on the given side, and if a ray from p has as many zeros of F ahead as a
+/// ray from the surface itself: one if F returns to zero, otherwise none.
 inline bool is_clear_of(const exact::Implicit& f, const Vec3& p, const Vec3& direction, int side) {
   if (f.value(exact::vector(p)).sign() != side) return false;
   const bool returns = f.quadratic(exact::vector(direction)).sign() * side < 0;
   return f.zeros_ahead(p, direction) == (returns ? 1 : 0);
 }
 
-/// Queries a surface with exact arithmetic. point() must be called first.
+/// Answers queries about a surface by exact arithmetic. point() must be called first.
 template <class AnyShape>
 class ExactSurface {
  public:
   explicit ExactSurface(const AnyShape& shape) : shape_(shape) {}
 
-  /// The hit point, rounded; nothing if there is no hit.
+  /// Returns the rounded hit point, or nothing if there is no hit.
   std::optional<Vec3> point(const Ray& ray) {
     t_ = exact::first_hit(shape_, ray);
     if (!t_) return std::nullopt;
@@ -111,14 +112,14 @@ class ExactSurface {
   std::optional<exact::Root> t_;
 };
 
-/// The side, -1 or 1, of the plane through a with this normal on which the whole box x +- radius
-/// certainly lies; 0 if unknown. The normal is the cross product of two edges from a, with a in
-/// float32.
+/// Returns the side, -1 or 1, on which the whole box x +- radius certainly lies of the plane
+/// through a with this normal; 0 if unknown. The normal is the cross product of two edges whose
+/// ends are float32 vectors.
 [[nodiscard]] inline int certain_side(const Vec3& a, const CrossProduct& normal, const DVec3& x,
                                       const DVec3& radius) {
   const DVec3 from_a = x - DVec3(a);
-  // As in TrianglePlaneFilter. The normal and the product with the radius have eight roundings of
-  // second order, for which 1 + gamma(8) would suffice.
+  // The first error term is as in TrianglePlaneFilter. In the second, the normal and the product
+  // with the radius have eight roundings of second order, for which 1 + gamma(8) would suffice.
   const Approximate value{
       .value = glm::dot(from_a, normal.value),
       .error = gamma(kHeightRoundings) * glm::dot(glm::abs(from_a), normal.permanent) +
@@ -126,7 +127,7 @@ class ExactSurface {
   return value.is_positive() ? 1 : value.is_negative() ? -1 : 0;
 }
 
-/// o + t d, with an error bound per axis.
+/// The point o + t d with an error bound per axis.
 struct PointOnRay {
   DVec3 value, error;
 
@@ -134,26 +135,30 @@ struct PointOnRay {
     const DVec3 o(ray.o), d(ray.d), along = (t.lo + t.hi) / 2 * d;
     value = o + along;
     // Half of this bound would suffice: the exact t is within (hi - lo) / 2 of the middle, and
-    // there are four roundings: of the middle, the product, the sum, and of the ends when the point
-    // is rounded.
+    // there are only four roundings. These are of the middle, the product, the sum, and the ends of
+    // the interval in rounded_point().
     error = (t.hi - t.lo) * glm::abs(d) + gamma(8) * (glm::abs(o) + glm::abs(along)) +
             DVec3(kUnderflow);
   }
 };
 
-/// Coordinate k of a point in the plane through a, computed from the other two:
+/// Returns coordinate k of a point in the plane through a, computed from the point's other two
+/// coordinates:
 ///
 ///     p_k = a_k - w,   w = s / n_k,   s = sum over j != k of n_j r_j,   r = p - a.
 ///
-/// Its error is relative to |n_j / n_k| and |p_k|, while the error of o_k + t d_k is relative to
-/// the ray's origin. This matters on floors at height 0 and on walls that are tilted by an ulp,
-/// where coordinates are near 0. With P the permanent of n, the error of |n| is gamma_4 P, and with
-/// e the error of p, the error of s is sum |n_j| e_j + gamma_7 P_j (|r_j| + e_j): four roundings of
-/// n, one of r_j, one of the product, one of the sum; the eighth in the code is for the quotient.
-/// The quotient adds |w| (gamma_4 P_k) / |n_k|, the difference one rounding of the result, and the
-/// ends one rounding each. Half would suffice of these bounds: gamma(8) of w, gamma(4) of the
-/// result, gamma(16) of the second order, and gamma(6) in the size, because a small |n_k| has only
-/// three roundings.
+/// The error of this formula is proportional to |n_j / n_k| and |p_k|, while the error of o_k + t
+/// d_k grows with the ray's origin. This matters where coordinates are near 0: on floors at height
+/// 0 and on walls that are tilted by an ulp.
+///
+/// Let P be the permanent of n, whose error is gamma_4 P, and e the error of p. The error of s is
+/// the sum of |n_j| e_j + gamma_7 P_j (|r_j| + e_j): four roundings of n, one of r_j, one of the
+/// product, one of the sum. The eighth in the code is for the quotient. The quotient adds |w|
+/// (gamma_4 P_k) / |n_k|, the difference adds one rounding of the result, and the ends of the
+/// interval add one rounding each.
+///
+/// Half of the following bounds would suffice: gamma(8) for w, gamma(4) for the result, gamma(16)
+/// for the second order, and gamma(6) in `size`, because a small |n_k| has only three roundings.
 [[nodiscard]] inline Approximate coordinate_in_plane(const Vec3& a, const CrossProduct& n,
                                                      const PointOnRay& p, int k) {
   const double size = std::abs(n.value[k]) - gamma(6) * n.permanent[k];
@@ -171,13 +176,13 @@ struct PointOnRay {
                    gamma(4) * std::abs(value) + kUnderflow};
 }
 
-/// The float32 to which every number in [lo, hi] rounds, if there is only one.
+/// Returns the float32 to which all numbers in [lo, hi] round, if they round to the same one.
 [[nodiscard]] inline std::optional<float> rounded(double lo, double hi) {
   const auto below = static_cast<float>(lo), above = static_cast<float>(hi);
   return below == above ? std::optional(unsigned_zero(below)) : std::nullopt;
 }
 
-/// The point rounded to float32, if its bounds determine the result.
+/// Returns the point rounded to float32, if its error bounds determine the result.
 [[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p) {
   Vec3 result{0};
   for (int k = 0; k < 3; ++k) {
@@ -188,7 +193,8 @@ struct PointOnRay {
   return result;
 }
 
-/// The same for a point in the plane through a with this normal.
+/// Returns the rounded point as above, for a point in the plane through a with this normal, which
+/// gives additional bounds.
 [[nodiscard]] inline std::optional<Vec3> rounded_point(const PointOnRay& p, const Vec3& a,
                                                        const CrossProduct& normal) {
   Vec3 result{0};
@@ -202,7 +208,7 @@ struct PointOnRay {
   return result;
 }
 
-/// Queries a triangle in float64 first, then exactly.
+/// Answers queries about a triangle, by float64 if it can decide, otherwise exactly.
 class TriangleSurface {
  public:
   explicit TriangleSurface(const Triangle& triangle)
@@ -233,21 +239,22 @@ class TriangleSurface {
       largest = std::max(largest, std::abs(normal_.value[k]) * spacing(p[k]));
       error += gamma(5) * normal_.permanent[k] * spacing(p[k]);
     }
-    // Up to this error, and even twice as much, the chosen axis and sign are right or equally good.
+    // Up to this error, and even up to twice as much, the chosen axis and sign are the best or
+    // equally good.
     return error <= 0x1p-9 * largest ? normal_.value : plane().normal();
   }
-  // A ray that leaves a plane toward one side never returns to it.
+  // A ray that leaves a plane never returns to it, so only the side matters.
   [[nodiscard]] bool is_clear(const Vec3& p, const Vec3& /*direction*/, int side) const {
     return sign_at(p) == side;
   }
   [[nodiscard]] bool has_area() const { return plane().has_area(); }
-  /// The sign of the plane's function at q.
+  /// Returns the sign of the plane's function at q.
   [[nodiscard]] int sign_at(const Vec3& q) const {
     if (const int sign = certain_sign(q, DVec3(0)); sign != 0) return sign;
     return plane().side(q);
   }
 
-  /// The sign of the plane's function in the whole box x +- radius; 0 if unknown.
+  /// Returns the sign of the plane's function in the whole box x +- radius; 0 if unknown.
   [[nodiscard]] int certain_sign(const DVec3& x, const DVec3& radius) const {
     return certain_side(triangle_.a, normal_, x, radius);
   }
@@ -260,18 +267,19 @@ class TriangleSurface {
 
   const Triangle& triangle_;
   CrossProduct normal_;
-  mutable std::optional<exact::TrianglePlane> plane_;  // created when first needed
+  mutable std::optional<exact::TrianglePlane> plane_;  // created on first use
 };
 
 /// The start of the search for an origin.
 struct OriginSearch {
-  Vec3 p;           ///< the hit point, each coordinate rounded
-  int side;         ///< sign of the surface's function on the new ray's side
-  bool goes_back;   ///< whether the new ray returns to the side of the incoming ray
-  OriginStep step;  ///< steps from the surface to that side
+  Vec3 p;           ///< the hit point with each coordinate rounded
+  int side;         ///< the sign of the surface's function on the new ray's side
+  bool goes_back;   ///< true if the new ray returns to the side of the incoming ray
+  OriginStep step;  ///< moves a point off the surface to the new ray's side
 };
 
-/// Nothing if there is no hit or the direction is zero or not finite.
+/// Returns the start of the search, or nothing if there is no hit or the direction is zero or not
+/// finite.
 template <class Surface>
 std::optional<OriginSearch> origin_search(Surface& surface, const Ray& ray, const Vec3& direction) {
   if (!exact::is_finite(direction) || direction == Vec3(0)) return std::nullopt;

@@ -7,7 +7,8 @@
 namespace microtrace {
 namespace {
 
-/// As kFlatSteps, for surfaces that have no such bound.
+/// The maximum number of steps off a curved surface, for which there is no proven bound like
+/// kFlatSteps.
 constexpr int kCurvedSteps = 64;
 
 template <class Surface>

@@ -19,11 +19,12 @@ bool overlap(const Bounds& a, const Bounds& b) {
   return true;
 }
 
-/// The other surfaces near a hit, and the side of each on which the new ray must start: the side of
-/// the incoming ray if the new ray goes back there, otherwise the opposite side.
+/// The other surfaces near a hit, and the required side of each, on which the new ray must start.
+/// It is the side of the point w of Bvh::spawn_origin: just before the hit if the new ray goes
+/// back, otherwise just behind the hit.
 class Neighbors {
  public:
-  /// p is the hit point, rounded.
+  /// p is the rounded hit point.
   Neighbors(const Primitives& primitives, const Ray& ray, PrimitiveId id, const Vec3& p,
             bool goes_back)
       : primitives_(primitives),
@@ -33,7 +34,7 @@ class Neighbors {
         witness_(goes_back ? -ray.d : ray.d),
         point_(ray, KnownHit(primitives, ray, id, Duplicates()).bounds()) {}
 
-  /// Considers primitive `id` if a point of it is in the box.
+  /// Adds primitive `id` if it may have a point in the box.
   void add(PrimitiveId id, const Bounds& box) {
     if (id == id_) return;
     for (const Side& side : sides_) {
@@ -45,9 +46,9 @@ class Neighbors {
     });
   }
 
-  /// Whether the segment from the hit to q meets none of the surfaces: q is strictly on the
-  /// required side, or the segment passes beside the surface. A surface that contains the ray has
-  /// no required side.
+  /// Returns true if the segment from the hit to q meets none of the surfaces, because q is
+  /// strictly on the required side or because the segment passes beside the surface. A surface that
+  /// contains the ray has no required side.
   [[nodiscard]] bool allow(const Vec3& q) const {
     return std::all_of(sides_.begin(), sides_.end(), [&](const Side& side) {
       const int sign = primitives_.visit(side.id, [&](const auto& shape) {
@@ -77,13 +78,13 @@ class Neighbors {
     return true;
   }
 
-  // Whether the segment from the hit to q may meet a surface, given that its ends are not strictly
-  // on the same side.
+  // Returns true if the segment from the hit to q may meet a surface, given that the segment's ends
+  // are not strictly on the same side of the surface.
   bool may_be_between(const Triangle& triangle, const Vec3& q) const {
     if (auto* hit = triangle_hit()) return hit->meets_segment(triangle, q);
     return exact::meets_segment(triangle, q, ray_, root());
   }
-  // Tests only the disc's own box, so that the result doesn't depend on the leaf that has the disc.
+  // Tests the disc's own bounding box, so that the result doesn't depend on the tree.
   bool may_be_between(const Disc& disc, const Vec3& q) const {
     const build::Box box = build::box_of(disc);
     Bounds way{.lo = q, .hi = q};
@@ -99,7 +100,7 @@ class Neighbors {
     return true;
   }
 
-  // Null if the surface is not a triangle that the ray hits.
+  // Returns null if the surface that is hit is not a triangle.
   exact::TriangleHit* triangle_hit() const {
     if (!triangle_hit_ && !root_) {
       if (const auto t = primitives_.triangle(id_)) triangle_hit_.emplace(*t, ray_);
@@ -112,7 +113,8 @@ class Neighbors {
     return *root_;
   }
 
-  // Nothing for shapes without sides.
+  // Returns the side of a surface on which the witness is; nothing for triangles of zero area,
+  // which have no sides.
   std::optional<int> side_of_witness(const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
       const TriangleSurface surface(shape);
@@ -132,8 +134,8 @@ class Neighbors {
   const Ray& ray_;
   PrimitiveId id_;
   Vec3 p_, witness_;
-  PointOnRay point_;  // the exact hit point
-  // The surface that is hit; created when first needed.
+  PointOnRay point_;  // bounds of the exact hit point
+  // Exact queries about the surface that is hit, created on first use.
   mutable std::optional<exact::TriangleHit> triangle_hit_;
   mutable std::optional<exact::Root> root_;
   std::vector<Side> sides_;
@@ -148,9 +150,9 @@ Bounds around(const Vec3& a, const Vec3& b, double margin) {
   return box;
 }
 
-/// Tries the rounded point and its neighbors, then the same for points further along the ray on the
-/// side to which the new ray goes. Those points are in the required cell of the arrangement of all
-/// planes through the hit point.
+/// Tries the rounded hit point and its neighbors, then points farther along the line of `ray` and
+/// their neighbors, on the side to which the new ray goes. These points are in the right cell of
+/// the arrangement of all planes through the hit point.
 template <class Surface>
 std::optional<Vec3> search(Surface surface, const Primitives& primitives, const Tree* tree,
                            std::span<const PrimitiveId> outside, const Ray& ray, PrimitiveId id,

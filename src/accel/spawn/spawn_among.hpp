@@ -1,5 +1,6 @@
 #pragma once
-/// The origin of a ray that leaves a surface, with the scene's other surfaces taken into account.
+/// Computes the origin of a ray that leaves a surface, taking the scene's other surfaces into
+/// account.
 
 #include "accel/build/tree.hpp"
 
@@ -11,8 +12,8 @@
 
 namespace microtrace {
 
-/// Implements Bvh::spawn_origin. `outside` lists the primitives that are not in the tree; `tree` is
-/// null if it has no leaves.
+/// Implements Bvh::spawn_origin. `outside` lists the primitives that are not in the tree. `tree`
+/// must be null if the tree has no leaves.
 [[nodiscard]] std::optional<Vec3> spawn_among(const Primitives& primitives, const Tree* tree,
                                               std::span<const PrimitiveId> outside, const Ray& ray,
                                               PrimitiveId id, const Vec3& direction);

@@ -8,8 +8,8 @@
 
 namespace microtrace {
 
-/// Calls f(id) for every primitive in the tree with a point in the closed box. May also call it for
-/// other primitives nearby, and more than once for one primitive.
+/// Calls f(id) for every primitive in the tree with a point in the closed box. May also call f for
+/// other primitives nearby, and more than once for a primitive.
 template <class F>
 void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
   std::array<ChildRef, kMaxDepth*(kWidth - 1) + 1> stack;

@@ -1,7 +1,7 @@
 #pragma once
 /// CrossProduct, Approximate and related types for N lanes. They perform the same operations in the
-/// same order as src/accel/filters, because the axis along which an origin is moved depends on
-/// every bit.
+/// same order as the types in src/accel/filters, because the axis along which an origin is moved
+/// depends on every bit.
 
 #include "accel/filters/roundings.hpp"
 #include "accel/spawn/kernels/kernel.hpp"
@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-constexpr float kGreatestCoordinate = 0x1p64F;  // kLargestCoordinate
+constexpr float kGreatestCoordinate = 0x1p64F;  // equals kLargestCoordinate of filter.hpp
 
 /// A lane mask: all bits of a lane are set if a condition holds.
 template <int N>
@@ -61,7 +61,7 @@ struct CrossProducts {
     return {left - right, {{a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2]}}};
   }
 
-  /// A product with a vector, and its error bound for a number of roundings.
+  /// A dot product with a vector, and its error bound.
   struct Form {
     Double<N> value, error;
   };
@@ -71,14 +71,14 @@ struct CrossProducts {
   }
 };
 
-/// The lanes whose floats are within the filters' limit.
+/// Returns the lanes whose components are within the filters' limit.
 template <int N>
 inline DoubleMask<N> filterable(const Doubles3<N>& x) {
   const double most = kGreatestCoordinate;
   return (magnitude(x.v[0]) <= most) & (magnitude(x.v[1]) <= most) & (magnitude(x.v[2]) <= most);
 }
 
-/// x[axis], and x[axis] = y.
+/// Returns x[axis] for each lane.
 template <int N>
 inline Double<N> component(const Doubles3<N>& x, const Double<N>& axis) {
   return axis == 0 ? x.v[0] : axis == 1 ? x.v[1] : x.v[2];

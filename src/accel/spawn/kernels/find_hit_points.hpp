@@ -4,16 +4,17 @@
 namespace microtrace {
 namespace {
 
-/// Computes spacing() for floats that are stored as float64.
+/// Computes spacing() for float32 numbers that are stored as float64.
 template <int N>
 inline Double<N> spacings(const Double<N>& x) {
-  // A float32 has the exponent of the same number in float64; the least is 2^-149.
+  // A float32 number has the same exponent in float64. The least spacing is 2^-149.
   using Bits = DoubleMask<N>;
   const Bits exponent = (Bits)x >> 52 & 0x7ff, least = Bits{} + (1 + 1023 - 127);
   return (Double<N>)(((exponent < least ? least : exponent) - 23) << 52);
 }
 
-/// Computes N hits starting at i, as TrianglePlaneFilter and rounded_point() do.
+/// Computes the hit points of N lanes starting at lane i, as TrianglePlaneFilter and
+/// rounded_point() do.
 template <int N>
 inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   using D = Double<N>;
@@ -24,7 +25,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   const auto normal = CrossProducts<N>::of(b - a, c - a);
   const auto height = normal.along(a - o, kHeightRoundings),
              slope = normal.along(d, kSlopeRoundings);
-  // quotient_result()
+  // as quotient_result()
   const D size = magnitude(slope.value), t = height.value / slope.value;
   const D t_error =
       (height.error + magnitude(t) * slope.error) / (size - slope.error) * (1 + 16 * kRounding) +
@@ -33,7 +34,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   const D t_min = widened<N>(lanes.t_min + i);
   is_sure &=
       (size > 4 * slope.error) & (t_min >= 0) & (lo >= t_min) & (hi <= widened<N>(lanes.t_max + i));
-  // PointOnRay, and the terms of coordinate_in_plane()
+  // as PointOnRay, and the terms of coordinate_in_plane()
   const D middle = (lo + hi) / 2;
   Doubles3<N> x, x_error, term, term_error;
   for (int k = 0; k < 3; ++k) {
@@ -47,7 +48,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
         magnitude(normal.value.v[k]) * x_error.v[k] +
         kTermRoundings * kRounding * normal.permanent.v[k] * (magnitude(r) + x_error.v[k]);
   }
-  // rounded_point()
+  // as rounded_point() and best_step()
   D largest{}, error{}, axis{};
   Doubles3<N> p, units;
   for (int k = 0; k < 3; ++k) {
@@ -60,7 +61,8 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
         (1 + 16 * kRounding);
     const D in_plane_error = n_size > 0 ? w_error + 4 * kRounding * magnitude(in_plane) + kUnderflow
                                         : D{} + __builtin_inf();
-    // A bound from the plane may be NaN; `greater` and `lesser` then return the other bound.
+    // A bound that is computed from the plane may be NaN; `greater` and `lesser` then return the
+    // other bound.
     const D below = greater(in_plane - in_plane_error, x.v[k] - x_error.v[k]),
             above = lesser(in_plane + in_plane_error, x.v[k] + x_error.v[k]);
     const D least = __builtin_convertvector(__builtin_convertvector(below, Float<N>), D),
@@ -82,7 +84,7 @@ inline void find_hit_points_of(HitPointLanes& lanes, int i) {
   D plane_axis = D{} - 1;
   for (int k = 2; k >= 0; --k) {
     reach.v[k] = axis == k ? reach_of(kFlatSteps, 1) * units.v[k] : units.v[k] / 2;
-    // The rounding error of the ends is less than the reach.
+    // The margin is twice the reach, because the ends are rounded by less than the reach.
     const D infinite = D{} + __builtin_inf(), margin = 2 * reach.v[k];
     narrowed<N>(is_sure ? p.v[k] - margin : infinite, lanes.lo[k] + i);
     narrowed<N>(is_sure ? p.v[k] + margin : -infinite, lanes.hi[k] + i);

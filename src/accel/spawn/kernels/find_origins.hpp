@@ -4,17 +4,17 @@
 namespace microtrace {
 namespace {
 
-/// Computes neighbor() for N floats.
+/// Computes neighbor() for N lanes.
 template <int N>
 inline Float<N> neighbors(const Float<N>& x, const typename FloatVector<N>::bits_type& up) {
-  using Bits = Unsigned<N>;  // -0 and NaN occur only in unused lanes, where integers wrap around
+  using Bits = Unsigned<N>;  // unsigned, because they may wrap around in unused lanes
   const Bits bits = (Bits)x, one = Bits{} + 1;
   const Bits away = (x > 0) == (up != 0) ? bits + one : bits - one;
   const Bits from_zero = up != 0 ? one : one | 0x80000000U;
   return (Float<N>)(x == 0 ? from_zero : away);
 }
 
-/// Finds N origins starting at i.
+/// Finds the origins of N lanes starting at lane i.
 template <int N>
 inline void find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int i) {
   using D = Double<N>;
@@ -37,7 +37,8 @@ inline void find_origins_of(const HitPointLanes& points, OriginLanes& lanes, int
     const Mask in_front = value > error, behind = value < -error;
     const Mask is_there = (to_front & in_front) | (to_back & behind);
     is_sure |= open & is_there;
-    // If all terms are zero, the point is on the plane, which is common on floors and walls.
+    // If all terms are zero, the point is exactly on the plane, which is common on floors and
+    // walls.
     open &= ~is_there & (in_front | behind | (permanent == 0));
     if (less<N>(__builtin_convertvector(open, Float<N>), Float<N>{}) == 0) break;
     const auto x = __builtin_convertvector(component<N>(q, axis), Float<N>);

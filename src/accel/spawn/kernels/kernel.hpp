@@ -1,7 +1,7 @@
 #pragma once
 /// Types of the kernels that compute origins of rays that leave triangles, many at a time in
-/// float64: the first steps of spawn_among(), where float64 is certain. Plain data only; see
-/// simd/vectors.hpp for the reason.
+/// float64. They perform the first steps of spawn_among() as far as float64 is certain. This header
+/// may contain only plain data, because kernels for several instruction sets include it.
 
 #include <cstdint>
 
@@ -10,35 +10,35 @@ namespace microtrace {
 inline constexpr int kSpawnLanes = 16;
 
 /// The maximum number of float32 steps by which an origin is moved off a flat surface. More are
-/// never needed: with w_k = spacing(p_k) the rounded point is at most 1/2 sum |n_k| w_k <= 3/2
-/// |n_i| w_i behind the surface, where i is the chosen axis, and a step gains |n_i| w_i, or half of
-/// that below a power of two.
+/// never needed: let w_k = spacing(p_k), and let i be the axis with the largest |n_k| w_k, along
+/// which origins are moved. The rounded point is at most 1/2 sum |n_k| w_k <= 3/2 |n_i| w_i behind
+/// the surface. A step gains |n_i| w_i, or half of that below a power of two.
 inline constexpr int kFlatSteps = 4;
 
-/// The maximum distance from p_k after such steps: a step away from 0 has length w_k, and all but
-/// the first may have twice that length.
+/// Returns an upper bound of the distance from p_k after this number of steps. The first step away
+/// from 0 has length w_k; later steps may have twice that length.
 constexpr double reach_of(int steps, double w_k) {
   return 2 * steps * w_k;
 }
 
 using SpawnFloats = float[kSpawnLanes];
 
-/// Points where rays hit triangles.
+/// The points where rays hit triangles.
 struct alignas(64) HitPointLanes {
   SpawnFloats a[3], b[3], c[3];  ///< vertices
   SpawnFloats o[3], d[3], t_min, t_max;
   // ---- set by the kernel:
-  SpawnFloats is_sure;  ///< 1 if the other results are certain; else 0
-  SpawnFloats p[3];     ///< rounded
-  SpawnFloats axis;     ///< axis along which origins are moved, 0 to 2
-  double n[3][kSpawnLanes], permanent[3][kSpawnLanes];  ///< CrossProduct
-  double reach[3][kSpawnLanes];  ///< bound of the distance of origins and the exact point from p,
-                                 ///< per axis
-  SpawnFloats lo[3], hi[3];      ///< a box around p +- reach; empty if the results are not certain
-  SpawnFloats plane_axis;        ///< the normal's axis if it is parallel to one; else -1
+  SpawnFloats is_sure;  ///< 1 if the other results are certain, otherwise 0
+  SpawnFloats p[3];     ///< rounded hit point
+  SpawnFloats axis;     ///< the axis along which origins are moved, 0 to 2
+  double n[3][kSpawnLanes], permanent[3][kSpawnLanes];  ///< the normal, as in CrossProduct
+  double reach[3][kSpawnLanes];  ///< upper bound, per axis, of the distances of origins and of the
+                                 ///< exact hit point from p
+  SpawnFloats lo[3], hi[3];      ///< a box around p +- reach; empty unless is_sure
+  SpawnFloats plane_axis;        ///< the axis to which the normal is parallel, or -1
 };
 
-/// The directions of rays that leave these points, one for each.
+/// The directions and origins of rays that leave the points of HitPointLanes, one ray per point.
 struct alignas(64) OriginLanes {
   SpawnFloats direction[3];
   // ---- set by the kernel:
