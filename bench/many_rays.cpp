@@ -1,5 +1,5 @@
-// Traces rays of a file through a mesh of files, for bench/python/compare.py: prints the processor
-// seconds of Bvh::intersect on one thread.
+// Traces rays read from a file through a mesh read from files, and prints the processor seconds of
+// Bvh::intersect on one thread. bench/python/compare.py runs this program.
 
 #include "timing.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using namespace microtrace;
 
-/// The whole file as values of type T.
+/// Reads a whole file as values of type T.
 template <class T>
 std::vector<T> read(const std::filesystem::path& path) {
   std::vector<T> values(std::filesystem::file_size(path) / sizeof(T));
@@ -43,7 +43,7 @@ double trace(const char* positions, const char* triangles, const char* rays) {
   for (const auto& r : read<std::array<float, 6>>(rays))
     all.push_back({.o = {r[0], r[1], r[2]}, .d = {r[3], r[4], r[5]}});
   std::vector<std::optional<Hit>> hits(all.size());
-  bvh.intersect(all, hits);  // so that all memory is in use
+  bvh.intersect(all, hits);  // maps all memory before the measurement
   return bench::seconds(1, [&] { bvh.intersect(all, hits); });
 }
 

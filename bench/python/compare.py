@@ -35,7 +35,8 @@ def median_times(jobs, rounds):
 
 
 def has_llvm():
-    """Older versions abort on processors with AVX-512, so the choice of one is left to the caller."""
+    """True if the caller has chosen a version of LLVM. The choice is the caller's, because older
+    versions abort on processors with AVX-512."""
     return bool(os.environ.get("DRJIT_LIBLLVM_PATH"))
 
 

@@ -26,7 +26,7 @@ def smooth_normals(vertices, faces):
 
 
 def frame(eye):
-    """Forward, right, up."""
+    """Returns the camera's unit vectors forward, right and up."""
     forward = -eye / np.linalg.norm(eye)
     right = np.cross(forward, (0, 1, 0))
     right /= np.linalg.norm(right)
@@ -149,7 +149,7 @@ def mitsuba_scalar_views(vertices, faces, uv, size):
 
 
 def mitsuba_llvm_views(vertices, faces, uv, size):
-    """Without a film, whose accumulation takes longer than the rays."""
+    """Doesn't use a film, because accumulation in a film takes longer than tracing the rays."""
     import drjit as dr
     import mitsuba as mi
 
@@ -161,7 +161,7 @@ def mitsuba_llvm_views(vertices, faces, uv, size):
 
     def render(eye):
         mi.set_variant(variant)
-        # Opaque numbers are arguments of the compiled code, which serves all views.
+        # Opaque numbers are arguments of the compiled code, so the same code serves all views.
         o, forward, right, up = (mi.Vector3f(*(dr.opaque(mi.Float, float(x)) for x in v)) for v in (eye, *frame(eye)))
         pixel = dr.arange(mi.UInt32, width * height)
         x = (mi.Float(pixel % width) + 0.5 - width / 2) * scale

@@ -29,7 +29,7 @@ class CameraRays {
     return ray;
   }
 
-  /// The rays through the centers of the tile's pixels, row by row.
+  /// Sets `rays` to the rays through the centers of the tile's pixels, row by row.
   void centers(const PixelRect& tile, std::span<Ray> rays) const {
     camera_.centers(tile.x0, tile.y0, tile.size().width, t_min_, rays);
   }

@@ -13,7 +13,7 @@ struct Row {
 };
 
 const Row& row_of(Aov aov) {
-  // In the order of Aov.
+  // Rows are in the order of Aov.
   static constexpr std::array kRows = {Row{"depth", {"Z"}, 1},
                                        Row{"distance", {"T"}, 1},
                                        Row{"position", {"X", "Y", "Z"}, 3},

@@ -45,8 +45,8 @@ AovPainter::AovPainter(const World& world, const Camera& camera, std::span<const
 
 namespace {
 
-/// Stores channels of a tile, row by row. `width` is that of the tile; it and the strides are
-/// constants in the most common cases.
+/// Stores channels of a tile, row by row. `width` is the tile's width. In the most common cases,
+/// the width and the strides are compile-time constants.
 template <std::size_t channels, class Number>
 void store(const Number* const (&values)[channels], Number* first, std::ptrdiff_t row_stride,
            auto pixel_stride, auto channel_stride, auto width, std::uint32_t height) {
@@ -60,7 +60,7 @@ void store(const Number* const (&values)[channels], Number* first, std::ptrdiff_
   }
 }
 
-/// The first value of a tile, in which (x, y) is the first pixel of the buffer.
+/// The location of the first value of a tile whose first pixel is the pixel (x, y) of the buffer.
 template <class Number>
 Number* first_of(const AovBuffer& buffer, std::ptrdiff_t x, std::ptrdiff_t y) {
   return std::get<Number*>(buffer.data) + y * buffer.row_stride + x * buffer.pixel_stride;
@@ -99,7 +99,7 @@ void store(const Sights::Values<Number>& values, const AovBuffer& buffer, Number
     store_channels({a, b, c}, buffer, first, tile);
 }
 
-/// Sets all values of a tile.
+/// Sets all values of a tile to `value`.
 template <class Number>
 void fill(Number value, const AovBuffer& buffer, Number* first, ImageSize tile) {
   const std::size_t channels = channel_count(buffer);
@@ -147,7 +147,7 @@ void AovPainter::paint(const PixelRect& tile) const {
   Sights::Values<float> numbers;
   Sights::Values<std::uint32_t> ids;
   const std::ptrdiff_t x = tile.x0 - window_.x0, y = tile.y0 - window_.y0;
-  const AovBuffer* last = nullptr;  // that of the values; often the next has the same quantity
+  const AovBuffer* last = nullptr;  // the previous buffer, which often has the same quantity
   for (const AovBuffer& buffer : buffers_) {
     if (buffer.aov == Aov::id) {
       for (std::size_t c = 0; c < ids.size(); ++c) {

@@ -15,21 +15,21 @@
 
 namespace microtrace {
 
-/// Adds the channels of these quantities to the film.
+/// Adds the channels of these quantities to the film, and returns their buffers.
 [[nodiscard]] std::vector<AovBuffer> add_channels(std::span<const Aov> aovs, Film& film);
 
 /// Any number of threads may paint disjoint tiles.
 class AovPainter {
  public:
-  /// The buffers have the pixels of `window`. All arguments must outlive this object.
+  /// The buffers must have the pixels of `window`. All arguments must outlive this object.
   AovPainter(const World& world, const Camera& camera, std::span<const AovBuffer> buffers,
              const PixelRect& window);
 
-  /// A tile of the window, at most kTileEdge pixels per side.
+  /// Renders a tile of the window. The tile has at most kTileEdge pixels per side.
   void paint(const PixelRect& tile) const;
 
  private:
-  /// A tile in which nothing is visible.
+  /// Fills a tile in which nothing is visible.
   void paint_empty(const PixelRect& tile) const;
 
   const World& world_;
@@ -37,7 +37,7 @@ class AovPainter {
   std::span<const AovBuffer> buffers_;
   AovSet aovs_;
   const PixelRect& window_;
-  PixelRect occupied_;  ///< nothing is visible outside
+  PixelRect occupied_;  ///< nothing is visible outside this rectangle
 };
 
 }  // namespace microtrace

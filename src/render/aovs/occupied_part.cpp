@@ -13,13 +13,13 @@
 namespace microtrace {
 namespace {
 
-/// The first and last pixel coordinates.
+/// The least and greatest pixel coordinates of a box.
 struct Extent {
   DVec2 least, greatest;
 };
 
-/// The extent of the box as seen by the camera. Nothing if a part of it is beside or behind the
-/// camera, where coordinates become imprecise.
+/// The extent of the box in the picture. Nothing if a part of the box is beside or behind the
+/// camera, where coordinates are imprecise.
 std::optional<Extent> extent_of(const DVec3& lo, const DVec3& hi, const RayGenerator& camera,
                                 const DVec3& position) {
   Extent extent{.least = DVec2(std::numeric_limits<double>::infinity()),
@@ -45,9 +45,9 @@ PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Bv
   const CameraModel model = rays.model();
   const DVec3 position(model.world_from_camera[3]);
 
-  // A ray's direction differs from the one through its pixel center by roundings to float32: less
-  // than 2^-23 of the length L of the vector with depth 1. In the plane at depth 1 that moves the
-  // point by less than L^2 2^-21.
+  // Because of rounding to float32, a ray's direction differs from the direction to its pixel
+  // center. For directions scaled to depth 1, which have the length L, the difference is less than
+  // 2^-23 L. It moves the intersection with the plane at depth 1 by less than L^2 2^-21.
   const DVec2 reach = glm::max(glm::abs(DVec2(window.x0, window.y0) - model.center),
                                glm::abs(DVec2(window.x1, window.y1) - model.center)) /
                       model.pixels_per_unit;
@@ -55,13 +55,13 @@ PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Bv
   const bool is_precise = square <= 0x1p20 && square * 0x1p-21 * model.pixels_per_unit.x <= 0.25;
   if (!is_precise) return window;
 
-  // The ray's origin is rounded too: moving the origin is moving the box.
+  // Rounding also moves the ray's origin. Enlarging the box by the same amount allows for this.
   const DVec3 moved = glm::abs(DVec3(Vec3(position)) - position) + glm::abs(position) * 0x1p-50;
   const auto extent =
       extent_of(DVec3(bounds->lo) - moved, DVec3(bounds->hi) + moved, rays, position);
   if (!extent) return window;
 
-  // The centers of pixels outside of the result are more than a pixel away from the extent.
+  // Centers of pixels outside the result are more than one pixel away from the extent.
   const auto limited = [](double x, std::uint32_t first, std::uint32_t last) {
     return static_cast<std::uint32_t>(std::clamp(x, double{1} * first, double{1} * last));
   };

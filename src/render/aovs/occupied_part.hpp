@@ -1,5 +1,5 @@
 #pragma once
-/// The part of a picture that a scene can cover.
+/// Finds the part of a picture that a scene can cover.
 
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
@@ -7,13 +7,13 @@
 
 namespace microtrace {
 
-/// A part of the window outside of which no ray through a pixel center hits anything; possibly
-/// empty, with x0 >= x1 or y0 >= y1. It is the whole window unless a perspective camera looks at a
-/// bounded scene from outside. `rays` are those of the camera.
+/// Returns a part of the window outside which no ray through a pixel center hits anything. It may
+/// be empty, with x0 >= x1 or y0 >= y1. It is the whole window unless a perspective camera looks at
+/// a bounded scene from outside. `rays` must be the camera's rays.
 [[nodiscard]] PixelRect occupied_part(const Camera& camera, const RayGenerator& rays,
                                       const Bvh& bvh, const PixelRect& window);
 
-/// False for empty rectangles.
+/// True if two rectangles overlap. Empty rectangles overlap nothing.
 [[nodiscard]] inline bool overlap(const PixelRect& a, const PixelRect& b) {
   return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1 && b.x0 < b.x1 && b.y0 < b.y1;
 }

@@ -17,16 +17,17 @@
 namespace microtrace {
 namespace {
 
-/// The number of samples per pixel whose first surface is evaluated: edges need no more.
+/// The number of samples per pixel whose first surface is evaluated, which suffices to antialias
+/// edges.
 constexpr std::uint32_t kMaxSights = 32;
 
 struct Row {
   std::string_view name;
-  std::string_view channels;  ///< one letter each
+  std::string_view channels;  ///< one letter per channel
 };
 
 const Row& row_of(SampledAov aov) {
-  // In the order of SampledAov.
+  // Rows are in the order of SampledAov.
   static constexpr std::array kRows = {Row{"variance", "Y"}, Row{"samples", "N"},
                                        Row{"denoise_albedo", "RGB"}, Row{"denoise_normal", "XYZ"}};
   static_assert(kRows.size() == kSampledAovs.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// Fills the film's channels of means over samples.
+/// Fills the film's channels that contain means over samples.
 
 #include "render/camera_rays.hpp"
 #include "render/samples/pixel_filter.hpp"
@@ -20,15 +20,16 @@ namespace microtrace {
 /// Any number of threads may paint disjoint tiles and set different pixels.
 class SampledAovPainter {
  public:
-  /// Adds the channels that the options request to the film, which has the pixels of `window`. All
-  /// arguments must outlive this object.
+  /// Adds the channels requested by the options to the film. The film must have the pixels of
+  /// `window`. All arguments must outlive this object.
   SampledAovPainter(const World& world, const RenderOptions& options, const PixelRect& window,
                     Film& film);
 
-  /// Sets the values from a pixel's samples; `pixel` is an index in the film.
+  /// Sets a pixel's values from its samples. `pixel` is an index in the film.
   void set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const;
 
-  /// Computes the features of a tile of the window, at most kTileEdge pixels per side.
+  /// Computes the denoising features of a tile of the window. The tile has at most kTileEdge pixels
+  /// per side.
   void paint(const PixelRect& tile) const;
 
  private:

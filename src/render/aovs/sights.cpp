@@ -32,7 +32,7 @@ Sights::Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs
       finder.find_ids(hits, surfaces_);
   };
   find();
-  // Most surfaces are visible, from both sides or from the front.
+  // Most hits are on surfaces that are visible from the ray's side.
   bool is_changed = false;
   for (std::uint64_t left = seen_; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -56,7 +56,7 @@ void Sights::values_of(Aov aov, Values<float>& values) const {
     return;
   }
   const SurfaceBatch& at = surfaces_;
-  // All lanes are computed, because that is faster than to select those with hits.
+  // Computes all lanes, because this is faster than selecting the lanes with hits.
   const auto set = [&](std::size_t channels, const auto& value) {
     for (std::size_t c = 0; c < channels; ++c) {
       for (std::size_t i = 0; i < kSize; ++i) values[c][i] = value(c, i);

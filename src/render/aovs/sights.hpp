@@ -1,5 +1,5 @@
 #pragma once
-/// The first visible surfaces of rays, and their exact quantities.
+/// Finds the first visible surfaces of rays, and computes exact quantities there.
 
 #include "scene/kernels/kernel.hpp"
 
@@ -17,7 +17,7 @@
 
 namespace microtrace {
 
-/// Quantities to compute.
+/// The set of quantities to compute.
 class AovSet {
  public:
   AovSet() = default;
@@ -27,7 +27,7 @@ class AovSet {
 
   void add(Aov aov) { bits_ |= bit(aov); }
   [[nodiscard]] bool has(Aov aov) const { return (bits_ & bit(aov)) != 0; }
-  /// Whether any quantity needs the surface, rather than the hit.
+  /// True if any quantity needs the surface at the hit, not only the hit.
   [[nodiscard]] bool needs_surfaces() const {
     return (bits_ & ~(bit(Aov::id) | bit(Aov::albedo))) != 0;
   }
@@ -48,20 +48,20 @@ class Sights {
  public:
   static constexpr std::size_t kSize = kMaxBatch;
   template <class T>
-  using Values = std::array<std::array<T, kSize>, 3>;  ///< by channel and ray
+  using Values = std::array<std::array<T, kSize>, 3>;  ///< indexed by channel and ray
 
   /// The rays must outlive this object.
   Sights(const World& world, std::span<const Ray> rays, const AovSet& aovs);
 
-  /// Whether no ray hits anything visible. All values are then value_of_nothing().
+  /// True if no ray hits anything visible. All values are then value_of_nothing().
   [[nodiscard]] bool is_empty() const { return seen_ == 0; }
   /// False if the ray hits nothing that is visible.
   [[nodiscard]] bool is_seen(std::size_t ray) const { return (seen_ >> ray & 1U) != 0; }
 
-  /// All quantities but id, which must be in the set.
+  /// Computes the values of a quantity other than id. The quantity must be in the set.
   void values_of(Aov aov, Values<float>& values) const;
 
-  /// The ids of instance (channel 0), primitive or material.
+  /// Computes the ids of instances (channel 0), primitives (1) or materials (2).
   void ids(std::size_t channel, std::array<std::uint32_t, kSize>& values) const;
 
  private:

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A color for an id, never dark; a bit mixer gives consecutive ids different colors (S. Vigna's
-/// SplitMix64).
+/// A color for an id. It is never dark. A bit mixer, S. Vigna's SplitMix64, gives consecutive ids
+/// different colors.
 Vec3 color_of_id(std::uint32_t id) {
   std::uint64_t x = id * std::uint64_t{0x9E3779B97F4A7C15};
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9;
@@ -35,7 +35,7 @@ void for_each_pixel(const Film& film, F&& f) {
   }
 }
 
-/// 1 for the nearest, 0.2 for the farthest.
+/// Maps the nearest value to 1 and the farthest to 0.2.
 Display of_lengths(const Film& film) {
   float nearest = kInfinity, farthest = -kInfinity;
   for_each_pixel(film, [&](const Vec3& value) {
@@ -53,7 +53,7 @@ Display of_lengths(const Film& film) {
 Display of_positions(const Film& film) {
   Vec3 low(kInfinity), high(-kInfinity);
   for_each_pixel(film, [&](const Vec3& value) {
-    if (value == Vec3(0)) return;  // most likely no surface
+    if (value == Vec3(0)) return;  // most likely the ray hits no surface
     low = glm::min(low, value);
     high = glm::max(high, value);
   });

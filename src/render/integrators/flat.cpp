@@ -10,16 +10,17 @@
 namespace microtrace {
 namespace {
 
-/// The minimum remaining transparency; smaller contributions could not change a float32.
+/// Compositing stops below this remaining transparency, because smaller contributions could not
+/// change a float32.
 constexpr double kLeastLight = 0x1p-25;
 
-/// The hits at the current depth, which avoids counting a surface once for each triangle that
-/// shares the hit point.
+/// The hits at the current depth. They are collected so that a surface counts only once if several
+/// of its triangles share the hit point.
 class Depth {
  public:
   explicit Depth(const World& world, const Ray& ray) : surfaces_(world.surfaces), ray_(ray) {}
 
-  /// Whether the hit is on a surface not yet seen at this depth. Hits must be passed in order.
+  /// True if no hit at this depth is on the same surface. Hits must be passed in order.
   bool is_new(const Hit& hit) {
     if (count_ > 0 && hits_[0].t != hit.t) count_ = 0;
     const auto known = std::span(hits_).first(count_);
@@ -36,12 +37,12 @@ class Depth {
   std::size_t count_ = 0;
 };
 
-/// Composites the surfaces from `first` on, each over those behind it (T. Porter and T. Duff,
-/// Compositing digital images, 1984).
+/// Composites the surfaces along the ray, starting at `first`, each over the surfaces behind it (T.
+/// Porter and T. Duff, Compositing digital images, 1984).
 Sample composite(const World& world, const Ray& ray, const Hit& first) {
   std::optional<Hit> hit = first;
   DVec3 color(0);
-  double through = 1;  // transparency of the surfaces so far
+  double through = 1;  // transparency of the surfaces composited so far
   Depth depth(world, ray);
   while (hit) {
     if (depth.is_new(*hit)) {

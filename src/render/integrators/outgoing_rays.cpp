@@ -6,7 +6,8 @@ std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
                                         const Paths& paths) {
   bvh.spawn_origins(std::span(spawns_).first(spawn_count_),
                     std::span(origins_).first(spawn_count_));
-  // Drops rays without an origin: there is no float32 point between two walls.
+  // Drops rays without an origin. A ray between two walls has none if no float32 point lies between
+  // them.
   for (std::size_t i = 0; i < shadow_count_; ++i) {
     const Bvh::Spawn& spawn = spawns_[shadow_spawns_[i]];
     if (const auto& origin = origins_[shadow_spawns_[i]])

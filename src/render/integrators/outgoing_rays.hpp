@@ -1,5 +1,5 @@
 #pragma once
-/// Rays that leave surfaces, whose origins are computed in batches, which is faster.
+/// Collects rays that leave surfaces, because computing their origins in batches is faster.
 
 #include "render/integrators/path_state.hpp"
 #include "render/integrators/shadow_rays.hpp"
@@ -16,21 +16,24 @@
 
 namespace microtrace {
 
-/// Each path has at most one shadow ray and one next ray. A large object.
+/// The shadow rays and next rays of a bounce. Each path has at most one of each. This is a large
+/// object.
 class OutgoingRays {
  public:
-  /// `ray` must remain valid until spawn_origins(), and must have this hit.
+  /// Adds a shadow ray. `hit` must be a hit of `ray`, which must remain valid until
+  /// spawn_origins().
   void add_shadow(const Ray& ray, const Hit& hit, const LightSample& light, const Vec3& color,
                   std::size_t slot) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    // A punctual light is at t = 1; an emissive triangle is hit approximately there.
+    // A punctual light is at t = 1. An emissive triangle is hit at about t = 1.
     const float t_max = light.is_far || light.target ? kInfinity : 1;
     shadow_spawns_[shadow_count_] = spawn(ray, hit, light.to_light);
     shadows_[shadow_count_++] = {
         .color = color, .t_max = t_max, .slot = slot, .target = light.target};
   }
 
-  /// The state of the path that continues in this direction, to be filled in.
+  /// Adds the next ray of a path, in this direction. Returns the path's state, which the caller
+  /// must fill in.
   [[nodiscard]] PathState& add_path(const Ray& ray, const Hit& hit, const Vec3& direction) {
     path_spawns_[path_count_] = spawn(ray, hit, direction);
     return paths_[path_count_++];
@@ -42,7 +45,7 @@ class OutgoingRays {
     std::span<PrimitiveId> left;
     std::span<PathState> states;
   };
-  /// Computes the origins; rays without an origin are dropped. Returns the number of remaining path
+  /// Computes the origins and drops rays without an origin. Returns the number of remaining path
   /// rays.
   std::size_t spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays, const Paths& paths);
 

@@ -10,7 +10,8 @@
 
 namespace microtrace {
 
-/// Wavefronts that no thread uses at present: creating one takes as long as a tenth of its work.
+/// Wavefronts that no thread is using. They are kept because creating one takes as long as a tenth
+/// of its work.
 class PathIntegrator::Waves {
  public:
   std::unique_ptr<Wave> take() {

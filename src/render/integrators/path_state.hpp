@@ -17,23 +17,23 @@ struct PathState {
   sampling::Sobol sobol{};
   std::size_t slot = 0;  ///< index in the batch
   Vec3 throughput{1};
-  float pdf = 0;                ///< pdf of its last direction; 0: from the camera
-  LightSampleContext from{};    ///< the previous vertex
-  Vec3 absorption{0};           ///< of the current medium, in powers of two per length
-  int channel = 3;              ///< color channel in a dispersive medium, 0 to 2; 3: all
+  float pdf = 0;              ///< pdf of the last direction; 0 for camera rays
+  LightSampleContext from{};  ///< the previous vertex
+  Vec3 absorption{0};         ///< absorption of the current medium, in powers of two per length
+  int channel = 3;            ///< color channel in a dispersive medium, 0 to 2; 3 for all channels
   float begin = 0, spread = 0;  ///< footprint width at the origin, and growth with distance
 };
 
-/// Common to all paths of a wavefront at one bounce.
+/// Parameters common to all paths of a wavefront at one bounce.
 struct WaveStep {
-  std::uint32_t depth = 1;  ///< number of the current path segment, from 1
+  std::uint32_t depth = 1;  ///< number of the current path segment, counted from 1
   float sample_width = 1;   ///< distance between samples, in pixels
 
-  /// The number of this pair of random numbers at this bounce.
+  /// The number of the pair of random numbers `which` at this bounce.
   [[nodiscard]] std::uint32_t pair(std::uint32_t which) const {
     return sampling::kFirstVertexPair + (depth - 1) * sampling::kVertexPairs + which;
   }
-  /// Maximum survival probability of Russian roulette; 1: no roulette.
+  /// Maximum survival probability of Russian roulette; 1 disables it.
   [[nodiscard]] float most_survival() const { return depth >= kFirstRoulette ? 0.95F : 1; }
   /// Growth of the path's footprint after scattering with this pdf: a quarter of the mean sample
   /// spacing, too small to blur visibly.

@@ -18,15 +18,15 @@ void ShadowRays::Group::add(const Shadow& shadow, const Ray& ray, PrimitiveId su
 
 namespace {
 
-/// The fraction of the light that passes all surfaces before t_max or the target; `beyond` counts
-/// the calls of Bvh::next.
+/// The fraction of light that passes all surfaces before t_max or the target. `beyond` counts the
+/// calls of Bvh::next.
 float transmittance(const Bvh& bvh, const Shading& shading, bool passes_backs, const Ray& ray,
                     std::optional<Hit> hit, const std::optional<PrimitiveId>& target,
                     std::uint64_t& beyond) {
   float transmittance = 1;
   while (hit && hit->id != target) {
     const ShadingPoint point = shading.point(ray, *hit);
-    // A front that the ray hits is hit from behind by the light.
+    // If the ray hits a front, the light comes from behind it.
     if (!(passes_backs && Shading::lets_light_in(point)))
       transmittance *= 1 - shading.coverage(point, false);
     if (transmittance == 0) return 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Shadow rays, and the light that arrives.
+/// Traces shadow rays and adds the light that arrives.
 
 #include "render/shading/shading.hpp"
 
@@ -15,7 +15,7 @@
 
 namespace microtrace {
 
-/// Shadow rays, traced in batches.
+/// A batch of shadow rays.
 class ShadowRays {
  public:
   /// A shadow ray, and the light that is added to colors[slot] if it is not occluded.
@@ -26,18 +26,19 @@ class ShadowRays {
     std::optional<PrimitiveId> target;  ///< the emissive surface at which the ray ends
   };
 
-  /// Adds a ray with a spawned origin on the primitive that it leaves. At most kRandomBatch rays.
+  /// Adds a ray that leaves the primitive `left` from a spawned origin. There may be at most
+  /// kRandomBatch rays.
   void add(const Shadow& shadow, const Vec3& origin, const Vec3& direction, PrimitiveId left);
 
   [[nodiscard]] std::size_t count() const { return free_.count + aimed_.count; }
 
-  /// Adds the light that arrives to the colors and clears the rays. Returns the number of calls of
-  /// Bvh::next.
+  /// Traces the rays, adds the light that arrives to the colors, and clears the rays. Returns the
+  /// number of calls of Bvh::next.
   std::uint64_t trace(const Bvh& bvh, const Shading& shading, Backfaces backfaces,
                       std::span<Vec3> colors);
 
  private:
-  /// A group of rays that all end at an emissive surface, or that all have no such end.
+  /// A group of rays that all have a target, or that all have none.
   struct Group {
     std::size_t count = 0;
     std::array<Ray, kRandomBatch> rays;

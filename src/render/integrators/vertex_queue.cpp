@@ -34,8 +34,8 @@ void put_map(NormalMapLanes& lanes, int lane, const ShadingPoint& point, const T
   lanes.scale[lane] = scale;
 }
 
-/// The weight of a path that crosses the surface: 3 for one channel and 0 for the others if a
-/// dispersive surface reduces the path to this channel.
+/// The weight of a path that crosses the surface. If a dispersive surface reduces the path to one
+/// channel, the weight is 3 for this channel and 0 for the others.
 Vec3 through_weight(const Vertex& vertex) {
   if (vertex.path.channel == vertex.channel) return Vec3(1);
   Vec3 weight(0);

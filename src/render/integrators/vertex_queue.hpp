@@ -1,5 +1,6 @@
 #pragma once
-/// Path vertices wait here until there are sixteen of the same kind for the shading kernels.
+/// Queues of path vertices. The shading kernels process sixteen vertices of the same kind at a
+/// time.
 
 #include "render/bsdf/parameters.hpp"
 #include "render/integrators/outgoing_rays.hpp"
@@ -22,39 +23,39 @@ struct Vertex {
   const Hit& hit;
   const ShadingPoint& point;
   const PathState& path;
-  int channel;      ///< color channel for refraction by a dispersive surface; 3: all
-  Vec3 absorption;  ///< below the surface
+  int channel;      ///< color channel for refraction by a dispersive surface; 3 for all channels
+  Vec3 absorption;  ///< absorption below the surface
 };
 
-/// The parameters of all paths of a bounce.
+/// The kernel parameters that all paths of a bounce share.
 [[nodiscard]] ScatterSetup scatter_setup(const WaveStep& step, const bsdf::Features& features);
 
-/// Vertices on surfaces with the same features.
+/// A queue of vertices on surfaces with the same features.
 class VertexQueue {
  public:
   VertexQueue(const bsdf::Features& features, const ShadingKernels& kernels)
       : features_(features), kernels_(kernels) {}
 
-  /// Clears light samples of the last scene if this one samples no lights.
+  /// Clears the light samples of the previous scene if this lighting samples no lights.
   void begin(const Lighting& lighting);
 
-  /// The vertex's ray and path must remain valid until the bounce is finished.
+  /// Adds a vertex. Its ray and path must remain valid until the bounce is finished.
   void add(const Vertex& vertex, const bsdf::Parameters& parameters, const bsdf::Layers& layers);
 
   [[nodiscard]] bool is_full() const { return count_ == kShadingLanes; }
 
-  /// Samples all vertices in the queue, and empties it.
+  /// Samples light and next directions of all vertices, and empties the queue.
   void finish(const WaveStep& step, const Lighting& lighting, OutgoingRays& outgoing);
 
  private:
-  /// The data that the next vertex of a path needs.
+  /// The data of a vertex that are needed to continue its path.
   struct PendingVertex {
     const Ray* ray;
     Hit hit;
     const PathState* path;
     float width;
     int channel;
-    Vec3 absorption;  ///< below the surface
+    Vec3 absorption;  ///< absorption below the surface
   };
 
   void add_normal_maps(int lane, const ShadingPoint& point);
@@ -74,21 +75,21 @@ class VertexQueue {
   ScatterLanes scatter_{};
 };
 
-/// The queues of all kinds.
+/// The queues of all kinds of vertices.
 class VertexQueues {
  public:
   VertexQueues();
 
   void begin(const Shading& shading, const Lighting& lighting);
   void add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing);
-  /// Finishes the bounce.
+  /// Processes the remaining vertices of the bounce.
   void finish(const WaveStep& step, OutgoingRays& outgoing);
 
  private:
   const ShadingKernels& kernels_;
   const Shading* shading_ = nullptr;
   const Lighting* lighting_ = nullptr;
-  std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by index()
+  std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by Features::index()
 };
 
 }  // namespace microtrace

@@ -13,7 +13,7 @@
 namespace microtrace {
 namespace {
 
-/// Transmittance of a medium.
+/// The transmittance of a medium over a distance.
 Vec3 transmittance(const Vec3& absorption, float distance) {
   Vec3 left(1);
   for (int c = 0; c < 3; ++c) {
@@ -23,7 +23,7 @@ Vec3 transmittance(const Vec3& absorption, float distance) {
   return left;
 }
 
-/// Counts rays, and measures the time of its lifetime.
+/// Counts rays, and adds the time from construction to destruction.
 class RayTimer {
  public:
   RayTimer(RayCounts::Kind& kind, std::size_t rays) : kind_(kind) { kind.rays += rays; }

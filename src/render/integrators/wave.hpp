@@ -21,49 +21,51 @@
 
 namespace microtrace {
 
-/// A large object: created once for many batches.
+/// A wavefront. This is a large object that is created once for many batches.
 class Wave {
  public:
   Wave();
 
-  /// Traces a path for each ray to its end; at most kRandomBatch.
+  /// Traces a path to its end for each ray. There may be at most kRandomBatch rays.
   void trace(const World& world, const PathOptions& options, std::span<const Ray> rays,
              std::span<const SampleId> ids, std::span<Sample> samples);
 
-  /// The counts since the last call.
+  /// Returns the counts since the last call.
   [[nodiscard]] RayCounts take_counts() { return std::exchange(counts_, {}); }
 
  private:
   void begin(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids);
-  /// Sets the point's footprint and texel address.
+  /// Sets the footprint and the texel address of a point on path i.
   void prepare(std::size_t i, ShadingPoint& point);
-  /// Whether the path's current segment ends at a point, chosen at random for partial opacity.
+  /// True if the path's current segment ends at the point. This is a random choice if the point is
+  /// partially opaque.
   [[nodiscard]] bool stops(const PathState& path, const ShadingPoint& point,
                            std::uint32_t layer) const;
-  /// The next hit of path i behind `hit`; updates the point.
+  /// Finds the next hit of path i behind `hit`, and sets `point` to its shading point.
   [[nodiscard]] std::optional<Hit> next(std::size_t i, const Hit& hit, ShadingPoint& point);
-  /// The source of light that arrives from behind through the surfaces that path i's ray hits.
+  /// The source of the light that arrives from behind through surfaces whose backs pass light.
   struct Behind {
-    bool is_open = false;      ///< the environment
-    std::optional<Hit> hit{};  ///< an emissive surface
-    ShadingPoint point{};      ///< its shading point
+    bool is_open = false;      ///< true if the source is the environment
+    std::optional<Hit> hit{};  ///< the hit if the source is an emissive surface
+    ShadingPoint point{};      ///< the hit's shading point
   };
-  /// Looks for light from behind, if the ray hits the front of a one-sided surface, its layer with
-  /// number `layer`. The result is empty if no light arrives.
+  /// Looks for light from behind if path i's ray hits the front of a one-sided surface. `first`,
+  /// `point` and `layer` are the hit, its shading point and the number of its layer. The result is
+  /// empty if no light arrives.
   [[nodiscard]] Behind look_behind(std::size_t i, const Hit& first, ShadingPoint point,
                                    std::uint32_t layer);
-  /// Advances path i, whose ray hits `point`, if anything.
+  /// Advances path i by one bounce. `point` is the shading point of its ray's hit, if any.
   void step(std::size_t i, ShadingPoint& point);
-  /// Advances all paths.
+  /// Advances all paths by one bounce.
   void step();
   /// Sets the footprint of a camera path.
   void widen(const Ray& ray, PathState& path) const;
   void escape(const Ray& ray, const PathState& path);
-  /// The color channel with which a path continues through the surface, chosen at random if it has
-  /// all channels.
+  /// The color channel with which a path continues through the surface. At a dispersive surface, a
+  /// path with all channels chooses one at random.
   [[nodiscard]] int channel_of(const Material& material, const PathState& path) const;
 
-  // State of the current batch:
+  // The state of the current batch.
   RayCounts counts_{};
   const World* world_ = nullptr;
   const Shading* shading_ = nullptr;
@@ -77,7 +79,8 @@ class Wave {
   HitLanes hit_lanes_{};
   std::size_t count_ = 0;
   std::array<Ray, kRandomBatch> rays_;
-  std::array<PrimitiveId, kRandomBatch> left_;  // by the rays, except for camera rays
+  // The primitives that the rays leave; not set for camera rays.
+  std::array<PrimitiveId, kRandomBatch> left_;
   std::array<PathState, kRandomBatch> paths_;
   std::array<std::optional<Hit>, kRandomBatch> hits_;
   std::array<Vec3, kRandomBatch> colors_;

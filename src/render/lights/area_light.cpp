@@ -28,13 +28,13 @@ struct Flat {
   double area = 0;
 };
 
-/// Has no area if v is zero.
+/// Makes an emitter with the normal direction v. Its area is 0 if v is zero.
 Flat flat(const DVec3& v, double area) {
   const double length = std::sqrt(glm::dot(v, v));
   if (!(length > 0) || !std::isfinite(length)) return {};
   return {.n = Vec3(v / length), .area = area};
 }
-/// Perpendicular to the triangle; its length is twice the area.
+/// A vector perpendicular to the triangle. Its length is twice the area.
 DVec3 area_vector(const Triangle& t) {
   return glm::cross(DVec3(t.b) - DVec3(t.a), DVec3(t.c) - DVec3(t.a));
 }
@@ -60,8 +60,8 @@ DVec3 point_of(const Triangle& s, const Vec3&, const Vec2& u) {
 /// The cone of directions from p to a sphere.
 struct Cone {
   Vec3 axis{0, 0, 1};
-  double distance = 0;  ///< to the center
-  double height = 0;    ///< 1 - cos(angle); 0: p is inside the sphere
+  double distance = 0;  ///< distance to the center
+  double height = 0;    ///< 1 - cos(half angle); 0 if p is inside the sphere
 
   Cone(const Sphere& s, const Vec3& p) {
     const DVec3 to_light = DVec3(s.center) - DVec3(p);

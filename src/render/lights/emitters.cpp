@@ -16,7 +16,8 @@
 namespace microtrace {
 namespace {
 
-/// Bytes for each emitter: its entry, its bounds and its tree nodes, including unused capacity.
+/// The bytes that each emitter needs for its entry, bounds and tree nodes, including unused
+/// capacity.
 constexpr std::uint64_t kBytesOfEmitter = 276;
 
 void take_memory_for_emitters(std::uint64_t count) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The light sources of a scene other than its environment: emissive surfaces, punctual lights.
+/// The emissive surfaces and punctual lights of a scene.
 
 #include "render/kernels/light_lanes.hpp"
 #include "render/lights/light_sample.hpp"
@@ -20,48 +20,49 @@ namespace microtrace {
 /// The shading point for which light is sampled.
 struct LightSampleContext {
   Vec3 p{0};
-  Vec3 n{0, 0, 1};  ///< unit normal, on either side
+  Vec3 n{0, 0, 1};  ///< unit normal on either side
 };
 
 /// Immutable; any number of threads may use it.
 class Emitters {
  public:
-  /// Scene and shading must outlive this.
+  /// `scene` and `shading` must outlive this object.
   Emitters(const Scene& scene, const Shading& shading);
 
-  /// Whether there are lights at a finite distance: surfaces, point lights and spots.
+  /// True if there are lights at a finite distance: emissive surfaces, point lights or spot lights.
   [[nodiscard]] bool has_near() const { return tree_.has_value(); }
   [[nodiscard]] bool has_surfaces() const { return surfaces_ > 0; }
-  /// Whether there are directional lights.
+  /// True if there are directional lights.
   [[nodiscard]] bool has_far() const { return !far_lights_.empty(); }
 
-  /// The input for selecting lights, without an environment.
+  /// The input for selecting lights, without the environment.
   [[nodiscard]] LightChoiceSetup choice_setup() const {
     return {
         .nodes = tree_ ? tree_->nodes() : nullptr, .has_far = has_far(), .far_light = far_light_};
   }
 
-  /// Samples the directional lights; `choice` in [0, 1), and `probability` is that of sampling them
-  /// instead of other lights.
+  /// Samples the directional lights. `choice` is in [0, 1). `probability` is the probability of
+  /// sampling directional lights instead of other lights.
   [[nodiscard]] std::optional<LightSample> sample_far(const Vec3& p, float choice,
                                                       double probability) const;
 
-  /// Whether a near light is a triangle of a mesh.
+  /// True if a near light is a triangle of a mesh.
   [[nodiscard]] bool is_triangle(std::uint32_t light) const {
     return emitters_[light].light == kNone && emitters_[light].shape == nullptr;
   }
   /// Sets the kernel's input for sampling a triangle with lanes.u.
   void put_triangle(std::uint32_t light, int lane, TriangleLights<kShadingLanes>& lanes) const;
   [[nodiscard]] PrimitiveId primitive(std::uint32_t light) const { return emitters_[light].id; }
-  /// Samples a near light that is not a triangle of a mesh; u selects a point on it.
+  /// Samples a near light that is not a triangle of a mesh. u selects a point on it. `probability`
+  /// is the probability of selecting this light.
   [[nodiscard]] std::optional<LightSample> sample_near(std::uint32_t light, const Vec3& p,
                                                        const Vec2& u, double probability) const;
 
   /// The index of an emissive surface among the lights; nothing for other primitives.
   [[nodiscard]] std::optional<std::size_t> find(PrimitiveId id) const;
-  /// The pdf per solid angle with which sample_near() returns a point of this surface at this
-  /// distance from the context's point. `cosine`, above 0, is that of the angle to the surface's
-  /// normal.
+  /// The pdf, per solid angle, with which light sampling returns a point of this surface at this
+  /// distance from the context's point. `cosine` is the cosine of the angle to the surface normal;
+  /// it must be positive.
   [[nodiscard]] float pdf(std::size_t light, const LightSampleContext& context, float distance,
                           float cosine, double probability) const;
 
@@ -71,9 +72,9 @@ class Emitters {
   /// A triangle of a mesh, a single shape, or a near light of Scene::lights.
   struct Emitter {
     PrimitiveId id = 0;
-    std::uint32_t light = kNone;   ///< kNone for surfaces
-    double area = 0;               ///< of a triangle of a mesh
-    const Shape* shape = nullptr;  ///< of a single shape
+    std::uint32_t light = kNone;   ///< index into Scene::lights; kNone for surfaces
+    double area = 0;               ///< area of a triangle of a mesh
+    const Shape* shape = nullptr;  ///< the shape if it is not a mesh
   };
 
   void add_surfaces(std::vector<LightBounds>& bounds);
@@ -86,9 +87,9 @@ class Emitters {
   const Scene& scene_;
   const Shading& shading_;
   std::vector<std::uint32_t> far_lights_;  // indices into Scene::lights
-  std::vector<Emitter> emitters_;          // surfaces first, by id
+  std::vector<Emitter> emitters_;          // emissive surfaces first, sorted by id
   std::size_t surfaces_ = 0;
-  std::optional<LightTree> tree_;  // of the emitters
+  std::optional<LightTree> tree_;  // tree of the emitters
   double far_light_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The hits of mesh triangles in lanes, and the points that kernels compute from them. Not to be
-/// included by the kernels' own translation units.
+/// Converts hits of mesh triangles to lanes, and lanes to the points that kernels have computed.
+/// The kernels' own translation units must not include this header.
 
 #include "render/kernels/kernel.hpp"
 #include "render/kernels/lane_access.hpp"
@@ -37,7 +37,7 @@ void put_hit(HitArrays<width>& lanes, int lane, const Ray& ray, const Hit& hit, 
   put_attributes(lanes, lane, mesh, corners);
 }
 
-/// Sets the attributes that interpolate() computes; at.mesh must be set.
+/// Sets the attributes that interpolate() computes. at.mesh must be set.
 template <int width>
 void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.n = got(lanes.n, lane);
@@ -47,8 +47,8 @@ void get_attributes(const HitArrays<width>& lanes, int lane, SurfacePoint& at) {
   at.uv_scale = is_textured ? lanes.uv_scale[lane] : 0;
 }
 
-/// Sets all members that find_points() computes; at.mesh and at.corners must be set. Triangles that
-/// are edge-on or have no area are rare; interact() computes their points.
+/// Sets all members that find_points() computes. at.mesh and at.corners must be set. Points of
+/// triangles that are edge-on or have no area, which are rare, are computed by interact().
 template <int width>
 void get_point(const HitArrays<width>& lanes, int lane, const Primitives& primitives,
                const Ray& ray, const Hit& hit, SurfacePoint& at) {

@@ -14,16 +14,16 @@ namespace {
 
 const Material kNoMaterial{};
 
-/// Reflectance at normal incidence of a dielectric with this index of refraction in air; 0 means
-/// infinity.
+/// Reflectance at normal incidence of a dielectric with this index of refraction in air. 0 stands
+/// for an infinite index.
 float head_on_reflectance(float ior) {
   if (ior == 0) return 1;
   const float r = (ior - 1) / (ior + 1);
   return r * r;
 }
 
-/// Whether light passes the back in any case: one-sided thin glass is one wall to a path that
-/// enters and leaves, not two, as it is to the camera.
+/// True if light passes the back regardless of options. A path that enters and leaves one-sided
+/// thin glass crosses one wall instead of two, just as camera rays do.
 bool is_thin_glass(const Material& m) {
   return m.transmission && !has_back(m);
 }
@@ -32,7 +32,7 @@ bool is_missing_back(const ShadingPoint& point) {
   return !point.at.front && !has_back(*point.look->material);
 }
 
-/// KHR_materials_dispersion: the index for red, green or blue.
+/// The index of refraction for red, green or blue according to KHR_materials_dispersion.
 float dispersed(float ior, float dispersion, int channel) {
   const float half_spread = (ior - 1) * 0.025F * dispersion;
   return std::max(ior + static_cast<float>(channel - 1) * half_spread, 1.0F);
@@ -50,7 +50,7 @@ Shading::Shading(const Scene& scene, const Primitives& primitives, SharedTables&
                          !material.diffuse_transmission;
     const bool is_textured = std::ranges::any_of(
         look.slots, [](const TextureSlot& slot) { return slot.map != nullptr; });
-    // Anisotropy depends on tangents, the boundary of a medium on the side.
+    // Anisotropy depends on tangents, and the boundary of a medium on the side of the ray.
     if (is_textured || material.anisotropy || encloses_medium(material)) return;
     const ShadingPoint anywhere{.at = {}, .look = &look};
     look.constant.emplace(parameters(anywhere, 3), layers(anywhere));

@@ -24,11 +24,12 @@ struct ShadingPoint;
 
 /// A use of a texture by a material.
 struct TextureSlot {
-  const TextureMap* map = nullptr;  ///< null: white
+  const TextureMap* map = nullptr;  ///< null if there is no texture
   const TextureUse* use = nullptr;
-  bool shares_address = false;  ///< whether its texel address is that of TexturedMaterial::layout
+  /// True if its texel address equals that of TexturedMaterial::layout.
+  bool shares_address = false;
 
-  /// The linear texel value; white without a texture.
+  /// The linear texel value; white if there is no texture.
   [[nodiscard]] Vec4 at(const ShadingPoint& point) const {
     return map == nullptr ? Vec4(1) : look_up(point);
   }
@@ -38,7 +39,7 @@ struct TextureSlot {
   [[nodiscard]] Vec4 look_up(const ShadingPoint& point) const;
 };
 
-/// What a BSDF needs to know about a point.
+/// The input of a BSDF at a point.
 struct BsdfInput {
   bsdf::Parameters parameters;
   bsdf::Layers layers;
@@ -57,13 +58,14 @@ struct TexturedMaterial {
 
   const Material* material = nullptr;
   std::array<TextureSlot, static_cast<std::size_t>(MaterialTexture::count)> slots{};
-  /// The slot whose texel address is reused by every slot with shares_address; often by all.
+  /// The slot whose texel address is reused by every slot with shares_address. Often these are all
+  /// slots.
   TextureSlot layout{};
-  Vec3 absorption{0};  ///< of the enclosed medium, in powers of two per length
-  /// Whether the emitted radiance is the same everywhere on the front, without transparency.
+  Vec3 absorption{0};  ///< absorption of the enclosed medium, in powers of two per length
+  /// True if the emitted radiance is the same everywhere on the front, and no part is transparent.
   bool has_constant_emission = false;
-  bool has_open_back = false;  ///< whether Backfaces::pass lets light through the back
-  /// The BSDF's input, if it is the same everywhere except where vertices have colors.
+  bool has_open_back = false;  ///< true if Backfaces::pass lets light pass through the back
+  /// The BSDF's input if it is the same everywhere on meshes without vertex colors.
   std::optional<BsdfInput> constant{};
 
   [[nodiscard]] TextureSlot& operator[](MaterialTexture texture) {
@@ -80,17 +82,17 @@ struct TexturedMaterial {
 struct ShadingPoint {
   SurfacePoint at;
   const TexturedMaterial* look = nullptr;
-  float width = 0;  ///< in world space
-  /// The texel address of the slots that share it, if computed.
+  float width = 0;  ///< footprint width in world space
+  /// The texel address that slots share, if it has been computed.
   std::optional<TextureMap::TexelAddress> texel_address{};
 };
 
-/// Whether light is refracted at the surface (KHR_materials_volume).
+/// True if the surface encloses a medium, so that light is refracted (KHR_materials_volume).
 [[nodiscard]] inline bool encloses_medium(const Material& m) {
   return m.transmission && m.volume && m.volume->thickness > 0;
 }
 
-/// Whether the back of the material is visible: from behind, or from inside its medium.
+/// True if the back of the material is visible, from behind or from inside its medium.
 [[nodiscard]] inline bool has_back(const Material& m) {
   return m.double_sided || encloses_medium(m);
 }
@@ -98,23 +100,23 @@ struct ShadingPoint {
 class SharedTables;
 class TextureMaps;
 
-/// Created once per picture; may be used by any number of threads.
+/// Evaluates materials. Created once per picture. Any number of threads may use it.
 class Shading {
  public:
   /// All arguments must outlive this object.
   Shading(const Scene& scene, const Primitives& primitives, SharedTables& tables);
   ~Shading();
 
-  /// `hit` must be a hit of `ray`. The width is set to 0.
+  /// The shading point of `hit`, which must be a hit of `ray`. Its width is set to 0.
   [[nodiscard]] ShadingPoint point(const Ray& ray, const Hit& hit) const;
-  /// The same for up to kShadingLanes hits; points without a hit are unchanged. `lanes` is working
-  /// memory of the kernel.
+  /// Sets the shading points of up to kShadingLanes hits. Points without a hit remain unchanged.
+  /// `lanes` is working memory of the kernel.
   void points(const ShadingKernels& kernels, std::span<const Ray> rays,
               std::span<const std::optional<Hit>> hits, HitLanes& lanes,
               std::span<ShadingPoint> points) const;
 
-  /// A point of a mesh triangle without a ray, for emission. Emission is constant on other shapes,
-  /// so their points have only a side.
+  /// A point on a mesh triangle without a ray, for evaluating emission. For other shapes, on which
+  /// emission is constant, only the side is set.
   [[nodiscard]] ShadingPoint point_on(PrimitiveId id, const Vec3& barycentrics, bool front,
                                       float width) const;
 
@@ -132,31 +134,31 @@ class Shading {
     return *looks_[entries_[primitives_.object_index(id)].look].material;
   }
 
-  /// Computes the texel address that the point's textures share, and prefetches the texels.
+  /// Computes the texel address that textures share at the point, and prefetches the texels.
   static void find_texel_address(ShadingPoint& point);
 
-  /// The opacity at the point: from the base color's alpha if the material uses it. For camera
+  /// The opacity at the point. It is the base color's alpha if the material uses alpha. For camera
   /// rays, one-sided surfaces are transparent from behind.
   [[nodiscard]] float coverage(const ShadingPoint& point, bool from_camera) const;
 
-  /// Whether coverage() is 1 for every point of all materials, from both sides, except for camera
-  /// rays.
+  /// True if coverage() is 1 everywhere on all materials, from both sides, for rays other than
+  /// camera rays.
   [[nodiscard]] bool all_cover() const { return all_cover_; }
 
-  /// Whether light arrives through the surface on the point's side if backs pass light: the front
-  /// of a one-sided surface that is neither emissive nor transmissive.
+  /// True if light arrives through the surface on the point's side when backs pass light. This is
+  /// the case on the front of a one-sided surface that is neither emissive nor transmissive.
   [[nodiscard]] static bool lets_light_in(const ShadingPoint& point) {
     return point.at.front && point.look->has_open_back;
   }
-  /// Whether the scene has such surfaces.
+  /// True if lets_light_in() may return true for a point of the scene.
   [[nodiscard]] bool has_open_backs() const { return has_open_backs_; }
 
-  /// Emitted radiance toward the ray; none at the back of one-sided surfaces. Unlit materials emit
-  /// their color.
+  /// The radiance emitted toward the ray's origin; 0 on the back of one-sided surfaces. Unlit
+  /// materials emit their color.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
   /// The BSDF's input on the ray's side. `channel` is the color channel of a path through
-  /// dispersive media, 0 to 2; 3: none.
+  /// dispersive media, 0 to 2; 3 for all channels.
   [[nodiscard]] BsdfInput bsdf_input(const ShadingPoint& point, int channel) const {
     const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
     if (point.look->constant && !has_colors) return *point.look->constant;
@@ -181,7 +183,7 @@ class Shading {
 
   const Primitives& primitives_;
   std::unique_ptr<TextureMaps> maps_;
-  std::vector<TexturedMaterial> looks_;  // by material; the last for objects without one
+  std::vector<TexturedMaterial> looks_;  // by material; the last is for objects without a material
   std::vector<Entry> entries_;           // by object
   bool all_cover_ = true, has_open_backs_ = false;
 };

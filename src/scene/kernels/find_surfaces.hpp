@@ -15,8 +15,8 @@ inline Double<N> gathered_doubles(const Get& get) {
   for (int i = 0; i < N; ++i) set_lane(v, i, get(i));
   return to_double<N>(v);
 }
-/// Converts the vectors *get(i) to float64. Four rows are transposed at a time, because inserting
-/// single lanes is slow.
+/// Converts the vectors *get(i) of all lanes i to float64. Transposes four rows at a time, because
+/// inserting single lanes is slow.
 template <int N, class Get>
 inline Doubles3<N> gathered_vectors(const Get& get) {
   if constexpr (N % 4 == 0) {

@@ -54,10 +54,10 @@ struct PerspectiveRays {
 struct SceneKernels {
   const char* name;
   /// Computes the surfaces at the rays' hits in the lanes with triangles. Returns the lanes with
-  /// valid results: not those of triangles without area or seen edge-on.
+  /// valid results. Results are invalid for triangles that have no area or are seen edge-on.
   std::uint64_t (*find_surfaces)(const Ray* rays, const SurfaceParts& parts, SurfaceBatch& batch);
   /// Sets rays[i] to the ray through the pixel coordinates (x + i % width, y + i / width). `count`
-  /// is a multiple of `width`.
+  /// must be a multiple of `width`.
   void (*perspective_rays)(const PerspectiveRays& camera, double x, double y, std::size_t width,
                            Ray* rays, std::size_t count);
 };

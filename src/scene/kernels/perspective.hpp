@@ -39,7 +39,7 @@ inline Doubles3<N> toward_pixel(const Doubles3<N>& corner, const Doubles3<N>& ri
   return corner + right * x + down * y;
 }
 
-/// Stores the first `count` of N rays. Four rays are stored at a time, as rows of a transposed
+/// Stores the first `count` of N rays. Stores four rays at a time as the rows of a transposed
 /// matrix, because extracting lanes is slow.
 template <int N>
 inline void store_rays(const Vec3& o, const LaneRays<N>& lanes, Ray* rays, std::size_t count) {

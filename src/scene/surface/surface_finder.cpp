@@ -63,7 +63,7 @@ void SurfaceFinder::for_each(Hits hits, const Visit& visit) const {
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (!hits[i]) continue;
     const PrimitiveId id = hits[i]->id;
-    // Most hits are in the same object as the one before.
+    // Most hits are on the same object as the previous hit.
     if (entry == nullptr || id - entry->first_id >= entry->count)
       entry = &entries_[primitives_.object_index(id)];
     visit(i, *entry, id);

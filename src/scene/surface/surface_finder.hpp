@@ -39,7 +39,7 @@ class SurfaceFinder {
     PrimitiveId first_id, count;
   };
 
-  /// Calls visit(i, entry of the object, primitive id) for each hit.
+  /// Calls visit(i, entry of the hit object, primitive id) for each hit i.
   template <class Visit>
   void for_each(Hits hits, const Visit& visit) const;
 
