@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
 }
 
-/// If the path is "-" or the name of an open descriptor, returns the descriptor's number. Knows
-/// /dev/fd/N and /proc/self/fd/N, to which /dev/stdout links.
+/// Returns the number of the descriptor that a path names: "-", /dev/fd/N or /proc/self/fd/N, to
+/// which /dev/stdout is a link.
 std::optional<int> descriptor_number(const fs::path& path) {
   if (path == "-") return STDOUT_FILENO;
   const fs::path folder = path.parent_path();

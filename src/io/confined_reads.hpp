@@ -1,5 +1,5 @@
 #pragma once
-/// Restricts the files that a scene may name to its own folder and to folders that the user allows.
+/// Restricts scenes to files in their own folder and in folders that the user allows.
 
 #include <filesystem>
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace microtrace::io {
 
-/// True if the file is in one of the folders or below. Symbolic links and ".." are resolved in the
-/// folders and, as far as it exists, in the path.
+/// True if the file is in one of the folders or below. Resolves symbolic links and ".." in the
+/// folders and in the path, as far as they exist.
 [[nodiscard]] bool lies_within(const std::vector<std::filesystem::path>& folders,
                                const std::filesystem::path& path);
 
@@ -24,9 +24,9 @@ class ConfinedReads {
   ConfinedReads(const ConfinedReads&) = delete;
   ConfinedReads& operator=(const ConfinedReads&) = delete;
 
-  /// Throws Error unless this thread has no restrictions or may read the file. Callers check twice.
-  /// The check before opening keeps devices from being opened. The check with the descriptor
-  /// detects a file that was replaced in between.
+  /// Throws Error if this thread must not read the file. Callers check twice: before opening, so
+  /// that devices are not opened, and then with the descriptor, because the file may have been
+  /// replaced in between.
   static void require(const std::filesystem::path& path, std::optional<int> descriptor);
 
  private:

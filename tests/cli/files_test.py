@@ -150,7 +150,7 @@ class Files(ProgramTest):
             os.remove(self.folder / "a.ppm")
             os.remove(self.asset / part)
             shutil.move(outside / part, self.asset / part)
-        # The asset names a file behind a link to a folder, directly and as part of a JSON scene.
+        # Tests a file behind a link to a folder. The asset is loaded directly, and as a part of a JSON scene.
         os.symlink("../outside", self.asset / "more")
         shutil.move(self.asset / "data.bin", outside / "data.bin")
         self.gltf["buffers"][0]["uri"] = "more/data.bin"

@@ -170,7 +170,7 @@ def joints(n):
 
 
 def skinned_nodes_of_many_joints(n):
-    """About sqrt(n) nodes. Each has a skin of about sqrt(n) joints."""
+    """Returns an asset of about sqrt(n) nodes, each with a skin of about sqrt(n) joints."""
     side = int(n ** 0.5)
     result = joints(side)
     result["nodes"] += [{"mesh": 0, "skin": 0}] * side

@@ -35,7 +35,7 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::optional<LoadedScene> read(std::string_view bytes, const std::string& name) {
-  // Poses half of the files. Their length selects them.
+  // Poses the assets in files of odd length.
   LoadOptions options;
   if (bytes.size() % 2 == 1) options = {.time = 0.5, .animation = "all"};
   try {

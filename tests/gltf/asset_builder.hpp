@@ -101,7 +101,7 @@ inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 /// the whole asset.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
-/// Loads bytes as "test.gltf" that has no folder.
+/// Loads bytes as the file "test.gltf", for which no folder is given.
 [[nodiscard]] LoadedScene load(const std::string& bytes);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);

@@ -19,7 +19,7 @@ UNSUPPORTED = 4
 
 
 def verdict(program, asset):
-    """microtrace's verdict about the asset, and the printed messages."""
+    """Returns microtrace's verdict about the asset, and the printed messages."""
     run = subprocess.run([program, "--validate", asset], capture_output=True, text=True, errors="replace", timeout=300)
     if run.returncode == UNSUPPORTED:
         return "unsupported", run.stderr
@@ -33,7 +33,10 @@ def error_pointers(report):
 
 
 def names_one_of(complaints, pointers):
-    """True if a message has the pointer of an error, or one above or below it: the two programs differ in the depth of pointers."""
+    """True if a message points to the place of an error, or to a place above or below it.
+
+    The two programs differ in the depth of pointers.
+    """
     places = [word.rstrip(":") for line in complaints.splitlines() if line.startswith("error:")
               for word in line.split() if word.startswith("/") and word.endswith(":")]
     return any(place.startswith(pointer) or pointer.startswith(place) for pointer in pointers for place in places)

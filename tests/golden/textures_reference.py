@@ -56,7 +56,8 @@ def read_png(data):
 
 
 def mip_maps(image):
-    """Returns the image, and repeatedly its means over 2 x 2 texels. Its sides must be powers of 2."""
+    """Returns the mip maps: the image, and for each further level the means over 2 x 2 texels. The image's sides must be
+    powers of 2."""
     levels = [image]
     while len(image) > 1:
         half = len(image) // 2
@@ -101,8 +102,8 @@ class Texture:
         return mix(self.bilinear(level, u, v), self.bilinear(level + 1, u, v), blend)
 
     def look_up(self, u, v, du, dv):
-        """Returns the filtered color. The footprint has sides of du, the step to the next pixel in a row, and dv, the step
-        to the next row."""
+        """Returns the filtered color for a footprint of du by dv. du is the step in u to the next pixel in a row, dv is the
+        step in v to the next row."""
         across, down = abs(du) * len(self.levels[0]), abs(dv) * len(self.levels[0])
         longer, shorter = max(across, down), max(min(across, down), 1)
         if longer <= 1:

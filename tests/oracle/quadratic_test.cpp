@@ -19,7 +19,7 @@ namespace {
 using adversarial::ShapeKind;
 using exact::first_hit;
 
-/// A hit's parameter as computed, and as computed by the oracle.
+/// A hit's parameter: the computed one, and the oracle's.
 struct Parameter {
   exact::Root found;
   Real expected;

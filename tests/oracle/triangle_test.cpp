@@ -22,7 +22,7 @@ using adversarial::TriangleKind;
 using exact::first_hit;
 using exact::round_to_float;
 
-/// A hit's parameter as computed, and as computed by the oracle.
+/// A hit's parameter: the computed one, and the oracle's.
 struct Parameter {
   exact::Root found;
   Rational expected;

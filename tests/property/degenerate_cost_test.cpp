@@ -132,8 +132,8 @@ TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   }
 }
 
-// The next hit after a hit of a triangle is that of its copy, at the same t. Rays that leave the
-// copy have the same origins as rays that leave the triangle.
+// The next hit after a hit of a triangle must be that of its copy, at the same t. Rays that leave
+// the copy must have the same origins as rays that leave the triangle.
 TEST_P(DegenerateCost, HitsOfADuplicateCostNothing) {
   Mesh mesh = generated::displaced_sphere(5001);
   const auto count = static_cast<PrimitiveId>(mesh.triangles.size());
@@ -240,7 +240,7 @@ TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
     std::vector<Ray> rays;
     for (int i = 0; i < 512; ++i) rays.push_back({.o = in_plane(2), .d = in_plane(2)});
     const Asked asked = ask(scene_of(mesh), rays);
-    // Every function decides rays that hit an edge within its plane exactly.
+    // Every function uses exact arithmetic for rays that hit an edge within the plane.
     EXPECT_LT(exact(asked.counts), 32 * asked.hits + 64) << count;
     EXPECT_LT(asked.hits, rays.size() / 2);
   }

@@ -201,7 +201,7 @@ TEST_P(HostRules, ChangeNoStep) {
   EXPECT_EQ(actual, expected);
 }
 
-// Tests numbers because the C library's strtod depends on the x87 rounding mode.
+// Parsed numbers could change, because the C library's strtod depends on the x87 rounding mode.
 TEST_P(HostRules, ChangeNoParsedNumber) {
   const auto camera = [] {
     const Scene scene =
@@ -222,8 +222,7 @@ TEST_P(HostRules, ChangeNoParsedNumber) {
   EXPECT_EQ(actual.pose.position, expected.pose.position);
 }
 
-// The host traps divisions by zero of its own. The library's divisions must not trigger these
-// traps.
+// A host may trap its own divisions by zero. The library's divisions must not trigger these traps.
 TEST_P(HostRules, TrapsOfTheHostAreRestored) {
   const std::string expected = lit_json_ppm();
   set();

@@ -49,8 +49,8 @@ inline constexpr std::uint64_t kUsualRays = 100'000;
 inline constexpr std::uint64_t kUsualRays = 1'000'000;
 #endif
 
-/// The number of rays of one test: a fraction of MICROTRACE_TRAVERSAL_RAYS. Its default is 1000000,
-/// or a tenth of this in builds with sanitizers.
+/// The number of rays of one test: a fraction of MICROTRACE_TRAVERSAL_RAYS. The variable's default
+/// is 1000000, or a tenth of this in builds with sanitizers.
 [[nodiscard]] inline std::size_t ray_count(double share) {
   return static_cast<std::size_t>(
       share * static_cast<double>(from_environment("MICROTRACE_TRAVERSAL_RAYS", kUsualRays)));

@@ -4,7 +4,7 @@
 
 namespace microtrace::tables {
 
-/// Statistics of the differences between value and integral: the maximum, the negative minimum, and
+/// Statistics of the differences between value and integral: the maximum, the negated minimum, and
 /// the root mean square.
 struct StatedError {
   double above, below, rms;

@@ -31,7 +31,7 @@ void require_threads(const FormatModule& module, const std::string& file);
 
 class ImageModule {
  public:
-  /// Loads the module for this extension, once per process. Messages name `file`. Throws
+  /// Loads the module for this extension, once per process. Messages name `file`. Throws an
   /// Error(unsupported) that lists the searched folders.
   ImageModule(std::string file, std::string_view extension);
 

@@ -18,7 +18,7 @@
 namespace microtrace::io {
 
 /// One value of a document. The document must outlive this object. If the value does not have the
-/// required form, all reading functions throw Error (invalid_scene) that points to the value.
+/// required form, all reading functions throw an Error (invalid_scene) that points to the value.
 class JsonReader {
  public:
   /// Makes a reader of the root.

@@ -18,7 +18,7 @@
 
 #include <gmock/gmock.h>
 
-// Each test reports a part of an extension that was forgotten. The parts are listed in
+// The tests report forgotten parts of an extension. The parts are listed in
 // io/gltf/extensions/extensions.hpp.
 
 namespace microtrace::tests {

@@ -13,8 +13,8 @@ enum class BodyKind {
   hull,         ///< the convex hull of random points
   prism,        ///< three to fifteen sides
   icosahedron,  ///< randomly rotated
-  double_cone,  ///< two apexes over a polygon
-  star,         ///< two apexes, one on each side of a polygon
+  double_cone,  ///< two apexes, one on each side of a polygon
+  star,         ///< a double cone whose rim alternates between two radii
   box,          ///< axis-aligned
   plate,        ///< a prism one to four ulps thick, often along an axis
   shell,        ///< the space between a body and a copy that is shifted by one to four ulps

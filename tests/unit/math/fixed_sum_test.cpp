@@ -94,7 +94,7 @@ TEST(FixedSum, OrderAndGroupingHaveNoEffect) {
     left += right;
     EXPECT_EQ(left, sum);
   }
-  // Summed as doubles, the terms must depend on the order. Otherwise the test would prove nothing.
+  // The sum of doubles must depend on the order. Otherwise the test would prove nothing.
   double forth = 0, back = 0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
     forth += terms[i];

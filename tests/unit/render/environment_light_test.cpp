@@ -45,8 +45,8 @@ std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t 
   });
 }
 
-/// Calls f with directions and solid angles that sum to 4 pi: the cells of a fine grid and their
-/// midpoints.
+/// Calls f with the midpoints and the solid angles of the cells of a fine grid. The solid angles
+/// sum to 4 pi.
 template <class F>
 void for_sphere(std::uint32_t rows, F&& f) {
   for (std::uint32_t j = 0; j < rows; ++j) {

@@ -25,8 +25,8 @@ class AlternatingIntegrator final : public Integrator {
 
 constexpr ImageSize kSize{.width = 20, .height = 20};
 
-/// Renders the half plane x < 0.33 with an orthographic camera that shows [-1, 1] x [-1, 1]. Its
-/// edge lies in pixel column 13 and covers 0.3 of each pixel.
+/// Renders the half plane x < 0.33 with an orthographic camera that shows [-1, 1] x [-1, 1]. The
+/// half plane covers 0.3 of each pixel in column 13.
 Film drawn(RenderOptions options) {
   Scene scene;
   scene.background = Vec3(1);

@@ -86,8 +86,8 @@ TEST(Framing, RandomPointsFillOneAxis) {
     const View view{.azimuth = 400 * angle(random), .elevation = 90 * angle(random)};
     const PerspectiveCamera camera = frame(cloud(points), view, picture);
     const Extent extent = seen(widened(points), camera, picture);
-    // For deep and narrow clouds, the minimum distance of the camera determines its position
-    // instead.
+    // For deep and narrow clouds, the camera's minimum distance applies, so the picture is not
+    // filled.
     DVec3 low(1e300), high(-1e300);
     for (const Vec3& p : points) {
       low = glm::min(low, DVec3(p));
@@ -107,7 +107,7 @@ TEST(Framing, AnyAngleIsFilled) {
     const PerspectiveCamera camera = frame(cloud(points), {.vertical_fov = degrees}, size);
     EXPECT_NEAR(camera.vertical_fov, degrees * std::numbers::pi / 180, 1e-14);
     const Extent extent = seen(widened(points), camera, size);
-    // For wide angles, the minimum distance of the camera determines its position instead.
+    // For wide angles, the camera's minimum distance applies, so the picture is not filled.
     if (degrees < 100) expect_tight(extent);
     EXPECT_GT(extent.nearest, 0);
   }

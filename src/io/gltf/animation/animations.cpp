@@ -151,8 +151,8 @@ class AnimationPlayer::Reader {
     return path == Path::property || path == Path::visibility;
   }
 
-  /// True if the sampler's accessors fit the target. Integers are accepted even if they are not
-  /// normalized. Booleans must be integers with STEP interpolation.
+  /// True if the sampler's accessors fit a target of KHR_animation_pointer. Numbers may be floats
+  /// or integers. Booleans require integers and STEP interpolation.
   bool fits(const Element& sampler, const Target& target) const {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));

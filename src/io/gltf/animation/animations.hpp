@@ -15,7 +15,7 @@
 namespace microtrace::io::gltf {
 
 /// Returns the indices of the animations that a name, an index or "all" selects. An empty text
-/// selects the first one, if any. Throws Error (usage) that lists the existing animations.
+/// selects the first one, if any. Throws an Error (usage) that lists the existing animations.
 [[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
                                                          const std::string& wanted);
 

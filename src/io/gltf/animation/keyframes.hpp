@@ -32,7 +32,7 @@ struct Keyframes {
 /// finite. Possibly no key remains.
 void keep_ascending(Keyframes& keys);
 
-/// The value at a time in seconds, which is clamped to the range of the keys (glTF 2.0, section
+/// The value at `time` in seconds. The time is clamped to the range of the keys (glTF 2.0, section
 /// 3.11 and appendix C). Rotations have unit length unless the stored ones are zero.
 [[nodiscard]] std::vector<double> value_at(const Keyframes& keys, double time);
 

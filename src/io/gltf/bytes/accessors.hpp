@@ -16,8 +16,8 @@
 
 namespace microtrace::io::gltf {
 
-/// The maximum number of elements of an accessor without a buffer view, of indices of all
-/// primitives, of triangles of all mesh instances in a scene, and of their vertices.
+/// A limit on several numbers, such as the elements of an accessor without a buffer view, the
+/// indices of all primitives, and the triangles and the vertices of all mesh instances in a scene.
 inline constexpr std::size_t kMaxElements = std::size_t{1} << 27;
 
 /// Decodes accessors with any component type: interleaved, sparse, or without a buffer view

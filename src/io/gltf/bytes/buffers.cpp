@@ -30,7 +30,7 @@ bool is_fallback(const Element& buffer) {
   return fallback != nullptr && fallback->boolean;
 }
 
-/// Warns of a buffer without data. This is no error, because an extension may supply the data.
+/// Warns of a buffer without data. This is not an error, because an extension may supply the data.
 void missing(Asset& asset, const Element& buffer, bool is_bin) {
   if (is_bin) {
     asset.tolerate(buffer, "has no uri, but the file has no BIN chunk");

@@ -15,9 +15,9 @@ namespace microtrace::io::gltf {
 inline constexpr const char* kMeshoptExtension = "EXT_meshopt_compression";
 
 /// Decompresses a buffer view. Returns nothing for an uncompressed view, or if the compressed data
-/// is absent. `left` is the remaining limit on decompressed bytes, which the call reduces. If the
-/// decoder module is absent, throws Error (unsupported) if the asset requires the extension.
-/// Otherwise warns and returns nothing. Throws Error: invalid_scene, limit, unsupported.
+/// is absent. `left` is the remaining limit on decompressed bytes, which the call reduces. Without
+/// the decoder module, throws Error (unsupported) if the asset requires the extension; otherwise
+/// warns and returns nothing. Throws Error: invalid_scene, limit, unsupported.
 [[nodiscard]] std::optional<std::string> decode_meshopt(Asset& asset, const Model& model,
                                                         std::size_t view,
                                                         const std::vector<Buffer>& buffers,

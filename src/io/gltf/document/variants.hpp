@@ -9,8 +9,8 @@
 namespace microtrace::io::gltf {
 
 /// Assigns the materials of a variant to primitives. The variant is given by name or by index from
-/// 0. An empty text keeps the materials that the file assigns. Throws Error (usage) that lists the
-/// existing variants.
+/// 0. An empty text keeps the materials that the file assigns. Throws an Error (usage) that lists
+/// the existing variants.
 void choose_variant(const Asset& asset, const std::string& variant, Model& model);
 
 }  // namespace microtrace::io::gltf

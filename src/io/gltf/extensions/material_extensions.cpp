@@ -7,8 +7,8 @@
 #include <limits>
 #include <numbers>
 
-// Each material extension has its rules, from the JSON schema that the Khronos Group has ratified,
-// its reader, and a row in the list below.
+// Each material extension has three parts: rules from the JSON schema that the Khronos Group has
+// ratified, a reader, and a row in the list below.
 
 namespace microtrace::io::gltf {
 namespace {
@@ -58,7 +58,7 @@ void read_emissive_strength(const JsonValue& json, Material& material) {
   material.emissive *= number(json, "emissiveStrength", 1);
 }
 
-// check_materials also refuses values between 0 and 1.
+// check_materials replaces values between 0 and 1 by 1.
 constexpr Rule kIorRules[] = {
     {.key = "ior", .form = Form::number, .min = 0, .repair = Repair::drop}};
 void read_ior(const JsonValue& json, Material& material) {

@@ -21,8 +21,8 @@ namespace microtrace::io::gltf {
 /// order. Generating tangents may have duplicated some of them.
 struct Surface {
   Mesh mesh{};
-  /// The index of each vertex in the primitive's accessors. Never descending. AccessorReader::read
-  /// uses these indices to read other attributes.
+  /// The index of each vertex in the primitive's accessors. The indices never descend.
+  /// AccessorReader::read uses these indices to read other attributes.
   std::vector<std::uint32_t> vertices{};
   std::uint32_t material = 0;  ///< index among the results of make_materials and add_unlit_copies
   std::size_t number = 0;      ///< index of the primitive in its mesh

@@ -13,7 +13,7 @@ namespace microtrace::io {
 
 class PngEncoder {
  public:
-  /// Loads the module. Messages name `file`. Throws Error(unsupported) that lists the searched
+  /// Loads the module. Messages name `file`. Throws an Error(unsupported) that lists the searched
   /// folders.
   explicit PngEncoder(std::string file);
 

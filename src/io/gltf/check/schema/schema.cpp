@@ -53,8 +53,8 @@ class Checker {
     if (!holds) asset_.fail(at, message);
   }
 
-  /// True if the value is null, with a warning. glTF 2.0 forbids null, but some exporters write it
-  /// for absent values.
+  /// If the value is null, warns and returns true. glTF 2.0 forbids null, but some exporters write
+  /// it for absent values.
   bool is_null(const Element& at) const {
     if (at.value->kind != Kind::null) return false;
     asset_.tolerate(at, "is null, which glTF 2.0 forbids; it is treated as absent");

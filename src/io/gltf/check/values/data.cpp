@@ -190,7 +190,7 @@ class DataCheck {
     });
   }
 
-  /// In a cubic spline, the middle one of three elements is a rotation, the others are tangents.
+  /// In a cubic spline, only the middle one of each three elements is a rotation.
   void quaternions(bool spline) const {
     each(spline ? 3 : 1, spline ? 1 : 0, " of its rotations are not unit quaternions",
          [this](std::size_t i) { return std::abs(square_of(i, 4) - 1) <= 0.01F; });
