@@ -157,7 +157,7 @@ class PreparedScene:
         threads: int = 0,
     ) -> Hits:
         """Returns the nearest hit of each ray. Of several hits at the same t, returns the one with
-        the lowest object and face.
+        the lowest object index, then the lowest face index.
 
         Args:
             rays: (..., 6) real numbers: origin and direction.

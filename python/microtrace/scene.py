@@ -165,8 +165,8 @@ class Scene(Brief):
 
 
 def _rotated(columns: Any, vectors: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
-    """Multiplies a matrix and vectors. Sums in a fixed order without BLAS, whose bits depend on the
-    processor."""
+    """Multiplies a matrix by vectors. Adds in a fixed order instead of using BLAS, whose results
+    depend on the processor."""
     x, y, z = (vectors[:, k : k + 1].astype(np.float64) for k in range(3))
     return np.asarray(x * columns[0] + y * columns[1] + z * columns[2])
 

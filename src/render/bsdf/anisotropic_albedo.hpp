@@ -31,7 +31,8 @@ class AnisotropicGgxAlbedo {
 
   /// The mean over all azimuths.
   [[nodiscard]] Albedo<N> around(const F& z) const {
-    // Averages over the azimuth by Gauss quadrature for even functions of twice the angle.
+    // Averages over the azimuth by Gauss quadrature with two nodes. The albedo is an even function
+    // of twice the azimuth.
     const F a = ggx_.along_alpha() * ggx_.along_alpha();
     const F b = ggx_.across_alpha() * ggx_.across_alpha();
     constexpr float near = 0.853553391F;  // cos(22.5 degrees)^2

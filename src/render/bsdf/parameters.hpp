@@ -45,7 +45,7 @@ struct Layers {
   [[nodiscard]] bool are_visible() const { return coat != 0 || sheen != Vec3(0); }
 };
 
-/// The features that the BSDF needs for these parameters. `eta` counts only together with another
+/// The features that the BSDF needs for these parameters. `eta` matters only together with another
 /// feature.
 [[nodiscard]] inline Features features_of(const Parameters& p, const Layers& layers) {
   Features result{.is_anisotropic = p.anisotropy > 0,

@@ -23,7 +23,7 @@ Vec3 transmittance(const Vec3& absorption, float distance) {
   return left;
 }
 
-/// Counts rays, and adds the time from construction to destruction.
+/// Adds the number of rays, and the time between construction and destruction, to the counts.
 class RayTimer {
  public:
   RayTimer(RayCounts::Kind& kind, std::size_t rays) : kind_(kind) { kind.rays += rays; }

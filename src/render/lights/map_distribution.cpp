@@ -94,8 +94,8 @@ void MapDistribution::find_mean() {
       for (const Vec3& pixel : std::span(map_.pixels).subspan(std::size_t{line} * width_, width_))
         below += luminance(DVec3(pixel));
     }
-    // The integrals over the row of cells of the sine, and of the sine times the weight of the
-    // lower pixels.
+    // `all` is the integral of the sine over the row of cells, and `lower` the integral of the sine
+    // times the weight of the lower pixels.
     const double top = step * std::max(line - 0.5, 0.0);
     const double bottom = step * std::min(line + 0.5, double{1} * height_);
     const double all = cos_radians(top) - cos_radians(bottom);

@@ -67,7 +67,7 @@ class MapDistribution {
   struct Point {
     MapPlace place{};
     float height = 0;      ///< y component of the direction
-    float axis_range = 0;  ///< distance of the direction from the y axis
+    float axis_range = 0;  ///< distance of the direction's end point from the y axis
     float pdf = 0;         ///< per steradian
   };
   /// Samples up to kMostSamples points, for elements of u in [0, 1)^2. Sampling several at a time

@@ -48,7 +48,8 @@ Between between(float u, Wrap wrap, std::int32_t size, Filter filter) {
 /// Four floats in one register, because GLM would compute them one by one.
 typedef float FourFloats __attribute__((vector_size(16)));
 
-/// The weighted mean of four texels. fetch(index) returns a texel by its index, row by row.
+/// The weighted mean of four texels. fetch(index) returns the texel with this index; indices count
+/// texels row by row.
 template <class Fetch>
 Vec4 bilinear(const Between& x, const Between& y, std::size_t columns, const Fetch& fetch) {
   const std::size_t top = static_cast<std::size_t>(y.first) * columns;

@@ -15,7 +15,7 @@ namespace microtrace::bsdf {
 struct Tables {
   // GGX: rows of kAlbedoSteps entries, and the rows' means.
   const float *albedo_f1, *albedo_schlick, *mean_albedo_f1, *mean_albedo_schlick;
-  // Anisotropic GGX: coefficients.
+  // Anisotropic GGX: polynomial coefficients.
   const float *anisotropic_loss, *anisotropic_schlick;
   const float *mean_anisotropic_loss, *mean_anisotropic_schlick;
   // Coatings: nodes and their weights; rows of kCoatingColumns columns, each with kCoatingNodes
