@@ -213,8 +213,8 @@ void Bvh::spawn_origins(std::span<const Spawn> spawns,
   fallback_stages.origins += spawns.size();
   std::vector<Spawn> represented;
   if (const Duplicates& duplicates = impl_->tree.duplicates; !duplicates.empty()) {
-    // The tree has only one of several duplicates. If the surface is another duplicate, its
-    // representative would count as a separate wall.
+    // The tree holds only one triangle of each group of duplicates. If a ray left a different one,
+    // the triangle in the tree would count as another surface.
     represented.assign(spawns.begin(), spawns.end());
     for (Spawn& spawn : represented) spawn.hit.id = duplicates.representative(spawn.hit.id);
     spawns = represented;

@@ -80,7 +80,7 @@ struct alignas(64) KernelPacket {
   float o[3];
   int count;                                        ///< number of rays
   float near[3][kPacketRays], far[3][kPacketRays];  ///< near_factor and far_factor of each ray
-  float t_begin[kPacketRays];                       ///< t_min, or 0 if it is tiny
+  float t_begin[kPacketRays];                       ///< as in KernelRay
   float least_t_begin;                              ///< the least t_begin of all rays
   Beam beam, group_beam[kGroups];                   ///< beams that contain the directions of all
                                                     ///< rays and of each group
@@ -119,7 +119,7 @@ struct alignas(64) KernelStream {
   float best_lo[kStreamRays];  ///< as in ClosestSoFar
   std::uint32_t best_id[kStreamRays];
   float near[3][kStreamRays], far[3][kStreamRays];  ///< near_factor and far_factor of each ray
-  float t_begin[kStreamRays];                       ///< t_min, or 0 if it is tiny
+  float t_begin[kStreamRays];                       ///< as in KernelRay
   float d_sum[kStreamRays];                         ///< as in KernelRay
 };
 

@@ -67,9 +67,9 @@ class OcclusionPacketWalk {
 
   // Computes a box around all segments from o to o + t_max d. The rounded end has an error of at
   // most u |t_max d| + u |o + t_max d|. Half of the margin would suffice: a plane that the exact
-  // end reaches is a float32 number, so the rounding of the sum moves the end past it by no more
-  // than the rounding of the product did, and the margin's own rounding doesn't undo this. If t_max
-  // is infinite and d is 0, the product is NaN, which lesser and greater ignore.
+  // end reaches is a float32 number. The rounding of the sum therefore moves the end past the plane
+  // by no more than the rounding of the product did. The margin's own rounding doesn't undo this.
+  // If t_max is infinite and d is 0, the product is NaN, which lesser and greater ignore.
   void bound_segments() {
     const F unit = all<N>(4 * kUnit), infinity = all<N>(__builtin_inff());
     for (int axis = 0; axis < 3; ++axis) {

@@ -76,13 +76,13 @@ struct CenteredBox {
   }
 };
 
-/// Returns triangles that certainly don't touch the box: seen along some axis, the box is left of
-/// one edge and right of another. The bounding boxes of long thin triangles often overlap the box
-/// anyway. Let A and B be the vectors from the center to an edge's ends, and r the half extents.
-/// The area A_i B_j - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i - A_i| within the box.
-/// Each of its terms has three roundings; the rounding of the difference does not change its sign.
-/// Half of the eight units, and half of the margin of the half extents for second-order roundings,
-/// would suffice.
+/// Returns triangles that certainly don't touch the box because, seen along some axis, the box is
+/// left of one edge and right of another. Long thin triangles often don't touch the box although
+/// their bounding boxes overlap it. Let A and B be the vectors from the center to an edge's ends,
+/// and r the half extents. The area A_i B_j - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i
+/// - A_i| within the box. Each of its terms has three roundings; the rounding of the difference
+/// does not change its sign. Half of the eight units, and half of the margin of the half extents
+/// for second-order roundings, would suffice.
 template <int N>
 inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
   using F = Float<N>;

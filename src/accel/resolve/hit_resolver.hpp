@@ -71,8 +71,8 @@ class HitResolver {
 /// by HitResolver.
 class KnownHit {
  public:
-  /// All referenced arguments must outlive this object. `duplicates` must be Tree::duplicates of
-  /// the tree that the ray traverses.
+  /// All referenced arguments must outlive this object. Only next() uses `duplicates`, which must
+  /// be Tree::duplicates of the tree that the ray traverses.
   KnownHit(const Primitives& primitives, const Ray& ray, PrimitiveId id,
            const Duplicates& duplicates);
 

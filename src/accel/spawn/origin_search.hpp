@@ -112,8 +112,8 @@ class ExactSurface {
   std::optional<exact::Root> t_;
 };
 
-/// Returns the side, -1 or 1, on which the whole box x +- radius certainly lies of the plane
-/// through a with this normal; 0 if unknown. The normal is the cross product of two edges whose
+/// Returns the side of the plane through a with this normal on which the whole box x +- radius
+/// certainly lies: -1 or 1, or 0 if unknown. The normal is the cross product of two edges whose
 /// ends are float32 vectors.
 [[nodiscard]] inline int certain_side(const Vec3& a, const CrossProduct& normal, const DVec3& x,
                                       const DVec3& radius) {

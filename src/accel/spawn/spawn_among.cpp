@@ -113,8 +113,8 @@ class Neighbors {
     return *root_;
   }
 
-  // Returns the side of a surface on which the witness is; nothing for triangles of zero area,
-  // which have no sides.
+  // Returns the required side of a surface; nothing for triangles of zero area, which have no
+  // sides.
   std::optional<int> side_of_witness(const auto& shape) {
     if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {
       const TriangleSurface surface(shape);
