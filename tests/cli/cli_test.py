@@ -461,8 +461,8 @@ class CommandLine(ProgramTest):
         self.assertIn(b"Exit codes", self.run_program("--help").stdout)
 
     def test_missing_modules(self):
-        """Tests that, without the decoder's module, an asset that requires the extension is refused, and that the message names
-        the package to install."""
+        """Tests that, without the decoder's module, an asset that requires the extension is refused, and that the message
+        names the package to install."""
         asset = {"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}],
                  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,"
                               + "A" * 48}],

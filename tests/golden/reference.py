@@ -128,7 +128,7 @@ class View:
         return seen
 
     def distance_to(self, color, d):
-        """Returns the smallest angle by which d must turn to see `color`, as a power of two in radians."""
+        """Returns the smallest angle by which d must turn to see `color`. Tries powers of two, in radians, in 32 directions."""
         d = unit(d)
         side = unit(cross(d, self.up))
         above = cross(side, d)

@@ -66,8 +66,8 @@ std::vector<SolidCase> cases(Random& random) {
   return result;
 }
 
-/// Calls f(case, CGAL's mesh, solid, points) for each case that CGAL can represent. `share` is the
-/// fraction of all tests' points.
+/// Calls f(case, CGAL's mesh, solid, points) for each case that CGAL can represent. `share` is
+/// this test's share of the points of all tests.
 template <class F>
 void for_each_case(Random& random, double share, const F& f) {
   std::vector<std::pair<SolidCase, SurfaceMesh>> known;

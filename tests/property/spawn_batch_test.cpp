@@ -93,8 +93,8 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Rays that leave hits have the same answers with and without knowledge of the primitives that
-/// they have left.
+/// Rays that leave hits must have the same answers with and without knowledge of the primitives
+/// that they have left.
 void check_rays(const Bvh& bvh, const std::vector<Bvh::Spawn>& spawns, const Origins& origins) {
   std::vector<Ray> rays;
   std::vector<PrimitiveId> left;

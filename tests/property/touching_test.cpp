@@ -117,8 +117,8 @@ TEST_P(Touching, OmitsLongThinTrianglesBesideTheBox) {
   EXPECT_GT(met, 200);
 }
 
-// A triangle that the query omits, and triangles within the plane that it omits; others with only
-// an edge in the plane, and those in parallel planes, are found.
+// The query must omit one triangle, and the triangles within one plane. It must find triangles with
+// only an edge in this plane, and triangles in parallel planes.
 TEST_P(Touching, OmitsOneTriangleAndAPlane) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto at = [&](float along, float i, float j) {

@@ -41,8 +41,8 @@ Row raw_row(double roughness) {
   return result;
 }
 
-/// Returns the albedo of the divided model at s. The published model is divided by `raw` at the
-/// cosine of wo or wi, whichever is larger, if this exceeds 1.
+/// Returns the albedo of the divided model at s. The published model is divided by the larger of
+/// the entries of `raw` for wo and wi, or by 1 if both are smaller.
 double scaled_albedo(double roughness, const Row& raw, double s) {
   const Sheen sheen(roughness);
   const Quadrature azimuths = graded(32), cell = graded(12);

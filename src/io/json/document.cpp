@@ -217,8 +217,9 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     });
   }
 
-  /// Records duplicate keys. A pointer may be as long as the text, so it is only made for a key
-  /// that may be the first duplicate in the text. Only enclosing objects can contain earlier ones.
+  /// Records an object's duplicate keys, and the pointer of the first duplicate in the text.
+  /// Pointers may be as long as the text, so one is made only if no earlier duplicate is known.
+  /// Enclosing objects end later, but may contain earlier ones.
   void note_outdone(const JsonValue& object, const std::vector<std::size_t>& offsets) {
     const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
     outdone_keys_.count += offsets.size();

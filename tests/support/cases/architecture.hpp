@@ -1,6 +1,6 @@
 #pragma once
 /// Scenes typical of architecture and CAD: axis-aligned walls, and faces that touch, share edges or
-/// are coplanar. In such scenes, filters are most often unsure. The scenes have the same bits on
+/// are coplanar. In such scenes, filters are uncertain most often. The scenes have the same bits on
 /// every machine.
 
 #include <microtrace/camera.hpp>

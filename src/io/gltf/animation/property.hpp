@@ -19,11 +19,10 @@ struct AnimatedProperty {
   double min = 0, max = 0;  ///< range of each component
 };
 
-/// Finds the property that a JSON pointer names (glTF 2.0 Asset Object Model). A
-/// property is a number or vector of a material, a camera or a light (KHR_lights_punctual), or the
-/// visibility of a node (KHR_node_visibility). Extensions and texture transforms belong to the
-/// material. Returns nothing if the
-/// object is absent or the property can't be animated.
+/// Finds the property that a JSON pointer names (glTF 2.0 Asset Object Model). A property is a
+/// number or vector of a material, a camera or a light (KHR_lights_punctual), or the visibility of
+/// a node (KHR_node_visibility). Extensions and texture transforms belong to the material. Returns
+/// nothing if the object is absent or the property can't be animated.
 [[nodiscard]] std::optional<AnimatedProperty> find_property(const Asset& asset,
                                                             std::string_view pointer);
 

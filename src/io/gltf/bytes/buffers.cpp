@@ -16,8 +16,8 @@ std::string decode(Asset& asset, const Element& uri) {
   return decode_data_uri(asset, uri);
 }
 
-/// True if the BIN chunk is the buffer's data: in a GLB file, this is the first buffer if it has no
-/// URI.
+/// True if the BIN chunk has the buffer's data. In a GLB file, this is the first buffer, if it has
+/// no URI.
 bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }

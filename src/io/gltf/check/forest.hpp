@@ -13,8 +13,8 @@ inline constexpr std::size_t kMaxNodes = std::size_t{1} << 20;
 
 class NodeForest {
  public:
-  /// Throws Error: invalid_scene if a second parent or a cycle keeps the nodes from being disjoint
-  /// trees (glTF 2.0, section 3.5.2), limit for more than kMaxNodes.
+  /// Throws Error: invalid_scene if a node has two parents or is in a cycle (glTF 2.0, section
+  /// 3.5.2), limit for more than kMaxNodes.
   explicit NodeForest(const Asset& asset);
 
   [[nodiscard]] std::optional<std::size_t> parent(std::size_t node) const;

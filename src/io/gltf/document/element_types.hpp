@@ -12,8 +12,8 @@ enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
 inline constexpr int kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123, kUint32 = 5125,
                      kFloat32 = 5126;
 
-/// The type that has this name in glTF, such as "VEC3". The name must be one of the seven
-/// that glTF defines.
+/// The type that has this name in glTF, such as "VEC3". The name must be one of the seven that
+/// glTF defines.
 [[nodiscard]] ElementType element_type(std::string_view name);
 
 [[nodiscard]] constexpr bool is_matrix(ElementType type) {
