@@ -2,6 +2,7 @@
 /// Bulk queries: all hits of rays, location of points inside or outside of closed meshes, and
 /// nearest points on surfaces.
 
+#include <microtrace/bvh.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/hit.hpp>
 #include <microtrace/math.hpp>
@@ -48,6 +49,10 @@ struct RayHits {
 /// if options.progress returns false.
 [[nodiscard]] MICROTRACE_EXPORT RayHits intersect_all(const PreparedScene& scene,
                                                       std::span<const Ray> rays,
+                                                      const QueryOptions& options = {});
+
+/// Like the other function, but for rays in scene coordinates, as for Bvh::intersect.
+[[nodiscard]] MICROTRACE_EXPORT RayHits intersect_all(const Bvh& bvh, std::span<const Ray> rays,
                                                       const QueryOptions& options = {});
 
 /// Sets counts[i] to the number of hits of rays[i] that intersect_all would return. A ray through

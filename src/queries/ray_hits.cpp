@@ -30,9 +30,10 @@ struct BoundedHit {
 /// Finds all hits of one ray at a time.
 class HitFinder {
  public:
-  HitFinder(const PreparedScene& scene, const QueryKernels& kernels)
-      : scene_(scene), shared_(scene.bvh().tree()), kernels_(kernels) {}
+  HitFinder(const Bvh& bvh, const QueryKernels& kernels)
+      : bvh_(bvh), shared_(bvh.tree()), kernels_(kernels) {}
 
+  /// Rays are in scene coordinates.
   [[nodiscard]] std::uint32_t count(const Ray& ray, Poll& poll) {
     find(ray, poll);
     std::uint32_t count = 0;
@@ -42,8 +43,8 @@ class HitFinder {
   }
 
   /// Appends the ray's hits in the order (t, PrimitiveId).
-  void append(const Ray& world_ray, std::vector<Hit>& hits, Poll& poll) {
-    find(world_ray, poll);
+  void append(const Ray& ray, std::vector<Hit>& hits, Poll& poll) {
+    find(ray, poll);
     const ExactHits exactly(primitives_, ray_);
     std::ranges::sort(found_, [&](const BoundedHit& a, const BoundedHit& b) {
       if (a.hi < b.lo) return true;
@@ -80,10 +81,10 @@ class HitFinder {
 
  private:
   /// Finds the primitives of the tree that the ray hits.
-  void find(const Ray& world_ray, Poll& poll) {
+  void find(const Ray& ray, Poll& poll) {
     poll();
     found_.clear();
-    ray_ = scene_.in_scene(world_ray);
+    ray_ = ray;
     if (!exact::is_valid(ray_)) return;
     const ExactHits exactly(primitives_, ray_);
     const HitResolver resolver(primitives_, ray_);
@@ -119,39 +120,38 @@ class HitFinder {
     found_.erase(std::unique(found_.begin(), found_.end(), is_same), found_.end());
   }
 
-  const PreparedScene& scene_;
+  const Bvh& bvh_;
   std::shared_ptr<const BvhTree> shared_;
   const QueryKernels& kernels_;
   const Tree& tree_ = shared_->tree;
-  const Primitives& primitives_ = scene_.bvh().primitives();
-  Ray ray_;  // in scene coordinates
+  const Primitives& primitives_ = bvh_.primitives();
+  Ray ray_;
   std::vector<BoundedHit> found_;
 };
 
 /// The number of rays that a thread takes at a time.
 constexpr std::uint64_t kRaysOfRun = 64;
 
-}  // namespace
-
-RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
-                      const QueryOptions& options) {
+/// Calls ray(i) for the rays in scene coordinates.
+template <class RayOf>
+RayHits find_all(const Bvh& bvh, std::size_t rays, const RayOf& ray, const QueryOptions& options) {
   const FloatEnvironment environment;
   const QueryKernels& kernels = kQueryKernels.best();
   return limiting_memory([&] {
     RayHits result;
-    std::vector<std::vector<Hit>> hits_of_run((rays.size() + kRaysOfRun - 1) / kRaysOfRun);
-    result.offsets.resize(rays.size() + 1);
-    for_each_run(rays.size(), kRaysOfRun, options,
+    std::vector<std::vector<Hit>> hits_of_run((rays + kRaysOfRun - 1) / kRaysOfRun);
+    result.offsets.resize(rays + 1);
+    for_each_run(rays, kRaysOfRun, options,
                  [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                   HitFinder finder(scene, kernels);
+                   HitFinder finder(bvh, kernels);
                    std::vector<Hit>& hits = hits_of_run[first / kRaysOfRun];
                    for (std::uint64_t i = first; i < last; ++i) {
                      const std::size_t before = hits.size();
-                     finder.append(rays[i], hits, poll);
+                     finder.append(ray(i), hits, poll);
                      result.offsets[i + 1] = hits.size() - before;
                    }
                  });
-    for (std::size_t i = 0; i < rays.size(); ++i) result.offsets[i + 1] += result.offsets[i];
+    for (std::size_t i = 0; i < rays; ++i) result.offsets[i + 1] += result.offsets[i];
     result.hits.reserve(result.offsets.back());
     for (std::vector<Hit>& hits : hits_of_run) {
       result.hits.insert(result.hits.end(), hits.begin(), hits.end());
@@ -159,6 +159,19 @@ RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
     }
     return result;
   });
+}
+
+}  // namespace
+
+RayHits intersect_all(const PreparedScene& scene, std::span<const Ray> rays,
+                      const QueryOptions& options) {
+  return find_all(
+      scene.bvh(), rays.size(), [&](std::uint64_t i) { return scene.in_scene(rays[i]); }, options);
+}
+
+RayHits intersect_all(const Bvh& bvh, std::span<const Ray> rays, const QueryOptions& options) {
+  return find_all(
+      bvh, rays.size(), [&](std::uint64_t i) { return rays[i]; }, options);
 }
 
 void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
@@ -169,9 +182,9 @@ void count_crossings(const PreparedScene& scene, std::span<const Ray> rays,
   limiting_memory([&] {
     for_each_run(rays.size(), kRaysOfRun, options,
                  [&](std::uint64_t first, std::uint64_t last, Poll& poll) {
-                   HitFinder finder(scene, kernels);
+                   HitFinder finder(scene.bvh(), kernels);
                    for (std::uint64_t i = first; i < last; ++i)
-                     counts[i] = finder.count(rays[i], poll);
+                     counts[i] = finder.count(scene.in_scene(rays[i]), poll);
                  });
   });
 }

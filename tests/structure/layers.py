@@ -21,6 +21,7 @@ MAY_INCLUDE = {
     "queries": {"base", "simd", "exact", "scene", "accel"},
     "render": {"base", "simd", "scene"},
     "io": {"base", "scene"},
+    "dataset": {"base", "scene", "queries", "io"},
     "cli": {"base", "scene"},
     "capi": {"base", "scene"},
     "modules": {"io"},

@@ -9,15 +9,6 @@
 namespace microtrace::io {
 namespace {
 
-void append_number(std::string& text, double x) {
-  std::array<char, 32> digits{};
-  const bool is_integer = std::trunc(x) == x && std::abs(x) <= 0x1p53 && !std::signbit(x);
-  const std::to_chars_result written =
-      is_integer ? std::to_chars(digits.begin(), digits.end(), static_cast<std::int64_t>(x))
-                 : std::to_chars(digits.begin(), digits.end(), x, std::chars_format::scientific);
-  text.append(digits.begin(), written.ptr);
-}
-
 /// Replaces the comma after the last item, if there is one, by the closing bracket.
 void close(std::string& text, char bracket) {
   if (text.back() == ',') text.pop_back();
@@ -25,6 +16,15 @@ void close(std::string& text, char bracket) {
 }
 
 }  // namespace
+
+void append_json(std::string& text, double x) {
+  std::array<char, 32> digits{};
+  const bool is_integer = std::trunc(x) == x && std::abs(x) <= 0x1p53 && !std::signbit(x);
+  const std::to_chars_result written =
+      is_integer ? std::to_chars(digits.begin(), digits.end(), static_cast<std::int64_t>(x))
+                 : std::to_chars(digits.begin(), digits.end(), x, std::chars_format::scientific);
+  text.append(digits.begin(), written.ptr);
+}
 
 void append_json(std::string& text, std::string_view string) {
   constexpr std::string_view kHex = "0123456789abcdef";
@@ -51,7 +51,7 @@ void append_json(std::string& text, const JsonValue& value,
       text += value.boolean ? "true" : "false";
       return;
     case JsonValue::Kind::number:
-      return append_number(text, value.number);
+      return append_json(text, value.number);
     case JsonValue::Kind::string:
       return append_json(text, value.string);
     case JsonValue::Kind::array:

@@ -12,6 +12,9 @@ namespace microtrace::io {
 void append_json(std::string& text, const JsonValue& value,
                  std::span<const std::string_view> left_out);
 
+/// Appends a finite number, with the fewest digits that identify it.
+void append_json(std::string& text, double x);
+
 /// Appends a string with quotes and escapes.
 void append_json(std::string& text, std::string_view string);
 

@@ -1,0 +1,138 @@
+#include "dataset/annotations/coco.hpp"
+
+#include "dataset/annotations/json_text.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <array>
+
+namespace microtrace::dataset {
+namespace {
+
+std::string bbox(const Mask& mask) {
+  const PixelRect& box = mask.box();
+  return json_array(std::array{box.x0, box.y0, box.size().width, box.size().height});
+}
+
+std::string segmentation(const Mask& mask, ImageSize size) {
+  return JsonText('{')
+      .json_member("size", json_array(std::array{size.height, size.width}))
+      .member("counts", compressed_counts(column_counts(mask, size)))
+      .text();
+}
+
+/// The lines of a part.
+std::vector<std::string_view> lines_of(std::string_view part, std::size_t index) {
+  std::vector<std::string_view> lines;
+  while (!part.empty()) {
+    const std::size_t end = part.find('\n');
+    const std::string_view line = part.substr(0, end);
+    if (end == std::string_view::npos || !line.starts_with("{\"") || !line.ends_with('}')) break;
+    lines.push_back(line);
+    part.remove_prefix(end + 1);
+  }
+  if (lines.empty() || !part.empty())
+    throw Error(ErrorKind::io, "",
+                "the annotations of view " + std::to_string(index) +
+                    " are incomplete; render this view again");
+  return lines;
+}
+
+}  // namespace
+
+std::string Categories::name_of(const Scene& scene, const Object& object) const {
+  std::string name = by_ == CategoryBy::object_name ? object.name
+                     : object.material              ? scene.materials[*object.material].name
+                                                    : std::string();
+  return name.empty() ? "unnamed" : name;
+}
+
+void Categories::add(const Scene& scene) {
+  for (const Object& object : scene.objects) {
+    const auto number = static_cast<std::uint32_t>(names_.size() + 1);
+    const auto [place, is_new] = numbers_.emplace(name_of(scene, object), number);
+    if (is_new) names_.push_back(place->first);
+  }
+}
+
+std::uint32_t Categories::of(const Scene& scene, const Object& object) const {
+  const auto found = numbers_.find(name_of(scene, object));
+  if (found == numbers_.end())
+    throw Error(ErrorKind::usage, "",
+                "the category \"" + name_of(scene, object) +
+                    "\" is unknown; add the categories of each scene first");
+  return found->second;
+}
+
+std::string coco_part(const DrawnView& view, const Categories& categories, const Masks& visible,
+                      const Masks* amodal) {
+  std::string text = JsonText('{')
+                         .member("id", view.index)
+                         .member("width", view.size.width)
+                         .member("height", view.size.height)
+                         .member("file_name", view.color_file)
+                         .text() +
+                     '\n';
+  const Scene& scene = view.scene->scene();
+  for (const auto& [index, mask] : visible) {
+    const Object& object = scene.objects.at(index);
+    JsonText annotation('{');
+    annotation.member("image_id", view.index)
+        .member("category_id", categories.of(scene, object))
+        .json_member("segmentation", segmentation(mask, view.size))
+        .member("area", mask.area())
+        .json_member("bbox", bbox(mask))
+        .member("iscrowd", 0)
+        .member("object", index)
+        .member("object_name", object.name);
+    if (const Mask* whole = amodal != nullptr ? find_mask(*amodal, index) : nullptr) {
+      annotation.json_member("amodal_segmentation", segmentation(*whole, view.size))
+          .member("amodal_area", whole->area())
+          .json_member("amodal_bbox", bbox(*whole))
+          .member("occlude_rate", static_cast<double>(whole->area() - mask.area()) /
+                                      static_cast<double>(whole->area()));
+    }
+    text.append(annotation.text()) += '\n';
+  }
+  return text;
+}
+
+void join_coco(const Categories& categories, std::size_t count,
+               const std::function<std::string(std::size_t)>& part,
+               const std::function<void(std::string_view)>& out) {
+  std::string text = "{\"info\":{\"description\":\"rendered by microtrace\"},\"licenses\":[],\n";
+  std::string_view separator = "\"images\":[\n";
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string bytes = part(i);
+    text.append(separator).append(lines_of(bytes, i).front());
+    separator = ",\n";
+    out(text);
+    text.clear();
+  }
+  text.append(count == 0 ? "\"images\":[" : "").append("],\n");
+  separator = "\"annotations\":[\n";
+  std::uint64_t id = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string bytes = part(i);
+    const std::vector<std::string_view> lines = lines_of(bytes, i);
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+      text.append(separator).append("{\"id\":").append(std::to_string(++id)) += ',';
+      text.append(lines[k].substr(1));
+      separator = ",\n";
+    }
+    out(text);
+    text.clear();
+  }
+  text.append(id == 0 ? "\"annotations\":[" : "").append("],\n");
+  JsonText list('[');
+  for (std::size_t k = 0; k < categories.names().size(); ++k) {
+    list.json_item(JsonText('{')
+                       .member("id", static_cast<std::uint64_t>(k + 1))
+                       .member("name", categories.names()[k])
+                       .member("supercategory", std::string_view())
+                       .text());
+  }
+  out(text.append("\"categories\":").append(list.text()).append("}\n"));
+}
+
+}  // namespace microtrace::dataset

@@ -1,0 +1,164 @@
+#include "dataset/annotations/coco.hpp"
+
+#include "views.hpp"
+
+#include <microtrace/error.hpp>
+
+#include <numeric>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace microtrace::dataset::tests {
+namespace {
+
+using Json = nlohmann::json;
+using testing::ElementsAre;
+
+/// Decodes the compressed run lengths of a mask, as documented in pycocotools' maskApi.
+std::set<Pixel> decoded(const std::string& text, std::uint32_t height) {
+  std::vector<std::int64_t> counts;
+  for (std::size_t p = 0; p < text.size();) {
+    std::int64_t value = 0;
+    int shift = 0;
+    bool is_more = true;
+    while (is_more) {
+      const std::int64_t group = text.at(p++) - 48;
+      value += (group & 31) * (std::int64_t{1} << shift);
+      shift += 5;
+      is_more = (group & 32) != 0;
+      if (!is_more && (group & 16) != 0) value -= std::int64_t{1} << shift;
+    }
+    if (counts.size() > 2) value += counts[counts.size() - 2];
+    counts.push_back(value);
+  }
+  std::set<Pixel> pixels;
+  std::int64_t position = 0;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    for (std::int64_t i = 0; i < counts[k]; ++i, ++position) {
+      if (k % 2 == 1)
+        pixels.emplace(static_cast<std::uint32_t>(position % height),
+                       static_cast<std::uint32_t>(position / height));
+    }
+  }
+  return pixels;
+}
+
+TEST(Coco, RandomMasksSurviveTheirEncoding) {
+  std::mt19937 random(5);
+  for (int round = 0; round < 500; ++round) {
+    const ImageSize size{.width = static_cast<std::uint32_t>(1 + random() % 40),
+                         .height = static_cast<std::uint32_t>(1 + random() % 40)};
+    const auto density = static_cast<unsigned>(random() % 257);
+    Mask mask;
+    for (std::uint32_t y = 0; y < size.height; ++y) {
+      for (std::uint32_t x = 0; x < size.width; ++x) {
+        if (random() % 256 < density) mask.add(x, y);
+      }
+    }
+    const std::vector<std::uint64_t> counts = column_counts(mask, size);
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}),
+              std::uint64_t{size.width} * size.height);
+    for (std::size_t k = 1; k < counts.size(); ++k) EXPECT_NE(counts[k], 0U);
+    EXPECT_EQ(decoded(compressed_counts(counts), size.height), pixels_of(mask));
+  }
+}
+
+TEST(Coco, CountsOfEdgeCases) {
+  Mask corner, column;
+  corner.add(0, 0);
+  EXPECT_THAT(column_counts(corner, {.width = 1, .height = 1}), ElementsAre(0, 1));
+  EXPECT_THAT(column_counts(corner, {.width = 3, .height = 2}), ElementsAre(0, 1, 5));
+  EXPECT_THAT(column_counts(Mask(), {.width = 3, .height = 2}), ElementsAre(6));
+  // The bottom of a column is followed by the top of the next one.
+  column.add(1, 0);
+  column.add(0, 1);
+  EXPECT_THAT(column_counts(column, {.width = 3, .height = 2}), ElementsAre(1, 2, 3));
+}
+
+Scene overlapping_scene() {
+  Scene scene;
+  scene.materials = {Material{}, Material{}};
+  scene.materials[0].name = "steel";
+  scene.objects = {rectangle("nut", {-6, -3, 0}, 8, 4),
+                   rectangle("bolt \"M4\"\n", {-1, -2, 1}, 5, 5),
+                   rectangle("nut", {5, -2, 1}, 2, 2)};
+  scene.objects[0].material = 0;
+  scene.objects[2].material = 1;
+  return scene;
+}
+
+constexpr ImageSize kSize{.width = 16, .height = 10};
+
+Json joined(const Categories& categories, const std::vector<std::string>& parts) {
+  std::string text;
+  join_coco(
+      categories, parts.size(), [&](std::size_t i) { return parts[i]; },
+      [&](std::string_view bytes) { text += bytes; });
+  return Json::parse(text);
+}
+
+TEST(Coco, PartsAreJoinedWithRunningIds) {
+  const Scene scene = overlapping_scene();
+  Categories categories(CategoryBy::object_name);
+  categories.add(scene);
+  const RenderedView first(scene, unit_camera(kSize), kSize, 3);
+  const RenderedView empty(
+      scene, OrthographicCamera{.pose = {.position = {0, 0, 20}, .direction = {0, 0, 1}}}, kSize,
+      4);
+  const RenderedView second(scene, unit_camera(kSize), kSize, 9);
+  std::vector<std::string> parts;
+  for (const RenderedView* view : {&first, &empty, &second}) {
+    const Masks amodal = view->amodal();
+    parts.push_back(coco_part(view->view(), categories, view->visible(), &amodal));
+  }
+  const Json json = joined(categories, parts);
+  EXPECT_EQ(json["images"].size(), 3U);
+  EXPECT_EQ(json["images"][2],
+            (Json{{"id", 9}, {"width", 16}, {"height", 10}, {"file_name", "9.png"}}));
+  EXPECT_EQ(json["categories"][0], (Json{{"id", 1}, {"name", "nut"}, {"supercategory", ""}}));
+  EXPECT_EQ(json["categories"][1]["name"], "bolt \"M4\"\n");
+  ASSERT_EQ(json["annotations"].size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(json["annotations"][k]["id"], k + 1);
+  const Json& back = json["annotations"][3];
+  EXPECT_EQ(back["image_id"], 9);
+  EXPECT_EQ(back["category_id"], 1);
+  EXPECT_EQ(back["iscrowd"], 0);
+  EXPECT_EQ(back["area"], 8 * 4 - 3 * 3);
+  EXPECT_EQ(back["bbox"], Json({2, 4, 8, 4}));
+  EXPECT_EQ(back["segmentation"]["size"], Json({10, 16}));
+  EXPECT_EQ(back["amodal_area"], 32);
+  EXPECT_EQ(back["amodal_bbox"], Json({2, 4, 8, 4}));
+  EXPECT_EQ(back["occlude_rate"], 9.0 / 32);
+  EXPECT_EQ(decoded(back["segmentation"]["counts"], 10), pixels_of(second.visible()[0].mask));
+  EXPECT_EQ(decoded(back["amodal_segmentation"]["counts"], 10).size(), 32U);
+  EXPECT_EQ(json["annotations"][5]["occlude_rate"], 0);
+}
+
+TEST(Coco, CategoriesByMaterial) {
+  const Scene scene = overlapping_scene();
+  Categories categories(CategoryBy::material_name);
+  categories.add(scene);
+  categories.add(scene);
+  EXPECT_THAT(categories.names(), ElementsAre("steel", "unnamed"));
+  EXPECT_EQ(categories.of(scene, scene.objects[0]), 1U);
+  EXPECT_EQ(categories.of(scene, scene.objects[1]), 2U);
+  EXPECT_EQ(categories.of(scene, scene.objects[2]), 2U);
+  EXPECT_THROW(static_cast<void>(Categories(CategoryBy::object_name).of(scene, scene.objects[0])),
+               Error);
+}
+
+TEST(Coco, EmptyDataSetsAndIncompleteParts) {
+  const Categories categories(CategoryBy::object_name);
+  const Json json = joined(categories, {});
+  EXPECT_EQ(json["images"], Json::array());
+  EXPECT_EQ(json["annotations"], Json::array());
+  EXPECT_EQ(json["categories"], Json::array());
+  for (const char* part : {"", "{\"id\":1}", "{\"id\":1}\n{\"image_id\":", "{\"id\":1}\n\n", "x\n"})
+    EXPECT_THROW(static_cast<void>(joined(categories, {part})), Error) << part;
+}
+
+}  // namespace
+}  // namespace microtrace::dataset::tests
