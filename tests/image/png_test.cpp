@@ -1,5 +1,7 @@
 // Tests PNG pictures, which libpng reads back.
 
+#include "io/image/encode/png.hpp"
+
 #include "folder.hpp"
 #include "io/image/decode/decode_image.hpp"
 #include "io/image/encode/eight_bits.hpp"
@@ -67,6 +69,29 @@ TEST(Png, StoresTheSamplesOfTheFilm) {
     film.at(x, x % 7) = Vec3(0.5F) * film.alpha_at(x, x % 7);
   }
   expect_samples(film, folder / "e.png");
+}
+
+template <class Sample>
+void expect_gray(ImageSize size) {
+  std::vector<Sample> samples(std::size_t{size.width} * size.height);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    samples[i] = static_cast<Sample>(i * 2654435761U >> 7);
+  const std::string png = io::encode_gray_png(size, samples);
+  EXPECT_THAT(chunks_of(png), testing::Contains("IHDR"));
+  EXPECT_EQ(png, io::encode_gray_png(size, samples));
+  const io::DecodedImage read = io::decode_image(png);
+  ASSERT_TRUE(read.image) << read.complaint;
+  EXPECT_EQ(read.image->width, size.width);
+  EXPECT_EQ(read.image->height, size.height);
+  EXPECT_EQ(read.image->channels, 1U);
+  EXPECT_EQ(std::get<std::vector<Sample>>(read.image->samples), samples);
+}
+
+TEST(Png, GrayPicturesOfEightAndSixteenBits) {
+  for (const ImageSize size : {ImageSize{1, 1}, ImageSize{37, 11}, ImageSize{500, 300}}) {
+    expect_gray<std::uint8_t>(size);
+    expect_gray<std::uint16_t>(size);
+  }
 }
 
 TEST(Png, HasAnSrgbChunkAndNoOthers) {

@@ -35,10 +35,11 @@ struct MicrotracePngText {
   const char* text;
 };
 
-/// A picture with 8 bits per sample, and the callbacks of the encoder. No callback throws.
+/// A picture, and the callbacks of the encoder. No callback throws.
 struct MicrotracePng {
   std::uint32_t width, height;
-  std::uint32_t channels;  ///< 3: rgb, 4: rgb and unassociated alpha
+  std::uint32_t channels;  ///< 1: gray, 3: rgb, 4: rgb and unassociated alpha
+  std::uint32_t depth;     ///< bits per sample, 8 or 16, in native byte order
   std::uint32_t is_srgb;   ///< if 0, the file states no color space
   const MicrotracePngText* texts;
   std::size_t text_count;
@@ -59,6 +60,6 @@ namespace microtrace::io {
 
 inline constexpr char kCodecModuleFileName[] = "microtrace_codecs.so";
 inline constexpr char kDecodeName[] = "microtrace_decode_v1";
-inline constexpr char kEncodePngName[] = "microtrace_encode_png_v2";
+inline constexpr char kEncodePngName[] = "microtrace_encode_png_v3";
 
 }  // namespace microtrace::io

@@ -1,5 +1,6 @@
 #include "modules/codecs/codecs.hpp"
 
+#include <bit>
 #include <csetjmp>
 #include <png.h>
 
@@ -24,6 +25,11 @@ void write(png_structp png, png_bytep bytes, std::size_t size) {
 
 void flush(png_structp) {}
 
+int color_type(std::uint32_t channels) {
+  if (channels == 1) return PNG_COLOR_TYPE_GRAY;
+  return channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB;
+}
+
 }  // namespace
 
 // This function must not contain objects with destructors, because libpng jumps after an error.
@@ -39,9 +45,9 @@ int encode_png(const MicrotracePng& picture) {
   if (info != nullptr && setjmp(png_jmpbuf(png)) == 0) {
     png_set_write_fn(png, pointer, write, flush);
     png_set_user_limits(png, 0x7FFFFFFF, 0x7FFFFFFF);
-    png_set_IHDR(png, info, picture.width, picture.height, 8,
-                 picture.channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, picture.width, picture.height, static_cast<int>(picture.depth),
+                 color_type(picture.channels), PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
     if (picture.is_srgb != 0) png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_RELATIVE);
     for (std::size_t i = 0; i < picture.text_count; ++i) {
       png_text text{};
@@ -51,6 +57,7 @@ int encode_png(const MicrotracePng& picture) {
       png_set_text(png, info, &text, 1);
     }
     png_write_info(png, info);
+    if (picture.depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
     for (std::uint32_t y = 0; y < picture.height; ++y) {
       png_write_row(png, picture.row(picture.context, y));
     }

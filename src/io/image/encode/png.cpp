@@ -6,6 +6,7 @@
 
 #include <microtrace/error.hpp>
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -18,9 +19,8 @@ namespace {
 /// The encoder's input and output. It also stores failures, because exceptions must not propagate
 /// through the module's frames.
 struct Streams {
-  const Film& film;
+  const std::function<const void*(std::uint32_t)>& row;
   const std::function<void(std::string_view)>& out;
-  std::vector<std::uint8_t> row;
   std::string bytes{};  // bytes that were not yet passed on
   std::string reason{};
   std::exception_ptr thrown{};
@@ -28,8 +28,7 @@ struct Streams {
 
 const unsigned char* row_of(void* context, std::uint32_t y) {
   auto& streams = *static_cast<Streams*>(context);
-  encode_row(streams.film, y, streams.row.data());
-  return streams.row.data();
+  return static_cast<const unsigned char*>(streams.row(y));
 }
 
 int take_bytes(void* context, const void* bytes, std::size_t size) {
@@ -72,26 +71,64 @@ PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
 
 void PngEncoder::encode(const Film& film, const std::function<void(std::string_view)>& out) const {
   const std::uint32_t channels = film.has_alpha() ? 4 : 3;
-  Streams streams{film, out, std::vector<std::uint8_t>(std::size_t{channels} * film.size().width)};
+  std::vector<std::uint8_t> row(std::size_t{channels} * film.size().width);
   const std::vector<Note> notes = notes_of(film.display, false);
   std::vector<MicrotracePngText> texts;
   for (const Note& note : notes) {
     texts.push_back({.keyword = note.name.c_str(), .text = note.text.c_str()});
   }
-  const MicrotracePng picture{.width = film.size().width,
-                              .height = film.size().height,
-                              .channels = channels,
-                              .is_srgb = film.display.srgb ? 1U : 0U,
-                              .texts = texts.data(),
-                              .text_count = texts.size(),
-                              .context = &streams,
-                              .row = row_of,
-                              .take = take_bytes,
-                              .complain = take_reason};
+  MicrotracePng picture{};
+  picture.width = film.size().width;
+  picture.height = film.size().height;
+  picture.channels = channels;
+  picture.depth = 8;
+  picture.is_srgb = film.display.srgb ? 1 : 0;
+  picture.texts = texts.data();
+  picture.text_count = texts.size();
+  const auto encoded_row = [&](std::uint32_t y) {
+    encode_row(film, y, row.data());
+    return row.data();
+  };
+  encode(picture, encoded_row, out);
+}
+
+void PngEncoder::encode(MicrotracePng picture, const std::function<const void*(std::uint32_t)>& row,
+                        const std::function<void(std::string_view)>& out) const {
+  Streams streams{row, out};
+  picture.context = &streams;
+  picture.row = row_of;
+  picture.take = take_bytes;
+  picture.complain = take_reason;
   const bool done = encode_(&picture) != 0;
   if (streams.thrown) std::rethrow_exception(streams.thrown);
   if (!done) throw Error(ErrorKind::io, file_, "can't be encoded: " + streams.reason);
   out(streams.bytes);
+}
+
+namespace {
+
+template <class Sample>
+std::string encode_gray(ImageSize size, std::span<const Sample> samples) {
+  assert(samples.size() == std::size_t{size.width} * size.height);
+  MicrotracePng picture{};
+  picture.width = size.width;
+  picture.height = size.height;
+  picture.channels = 1;
+  picture.depth = 8 * sizeof(Sample);
+  std::string file;
+  const auto row = [&](std::uint32_t y) { return &samples[std::size_t{y} * size.width]; };
+  PngEncoder("a gray picture").encode(picture, row, [&](std::string_view bytes) { file += bytes; });
+  return file;
+}
+
+}  // namespace
+
+std::string encode_gray_png(ImageSize size, std::span<const std::uint8_t> samples) {
+  return encode_gray(size, samples);
+}
+
+std::string encode_gray_png(ImageSize size, std::span<const std::uint16_t> samples) {
+  return encode_gray(size, samples);
 }
 
 }  // namespace microtrace::io

@@ -5,7 +5,9 @@
 
 #include <microtrace/film.hpp>
 
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -21,9 +23,20 @@ class PngEncoder {
   /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error(io).
   void encode(const Film& film, const std::function<void(std::string_view)>& out) const;
 
+  /// Like the other function, for a picture whose description lacks the callbacks. `row` returns
+  /// the samples of a row.
+  void encode(MicrotracePng picture, const std::function<const void*(std::uint32_t y)>& row,
+              const std::function<void(std::string_view)>& out) const;
+
  private:
   std::string file_;
   MicrotraceEncodePng encode_ = nullptr;
 };
+
+/// Returns a gray picture of 8 or 16 bits per sample as a PNG file, without a color space. The
+/// samples are in rows. Throws Error: unsupported if there is no codec module, io if the picture is
+/// too large for PNG.
+[[nodiscard]] std::string encode_gray_png(ImageSize size, std::span<const std::uint8_t> samples);
+[[nodiscard]] std::string encode_gray_png(ImageSize size, std::span<const std::uint16_t> samples);
 
 }  // namespace microtrace::io

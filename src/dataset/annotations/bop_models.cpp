@@ -1,0 +1,180 @@
+#include "dataset/annotations/bop_models.hpp"
+
+#include "dataset/annotations/bop_names.hpp"
+#include "dataset/annotations/json_text.hpp"
+#include "dataset/annotations/little_endian.hpp"
+#include "dataset/annotations/mesh_points.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace microtrace::dataset {
+namespace {
+
+double squared_distance(const DVec3& a, const DVec3& b) {
+  const DVec3 way = a - b;
+  return way.x * way.x + way.y * way.y + way.z * way.z;
+}
+
+/// A tree of points. The search for the most distant pair leaves out pairs of nodes whose boxes are
+/// too close together.
+class PointTree {
+ public:
+  explicit PointTree(std::span<const DVec3> points) : points_(points.begin(), points.end()) {
+    if (!points_.empty()) build(0, points_.size());
+  }
+
+  [[nodiscard]] double largest_squared_distance() {
+    if (!nodes_.empty()) search(0, 0);
+    return best_;
+  }
+
+ private:
+  struct Node {
+    std::size_t first, last;
+    DVec3 low, high;
+    std::size_t left = 0, right = 0;  // 0 for leaves
+  };
+
+  std::size_t build(std::size_t first, std::size_t last) {
+    constexpr std::size_t kLeaf = 16;
+    Node node{.first = first, .last = last, .low = points_[first], .high = points_[first]};
+    for (std::size_t i = first; i < last; ++i) {
+      node.low = glm::min(node.low, points_[i]);
+      node.high = glm::max(node.high, points_[i]);
+    }
+    const std::size_t index = nodes_.size();
+    nodes_.push_back(node);
+    if (last - first <= kLeaf) return index;
+    const DVec3 size = node.high - node.low;
+    const glm::length_t axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t middle = first + (last - first) / 2;
+    const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(middle), at(last),
+                     [&](const DVec3& a, const DVec3& b) { return a[axis] < b[axis]; });
+    const std::size_t left = build(first, middle), right = build(middle, last);
+    nodes_[index].left = left;
+    nodes_[index].right = right;
+    return index;
+  }
+
+  /// An upper bound of the squared distances between the points of two nodes.
+  [[nodiscard]] double bound(std::size_t a, std::size_t b) const {
+    const Node &p = nodes_[a], &q = nodes_[b];
+    return squared_distance(glm::max(p.high - q.low, q.high - p.low), DVec3(0));
+  }
+
+  void search(std::size_t a, std::size_t b) {
+    if (bound(a, b) <= best_) return;
+    const Node &p = nodes_[a], &q = nodes_[b];
+    if (p.left == 0 && q.left == 0) {
+      for (std::size_t i = p.first; i < p.last; ++i) {
+        for (std::size_t j = q.first; j < q.last; ++j)
+          best_ = std::max(best_, squared_distance(points_[i], points_[j]));
+      }
+      return;
+    }
+    std::array<std::pair<std::size_t, std::size_t>, 4> pairs;
+    std::size_t count = 0;
+    if (a == b) {
+      for (const auto& pair :
+           {std::pair(p.left, p.right), std::pair(p.left, p.left), std::pair(p.right, p.right)})
+        pairs[count++] = pair;
+    } else {
+      const bool splits_a = q.left == 0 || (p.left != 0 && p.last - p.first >= q.last - q.first);
+      const Node& split = splits_a ? p : q;
+      for (const std::size_t child : {split.left, split.right})
+        pairs[count++] = splits_a ? std::pair(child, b) : std::pair(a, child);
+    }
+    std::sort(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(count),
+              [&](const auto& x, const auto& y) {
+                return bound(x.first, x.second) > bound(y.first, y.second);
+              });
+    for (std::size_t k = 0; k < count; ++k) search(pairs[k].first, pairs[k].second);
+  }
+
+  std::vector<DVec3> points_;
+  std::vector<Node> nodes_;
+  double best_ = 0;
+};
+
+std::string ply_header(std::size_t points, std::size_t triangles, bool has_normals) {
+  std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                     std::to_string(points) +
+                     "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (has_normals) text += "property float nx\nproperty float ny\nproperty float nz\n";
+  return text + "element face " + std::to_string(triangles) +
+         "\nproperty list uchar int vertex_indices\nend_header\n";
+}
+
+void append_vector(std::string& bytes, const Vec3& v) {
+  append_little(bytes, v.x);
+  append_little(bytes, v.y);
+  append_little(bytes, v.z);
+}
+
+}  // namespace
+
+double diameter(std::span<const DVec3> points) {
+  return std::sqrt(PointTree(points).largest_squared_distance());
+}
+
+std::optional<BopModel> bop_model(const Scene& scene, std::uint32_t object, const BopFrames& frames,
+                                  const BopOptions& options) {
+  const Shape& shape = scene.objects.at(object).shape;
+  const std::vector<Vec3> positions = mesh_points(shape);
+  if (positions.empty()) return std::nullopt;
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  const bool has_normals = mesh != nullptr && !mesh->normals.empty();
+  using Corners = std::array<std::uint32_t, 3>;
+  const Array<Corners> triangles = mesh != nullptr ? mesh->triangles : Array<Corners>{{0, 1, 2}};
+
+  std::string ply = ply_header(positions.size(), triangles.size(), has_normals);
+  std::vector<DVec3> points;
+  DVec3 low(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Vec3 stored((DVec3(positions[i]) - frames.origin(object)) * options.millimeters_per_unit);
+    append_vector(ply, stored);
+    if (has_normals) append_vector(ply, mesh->normals[i]);
+    points.emplace_back(stored);
+    low = glm::min(low, points.back());
+    high = glm::max(high, points.back());
+  }
+  for (const Corners& corners : triangles) {
+    ply += '\3';
+    for (const std::uint32_t corner : corners) append_little(ply, corner);
+  }
+
+  BopModel model;
+  model.id = options.first_object_id + object;
+  model.file = {.name = "models/obj_" + six_digits(model.id) + ".ply", .bytes = std::move(ply)};
+  const DVec3 size = high - low;
+  model.info = "\"" + std::to_string(model.id) + "\": " +
+               JsonText('{')
+                   .member("diameter", diameter(points))
+                   .member("min_x", low.x)
+                   .member("min_y", low.y)
+                   .member("min_z", low.z)
+                   .member("size_x", size.x)
+                   .member("size_y", size.y)
+                   .member("size_z", size.z)
+                   .text();
+  return model;
+}
+
+std::string bop_models_info(std::span<const BopModel> models) {
+  std::string text = "{";
+  std::string_view separator = "\n  ";
+  for (const BopModel& model : models) {
+    text.append(separator).append(model.info);
+    separator = ",\n  ";
+  }
+  return text + "\n}\n";
+}
+
+}  // namespace microtrace::dataset
