@@ -1,4 +1,5 @@
 #include "accel/bvh_tree.hpp"
+#include "accel/few_triangles.hpp"
 #include "accel/hit_rounding.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
@@ -28,7 +29,8 @@ struct Bvh::Impl {
     return {.nodes = tree.nodes.data(),
             .blocks = tree.blocks.data(),
             .others = tree.others.data(),
-            .root = tree.root};
+            .root = tree.root,
+            .few = few.get()};
   }
 
   [[nodiscard]] std::unique_ptr<RayStream> make_stream() const {
@@ -51,6 +53,7 @@ struct Bvh::Impl {
   const Tree& tree = shared->tree;
   const std::vector<PrimitiveId>& outside = tree.unbounded;  // tested one by one
   bool has_tree = !tree.blocks.empty() || !tree.others.empty();
+  std::unique_ptr<const FewTriangles> few = few_triangles(tree);
   const Kernels* kernels = &kRayKernels.best();
   const SpawnKernels* spawn_kernels = &kSpawnKernels.best();
 };

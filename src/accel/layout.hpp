@@ -35,6 +35,24 @@ struct alignas(64) TriangleBlock {
 };
 static_assert(sizeof(TriangleBlock) == 384);
 
+/// The triangles of a small tree, each once.
+struct FewTriangles {
+  static constexpr int kMost = 48;
+
+  struct Entry {
+    float vertices[3][3];
+    float e1[3], e2[3];                ///< edges from the first vertex, as in the block
+    float n[3];                        ///< e1 x e2
+    float largest_edge, edge_product;  ///< as in the block
+    float lo[3], hi[3];                ///< bounds
+    int plane_axis;                    ///< of an axis-aligned plane that it lies in; -1: none
+    float plane_at;                    ///< its coordinate on this axis
+    std::uint32_t id, slot;            ///< slot: the block's index times kWidth, plus the lane
+  };
+  Entry entries[kMost];
+  int count;
+};
+
 /// The encoding of ChildRef. Bits 31-30 hold the kind: 0 for a node, 1 for a leaf of triangle
 /// blocks, 2 for a leaf of other bounded primitives. A node has its index in bits 29-0. A leaf
 /// consists of `count` consecutive blocks or primitives, with the index of the first in bits 29-3

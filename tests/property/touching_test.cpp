@@ -2,9 +2,11 @@
 // and few others.
 
 #include "accel/build/tree.hpp"
+#include "accel/few_triangles.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "support/cases/adversarial_rays.hpp"
 
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -36,16 +38,28 @@ class Places {
   Places(const Mesh& mesh, const Kernels& kernels) : scene_{}, kernels_(kernels) {
     scene_.objects.push_back({.name = "", .shape = mesh});
     tree_ = build_tree(Primitives(scene_), {.fast = false, .threads = 1});
+    few_ = few_triangles(tree_);
   }
 
   /// The triangles that the query finds. Nothing if they are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi,
                                             BoxQuery query = {}) const {
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];
+    const auto found = search(query, nullptr);
+    // Without traversal, the same triangles are found.
+    if (few_) {
+      EXPECT_EQ(found, search(query, few_.get()));
+    }
+    return found;
+  }
+
+ private:
+  std::optional<std::set<PrimitiveId>> search(BoxQuery query, const FewTriangles* few) const {
     kernels_.touching({.nodes = tree_.nodes.data(),
                        .blocks = tree_.blocks.data(),
                        .others = tree_.others.data(),
-                       .root = tree_.root},
+                       .root = tree_.root,
+                       .few = few},
                       &query, 1);
     if (query.count < 0) return std::nullopt;
     std::set<PrimitiveId> found;
@@ -54,10 +68,10 @@ class Places {
     return found;
   }
 
- private:
   Scene scene_;
   const Kernels& kernels_;
   Tree tree_;
+  std::unique_ptr<const FewTriangles> few_;
 };
 
 // The edges pass exactly through a point, although its distances from the vertices are rounded.

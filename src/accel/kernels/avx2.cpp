@@ -11,10 +11,10 @@ const Kernels kAvx2Kernels{"avx2",
                            fill_packet<8>,
                            closest_of_packet<8>,
                            prepare_stream<8>,
-                           closest_of_stream<8>,
+                           closest_of_stream<8, 8>,
                            any_of_stream<8, 8>,
                            round_t<4>,
                            round_t_of_packet<4>,
-                           touching<8>,
+                           touching<8, 8>,
                            edge_tests};
 }

@@ -11,10 +11,10 @@ const Kernels kAvx512Kernels{"avx512",
                              fill_packet<16>,
                              closest_of_packet<16>,
                              prepare_stream<16>,
-                             closest_of_stream<8>,
+                             closest_of_stream<8, 16>,
                              any_of_stream<8, 16>,
                              round_t<8>,
                              round_t_of_packet<8>,
-                             touching<8>,
+                             touching<8, 16>,
                              edge_tests};
 }

@@ -57,17 +57,25 @@ struct VolumeTest {
   template <class TrianglePart>
   VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
              const RayPart (&d)[3], float em, float m, const RayPart& d_sum, const RayPart& t_begin,
-             const RayPart& t_limit) {
+             const RayPart& t_limit)
+      : VolumeTest(a, e1, e2,
+                   {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
+                    e1[0] * e2[1] - e1[1] * e2[0]},
+                   d, em, m, d_sum, t_begin, t_limit) {}
+
+  /// n: e1 x e2.
+  template <class TrianglePart>
+  VolumeTest(const F (&a)[3], const TrianglePart (&e1)[3], const TrianglePart (&e2)[3],
+             const TrianglePart (&n)[3], const RayPart (&d)[3], float em, float m,
+             const RayPart& d_sum, const RayPart& t_begin, const RayPart& t_limit) {
     const F rx = a[1] * d[2] - a[2] * d[1], ry = a[2] * d[0] - a[0] * d[2],
             rz = a[0] * d[1] - a[1] * d[0];
-    const TrianglePart nx = e1[1] * e2[2] - e1[2] * e2[1], ny = e1[2] * e2[0] - e1[0] * e2[2],
-                       nz = e1[0] * e2[1] - e1[1] * e2[0];
-    const F signed_size = nx * d[0] + ny * d[1] + nz * d[2];
+    const F signed_size = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
     size = magnitude(signed_size);
     // u, v and height are multiplied by the sign of signed_size.
     const F u = with_sign_of<N>(rx * e2[0] + ry * e2[1] + rz * e2[2], signed_size);
     const F v = -with_sign_of<N>(rx * e1[0] + ry * e1[1] + rz * e1[2], signed_size);
-    height = with_sign_of<N>(nx * a[0] + ny * a[1] + nz * a[2], signed_size);
+    height = with_sign_of<N>(n[0] * a[0] + n[1] * a[1] + n[2] * a[2], signed_size);
 
     const F a_sum = magnitude(a[0]) + magnitude(a[1]) + magnitude(a[2]);
     const F edge_error = (a_sum * em + m) * (15.01F * kUnit * d_sum) + kTiny;
@@ -142,6 +150,36 @@ inline bool for_each_entry(ChildRef leaf, const F& f) {
   return false;
 }
 
+/// A hit that a test has not rejected. `t` is valid if has_t is set, which it is for certain hits.
+struct PossibleHit {
+  Interval<float> t;
+  bool is_certain, has_t;
+};
+/// A ray from its least parameter on.
+struct RayFromMin {
+  const float (&o)[3], (&d)[3];
+  float t_min;
+};
+
+/// Sets `best` to the hit of triangle k of a block if that hit is nearer. `fallback` decides
+/// uncertain cases.
+template <class Slowly>
+inline void consider(const TriangleBlock& block, int k, const RayFromMin& ray,
+                     const PossibleHit& hit, ClosestSoFar& best, const Slowly& fallback) {
+  const Interval<float> t = hit.t;
+  bool is_certain = hit.is_certain;
+  if (!is_certain) {
+    const Within within = within_edges(block, k, ray.o, ray.d);
+    if (within == Within::no) return;
+    is_certain = within == Within::yes && hit.has_t;
+  }
+  if (is_certain && t.lo > best.hi) return;
+  if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
+    best = {t.lo, t.hi, block.id[k]};
+  else if (!(t.lo <= ray.t_min && is_left_behind(block, k, ray.o, ray.d)))
+    fallback(block.id[k], best);
+}
+
 /// Sets `best` to the nearest hit among the lanes that a block's test has not rejected, if that hit
 /// is nearer. With kAny, stops at the first hit. `fallback` decides the uncertain lanes.
 template <int N, bool kAny, class Slowly>
@@ -152,18 +190,11 @@ inline void meet_lanes(const TriangleBlock& block, const BlockTest<N>& test, con
     const std::uint32_t id = block.id[lane];
     // A triangle can be in several leaves.
     if (id == best.id || id == ray.omitted_id) continue;
-    const Interval<float> t = test.t(lane);
-    bool is_certain = (test.certain >> lane & 1U) != 0;
-    if (!is_certain) {
-      const Within within = within_edges(block, lane, ray.o, ray.d);
-      if (within == Within::no) continue;
-      is_certain = within == Within::yes && test.has_t(lane);
-    }
-    if (is_certain && t.lo > best.hi) continue;
-    if (is_certain && t.hi < best.lo && t.lo >= ray.t_min)
-      best = {t.lo, t.hi, id};
-    else if (!(t.lo <= ray.t_min && is_left_behind(block, lane, ray.o, ray.d)))
-      fallback(id, best);
+    consider(block, lane, {ray.o, ray.d, ray.t_min},
+             {.t = test.t(lane),
+              .is_certain = (test.certain >> lane & 1U) != 0,
+              .has_t = test.has_t(lane)},
+             best, fallback);
     if (kAny && best.id != kNoPrimitive) return;
   }
 }

@@ -14,6 +14,7 @@ struct TreeView {
   const TriangleBlock* blocks;
   const std::uint32_t* others;
   ChildRef root;
+  const FewTriangles* few = nullptr;  ///< all primitives, if they are few triangles
 };
 
 /// The nearest hit so far, with its exact t in [lo, hi]. Initially lo = hi = t_max and id =

@@ -5,8 +5,16 @@
 #include "accel/kernels/touching.hpp"
 
 namespace microtrace {
-const Kernels kPortableKernels{"portable",           closest<4>,           any<4>,
-                               fill_packet<4>,       closest_of_packet<4>, prepare_stream<4>,
-                               closest_of_stream<4>, any_of_stream<4, 4>,  round_t<4>,
-                               round_t_of_packet<4>, touching<4>,          edge_tests};
+const Kernels kPortableKernels{"portable",
+                               closest<4>,
+                               any<4>,
+                               fill_packet<4>,
+                               closest_of_packet<4>,
+                               prepare_stream<4>,
+                               closest_of_stream<4, 4>,
+                               any_of_stream<4, 4>,
+                               round_t<4>,
+                               round_t_of_packet<4>,
+                               touching<4, 4>,
+                               edge_tests};
 }

@@ -5,6 +5,7 @@
 /// each ray's next step is prefetched.
 
 #include "accel/kernels/block_test.hpp"
+#include "accel/kernels/few_triangles.hpp"
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/occlusion_packet.hpp"
 #include "accel/kernels/slabs.hpp"
@@ -252,9 +253,13 @@ class StreamWalk {
   Flight flights_[kInFlight];
 };
 
-template <int N>
+/// M: number of rays that are tested against one triangle at a time.
+template <int N, int M>
 void closest_of_stream(const TreeView& tree, KernelStream& stream, const StreamFallback& slow) {
-  StreamWalk<N, false>(tree, stream, slow, nullptr).run();
+  if (has_few_triangles<M>(tree))
+    FewTrianglesWalk<M>(tree, stream, slow).run();
+  else
+    StreamWalk<N, false>(tree, stream, slow, nullptr).run();
 }
 
 /// M is the number of rays that packets test at a time.

@@ -2,6 +2,7 @@
 /// Finds the primitives near a box.
 
 #include "accel/kernels/block_test.hpp"
+#include "accel/kernels/few_triangles.hpp"
 #include "accel/kernels/kernel.hpp"
 #include "accel/kernels/node_test.hpp"
 #include "accel/kernels/simd.hpp"
@@ -64,36 +65,37 @@ inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query
   return lanes;
 }
 
-/// A box as its center and half extents, which are rounded up.
+/// Boxes as their centers and half extents, which are rounded up.
+template <class F>
 struct CenteredBox {
-  float center[3], reach[3];
+  F center[3], reach[3];
 
-  explicit CenteredBox(const BoxQuery& box) {
+  CenteredBox(const F (&lo)[3], const F (&hi)[3]) {
     for (int k = 0; k < 3; ++k) {
-      center[k] = 0.5F * box.lo[k] + 0.5F * box.hi[k];
-      reach[k] = greater(box.hi[k] - center[k], center[k] - box.lo[k]) * (1 + 0x1p-20F);
+      center[k] = 0.5F * lo[k] + 0.5F * hi[k];
+      reach[k] = greater(hi[k] - center[k], center[k] - lo[k]) * (1 + 0x1p-20F);
     }
   }
 };
 
-/// Returns triangles that certainly don't touch the box because, seen along some axis, the box is
-/// left of one edge and right of another. Long thin triangles often don't touch the box although
-/// their bounding boxes overlap it. Let A and B be the vectors from the center to an edge's ends,
-/// and r the half extents. The area A_i B_j - A_j B_i changes by at most r_i |B_j - A_j| + r_j |B_i
-/// - A_i| within the box. Each of its terms has three roundings; the rounding of the difference
-/// does not change its sign. Half of the eight units, and half of the margin of the half extents
-/// for second-order roundings, would suffice.
-template <int N>
-inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBox& box) {
+/// Tests N triangles against one box, or one triangle against N boxes. Returns those of `lanes`
+/// whose triangle may touch the box. The others certainly don't, because, seen along some axis, the
+/// box is left of one edge and right of another. Long thin triangles often don't touch the box
+/// although their bounding boxes overlap it. Let A and B be the vectors from the center to an
+/// edge's ends, and r the half extents. The area A_i B_j - A_j B_i changes by at most r_i |B_j -
+/// A_j| + r_j |B_i - A_i| within the box. Each of its terms has three roundings; the rounding of
+/// the difference does not change its sign. Half of the eight units, and half of the margin of the
+/// half extents for second-order roundings, would suffice.
+template <int N, class Corner, class BoxPart>
+inline Lanes without_clear(Lanes lanes, const Corner (&vertices)[3][3],
+                           const CenteredBox<BoxPart>& box) {
   using F = Float<N>;
   F corners[3][3];
-  const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
   for (int corner = 0; corner < 3; ++corner) {
     for (int axis = 0; axis < 3; ++axis)
-      corners[corner][axis] = load<N>(axes[axis] + 3 * kWidth * corner) - box.center[axis];
+      corners[corner][axis] = vertices[corner][axis] - box.center[axis];
   }
-  Lanes passing = 0;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (int axis = 0; axis < 3 && lanes != 0; ++axis) {
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
     Lanes any_positive = 0, any_negative = 0;
     for (int corner = 0; corner < 3; ++corner) {
@@ -106,9 +108,30 @@ inline Lanes clear_triangles(const TriangleBlock& block, int i, const CenteredBo
       any_positive |= less<N>(error, area);
       any_negative |= less<N>(area, -error);
     }
-    passing |= any_positive & any_negative;
+    lanes &= ~(any_positive & any_negative);
   }
-  return passing;
+  return lanes;
+}
+
+/// The vertices of N triangles of a block, starting at i.
+template <int N>
+struct BlockVertices {
+  Float<N> at[3][3];
+
+  BlockVertices(const TriangleBlock& block, int i) {
+    // The arrays of the vertices are consecutive.
+    for (int corner = 0; corner < 3; ++corner) {
+      for (int axis = 0; axis < 3; ++axis)
+        at[corner][axis] = load<N>(block.a_x + (3 * corner + axis) * kWidth + i);
+    }
+  }
+};
+
+/// Adds a slot to the results unless there are too many; returns whether there are.
+inline bool adds_too_many(BoxQuery& query, std::uint32_t slot) {
+  if (query.count == BoxQuery::kMost) query.count = -1;
+  if (query.count >= 0) query.slots[query.count++] = slot;
+  return query.count < 0;
 }
 
 /// The state of a query's traversal.
@@ -131,34 +154,90 @@ inline void step(const TreeView& tree, BoxSearch& search, BoxQuery& query) {
   const std::uint32_t first = (next & ~child_ref::kKind) >> 3U, end = first + (next & 7U) + 1;
   const bool are_triangles = (next & child_ref::kKind) == child_ref::kTriangles;
   bool overflows = false;
-  const auto add = [&](std::uint32_t slot) {
-    overflows = query.count == BoxQuery::kMost;
-    if (!overflows) query.slots[query.count++] = slot;
-  };
   for (std::uint32_t i = first; i < end && !overflows; ++i) {
     if (!are_triangles) {
-      add(kOtherSlot + i);
+      overflows = adds_too_many(query, kOtherSlot + i);
       continue;
     }
-    Lanes lanes = touched_triangles<N>(tree.blocks[i], query);
-    if (lanes != 0) lanes &= ~omitted_triangles<N>(tree.blocks[i], query);
+    const TriangleBlock& block = tree.blocks[i];
+    Lanes lanes = touched_triangles<N>(block, query);
+    if (lanes != 0) lanes &= ~omitted_triangles<N>(block, query);
     if (lanes != 0) {  // often false on axis-aligned walls
-      const CenteredBox box(query);
-      for (int k = 0; k < kWidth; k += N)
-        lanes &= ~(clear_triangles<N>(tree.blocks[i], k, box) << k);
+      const CenteredBox<float> box(query.lo, query.hi);
+      for (int k = 0; k < kWidth; k += N) {
+        const Lanes these = lanes & kAllLanes<N> << k;
+        lanes &= ~these;
+        lanes |= without_clear<N>(these >> k, BlockVertices<N>(block, k).at, box) << k;
+      }
     }
     for (; lanes != 0 && !overflows; lanes &= lanes - 1)
-      add(i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
+      overflows = adds_too_many(query, i * kWidth + static_cast<std::uint32_t>(first_lane(lanes)));
   }
-  if (overflows) {
-    query.count = -1;
-    search.size = 0;
-  }
+  if (overflows) search.size = 0;
 }
 
-/// See Kernels::touching.
+/// Finds the triangles near up to kBoxQueries boxes, by tests of one triangle against N boxes.
 template <int N>
+class FewTrianglesSearch {
+ public:
+  FewTrianglesSearch(const TreeView& tree, BoxQuery* queries, int count)
+      : tree_(tree), queries_(queries), count_(count) {
+    for (int i = 0; i < kBoxQueries; ++i) {
+      const BoxQuery& query = queries[i < count ? i : 0];
+      for (int k = 0; k < 3; ++k) lo_[k][i] = query.lo[k], hi_[k][i] = query.hi[k];
+      plane_at_[i] = query.plane_at;
+      plane_axis_[i] = static_cast<std::uint32_t>(query.plane_axis);
+      omitted_id_[i] = query.omitted_id;
+    }
+  }
+
+  void run() {
+    for (int i = 0; i < count_; ++i) queries_[i].count = 0;
+    for (int first = 0; first < count_; first += N) {
+      const int rest = count_ - first;
+      const Lanes all_queries = rest < N ? (Lanes{1} << rest) - 1 : kAllLanes<N>;
+      for (int k = 0; k < tree_.few->count; ++k) meet(tree_.few->entries[k], first, all_queries);
+    }
+  }
+
+ private:
+  using F = Float<N>;
+
+  void meet(const FewTriangles::Entry& triangle, int first, Lanes lanes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lanes &= less_equal<N>(all<N>(triangle.lo[axis]), load<N>(hi_[axis] + first)) &
+               less_equal<N>(load<N>(lo_[axis] + first), all<N>(triangle.hi[axis]));
+    }
+    if (lanes == 0) return;
+    lanes &= ~equal_to<N>(omitted_id_ + first, triangle.id);
+    if (triangle.plane_axis >= 0) {
+      const F at = load<N>(plane_at_ + first), own = all<N>(triangle.plane_at);
+      const auto axis = static_cast<std::uint32_t>(triangle.plane_axis);
+      lanes &= ~(equal_to<N>(plane_axis_ + first, axis) & less_equal<N>(at, own) &
+                 less_equal<N>(own, at));
+    }
+    if (lanes == 0) return;
+    F lo[3], hi[3];
+    for (int axis = 0; axis < 3; ++axis)
+      lo[axis] = load<N>(lo_[axis] + first), hi[axis] = load<N>(hi_[axis] + first);
+    lanes = without_clear<N>(lanes, triangle.vertices, CenteredBox<F>(lo, hi));
+    for (; lanes != 0; lanes &= lanes - 1) {
+      BoxQuery& query = queries_[first + first_lane(lanes)];
+      if (query.count >= 0) adds_too_many(query, triangle.slot);
+    }
+  }
+
+  const TreeView& tree_;
+  BoxQuery* queries_;
+  int count_;
+  alignas(64) float lo_[3][kBoxQueries], hi_[3][kBoxQueries], plane_at_[kBoxQueries];
+  alignas(64) std::uint32_t omitted_id_[kBoxQueries], plane_axis_[kBoxQueries];
+};
+
+/// See Kernels::touching. M: number of boxes that are tested against one triangle at a time.
+template <int N, int M>
 void touching(const TreeView& tree, BoxQuery* queries, int count) {
+  if (has_few_triangles<M>(tree)) return FewTrianglesSearch<M>(tree, queries, count).run();
   BoxSearch searches[kBoxQueries];
   int going[kBoxQueries];
   for (int i = 0; i < count; ++i) {

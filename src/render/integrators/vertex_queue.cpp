@@ -61,12 +61,14 @@ void VertexQueue::add(const Vertex& vertex, const bsdf::Parameters& parameters,
   const int lane = count_++;
   const ShadingPoint& point = vertex.point;
   const PathState& path = vertex.path;
-  pending_[static_cast<std::size_t>(lane)] = {.ray = &vertex.ray,
-                                              .hit = vertex.hit,
-                                              .path = &path,
-                                              .width = point.width,
-                                              .channel = vertex.channel,
-                                              .absorption = vertex.absorption};
+  // Without a temporary object, which would be copied in larger pieces than it was written in.
+  PendingVertex& pending = pending_[static_cast<std::size_t>(lane)];
+  pending.ray = &vertex.ray;
+  pending.hit = vertex.hit;
+  pending.path = &path;
+  pending.width = point.width;
+  pending.channel = vertex.channel;
+  pending.absorption = vertex.absorption;
   put(light_choices_.p, lane, point.at.p);
   put_point(points_, lane, vertex.ray, point.at);
   add_normal_maps(lane, point);
@@ -158,7 +160,8 @@ void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
 }
 
 void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
-  const BsdfInput input = shading_->bsdf_input(vertex.point, vertex.channel);
+  std::optional<BsdfInput> varying;
+  const BsdfInput& input = shading_->bsdf_input(vertex.point, vertex.channel, varying);
   std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(input.features.index())];
   if (!queue) {
     queue = std::make_unique<VertexQueue>(input.features, kernels_);

@@ -157,12 +157,14 @@ class Shading {
   /// materials emit their color.
   [[nodiscard]] Vec3 emission(const ShadingPoint& point) const;
 
-  /// The BSDF's input on the ray's side. `channel` is the color channel of a path through
-  /// dispersive media, 0 to 2; 3 for all channels.
-  [[nodiscard]] BsdfInput bsdf_input(const ShadingPoint& point, int channel) const {
+  /// Returns the BSDF's input on the ray's side. Unless it is constant, it is computed and stored
+  /// in `varying`. `channel` is the color channel of a path through dispersive media, 0 to 2; 3 for
+  /// all channels.
+  [[nodiscard]] const BsdfInput& bsdf_input(const ShadingPoint& point, int channel,
+                                            std::optional<BsdfInput>& varying) const {
     const bool has_colors = point.at.mesh != nullptr && !point.at.mesh->colors.empty();
     if (point.look->constant && !has_colors) return *point.look->constant;
-    return {parameters(point, channel), layers(point)};
+    return varying.emplace(parameters(point, channel), layers(point));
   }
 
   /// The absorption of the medium below the surface, in powers of two per length; 0 if there is

@@ -2,6 +2,7 @@
 // triangle and is queried by every function. The worst inputs with and without fused multiply-adds
 // differ, so each bound has inputs for both.
 
+#include "accel/few_triangles.hpp"
 #include "accel/kernel_rays.hpp"
 #include "accel/kernels/dispatch.hpp"
 #include "accel/resolve/hit_resolver.hpp"
@@ -144,10 +145,18 @@ class OneTriangle {
           const auto& one = *static_cast<const OneTriangle*>(self);
           HitResolver(one.primitives_, one.ray_).consider(id, best);
         }};
-    fill(kernels, *stream);
-    kernels.closest_of_stream(tree(), *stream, slow);
-    for (int i = 0; i < stream->count; ++i)
-      expect_right({stream->best_lo[i], stream->best_hi[i], stream->best_id[i]});
+    Tree whole;
+    whole.blocks.push_back(block_);
+    const std::unique_ptr<const FewTriangles> few = few_triangles(whole);
+    for (const FewTriangles* triangles : {few.get(), static_cast<const FewTriangles*>(nullptr)}) {
+      SCOPED_TRACE(triangles == nullptr ? "with traversal" : "without traversal");
+      TreeView view = tree();
+      view.few = triangles;
+      fill(kernels, *stream);
+      kernels.closest_of_stream(view, *stream, slow);
+      for (int i = 0; i < stream->count; ++i)
+        expect_right({stream->best_lo[i], stream->best_hi[i], stream->best_id[i]});
+    }
     fill(kernels, *stream);
     kernels.any_of_stream(tree(), *stream, slow);
     for (int i = 0; i < stream->count; ++i)
