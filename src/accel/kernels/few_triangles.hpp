@@ -61,7 +61,8 @@ class FewTrianglesWalk {
         best_hi = select<N>(nearer, t.hi, best_hi);
         store_where<N>(nearer, triangle.id, stream_.best_id + first_);
       }
-      const Lanes open = maybe & ~nearer & ~farther;
+      Lanes open = maybe & ~nearer & ~farther;
+      if (open != 0) open &= entering(triangle, o, begin, best_hi);
       if (open == 0) continue;
       store<N>(stream_.best_lo + first_, best_lo);
       store<N>(stream_.best_hi + first_, best_hi);
@@ -71,6 +72,21 @@ class FewTrianglesWalk {
     }
     store<N>(stream_.best_lo + first_, best_lo);
     store<N>(stream_.best_hi + first_, best_hi);
+  }
+
+  /// Returns the rays that enter the triangle's bounding box before `limit`. As in a tree, few of
+  /// the rays in a triangle's plane do.
+  [[nodiscard]] Lanes entering(const FewTriangles::Entry& triangle, const F (&o)[3], const F& begin,
+                               const F& limit) const {
+    F enter = begin, leave = limit;
+    for (int axis = 0; axis < 3; ++axis) {
+      const F near_factor = load<N>(stream_.near[axis] + first_),
+              far_factor = load<N>(stream_.far[axis] + first_);
+      const F zero{}, lo = triangle.lo[axis] - o[axis], hi = triangle.hi[axis] - o[axis];
+      enter = greater(near_factor * (near_factor < zero ? hi : lo), enter);
+      leave = lesser(far_factor * (far_factor < zero ? lo : hi), leave);
+    }
+    return less_equal<N>(enter, leave);
   }
 
   /// Decides the lanes that the comparison of intervals can't decide.
