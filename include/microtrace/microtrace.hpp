@@ -6,6 +6,8 @@
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/checkpoint.hpp>
+#include <microtrace/coco.hpp>
+#include <microtrace/dataset.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/digest.hpp>
 #include <microtrace/environment.hpp>

@@ -4,6 +4,7 @@
 #include "cli/options/values.hpp"
 #include "cli/pictures/frames.hpp"
 
+#include <microtrace/coco.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
@@ -35,9 +36,6 @@ struct CameraOptions {
   [[nodiscard]] View view() const;
 };
 
-/// Uniform radiance, the built-in studio, or the path of an environment map.
-using EnvironmentSource = std::variant<Vec3, Studio, std::filesystem::path>;
-
 struct EnvironmentOptions {
   std::optional<EnvironmentSource> source{};
   std::optional<double> rotation{};  ///< degrees
@@ -56,11 +54,6 @@ struct EnvironmentOptions {
 struct DisplayOptions {
   std::optional<double> exposure{};  ///< stops
   std::optional<ToneMap> tone_map{};
-};
-
-/// Part `index` of `count`, counted from 1.
-struct Shard {
-  std::uint32_t index = 1, count = 1;
 };
 
 struct SamplingOptions {
@@ -84,6 +77,21 @@ struct SamplingOptions {
   [[nodiscard]] bool needs_passes() const {
     return uses_files() || target_error > 0 || time_limit < std::numeric_limits<double>::infinity();
   }
+};
+
+/// A kind of file that a data set has for each view.
+enum class DatasetFormat { png, exr, coco };
+
+struct DatasetOptions {
+  std::string views{};  ///< a file or a generator; empty: one view, or the frames
+  std::vector<DatasetFormat> formats{DatasetFormat::png};
+  std::string name = "{view:06d}";
+  CocoOptions coco{};
+  std::optional<Shard> shard{};
+  std::uint32_t redraw = 1;  ///< number of views that `verify` renders again
+  /// The options on which the files depend, and their command line.
+  std::string identity{};
+  std::vector<std::string> command_line{};
 };
 
 enum class Statistics { none, text, json };
@@ -126,6 +134,9 @@ struct Arguments {
   // For the command merge only:
   std::vector<std::filesystem::path> checkpoints{};
   bool allows_missing_samples = false;
+
+  // For the commands dataset and verify only:
+  DatasetOptions dataset{};
 };
 
 /// Sets options that are absent to the library's defaults for scenes of this format. Throws Error

@@ -2,6 +2,7 @@
 
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
+#include "cli/dataset/dataset.hpp"
 #include "cli/merge.hpp"
 #include "cli/options/completion.hpp"
 #include "cli/options/parse.hpp"
@@ -18,6 +19,7 @@
 #include <microtrace/digest.hpp>
 #include <microtrace/read_files.hpp>
 
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
@@ -100,9 +102,18 @@ int exit_code_of(const Work& work) {
   }
 }
 
-bool is_merge(int argc, char** argv) {
-  return argc > 1 && std::string_view(argv[1]) == "merge";
-}
+/// A command that is named by the first argument.
+struct NamedCommand {
+  std::string_view name;
+  cli::Command command;
+  void (*run)(const cli::Arguments&);
+};
+
+constexpr std::array kNamedCommands{
+    NamedCommand{"merge", cli::Command::merge, cli::merge_samples},
+    NamedCommand{"dataset", cli::Command::dataset, cli::write_dataset},
+    NamedCommand{"verify", cli::Command::verify, cli::verify_dataset},
+};
 
 }  // namespace
 
@@ -110,11 +121,13 @@ int cli::run_program(int argc, char** argv) {
   const FloatEnvironment environment;
   cli::handle_signals();
   if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
-  if (is_merge(argc, argv)) {
-    const cli::Parsed merge = cli::parse_arguments(cli::Command::merge, argc - 1, argv + 1);
-    if (merge.exit_code) return *merge.exit_code;
+  for (const NamedCommand& named : kNamedCommands) {
+    if (argc < 2 || argv[1] != named.name) continue;
+    const cli::Parsed parsed = cli::parse_arguments(named.command, argc - 1, argv + 1);
+    if (parsed.exit_code) return *parsed.exit_code;
+    if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
     return exit_code_of([&] {
-      cli::merge_samples(merge.arguments);
+      named.run(parsed.arguments);
       return 0;
     });
   }

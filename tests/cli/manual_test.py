@@ -28,7 +28,8 @@ def help_text(*command):
 def groups():
     """Returns all options by heading. Each option occurs once."""
     all_groups = option_table.parse(help_text())
-    return {**all_groups, "Merging": option_table.parse(help_text("merge"))["Merging"]}
+    more = {"Merging": "merge", "Data set": "dataset", "Verification": "verify"}
+    return {**all_groups, **{title: option_table.parse(help_text(command))[title] for title, command in more.items()}}
 
 
 def bold_options(text):

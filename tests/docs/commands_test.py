@@ -94,11 +94,15 @@ def small(command):
     """Returns the command with fewer pixels and samples."""
     command = re.sub(r"--size \S+", "", command)
     command = re.sub(r"(--spp|--samples) (\d+)", lambda m: f"{m[1]} {min(int(m[2]), 4)}", command)
-    if re.match(r"microtrace (merge|completion)|microtrace --", command):
+    command = re.sub(r"(orbit|hemisphere|random):\d+", r"\1:2", command)
+    if re.match(r"microtrace (merge|completion|verify)|microtrace --", command):
         return command
     command += " --size 32x24"
     has_one_sample = re.search(r"--integrator (?!path)|--spp|--samples", command)
     return command if has_one_sample else command + " --spp 2"
+
+
+COMMANDS = [[], ["merge"], ["dataset"], ["verify"]]
 
 
 class Documentation(ProgramTest):
@@ -118,14 +122,14 @@ class Documentation(ProgramTest):
         (self.folder / "bin/microtrace").symlink_to(PROGRAM)
 
     def test_commands_of_the_program(self):
-        known = self.run_program("--help").stdout.decode()
+        known = "".join(self.run_program(*command, "--help").stdout.decode() for command in COMMANDS)
         count = 0
         for snippet in commands():
             if not is_ours(snippet.text):
                 continue
             with self.subTest(snippet.place, command=snippet.text):
                 for option in re.findall(r"(?<![\w-])(--[a-z][a-z-]*)", snippet.text):
-                    self.assertIn(option, known + " --partial", snippet.place)
+                    self.assertIn(option, known, snippet.place)
                 if has_placeholder(snippet.text):
                     continue
                 count += 1
@@ -136,8 +140,8 @@ class Documentation(ProgramTest):
         self.assertGreater(count, 20, "the commands are not where this test looks")
 
     def test_options_in_the_text_are_there(self):
-        known = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", self.run_program("--help").stdout.decode()
-                               + self.run_program("merge", "--help").stdout.decode()))
+        known = set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", "".join(
+            self.run_program(*command, "--help").stdout.decode() for command in COMMANDS)))
         count = 0
         for page in PAGES:
             if page.name in ("performance.md", "CONTRIBUTING.md", "architecture.md", "internals.md"):
@@ -187,6 +191,11 @@ class Documentation(ProgramTest):
                     text = text.strip()
                     # A snippet may show a part of a scene without the enclosing braces.
                     scene = json.loads(text if text.startswith("{") else "{" + text + "}")
+                    if "views" in scene:
+                        (self.folder / "views.json").write_text(text)
+                        result = self.run_program("dataset", "scene.json", "--views", "views.json", "-o", f"views{line}")
+                        self.assertEqual(result.returncode, 0, f"{page.name}:{line}: {result.stderr.decode()}")
+                        continue
                     scene = {"version": 1, "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1}], **scene}
                     (self.folder / "snippet.json").write_text(json.dumps(scene))
                     result = self.run_program("snippet.json", "--strict", "--size", "8x6", "-o", "-")

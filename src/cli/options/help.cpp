@@ -14,6 +14,8 @@ constexpr std::string_view kRenderUsage =
     R"(microtrace: renders JSON and glTF scenes with exact visibility and the same bytes everywhere
 Usage: microtrace [OPTIONS] SCENE
        microtrace merge [OPTIONS] CHECKPOINT...
+       microtrace dataset [OPTIONS] SCENE -o FOLDER
+       microtrace verify [OPTIONS] FOLDER
        microtrace completion bash|zsh|fish
 )";
 
@@ -21,6 +23,30 @@ constexpr std::string_view kMergeUsage =
     R"(microtrace merge: makes one picture from the samples in several checkpoints
 Usage: microtrace merge [OPTIONS] CHECKPOINT...
 )";
+
+constexpr std::string_view kDatasetUsage =
+    R"(microtrace dataset: renders many views of a scene into a folder
+Usage: microtrace dataset [OPTIONS] SCENE -o FOLDER
+)";
+
+constexpr std::string_view kVerifyUsage =
+    R"(microtrace verify: checks the files of a data set, and renders some of its views again
+Usage: microtrace verify [OPTIONS] FOLDER
+)";
+
+std::string_view usage_of(Command command) {
+  switch (command) {
+    case Command::render:
+      return kRenderUsage;
+    case Command::merge:
+      return kMergeUsage;
+    case Command::dataset:
+      return kDatasetUsage;
+    case Command::verify:
+      return kVerifyUsage;
+  }
+  return {};
+}
 
 constexpr std::string_view kFooter = R"(
 Exit codes: 0 done, 1 internal error, 2 usage error, 3 invalid scene, 4 required feature
@@ -76,11 +102,21 @@ std::string line_of(const Option& option) {
 }  // namespace
 
 std::string program_name(Command command) {
-  return command == Command::merge ? "microtrace merge" : "microtrace";
+  switch (command) {
+    case Command::render:
+      return "microtrace";
+    case Command::merge:
+      return "microtrace merge";
+    case Command::dataset:
+      return "microtrace dataset";
+    case Command::verify:
+      return "microtrace verify";
+  }
+  return {};
 }
 
 std::string help_text(Command command) {
-  std::string text(command == Command::merge ? kMergeUsage : kRenderUsage);
+  std::string text(usage_of(command));
   text += "Defaults are in [brackets].\n";
   std::string_view title;
   for (const OptionGroup& group : option_groups(command)) {

@@ -6,15 +6,6 @@
 namespace microtrace::cli {
 namespace {
 
-EnvironmentSource parse_environment(const OptionValue& value) {
-  if (value.text == "studio") return Studio{};
-  if (const auto radiance = parse_radiance(value.text)) return *radiance;
-  if (!value.text.empty() && value.text[0] != '#') return std::filesystem::path(value.text);
-  value.refuse(
-      "studio, #rrggbb (sRGB), three numbers from 0 up (linear light) such as 0.2,0.4,1, or a "
-      "file");
-}
-
 std::vector<std::string> tone_map_names() {
   std::vector<std::string> names;
   for (const ToneMap map : kToneMaps) names.emplace_back(name_of(map));

@@ -1,6 +1,17 @@
 #include "cli/options/option.hpp"
 
 namespace microtrace::cli {
+namespace {
+
+/// The rows from the option `first` to the option `last`.
+std::span<const Option> rows(std::span<const Option> table, std::string_view first,
+                             std::string_view last) {
+  const auto begin = std::ranges::find(table, first, &Option::name);
+  const auto end = std::ranges::find(table, last, &Option::name);
+  return {begin, end + 1};
+}
+
+}  // namespace
 
 std::vector<std::string_view> Option::all_names() const {
   return split_at_commas(names);
@@ -17,6 +28,23 @@ std::vector<OptionGroup> option_groups(Command command) {
   if (command == Command::merge) {
     return {{"Merging", merge_options()},
             {"Display", display_options()},
+            {"Messages and help", common_options()}};
+  }
+  if (command == Command::dataset) {
+    return {{"Data set", dataset_options()},
+            {"Pictures", rows(picture_options(), "--size", "--aov")},
+            {"Camera of views without one", camera_options()},
+            {"Integrator and samples", sampling_options()},
+            {"Light", light_options()},
+            {"Display", display_options()},
+            {"glTF assets", asset_options()},
+            {"Running", rows(running_options(), "--threads", "--memory-limit")},
+            {"Running", rows(running_options(), "--progress", "--strict")},
+            {"Messages and help", common_options()}};
+  }
+  if (command == Command::verify) {
+    return {{"Verification", verify_options()},
+            {"Running", rows(running_options(), "--threads", "--memory-limit")},
             {"Messages and help", common_options()}};
   }
   return {{"Picture", picture_options()},

@@ -21,7 +21,7 @@ namespace microtrace::cli {
 struct Arguments;
 
 /// The commands that take an option.
-enum class Command { render, merge };
+enum class Command { render, merge, dataset, verify };
 
 /// Effect of an option on the samples of Monte Carlo integrators. Samples of several runs can be
 /// combined only if the runs agree in all options that change samples.
@@ -78,6 +78,8 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> report_options();
 [[nodiscard]] std::span<const Option> common_options();
 [[nodiscard]] std::span<const Option> merge_options();
+[[nodiscard]] std::span<const Option> dataset_options();
+[[nodiscard]] std::span<const Option> verify_options();
 
 /// True if every row has names, a help text and a stated effect on samples.
 constexpr bool is_complete(std::span<const Option> options) {

@@ -38,7 +38,10 @@ class Parser {
     for (const auto& [option, added] : options_) {
       if (!option->needs.empty()) added->needs(app_.get_option(std::string(option->needs)));
       std::istringstream excluded{std::string(option->excludes)};
-      for (std::string name; excluded >> name;) added->excludes(app_.get_option(name));
+      // Commands that share a table may lack some options of other tables.
+      for (std::string name; excluded >> name;) {
+        if (CLI::Option* other = app_.get_option_no_throw(name)) added->excludes(other);
+      }
     }
   }
 
@@ -106,6 +109,27 @@ std::string identity_of(const std::vector<Given>& given) {
   return identity;
 }
 
+/// Sets the identity of a data set: all options but those that change where and how the program
+/// runs.
+void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) {
+  const auto is_of = [](const Option& option, std::span<const Option> table) {
+    return std::ranges::find(table, option.names, &Option::names) != table.end();
+  };
+  for (const auto& [option, values] : given) {
+    if (option->name() == "--output" || option->name() == "--shard") continue;
+    if (is_of(*option, running_options()) || is_of(*option, common_options())) continue;
+    for (const std::string& value : values) {
+      std::string argument = value;
+      if (!option->is_positional()) {
+        argument = option->name();
+        if (!option->metavar.empty()) argument.append("=").append(value);
+        dataset.identity.append(dataset.identity.empty() ? "" : " ").append(argument);
+      }
+      dataset.command_line.push_back(std::move(argument));
+    }
+  }
+}
+
 std::filesystem::path default_output(const std::string& scene, bool has_frames) {
   if (scene == "-") refuse_usage("--output is required if the scene is standard input");
   return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
@@ -146,6 +170,7 @@ Parsed parse_arguments(Command command, int argc, char** argv) {
       for (const std::string& value : values) option->set(a, {std::string(option->name()), value});
     }
     if (command == Command::render) complete(a);
+    if (command == Command::dataset) identify_dataset(given, a.dataset);
     a.identity = identity_of(given);
   } catch (const CLI::CallForHelp&) {
     parsed.exit_code = print(help_text(command));

@@ -75,16 +75,6 @@ constexpr std::array kSamplingOptions{
 };
 static_assert(is_complete(kSamplingOptions));
 
-Shard parse_shard(const OptionValue& value) {
-  const std::string_view text = value.text;
-  const std::size_t slash = text.find('/');
-  const auto index = whole_number(text.substr(0, slash));
-  const auto count = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *index > *count)
-    value.refuse("I/N, shard I of N, with I from 1 to N");
-  return {.index = *index, .count = *count};
-}
-
 constexpr std::array kCheckpointOptions{
     Option{
         .names = "--target-error",

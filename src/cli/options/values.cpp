@@ -127,6 +127,25 @@ std::optional<Vec3> parse_radiance(const std::string& text) {
   return parse_color(text, kMaxRadiance);
 }
 
+EnvironmentSource parse_environment(const OptionValue& value) {
+  if (value.text == "studio") return Studio{};
+  if (const auto radiance = parse_radiance(value.text)) return *radiance;
+  if (!value.text.empty() && value.text[0] != '#') return std::filesystem::path(value.text);
+  value.refuse(
+      "studio, #rrggbb (sRGB), three numbers from 0 up (linear light) such as 0.2,0.4,1, or a "
+      "file");
+}
+
+Shard parse_shard(const OptionValue& value) {
+  const std::string_view text = value.text;
+  const std::size_t slash = text.find('/');
+  const auto index = whole_number(text.substr(0, slash));
+  const auto count = slash == text.npos ? std::nullopt : whole_number(text.substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count)
+    value.refuse("I/N, shard I of N, with I from 1 to N");
+  return {.index = *index, .count = *count};
+}
+
 IntegratorOptions parse_integrator(const OptionValue& value) {
   if (value.text == "flat") return FlatOptions{};
   if (value.text == "path") return PathOptions{};

@@ -5,13 +5,16 @@
 
 #include <microtrace/aov.hpp>
 #include <microtrace/defaults.hpp>
+#include <microtrace/environment.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/sampled_aov.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace microtrace::cli {
@@ -46,6 +49,20 @@ struct Background {
 /// Parses #rrggbb in sRGB; or red,green,blue in linear light, each in [0, kMaxRadiance]. Returns
 /// nothing for any other text.
 [[nodiscard]] std::optional<Vec3> parse_radiance(const std::string& text);
+
+/// Uniform radiance, the built-in studio, or the path of an environment map.
+using EnvironmentSource = std::variant<Vec3, Studio, std::filesystem::path>;
+
+/// Parses a color as parse_radiance() does, "studio", or a path.
+[[nodiscard]] EnvironmentSource parse_environment(const OptionValue& value);
+
+/// Part `index` of `count`, counted from 1.
+struct Shard {
+  std::uint32_t index = 1, count = 1;
+};
+
+/// Parses I/N.
+[[nodiscard]] Shard parse_shard(const OptionValue& value);
 
 [[nodiscard]] IntegratorOptions parse_integrator(const OptionValue& value);
 [[nodiscard]] std::vector<std::string> integrator_names();

@@ -1,0 +1,130 @@
+"""Tests data sets of the program against readers made by others."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from conftest import REPOSITORY, SCENES
+from pycocotools import mask as coco_mask
+from pycocotools.coco import COCO
+
+sys.path.append(str(REPOSITORY / "tests" / "cli"))
+from exr import Exr  # noqa: E402  (the reader of the program's own tests)
+
+MATERIALS = SCENES / "gltf" / "materials.glb"
+
+
+def dataset(program, folder, *options, scene=MATERIALS):
+    subprocess.run(
+        [program, "dataset", scene, "-o", folder, "--integrator", "flat", "--quiet", *options],
+        check=True,
+        timeout=300,
+    )
+
+
+@pytest.mark.parametrize("scene", ["gltf/materials.glb", "perspective1.json", "gltf/moving.glb"])
+@pytest.mark.parametrize("size", ["61x47", "1x1", "8x200"])
+def test_pycocotools_reads_masks(program, tmp_path, scene, size):
+    scene = SCENES / scene
+    dataset(
+        program,
+        tmp_path / "set",
+        "--views",
+        "random:3",
+        "--size",
+        size,
+        "--formats",
+        "exr,coco",
+        "--aov",
+        "id",
+        scene=scene,
+    )
+    coco = COCO(tmp_path / "set" / "coco.json")
+    width, height = map(int, size.split("x"))
+    assert coco.getImgIds() == [0, 1, 2]
+    annotations = 0
+    for view in range(3):
+        image = coco.loadImgs(view)[0]
+        assert (image["width"], image["height"]) == (width, height)
+        assert image["file_name"] == f"{view:06d}.exr"
+        picture = Exr(tmp_path / "set" / image["file_name"])
+        ids = np.array(picture.channels["id.instance"])
+        covered = np.zeros((height, width), bool)
+        objects = []
+        for annotation in coco.loadAnns(coco.getAnnIds(imgIds=view)):
+            annotations += 1
+            objects.append(annotation["object"])
+            mask = coco.annToMask(annotation).astype(bool)
+            assert np.array_equal(mask, ids == annotation["object"] + 1)
+            covered |= mask
+            run_lengths = annotation["segmentation"]
+            assert coco_mask.area(run_lengths) == annotation["area"] == mask.sum()
+            assert list(coco_mask.toBbox(run_lengths)) == annotation["bbox"]
+            encoded = coco_mask.encode(np.asfortranarray(mask.astype(np.uint8)))
+            assert encoded["counts"].decode() == run_lengths["counts"]
+            assert annotation["category_id"] in coco.cats
+        assert np.array_equal(covered, ids != 0)
+        assert objects == sorted(set(objects))
+    assert annotations > 0
+    assert sorted(coco.anns) == list(range(1, annotations + 1))
+
+
+def test_amodal_masks_contain_visible_ones(program, tmp_path):
+    dataset(
+        program,
+        tmp_path / "set",
+        "--views",
+        "orbit:3",
+        "--size",
+        "48x36",
+        "--formats",
+        "coco",
+        "--amodal",
+    )
+    coco = COCO(tmp_path / "set" / "coco.json")
+    hidden = 0
+    for annotation in coco.anns.values():
+        visible, amodal = (
+            coco_mask.decode(annotation[name]).astype(bool)
+            for name in ("segmentation", "amodal_segmentation")
+        )
+        assert not np.any(visible & ~amodal)
+        assert annotation["amodal_area"] == amodal.sum()
+        assert annotation["occlude_rate"] == pytest.approx(1 - visible.sum() / amodal.sum())
+        hidden += int(amodal.sum() - visible.sum())
+    assert hidden > 0
+
+
+def test_categories(program, tmp_path):
+    sidecar = tmp_path / "one.json"
+    subprocess.run(
+        [
+            program,
+            MATERIALS,
+            "-o",
+            tmp_path / "one.png",
+            "--sidecar",
+            sidecar,
+            "--quiet",
+            "--integrator",
+            "flat",
+        ],
+        check=True,
+    )
+    described = json.loads(sidecar.read_text())
+    for kind in ("objects", "materials"):
+        dataset(
+            program, tmp_path / kind, "--size", "32x24", "--formats", "coco", "--categories", kind
+        )
+        coco = COCO(tmp_path / kind / "coco.json")
+        for annotation in coco.anns.values():
+            item = described["objects"][annotation["object"]]
+            name = coco.cats[annotation["category_id"]]["name"]
+            if kind == "objects":
+                assert name == item["name"]
+            else:
+                assert name == described["materials"][item["material"] - 1]["name"]

@@ -1,0 +1,94 @@
+#include "cli/dataset/plan.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+
+namespace microtrace::cli {
+namespace {
+
+constexpr std::uint32_t kMaxViews = 10'000'000;
+
+auto scene_key(const DatasetView& view) {
+  return std::tie(view.variant, view.time, view.environment, view.environment_rotation,
+                  view.environment_intensity);
+}
+
+/// The views of --views without --frames.
+std::vector<DatasetView> listed_views(const Arguments& arguments) {
+  const std::string& text = arguments.dataset.views;
+  if (text.empty()) return {DatasetView{}};
+  const std::size_t colon = text.find(':');
+  const std::string_view kind = std::string_view(text).substr(0, colon);
+  const bool is_generated = kind == "orbit" || kind == "hemisphere" || kind == "random";
+  if (!is_generated || colon == text.npos) return read_views(text);
+  const std::vector<double> numbers = numbers_of(std::string_view(text).substr(colon + 1));
+  const bool is_count = !numbers.empty() && numbers[0] >= 1 && numbers[0] <= kMaxViews &&
+                        numbers[0] == static_cast<std::uint32_t>(numbers[0]);
+  const std::size_t most = kind == "orbit" ? 2 : 1;
+  if (!is_count || numbers.size() > most ||
+      (numbers.size() == 2 && !(numbers[1] >= -90 && numbers[1] <= 90))) {
+    OptionValue{.option = "--views", .text = text}.refuse(
+        "a file, orbit:N, orbit:N,ELEVATION (-90 to 90 degrees), hemisphere:N or random:N, with N "
+        "from 1 to " +
+        std::to_string(kMaxViews));
+  }
+  const auto count = static_cast<std::uint32_t>(numbers[0]);
+  std::vector<DatasetView> views;
+  if (kind == "orbit") views = orbit_views(count, numbers.size() == 2 ? numbers[1] : 25);
+  if (kind == "hemisphere") views = hemisphere_views(count);
+  if (kind == "random") views = random_views(count, arguments.sampling.seed);
+  for (DatasetView& view : views)
+    std::get<View>(view.camera).vertical_fov = arguments.camera.view().vertical_fov;
+  return views;
+}
+
+}  // namespace
+
+std::vector<DatasetView> views_of(const Arguments& arguments) {
+  const std::vector<DatasetView> listed = listed_views(arguments);
+  if (!arguments.frames) return listed;
+  if (std::uint64_t{listed.size()} * arguments.frames->count() > kMaxViews)
+    refuse_usage("--frames: more than " + std::to_string(kMaxViews) + " views in all");
+  std::vector<DatasetView> views;
+  for (std::uint32_t i = 0; i < arguments.frames->count(); ++i) {
+    for (DatasetView view : listed) {
+      if (view.time) refuse_usage("--frames: the views of --views already have times");
+      view.time = arguments.frames->time(arguments.frames->first + i);
+      views.push_back(std::move(view));
+    }
+  }
+  return views;
+}
+
+std::string stem_of(const Arguments& arguments, const DatasetView& view, std::uint32_t index) {
+  return dataset_file_name(arguments.dataset.name,
+                           std::filesystem::path(arguments.scene).stem().string(), index,
+                           view.name);
+}
+
+std::string annotations_name(const Arguments& arguments, const DatasetView& view,
+                             std::uint32_t index) {
+  return "annotations/" + stem_of(arguments, view, index) + ".txt";
+}
+
+std::vector<std::uint32_t> rendering_order(const std::vector<DatasetView>& views,
+                                           const std::optional<Shard>& shard) {
+  const Shard part = shard.value_or(Shard{});
+  std::vector<std::uint32_t> order(views.size());
+  for (std::uint32_t i = 0; i < views.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return scene_key(views[a]) < scene_key(views[b]);
+  });
+  const auto bound = [&](std::uint64_t index) {
+    return static_cast<std::ptrdiff_t>(order.size() * index / part.count);
+  };
+  // A shard's views follow each other in this order, so that they share preparations too.
+  return {order.begin() + bound(part.index - 1), order.begin() + bound(part.index)};
+}
+
+bool share_scene(const DatasetView& a, const DatasetView& b) {
+  return scene_key(a) == scene_key(b);
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,34 @@
+#pragma once
+/// The views of a data set, and the order in which they are rendered.
+
+#include "cli/arguments.hpp"
+
+#include <microtrace/dataset.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// The views that the options name: those of --views, at each of the --frames if both are given.
+/// Throws Error.
+[[nodiscard]] std::vector<DatasetView> views_of(const Arguments& arguments);
+
+/// The name of a view's files without extension.
+[[nodiscard]] std::string stem_of(const Arguments& arguments, const DatasetView& view,
+                                  std::uint32_t index);
+
+/// The name of the file with a view's annotations for COCO.
+[[nodiscard]] std::string annotations_name(const Arguments& arguments, const DatasetView& view,
+                                           std::uint32_t index);
+
+/// The indices of the shard's views, ordered so that views with the same variant, time and
+/// environment follow each other: such views share one preparation.
+[[nodiscard]] std::vector<std::uint32_t> rendering_order(const std::vector<DatasetView>& views,
+                                                         const std::optional<Shard>& shard);
+
+/// True if the views can share a prepared scene.
+[[nodiscard]] bool share_scene(const DatasetView& a, const DatasetView& b);
+
+}  // namespace microtrace::cli

@@ -1,0 +1,109 @@
+#include "cli/dataset/dataset.hpp"
+#include "cli/dataset/plan.hpp"
+#include "cli/dataset/view_renderer.hpp"
+#include "cli/options/parse.hpp"
+
+#include <microtrace/dataset.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+namespace microtrace::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that is removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (fs::temp_directory_path() / "microtrace-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr)
+      throw Error(ErrorKind::io, pattern, "can't be created; set TMPDIR to a folder with space");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+[[noreturn]] void fail(const DatasetFolder& folder, const std::string& file, const char* reason) {
+  throw Error(ErrorKind::io, (folder.path() / file).string(), reason);
+}
+
+/// The arguments with which the data set was started.
+Arguments arguments_of(const DatasetIdentity& identity) {
+  std::vector<std::string> words{"microtrace dataset", "--output=."};
+  words.insert(words.end(), identity.arguments.begin(), identity.arguments.end());
+  std::vector<char*> pointers;
+  pointers.reserve(words.size());
+  for (std::string& word : words) pointers.push_back(word.data());
+  Parsed parsed =
+      parse_arguments(Command::dataset, static_cast<int>(pointers.size()), pointers.data());
+  if (parsed.exit_code) throw Error(ErrorKind::usage, "dataset.json", "has invalid arguments");
+  return std::move(parsed.arguments);
+}
+
+/// Renders views again and compares their files with those of the data set.
+void redraw(const DatasetFolder& folder, const std::vector<std::uint32_t>& indices,
+            const Arguments& given) {
+  Arguments arguments = arguments_of(folder.identity());
+  arguments.threads = given.threads;
+  arguments.memory_limit = given.memory_limit;
+  arguments.quiet = true;
+  const std::vector<DatasetView> views = views_of(arguments);
+  Warnings warnings(arguments);
+  ViewRenderer renderer(arguments, warnings);
+  const TemporaryFolder copy;
+  for (const std::uint32_t index : indices) {
+    renderer.render(views.at(index), index, copy.path());
+    if (const auto name = first_damaged(copy.path(), *folder.files(index)))
+      fail(folder, *name, "differs from the view that is rendered now");
+  }
+}
+
+}  // namespace
+
+void verify_dataset(const Arguments& arguments) {
+  const DatasetFolder folder(fs::absolute(arguments.output));
+  const std::uint32_t count = folder.identity().views;
+  std::vector<std::uint32_t> finished;
+  std::size_t files = 0;
+  for (std::uint32_t view = 0; view < count; ++view) {
+    const auto known = folder.files(view);
+    if (!known) continue;
+    if (const auto name = first_damaged(folder.path(), *known))
+      fail(folder, *name, "is missing or was changed since it was rendered");
+    finished.push_back(view);
+    files += known->size();
+  }
+  const std::size_t wanted = std::min<std::size_t>(arguments.dataset.redraw, finished.size());
+  std::vector<std::uint32_t> sample;
+  for (std::size_t i = 0; i < wanted; ++i) sample.push_back(finished[i * finished.size() / wanted]);
+  if (!sample.empty()) {
+    // Paths in the arguments are relative to the folder in which the data set was started.
+    std::error_code error;
+    fs::current_path(folder.identity().folder, error);
+    redraw(folder, sample, arguments);
+  }
+  if (finished.size() < count) {
+    throw Error(ErrorKind::io, arguments.output.string(),
+                "lacks " + std::to_string(count - finished.size()) + " of " +
+                    std::to_string(count) + " views; continue with microtrace dataset");
+  }
+  if (arguments.quiet) return;
+  std::fprintf(stderr, "%s: %u views, %zu files, all whole; %zu views rendered again: the same\n",
+               arguments.output.c_str(), count, files, sample.size());
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,66 @@
+#pragma once
+/// Renders the views of a data set into files.
+
+#include "cli/arguments.hpp"
+#include "cli/report/warnings.hpp"
+
+#include <microtrace/coco.hpp>
+#include <microtrace/dataset.hpp>
+#include <microtrace/digest.hpp>
+#include <microtrace/environment.hpp>
+#include <microtrace/io.hpp>
+#include <microtrace/prepared_scene.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace microtrace::cli {
+
+/// Keeps what consecutive views share: the scene file of a variant, the environment, the prepared
+/// scene of a pose.
+class ViewRenderer {
+ public:
+  /// Reads the scene file and applies the defaults of its format to `arguments`, which must outlive
+  /// this object. Throws Error.
+  ViewRenderer(Arguments& arguments, Warnings& warnings);
+
+  /// Loads the scene of a view, without preparing it. Throws Error.
+  void load(const DatasetView& view);
+
+  /// The loaded scene.
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+
+  /// Renders a view into files in `folder`, whose subfolders are created. Returns their names,
+  /// relative to the folder. Throws Error.
+  std::vector<std::string> render(const DatasetView& view, std::uint32_t index,
+                                  const std::filesystem::path& folder);
+
+ private:
+  [[nodiscard]] Camera camera_of(const DatasetView& view, ImageSize size) const;
+  void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
+  [[nodiscard]] bool writes(DatasetFormat format) const;
+  std::string save_annotations(const DatasetView& view, CocoPicture picture, const Film& film,
+                               const std::filesystem::path& folder) const;
+  std::string save(Film& film, DatasetFormat format, const std::string& stem,
+                   const std::filesystem::path& folder) const;
+
+  Arguments& arguments_;
+  Warnings& warnings_;
+  MemoryBudget memory_;
+  std::string variant_;  ///< of file_
+  std::optional<SceneFile> file_;
+  std::optional<DatasetView> loaded_;  ///< the view whose scene is loaded
+  std::string environment_source_;     ///< of environment_
+  std::optional<Environment> environment_;
+  std::shared_ptr<const Scene> scene_;
+  std::optional<PreparedScene> prepared_;  ///< of scene_
+  std::shared_ptr<const SharedTables> tables_;
+  std::unique_ptr<Integrator> integrator_;
+};
+
+}  // namespace microtrace::cli

@@ -1,0 +1,288 @@
+#include "base/printable.hpp"
+#include "io/atomic_file.hpp"
+#include "io/file.hpp"
+#include "io/json/reader.hpp"
+#include "io/json/write.hpp"
+
+#include <microtrace/dataset.hpp>
+#include <microtrace/digest.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <utility>
+
+namespace microtrace {
+namespace {
+
+namespace fs = std::filesystem;
+using io::JsonReader;
+
+constexpr std::size_t kMaxRecord = std::size_t{64} << 20U;  ///< bytes of a JSON file of ours
+
+std::string hexadecimal(std::uint64_t number) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text(16, '0');
+  for (std::size_t i = 16; i-- > 0; number >>= 4U) text[i] = kDigits[number & 15U];
+  return text;
+}
+
+std::uint64_t read_hexadecimal(const JsonReader& json) {
+  const std::string text = json.string();
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, 16);
+  if (error != std::errc() || end != text.data() + text.size() || text.size() != 16)
+    json.fail("must be 16 hexadecimal digits");
+  return number;
+}
+
+void append_member(std::string& text, std::string_view name, std::string_view value) {
+  io::append_json(text, name);
+  text += ": ";
+  io::append_json(text, value);
+}
+
+void append_file(std::string& text, const DatasetFile& file) {
+  text += '{';
+  append_member(text, "name", file.name);
+  text.append(", \"size\": ").append(std::to_string(file.size)).append(", ");
+  append_member(text, "digest", hexadecimal(file.digest));
+  text += '}';
+}
+
+std::string text_of(const DatasetIdentity& identity) {
+  std::string text = "{\n  ";
+  append_member(text, "program", identity.program);
+  append_member(text += ",\n  ", "scene", identity.scene);
+  append_member(text += ",\n  ", "digest", hexadecimal(identity.digest));
+  append_member(text += ",\n  ", "options", identity.options);
+  text.append(",\n  \"views\": ").append(std::to_string(identity.views));
+  append_member(text += ",\n  ", "folder", identity.folder);
+  text += ",\n  \"arguments\": [";
+  for (const std::string& argument : identity.arguments) {
+    if (text.back() != '[') text += ", ";
+    io::append_json(text, argument);
+  }
+  return text += "]\n}\n";
+}
+
+DatasetIdentity read_identity(const fs::path& path) {
+  const std::string text = io::read_file(path, kMaxRecord);
+  const io::JsonDocument document(text, path.string());
+  const JsonReader root(document);
+  root.require_object({"program", "scene", "digest", "options", "views", "folder", "arguments"});
+  DatasetIdentity identity{.program = root.member("program").string(),
+                           .scene = root.member("scene").string(),
+                           .digest = read_hexadecimal(root.member("digest")),
+                           .options = root.member("options").string(),
+                           .folder = root.member("folder").string()};
+  const std::uint64_t views = root.member("views").count();
+  if (views > 0xffffffff) root.member("views").fail("is too large");
+  identity.views = static_cast<std::uint32_t>(views);
+  for (const JsonReader& item : root.member("arguments").items())
+    identity.arguments.push_back(item.string());
+  return identity;
+}
+
+/// The first difference that makes two data sets different.
+std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIdentity& b) {
+  if (a.program != b.program) return "another version, " + a.program + " instead of " + b.program;
+  if (a.scene != b.scene) return "another scene, " + a.scene + " instead of " + b.scene;
+  if (a.options != b.options) return "other options";
+  if (a.digest != b.digest) return "another content of the scene's or the views' files";
+  if (a.views != b.views)
+    return "another number of views, " + std::to_string(a.views) + " instead of " +
+           std::to_string(b.views);
+  return std::nullopt;
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::error_code& error) {
+  throw Error(ErrorKind::io, path.string(), "can't be created: " + error.message());
+}
+
+void create_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) fail(path, error);
+}
+
+void write_file(const fs::path& path, std::string_view text) {
+  io::AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+/// Reads a file in parts. Nothing if it doesn't exist.
+std::optional<DatasetFile> measure(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  const fs::path path = folder / name;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::vector<char> part(std::size_t{1} << 20U);
+  Digest digest;
+  std::uint64_t size = 0;
+  while (file.read(part.data(), static_cast<std::streamsize>(part.size())), file.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(file.gcount());
+    digest.add({part.data(), count});
+    size += count;
+  }
+  if (!file.eof()) throw Error(ErrorKind::io, path.string(), "can't be read");
+  return DatasetFile{.name = name, .size = size, .digest = digest.value()};
+}
+
+DatasetFile existing(const fs::path& folder, const std::string& name) {
+  const std::optional<DatasetFile> file = measure(folder, name);
+  if (!file) throw Error(ErrorKind::io, (folder / name).string(), "has disappeared");
+  return *file;
+}
+
+/// True if the folder contains nothing but what another process that starts the same data set may
+/// have written so far.
+bool is_unused(const fs::path& folder) {
+  std::error_code error;
+  return std::ranges::all_of(fs::directory_iterator(folder, error), [](const auto& entry) {
+    const std::string name = entry.path().filename().string();
+    return name.starts_with(".microtrace-") || name == "records" || name == "dataset.json";
+  });
+}
+
+}  // namespace
+
+DatasetFolder::DatasetFolder(fs::path path, const DatasetIdentity& identity)
+    : path_(std::move(path)), identity_(identity) {
+  create_folder(path_);
+  const fs::path file = path_ / "dataset.json";
+  std::error_code error;
+  if (fs::exists(file, error)) {
+    const DatasetIdentity found = read_identity(file);
+    if (const auto reason = difference(found, identity)) {
+      throw Error(ErrorKind::usage, path_.string(),
+                  "contains a data set of " + *reason + "; name another folder");
+    }
+  } else {
+    if (!is_unused(path_)) {
+      throw Error(ErrorKind::usage, path_.string(),
+                  "contains files that are not a data set; name another folder");
+    }
+    write_file(file, text_of(identity));
+  }
+  create_folder(path_ / "records");
+}
+
+DatasetFolder::DatasetFolder(fs::path path)
+    : path_(std::move(path)), identity_(read_identity(path_ / "dataset.json")) {}
+
+fs::path DatasetFolder::record(std::uint32_t view) const {
+  return path_ / dataset_file_name("records/{view:06d}.json", "", view, "");
+}
+
+std::optional<std::vector<DatasetFile>> DatasetFolder::files(std::uint32_t view) const {
+  const fs::path path = record(view);
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  const std::string text = io::read_file(path, kMaxRecord);
+  const io::JsonDocument document(text, path.string());
+  const JsonReader root(document);
+  root.require_object({"view", "files"});
+  std::vector<DatasetFile> files;
+  for (const JsonReader& item : root.member("files").items()) {
+    item.require_object({"name", "size", "digest"});
+    files.push_back({.name = item.member("name").string(),
+                     .size = item.member("size").count(),
+                     .digest = read_hexadecimal(item.member("digest"))});
+  }
+  return files;
+}
+
+std::optional<std::string> first_damaged(const fs::path& folder,
+                                         std::span<const DatasetFile> files) {
+  const auto differs = [&](const DatasetFile& file) { return measure(folder, file.name) != file; };
+  const auto found = std::ranges::find_if(files, differs);
+  if (found == files.end()) return std::nullopt;
+  return found->name;
+}
+
+bool DatasetFolder::is_whole(std::uint32_t view) const {
+  const auto known = files(view);
+  return known && !first_damaged(path_, *known);
+}
+
+void DatasetFolder::finish(std::uint32_t view, const std::vector<std::string>& names) {
+  std::string text = "{\"view\": " + std::to_string(view) + ", \"files\": [";
+  for (const std::string& name : names) {
+    if (text.back() != '[') text += ",\n ";
+    append_file(text, existing(path_, name));
+  }
+  write_file(record(view), text += "]}\n");
+}
+
+std::uint32_t DatasetFolder::missing() const {
+  std::uint32_t count = 0;
+  std::error_code error;
+  for (std::uint32_t view = 0; view < identity_.views; ++view)
+    count += fs::exists(record(view), error) ? 0 : 1;
+  return count;
+}
+
+void DatasetFolder::write_manifest(std::span<const std::string> more) const {
+  io::AtomicFile out(path_ / "manifest.json");
+  std::string_view separator = "[\n";
+  const auto add = [&](const DatasetFile& file) {
+    std::string text(separator);
+    append_file(text, file);
+    out.write(text);
+    separator = ",\n";
+  };
+  for (std::uint32_t view = 0; view < identity_.views; ++view) {
+    for (const DatasetFile& file : files(view).value_or(std::vector<DatasetFile>{})) add(file);
+  }
+  for (const std::string& name : more) add(existing(path_, name));
+  out.write("\n]\n");
+  out.commit();
+}
+
+void write_dataset_file(const fs::path& path, std::string_view bytes) {
+  create_folder(path.parent_path());
+  write_file(path, bytes);
+}
+
+std::string dataset_file_name(std::string_view pattern, std::string_view scene, std::uint32_t view,
+                              std::string_view name) {
+  const auto refuse = [whole = pattern](const std::string& reason) {
+    throw Error(ErrorKind::usage, "", "the file name pattern " + printable(whole) + " " + reason);
+  };
+  std::string result;
+  bool is_unique = false;
+  while (!pattern.empty()) {
+    const std::size_t open = pattern.find('{');
+    result += pattern.substr(0, open);
+    if (open == pattern.npos) break;
+    const std::size_t end = pattern.find('}', open);
+    if (end == pattern.npos) refuse("has an opening brace without a closing one");
+    const std::string_view field = pattern.substr(open + 1, end - open - 1);
+    pattern.remove_prefix(end + 1);
+    if (field == "scene") {
+      result += scene;
+    } else if (field == "name") {
+      result += name;
+      is_unique = true;
+    } else if (field == "view" || (field.size() == 8 && field.starts_with("view:0") &&
+                                   field[6] >= '1' && field[6] <= '9' && field[7] == 'd')) {
+      const std::size_t width = field.size() == 8 ? static_cast<std::size_t>(field[6] - '0') : 1;
+      const std::string number = std::to_string(view);
+      result.append(width > number.size() ? width - number.size() : 0, '0').append(number);
+      is_unique = true;
+    } else {
+      refuse("has an unknown field {" + printable(field) +
+             "}; the fields are {scene}, {view}, {view:06d} and {name}");
+    }
+  }
+  if (!is_unique) refuse("needs {view} or {name}");
+  const fs::path path(result);
+  if (path.is_absolute() || std::ranges::find(path, fs::path("..")) != path.end())
+    refuse("must not lead out of the data set's folder");
+  return result;
+}
+
+}  // namespace microtrace

@@ -1,0 +1,192 @@
+#!/usr/bin/env python3
+"""Data sets: microtrace dataset and microtrace verify.
+
+usage: dataset_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import json
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, ProgramTest, environment
+
+SOURCE = Path(sys.argv[2]).resolve()
+SCENE = SOURCE / "scenes/perspective1.json"
+SMALL = ["--size", "24x16"]
+
+
+class Dataset(ProgramTest):
+    def dataset(self, *arguments, code=0, scene=SCENE, output="out"):
+        result = self.run_program("dataset", scene, "-o", output, *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result.stderr.decode()
+
+    def verify(self, *arguments, code=0):
+        result = self.run_program("verify", "out", *arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        return result.stderr.decode()
+
+    def contents(self, folder="out"):
+        root = self.folder / folder
+        return {str(path.relative_to(root)): path.read_bytes() for path in root.rglob("*")
+                if path.is_file() and not path.name.startswith(".microtrace-")}
+
+    def views(self, *views, defaults=None):
+        text = {"views": list(views), **({"defaults": defaults} if defaults else {})}
+        (self.folder / "views.json").write_text(json.dumps(text))
+        return ["--views", "views.json"]
+
+    def test_views_are_the_pictures_of_the_program(self):
+        self.dataset("--views", "orbit:3,40", *SMALL, "--formats", "png,exr", "--aov", "depth,id")
+        for view, azimuth in enumerate((0, 120, 240)):
+            for extension, options in ((".png", []), (".exr", ["--aov", "depth,id"])):
+                name = f"alone{extension}"
+                result = self.run_program(SCENE, *SMALL, "--view", f"{azimuth},40", *options, "-o", name)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual((self.folder / name).read_bytes(), self.contents()[f"{view:06d}{extension}"])
+
+    def test_listed_views(self):
+        camera = {"type": "perspective", "position": [0, 1, 8], "direction": [0, 0, -1], "vertical_fov": 30}
+        self.dataset(*self.views({"name": "front", "camera": camera},
+                                 {"name": "side", "camera": {"azimuth": 90, "elevation": 10}, "size": {"width": 8, "height": 9}},
+                                 {"name": "own", "camera": "0"},
+                                 defaults={"size": {"width": 12, "height": 10}}), "--name", "{scene}/{name}_{view}")
+        files = self.contents()
+        self.assertEqual({name for name in files if name.endswith(".png")},
+                         {"perspective1/front_0.png", "perspective1/side_1.png", "perspective1/own_2.png"})
+        for name, options in (("side_1", ["--size", "8x9", "--view", "90,10"]),
+                              ("own_2", ["--size", "12x10", "--camera", "0"]),
+                              ("front_0", ["--size", "12x10", "--eye", "0,1,8", "--target", "0,1,0", "--fov", "30"])):
+            self.assertEqual(self.run_program(SCENE, *options, "-o", "alone.png").returncode, 0)
+            self.assertEqual((self.folder / "alone.png").read_bytes(), files[f"perspective1/{name}.png"], name)
+
+    def test_light_and_time_of_views(self):
+        scene = SOURCE / "scenes/gltf/knot.glb"
+        path = ["--integrator", "path", "--spp", "2", *SMALL]
+        self.dataset(*self.views({"environment": {"light": "#ff0000"}}, {}, {"environment": {"intensity": 0.5}},
+                                 {"environment": {"light": "#ff0000", "rotation": 30, "intensity": 2}}), *path, scene=scene)
+        for view, options in enumerate((["--env", "#ff0000"], [], ["--env-intensity", "0.5"],
+                                        ["--env", "#ff0000", "--env-rotation", "30", "--env-intensity", "2"])):
+            self.assertEqual(self.run_program(scene, *path, *options, "-o", "alone.png").returncode, 0)
+            self.assertEqual((self.folder / "alone.png").read_bytes(), self.contents()[f"{view:06d}.png"], view)
+
+    def test_frames_are_views(self):
+        scene = SOURCE / "scenes/gltf/moving.glb"
+        options = [*SMALL, "--integrator", "flat"]
+        self.dataset("--frames", "3:5", "--fps", "4", *options, "--views", "orbit:2", scene=scene)
+        pictures = [content for name, content in sorted(self.contents().items()) if name.endswith(".png")]
+        self.assertEqual(len(pictures), 6)
+        self.assertGreater(len(set(pictures)), 2)
+        for view, picture in enumerate(pictures):
+            self.run_program(scene, *options, "--time", str((3 + view // 2) / 4), "--view", f"{180 * (view % 2)},25", "-o", "alone.png")
+            self.assertEqual((self.folder / "alone.png").read_bytes(), picture, view)
+
+    def test_shards_give_the_bytes_of_one_run(self):
+        options = ["--views", "hemisphere:7", *SMALL]
+        self.dataset(*options)
+        text = self.dataset(*options, "--shard", "3/3", output="parts")
+        self.assertIn("4 views of other shards are not rendered yet", text)
+        self.assertNotIn("manifest.json", self.contents("parts"))
+        self.dataset(*options, "--shard", "1/3", "-t", "1", output="parts")
+        self.dataset(*options, "--shard", "2/3", "-t", "3", output="parts")
+        self.assertEqual(self.contents("parts"), self.contents())
+
+    def test_annotations_are_the_same_in_shards(self):
+        options = ["--views", "random:4", *SMALL, "--formats", "png,coco"]
+        self.dataset(*options)
+        coco = json.loads((self.folder / "out/coco.json").read_text())
+        self.assertEqual([image["file_name"] for image in coco["images"]], [f"{view:06d}.png" for view in range(4)])
+        self.assertGreater(len(coco["annotations"]), 4)
+        self.assertIn("coco.json", (self.folder / "out/manifest.json").read_text())
+        for shard in ("2/2", "1/2"):
+            self.dataset(*options, "--shard", shard, output="parts")
+        self.assertEqual(self.contents("parts"), self.contents())
+        self.verify("--redraw", "4")
+
+    def test_whole_views_are_kept(self):
+        options = ["--views", "random:5", *SMALL]
+        self.dataset(*options)
+        whole = self.contents()
+        (self.folder / "out/000001.png").unlink()
+        (self.folder / "out/000002.png").write_bytes(b"x" * len(whole["000002.png"]))
+        (self.folder / "out/records/000003.json").unlink()
+        self.assertIn("rendered 3 views", self.dataset(*options))
+        self.assertEqual(self.contents(), whole)
+        self.assertIn("rendered 0 views", self.dataset(*options))
+
+    def test_kills_lose_nothing(self):
+        options = ["--views", "random:40", "--size", "64x48", "--quiet"]
+        self.dataset(*options)
+        whole = self.contents()
+        kills = 0
+        randomness = random.Random(7)
+        for _ in range(12):
+            process = subprocess.Popen([PROGRAM, "dataset", SCENE, "-o", "killed", *options], cwd=self.folder, env=environment())
+            time.sleep(randomness.uniform(0, 0.12))
+            process.send_signal(signal.SIGKILL)
+            kills += process.wait() == -signal.SIGKILL
+            if (self.folder / "killed").exists():
+                for name, content in self.contents("killed").items():
+                    self.assertEqual(content, whole[name], name)
+        self.assertGreater(kills, 0)
+        self.dataset(*options, output="killed")
+        self.assertEqual(self.contents("killed"), whole)
+
+    def test_verification(self):
+        self.dataset("--views", "orbit:4", *SMALL)
+        self.assertIn("4 views, 4 files, all whole; 2 views rendered again: the same", self.verify("--redraw", "2"))
+        file = self.folder / "out/000002.png"
+        content = file.read_bytes()
+        file.write_bytes(content[:-1] + b"x")
+        self.assertIn("000002.png: is missing or was changed", self.verify(code=5))
+        file.write_bytes(content)
+        (self.folder / "out/records/000003.json").unlink()
+        self.assertIn("lacks 1 of 4 views", self.verify(code=5))
+
+    def test_verification_notices_another_scene(self):
+        shutil.copy(SCENE, self.folder / "scene.json")
+        self.dataset("--views", "orbit:2", *SMALL, scene="scene.json")
+        text = SCENE.read_text()
+        (self.folder / "scene.json").write_text(text.replace('"red": [1', '"red": [0.5', 1))
+        self.assertIn("differs from the view", self.verify(code=5))
+
+    def test_other_data_sets_are_refused(self):
+        options = ["--views", "orbit:2", *SMALL]
+        self.dataset(*options)
+        whole = self.contents()
+        for others, reason in ((["--views", "orbit:3", *SMALL], "other options"),
+                               ([*options, "--background", "#ff0000"], "other options"),
+                               ([*options, "--formats", "exr"], "other options")):
+            self.assertIn(reason, self.dataset(*others, code=2))
+        copy = self.folder / SCENE.name
+        copy.write_text(SCENE.read_text() + "\n")
+        self.assertIn("another content", self.dataset(*options, scene=copy, code=2))
+        self.assertEqual(self.contents(), whole)
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/letter.txt").write_text("mine")
+        self.assertIn("not a data set", self.dataset(*options, output="mine", code=2))
+
+    def test_wrong_views(self):
+        for view, message in (({"camera": {"type": "fish"}}, "fish"), ({"time": -1}, "/views/0/time"),
+                              ({"name": "../x"}, "/views/0/name"), ({"sizes": 1}, "sizes"),
+                              ({"camera": {"azimuth": 0, "elevation": 91}}, "/views/0/camera/elevation"),
+                              ({"environment": {"intensity": -1}}, "/views/0/environment/intensity")):
+            self.assertIn(message, self.dataset(*self.views(view), code=3))
+        self.assertIn("at least one view", self.dataset(*self.views(), code=3))
+        self.assertIn("no camera nobody", self.dataset(*self.views({"camera": "nobody"}), code=2))
+        for generator in ("orbit:0", "orbit:3,91", "hemisphere:2.5", "random:3,4", "orbit:"):
+            self.assertIn("--views: expects", self.dataset("--views", generator, code=2))
+        for pattern in ("fixed", "{x}", "../{view}", "/{view}", "{view"):
+            self.assertIn("file name pattern", self.dataset("--views", "orbit:2", "--name", pattern, code=2))
+        self.assertIn("share the file name", self.dataset(*self.views({"name": "a"}, {"name": "a"}), "--name", "{name}", code=2))
+        self.dataset("--views", "nowhere.json", code=5)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
