@@ -156,8 +156,14 @@ TEST(Coco, EmptyDataSetsAndIncompleteParts) {
   EXPECT_EQ(json["images"], Json::array());
   EXPECT_EQ(json["annotations"], Json::array());
   EXPECT_EQ(json["categories"], Json::array());
-  for (const char* part : {"", "{\"id\":1}", "{\"id\":1}\n{\"image_id\":", "{\"id\":1}\n\n", "x\n"})
-    EXPECT_THROW(static_cast<void>(joined(categories, {part})), Error) << part;
+  const Scene scene = overlapping_scene();
+  Categories known(CategoryBy::object_name);
+  known.add(scene);
+  const RenderedView view(scene, unit_camera(kSize), kSize);
+  const std::string part = coco_part(view.view(), known, view.visible());
+  EXPECT_EQ(joined(known, {part})["annotations"].size(), 3U);
+  for (std::size_t size = 0; size < part.size(); ++size)
+    EXPECT_THROW(static_cast<void>(joined(known, {part.substr(0, size)})), Error) << size;
 }
 
 }  // namespace

@@ -73,12 +73,16 @@ TEST(Masks, EmptyOnePixelAndFullViews) {
   }
 }
 
-TEST(Masks, ViewsWithTooFewPixelsAreRefused) {
+TEST(Masks, ViewsThatDoNotFitAreRefused) {
   Scene scene;
   const RenderedView rendered(scene, unit_camera({.width = 2, .height = 2}),
                               {.width = 2, .height = 2});
   DrawnView view = rendered.view();
   view.size.width = 3;
+  EXPECT_THROW(static_cast<void>(visible_masks(view)), Error);
+  const std::vector<std::uint32_t> objects{0, kNoObject, kNoObject, kNoObject};
+  view.size.width = 2;
+  view.objects = objects;
   EXPECT_THROW(static_cast<void>(visible_masks(view)), Error);
 }
 

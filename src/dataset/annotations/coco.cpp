@@ -21,20 +21,23 @@ std::string segmentation(const Mask& mask, ImageSize size) {
       .text();
 }
 
-/// The lines of a part.
+/// The last line of a part.
+std::string end_of_part(std::size_t annotations) {
+  return JsonText('{').member("annotations", static_cast<std::uint64_t>(annotations)).text();
+}
+
+/// The lines of a part without the last one.
 std::vector<std::string_view> lines_of(std::string_view part, std::size_t index) {
   std::vector<std::string_view> lines;
-  while (!part.empty()) {
-    const std::size_t end = part.find('\n');
-    const std::string_view line = part.substr(0, end);
-    if (end == std::string_view::npos || !line.starts_with("{\"") || !line.ends_with('}')) break;
-    lines.push_back(line);
+  for (std::size_t end = 0; (end = part.find('\n')) != std::string_view::npos;) {
+    lines.push_back(part.substr(0, end));
     part.remove_prefix(end + 1);
   }
-  if (lines.empty() || !part.empty())
+  if (lines.size() < 2 || !part.empty() || lines.back() != end_of_part(lines.size() - 2))
     throw Error(ErrorKind::io, "",
                 "the annotations of view " + std::to_string(index) +
                     " are incomplete; render this view again");
+  lines.pop_back();
   return lines;
 }
 
@@ -94,7 +97,7 @@ std::string coco_part(const DrawnView& view, const Categories& categories, const
     }
     text.append(annotation.text()) += '\n';
   }
-  return text;
+  return text.append(end_of_part(visible.size())) += '\n';
 }
 
 void join_coco(const Categories& categories, std::size_t count,

@@ -39,8 +39,8 @@ class Categories {
   std::map<std::string, std::uint32_t, std::less<>> numbers_;
 };
 
-/// Returns a view's part of the annotations, for join_coco(): lines of JSON, of which the first is
-/// the image and each other one an annotation without its id. Visible objects have annotations. If
+/// Returns a view's part of the annotations, for join_coco(): lines of JSON, which are the
+/// image, an annotation without its id for each visible object, and the number of annotations. If
 /// `amodal` is not null, annotations also have the members amodal_segmentation, amodal_area,
 /// amodal_bbox and occlude_rate, the hidden fraction of the amodal area (as in COCO Amodal).
 [[nodiscard]] std::string coco_part(const DrawnView& view, const Categories& categories,

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 namespace microtrace::dataset {
@@ -100,7 +101,12 @@ Masks visible_masks(const DrawnView& view) {
     for (std::uint32_t x = 0; x < view.size.width; ++x) {
       const std::uint32_t object = view.objects[pixel++];
       if (object == kNoObject) continue;
-      if (object != last) mask = &masks[object];
+      if (object != last) {
+        if (object >= view.scene->scene().objects.size())
+          throw Error(ErrorKind::usage, view.name,
+                      "the scene has no object " + std::to_string(object));
+        mask = &masks[object];
+      }
       last = object;
       mask->add(x, y);
     }

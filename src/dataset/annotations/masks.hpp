@@ -23,7 +23,7 @@ using Masks = std::vector<ObjectMask>;
 [[nodiscard]] const Mask* find_mask(const Masks& masks, std::uint32_t object);
 
 /// The pixels in which each object is visible. Throws Error (usage) if view.objects doesn't have
-/// one value per pixel.
+/// one value per pixel, or if the scene has fewer objects.
 [[nodiscard]] Masks visible_masks(const DrawnView& view);
 
 /// The amodal masks: the pixels in which each object would be visible without the other objects.

@@ -56,6 +56,9 @@ int encode_png(const MicrotracePng& picture) {
       text.text = const_cast<char*>(picture.texts[i].text);
       png_set_text(png, info, &text, 1);
     }
+    // Filters double the time for masks and make their files larger.
+    if (picture.channels == 1 && picture.depth == 8)
+      png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
     png_write_info(png, info);
     if (picture.depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
     for (std::uint32_t y = 0; y < picture.height; ++y) {
