@@ -120,7 +120,8 @@ class Tracer {
     return on;
   }
 
-  /// The unit normal on the side from which the ray d arrives; nothing for triangles without area.
+  /// Returns the unit normal on the side from which the ray d arrives; nothing for triangles
+  /// without area.
   std::optional<DVec3> normal(PrimitiveId id, const DVec3& d) const {
     return bvh_.primitives().visit(id, [&](const auto& shape) -> std::optional<DVec3> {
       if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, Triangle>) {

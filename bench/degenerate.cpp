@@ -27,7 +27,8 @@ using namespace microtrace::bench;
 constexpr ImageSize kSize{.width = 320, .height = 240};
 constexpr std::uint32_t kSamples = 4;  // samples per pixel of path-traced pictures
 
-/// A pseudorandom point at the distance `half_width` from the origin, which is the mesh's center.
+/// Returns a pseudorandom point at the distance `half_width` from the origin, which is the mesh's
+/// center.
 Vec3 place(std::uint64_t counter, double half_width) {
   return {half_width * random_point(1, counter)};
 }
@@ -89,7 +90,7 @@ class Pictures {
     scene_.objects.push_back({.name = "mesh", .shape = mesh});
   }
 
-  /// The time of the fastest run.
+  /// Returns the time of the fastest run.
   [[nodiscard]] double seconds(bool lit, unsigned runs) const {
     const PathIntegrator path;
     RenderOptions options{.threads = 1};

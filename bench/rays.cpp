@@ -21,7 +21,7 @@ std::uint64_t random_bits(std::uint64_t seed, std::uint64_t counter) {
   return z ^ (z >> 31U);
 }
 
-// A pseudorandom number in [0, 1).
+// Returns a pseudorandom number in [0, 1).
 double random(std::uint64_t seed, std::uint64_t counter) {
   return static_cast<double>(random_bits(seed, counter) >> 11U) * 0x1p-53;
 }

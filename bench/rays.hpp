@@ -23,21 +23,21 @@ struct Traced {
   std::span<const std::optional<Hit>> hits;
 };
 
-/// A pseudorandom point, uniformly distributed on the unit sphere. It depends only on seed and
-/// counter.
+/// Returns a pseudorandom point, uniformly distributed on the unit sphere. It depends only on seed
+/// and counter.
 [[nodiscard]] DVec3 random_point(std::uint64_t seed, std::uint64_t counter);
 
-/// The length of the diagonal of the mesh's bounding box, in world units.
+/// Returns the length of the diagonal of the mesh's bounding box, in world units.
 [[nodiscard]] double extent(const Mesh& mesh);
 
-/// One ray through the center of each pixel, tile by tile. Width and height are multiples of
-/// kTileEdge.
+/// Returns one ray through the center of each pixel, tile by tile. Width and height are multiples
+/// of kTileEdge.
 [[nodiscard]] std::vector<Ray> primary_rays(const Camera& camera, ImageSize size);
 
-/// One ray from each hit, in the order of the hits. Directions are cosine-distributed about the
-/// geometric normal on the side of the incoming ray. Origins are 1e-5 times the extent above the
-/// surface, so that rounding in either program never puts an origin on the wrong side. Hit ids must
-/// be triangle indices of the mesh. Triangles without area emit no rays.
+/// Returns one ray from each hit, in the order of the hits. Directions are cosine-distributed about
+/// the geometric normal on the side of the incoming ray. Origins are 1e-5 times the extent above
+/// the surface, so that rounding in either program never puts an origin on the wrong side. Hit ids
+/// must be triangle indices of the mesh. Triangles without area emit no rays.
 [[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
                                            float t_max, std::uint64_t seed);
 

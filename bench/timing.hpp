@@ -7,8 +7,8 @@
 
 namespace microtrace::bench {
 
-/// The seconds that f() takes. With one thread, this is the processor time of this process, which
-/// other programs affect least. With more threads, it is the elapsed time.
+/// Returns the seconds that f() takes. With one thread, this is the processor time of this process,
+/// which other programs affect least. With more threads, it is the elapsed time.
 [[nodiscard]] double seconds(unsigned threads, const std::function<void()>& f);
 
 /// Calls f(begin, end) for consecutive parts of [0, size), one per thread. Parts begin at multiples
@@ -17,7 +17,8 @@ namespace microtrace::bench {
 void split(unsigned threads, std::size_t size,
            const std::function<void(std::size_t, std::size_t)>& f);
 
-/// The median of the values; for an even number of values, the mean of the two in the middle.
+/// Returns the median of the values; for an even number of values, the mean of the two in the
+/// middle.
 [[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace microtrace::bench

@@ -69,9 +69,9 @@ class PeerScene {
   /// Builds the tree; the build benchmark measures this function.
   void commit();
 
-  /// True if Embree supports packets of 16 rays on this machine, which requires AVX-512.
+  /// Returns true if Embree supports packets of 16 rays on this machine, which requires AVX-512.
   [[nodiscard]] bool is_16_wide() const;
-  /// The memory allocated by Embree for the scene, excluding the mesh.
+  /// Returns the memory allocated by Embree for the scene, excluding the mesh.
   [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(*bytes_); }
 
   /// Traces the rays [begin, end) and stores their results at the same indices. begin must be a

@@ -26,12 +26,13 @@ class Question {
   void ask_microtrace(const Bvh& bvh, unsigned threads);
   void ask_embree(const PeerScene& scene, PeerMode mode, unsigned threads);
 
-  /// The fraction of rays for which the last results differ in hit or miss, or in the triangle.
+  /// Returns the fraction of rays for which the last results differ in hit or miss, or in the
+  /// triangle.
   [[nodiscard]] double disagreements() const;
 
   [[nodiscard]] std::size_t size() const { return rays_.size(); }
   [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
-  /// The hits of microtrace; none for occlusion rays.
+  /// Returns the hits of microtrace; none for occlusion rays.
   [[nodiscard]] std::span<const std::optional<Hit>> hits() const { return hits_; }
 
  private:

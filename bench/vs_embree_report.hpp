@@ -8,11 +8,11 @@
 
 namespace microtrace::bench {
 
-/// The table's lines for one scene. Ratios above 1 mean that microtrace is faster.
+/// Returns the table's lines for one scene. Ratios above 1 mean that microtrace is faster.
 [[nodiscard]] std::string table_lines(const SceneRows& rows);
 [[nodiscard]] std::string table_head();
 
-/// A JSON array with one object for each build and each kind of rays.
+/// Returns a JSON array with one object for each build and each kind of rays.
 [[nodiscard]] std::string json(std::span<const SceneRows> scenes);
 
 }  // namespace microtrace::bench

@@ -26,11 +26,11 @@ struct BenchScene {
 /// these numbers by 100. Throws std::invalid_argument for other names.
 [[nodiscard]] BenchScene generated_scene(const std::string& name, bool small);
 
-/// A displaced sphere with about this number of triangles.
+/// Returns a displaced sphere with about this number of triangles.
 [[nodiscard]] BenchScene sphere_scene(std::size_t triangles);
 
-/// All triangles of a glTF or JSON scene, viewed diagonally. Throws Error if the scene can't be
-/// read, and std::invalid_argument if it has no triangles.
+/// Returns all triangles of a glTF or JSON scene, viewed diagonally. Throws Error if the scene
+/// can't be read, and std::invalid_argument if it has no triangles.
 [[nodiscard]] BenchScene scene_from_file(const std::string& path);
 
 }  // namespace microtrace::bench

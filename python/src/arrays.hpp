@@ -11,8 +11,8 @@
 
 namespace microtrace::python {
 
-/// The owner of the exported memory that begins at `data`, if the owner still exists. Null for
-/// other memory.
+/// Returns the owner of the exported memory that begins at `data`, if the owner still exists. Null
+/// for other memory.
 std::shared_ptr<const void> owner_of(const void* data);
 /// Makes owner_of(data) return the owner.
 void remember_owner(const void* data, const std::shared_ptr<const void>& owner);

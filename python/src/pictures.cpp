@@ -32,7 +32,7 @@ struct Quantity {
   std::size_t id_channel = 0;
 
   [[nodiscard]] bool is_id() const { return std::string_view(aov) == "id"; }
-  /// The names of the channels as in Channel::name.
+  /// Returns the names of the channels as in Channel::name.
   [[nodiscard]] std::vector<std::string> channel_names() const {
     const std::string before = std::string(aov) + ".";
     if (is_id()) return {before + channels};

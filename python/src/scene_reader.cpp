@@ -175,7 +175,7 @@ class Reader {
     return result;
   }
 
-  /// The place of a texture. `value` is a Texture, an Image, or an array of pixels.
+  /// Returns the place of a texture. `value` is a Texture, an Image, or an array of pixels.
   std::uint32_t place_of_texture(const nb::handle& value) {
     return textures_.of(value, [&] {
       Texture texture;

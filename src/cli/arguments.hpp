@@ -32,7 +32,7 @@ struct CameraOptions {
   std::optional<double> vertical_fov{};  ///< degrees; for `orbit` and `eye`
 
   [[nodiscard]] bool is_of_scene() const { return !orbit && !eye; }
-  /// The view of --view, or the default view, with the angle of --fov.
+  /// Returns the view of --view, or the default view, with the angle of --fov.
   [[nodiscard]] View view() const;
 };
 
@@ -68,9 +68,9 @@ struct SamplingOptions {
   double save_every = 60;                       ///< seconds
   bool is_progressive = false;
 
-  /// The range of the shard's samples; absent without --shard.
+  /// Returns the range of the shard's samples; absent without --shard.
   [[nodiscard]] std::optional<SampleRange> range() const;
-  /// True if samples are read from files or written while rendering.
+  /// Returns true if samples are read from files or written while rendering.
   [[nodiscard]] bool uses_files() const {
     return !checkpoint.empty() || !resume.empty() || is_progressive;
   }
@@ -143,7 +143,7 @@ struct Arguments {
 /// (usage) if given options contradict these defaults.
 void apply_defaults(Arguments& arguments, SceneFormat format);
 
-/// The surface properties that the picture and its channels need. May be called before
+/// Returns the surface properties that the picture and its channels need. May be called before
 /// apply_defaults().
 [[nodiscard]] SurfaceDetail surface_detail(const Arguments& arguments);
 

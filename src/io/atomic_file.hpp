@@ -42,8 +42,8 @@ class AtomicFile {
 /// Throws Error(io) if creating an AtomicFile for this target would fail now. Has no side effects.
 void check_target(const std::filesystem::path& target);
 
-/// True if the target is written directly, because it is an open descriptor or an existing file
-/// that is not regular.
+/// Returns true if the target is written directly, because it is an open descriptor or an existing
+/// file that is not regular.
 [[nodiscard]] bool is_stream(const std::filesystem::path& target);
 
 }  // namespace microtrace::io

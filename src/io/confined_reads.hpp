@@ -7,8 +7,8 @@
 
 namespace microtrace::io {
 
-/// True if the file is in one of the folders or below. Resolves symbolic links and ".." in the
-/// folders and in the path, as far as they exist.
+/// Returns true if the file is in one of the folders or below. Resolves symbolic links and ".." in
+/// the folders and in the path, as far as they exist.
 [[nodiscard]] bool lies_within(const std::vector<std::filesystem::path>& folders,
                                const std::filesystem::path& path);
 

@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 17> kForeignExtensions{
     ".3ds", ".3mf", ".abc",  ".blend", ".dae",  ".fbx",  ".obj", ".off", ".ply",
     ".stl", ".usd", ".usda", ".usdc",  ".usdz", ".vrml", ".wrl", ".x3d"};
 
-/// The text without leading white space and byte order mark.
+/// Returns the text without leading white space and byte order mark.
 std::string_view behind_space(std::string_view text) {
   return text.substr(std::min(text.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), text.size()));
 }

@@ -23,9 +23,9 @@ fs::path folder_of(const char* file) {
   return error ? fs::path() : path.parent_path();
 }
 
-/// The module folder relative to the program or the shared library that contains this function. The
-/// dynamic linker knows the path of a shared library. For the program it uses argv, which is
-/// unreliable. The program's path is therefore taken from the kernel.
+/// Returns the module folder relative to the program or the shared library that contains this
+/// function. The dynamic linker knows the path of a shared library. For the program it uses argv,
+/// which is unreliable. The program's path is therefore taken from the kernel.
 fs::path beside_library() {
   Dl_info info{};
   link_map* object = nullptr;

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 
 constexpr ImageSize kSize{.width = 16, .height = 10};
 
-/// One pixel per 0.1 units at depth 1.
+/// Returns one pixel per 0.1 units at depth 1.
 Camera pinhole() {
   return CalibratedCamera{
       .pose = {.position = {0, 0, 10}}, .image = kSize, .fx = 10, .fy = 10, .cx = 7.5, .cy = 4.5};

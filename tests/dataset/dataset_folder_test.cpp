@@ -10,7 +10,7 @@
 namespace microtrace {
 namespace {
 
-/// The sine of the elevation.
+/// Returns the sine of the elevation.
 double height(const DatasetView& view) {
   return std::sin(std::get<View>(view.camera).elevation * std::numbers::pi / 180);
 }

@@ -64,7 +64,7 @@ inline std::set<Pixel> pixels_of(const Mask& mask) {
   return pixels;
 }
 
-/// A rectangle in the plane z = `z`, facing +z.
+/// Returns a rectangle in the plane z = `z`, facing +z.
 inline Object rectangle(std::string name, const Vec3& low, float width, float height) {
   Mesh mesh;
   mesh.positions = std::vector<Vec3>{low, low + Vec3(width, 0, 0), low + Vec3(width, height, 0),
@@ -73,8 +73,8 @@ inline Object rectangle(std::string name, const Vec3& low, float width, float he
   return {.name = std::move(name), .shape = std::move(mesh)};
 }
 
-/// An orthographic camera that looks along -z, with the scene's origin in the middle of the picture
-/// and one pixel per unit.
+/// Returns an orthographic camera that looks along -z, with the scene's origin in the middle of the
+/// picture and one pixel per unit.
 inline Camera unit_camera(ImageSize size) {
   return OrthographicCamera{.pose = {.position = DVec3(0, 0, 10)},
                             .height = static_cast<double>(size.height)};

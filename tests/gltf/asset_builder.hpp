@@ -42,7 +42,7 @@ constexpr int component_type_of(float) {
   return kFloat32;
 }
 
-/// The bytes of a list of numbers.
+/// Returns the bytes of a list of numbers.
 template <typename Number>
 std::string bytes_of(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
@@ -87,18 +87,18 @@ struct GlbChunk {
 };
 inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
-/// A GLB file of exactly these chunks.
+/// Returns a GLB file of exactly these chunks.
 [[nodiscard]] std::string glb_file(const std::vector<GlbChunk>& chunks, std::uint32_t version = 2);
 [[nodiscard]] std::string padded(std::string bytes, char filler);
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// The cube [-1, 1]^3 on a node named "Cube": 8 vertices, 12 triangles with u16 indices, and a red
-/// material.
+/// Returns the cube [-1, 1]^3 on a node named "Cube": 8 vertices, 12 triangles with u16 indices,
+/// and a red material.
 [[nodiscard]] AssetBuilder cube();
 
-/// The text of the asset after one change: sets the value at the JSON pointer `where`, or removes
-/// it if `value` is empty. If `where` is empty, applies `value` as a JSON merge patch (RFC 7396) to
-/// the whole asset.
+/// Returns the text of the asset after one change: sets the value at the JSON pointer `where`, or
+/// removes it if `value` is empty. If `where` is empty, applies `value` as a JSON merge patch (RFC
+/// 7396) to the whole asset.
 [[nodiscard]] std::string mutated(const AssetBuilder& asset, const char* where, const char* value);
 
 /// Loads bytes as the file "test.gltf", for which no folder is given.
@@ -106,10 +106,10 @@ inline constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset);
 [[nodiscard]] LoadedScene load(const AssetBuilder& asset, const LoadOptions& options);
 
-/// The base color factor of an object's material.
+/// Returns the base color factor of an object's material.
 [[nodiscard]] Vec4 color_of(const LoadedScene& loaded, std::size_t object);
 
-/// The corner positions of an object's triangles, in order.
+/// Returns the corner positions of an object's triangles, in order.
 [[nodiscard]] std::vector<std::array<Vec3, 3>> triangles_of(const Object& object);
 
 /// Formats warnings as "/pointer: message".

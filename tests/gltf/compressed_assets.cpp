@@ -121,8 +121,8 @@ void save_draco(const std::filesystem::path& path, const Sphere& sphere) {
   save(path, "KHR_draco_mesh_compression", rest, bytes);
 }
 
-/// The JSON of a compressed view. The uncompressed data belongs to the second buffer, which has no
-/// bytes.
+/// Returns the JSON of a compressed view. The uncompressed data belongs to the second buffer, which
+/// has no bytes.
 std::string view(const std::string& offset, const std::string& length, const char* mode,
                  std::size_t from, std::size_t size, std::size_t count, const char* stride) {
   const std::string step = std::string(R"("byteStride":)") + stride + ",";

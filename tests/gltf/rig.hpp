@@ -23,10 +23,10 @@ enum RigAccessor : std::size_t {
   rig_morph_weights,
 };
 
-/// A triangle with all standard attributes, a morph target, a skin of two joints, an animation of
-/// three channels, a textured material, a spot light and two variants. Nodes: 0 has the mesh, 1 and
-/// 2 are the joints, 2 is a child of 1, and 3 has the light. Each accessor has the view with its
-/// own number. The last view contains the image.
+/// Returns a triangle with all standard attributes, a morph target, a skin of two joints, an
+/// animation of three channels, a textured material, a spot light and two variants. Nodes: 0 has
+/// the mesh, 1 and 2 are the joints, 2 is a child of 1, and 3 has the light. Each accessor has the
+/// view with its own number. The last view contains the image.
 [[nodiscard]] AssetBuilder rig();
 
 /// Overwrites a value in the rig's accessor `accessor`. `number` counts values of this type.

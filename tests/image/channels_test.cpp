@@ -44,7 +44,7 @@ std::vector<Number> pixels(ImageInput& in, TypeDesc type) {
   return result;
 }
 
-/// The gradient with alpha, which increases from 0 on the left to 1 on the right.
+/// Returns the gradient with alpha, which increases from 0 on the left to 1 on the right.
 Film see_through() {
   Film film({19, 7}, Film::Alpha::premultiplied);
   const Film colors = gradient();
@@ -129,7 +129,8 @@ TEST(Alpha, FormatsWithoutAlphaAreUsageErrors) {
   EXPECT_EQ(folder.entries(), 0U);
 }
 
-/// A film with additional channels. Their numbers are exact only in float32 or only in uint32.
+/// Returns a film with additional channels. Their numbers are exact only in float32 or only in
+/// uint32.
 Film with_channels(Film::Alpha alpha, ImageSize size = {19, 131}) {
   Film film(size, alpha);
   const std::size_t count = std::size_t{size.width} * size.height;

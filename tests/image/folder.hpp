@@ -50,7 +50,8 @@ inline void write_bytes(const std::filesystem::path& path, const std::string& by
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A film whose pixels are all different, with values below 0, between 0 and 1, and above 1.
+/// Returns a film whose pixels are all different, with values below 0, between 0 and 1, and above
+/// 1.
 inline Film gradient(ImageSize size = {19, 7}) {
   Film film(size);
   for (std::uint32_t y = 0; y < size.height; ++y) {

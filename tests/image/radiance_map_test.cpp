@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// A picture twice as wide as high. Its colors are all different and exact in half floats.
+/// Returns a picture twice as wide as high. Its colors are all different and exact in half floats.
 Film panorama() {
   Film film({.width = 8, .height = 4});
   for (std::uint32_t y = 0; y < 4; ++y) {

@@ -16,7 +16,7 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kLeast = std::numeric_limits<float>::denorm_min();
 constexpr float kMost = std::numeric_limits<float>::max();
 
-/// The first broken rule as `field: message`.
+/// Returns the first broken rule as `field: message`.
 template <typename T>
 std::string broken(const T& part) {
   const auto rule = validate(part);

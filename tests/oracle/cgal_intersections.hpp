@@ -9,12 +9,12 @@
 
 namespace microtrace::oracle {
 
-/// True if the ray is valid and meets the shape within its closed interval. Uses do_intersect with
-/// the number type Mpzf.
+/// Returns true if the ray is valid and meets the shape within its closed interval. Uses
+/// do_intersect with the number type Mpzf.
 [[nodiscard]] bool hits(const Triangle& triangle, const Ray& ray);
 [[nodiscard]] bool hits(const Plane& plane, const Ray& ray);
 
-/// The parameter of the first hit, computed with the number type Gmpq. The ray must hit.
+/// Returns the parameter of the first hit, computed with the number type Gmpq. The ray must hit.
 [[nodiscard]] Rational first_parameter(const Triangle& triangle, const Ray& ray);
 
 }  // namespace microtrace::oracle

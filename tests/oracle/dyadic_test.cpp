@@ -72,14 +72,14 @@ Dyadic integer(Random& random, int lo, int hi) {
   return static_cast<float>(random.between(lo, hi));
 }
 
-/// A root of small integers. Numbers that are equal but have different forms are frequent, for
-/// example sqrt(8) / 2 and sqrt(2).
+/// Returns a root of small integers. Numbers that are equal but have different forms are frequent,
+/// for example sqrt(8) / 2 and sqrt(2).
 Root small_root(Random& random) {
   return {integer(random, -8, 8), integer(random, 0, 50), integer(random, 1, 6),
           random.between(-1, 1)};
 }
 
-/// A root whose parts have the degrees and magnitudes of a quadric's root.
+/// Returns a root whose parts have the degrees and magnitudes of a quadric's root.
 Root large_root(Random& random, int lo, int hi) {
   const Dyadic p = expression(random, 3, lo, hi).dyadic;
   Dyadic q = expression(random, 6, lo, hi).dyadic;

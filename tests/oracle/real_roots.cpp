@@ -35,7 +35,7 @@ struct Zeros {
   std::vector<Real> roots;  ///< in ascending order
 };
 
-/// The zeros of f(o + t d). Three values determine this polynomial.
+/// Returns the zeros of f(o + t d). Three values determine this polynomial.
 template <class Function>
 Zeros zeros(const Ray& ray, Function f) {
   const Rational before = f(at(ray, -1)), c = f(at(ray, 0)), after = f(at(ray, 1));

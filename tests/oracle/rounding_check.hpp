@@ -20,8 +20,8 @@ template <class Real>
   return above && below && tight;
 }
 
-/// True if f is the float32 number nearest to t, with ties to even. Compares t with the midpoints
-/// between f and its neighbors.
+/// Returns true if f is the float32 number nearest to t, with ties to even. Compares t with the
+/// midpoints between f and its neighbors.
 template <class Real>
 [[nodiscard]] bool is_nearest(float f, const Real& t) {
   const auto value = [](float x) {

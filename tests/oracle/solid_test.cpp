@@ -32,8 +32,8 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
-/// The mesh as a CGAL mesh. Nothing if CGAL can't represent it or it violates CGAL's preconditions:
-/// it is not manifold, or has a triangle without area.
+/// Returns the mesh as a CGAL mesh. Nothing if CGAL can't represent it or it violates CGAL's
+/// preconditions: it is not manifold, or has a triangle without area.
 std::optional<SurfaceMesh> surface_mesh(const Mesh& mesh) {
   SurfaceMesh result;
   std::vector<SurfaceMesh::Vertex_index> vertices;

@@ -35,7 +35,7 @@ void add(Scene& scene, Shape shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-// A point with small integer coordinates. These cause coincidences: shared edges, equal t,
+// Returns a point with small integer coordinates. These cause coincidences: shared edges, equal t,
 // tangents, and rays within planes.
 Vec3 grid_point(Random& random) {
   return random.on_grid(3);

@@ -51,7 +51,7 @@ std::vector<Ray> rays_in_cube(float half_width) {
   return rays;
 }
 
-// The number of queries that float64 did not decide.
+// Returns the number of queries that float64 did not decide.
 std::uint64_t exact(const StageCounts& counts) {
   return counts.grid + counts.dyadic;
 }

@@ -85,7 +85,7 @@ class World {
   [[nodiscard]] const Mesh& mesh() const { return std::get<Mesh>(scene_.objects[0].shape); }
   [[nodiscard]] float size() const { return size_; }
 
-  /// True if q is inside the mesh.
+  /// Returns true if q is inside the mesh.
   [[nodiscard]] bool is_inside(const Vec3& q) const {
     int inside = 0;
     for (int i = 0; i < 5; ++i) {
@@ -95,8 +95,8 @@ class World {
     return inside > 0;
   }
 
-  /// True if a ray is inside the mesh just behind a hit. Nothing if two further hits have the same
-  /// t, because they may be on an edge or a vertex.
+  /// Returns true if a ray is inside the mesh just behind a hit. Nothing if two further hits have
+  /// the same t, because they may be on an edge or a vertex.
   [[nodiscard]] std::optional<bool> is_inside_behind(const Ray& ray, const Hit& hit) const {
     bool odd = false;
     float t = hit.t;
@@ -108,8 +108,8 @@ class World {
     return odd;
   }
 
-  /// A point inside the mesh and on no surface. Nothing if none is found between random points of
-  /// the mesh.
+  /// Returns a point inside the mesh and on no surface. Nothing if none is found between random
+  /// points of the mesh.
   [[nodiscard]] std::optional<Vec3> start() const {
     for (int i = 0; i < 8; ++i) {
       const float s = random_.one_in(2) ? 0.5F : static_cast<float>(random_.unit());
@@ -119,7 +119,7 @@ class World {
     return std::nullopt;
   }
 
-  /// A random vertex, or a point of an edge or of a face.
+  /// Returns a random vertex, or a point of an edge or of a face.
   [[nodiscard]] Vec3 point_of_mesh() const {
     const Triangle t = triangle_of(mesh(), random_.bits() % triangles_);
     if (random_.one_in(3)) return t.a;
@@ -127,7 +127,7 @@ class World {
     return random_.one_in(2) ? ab : ab + (t.c - ab) * static_cast<float>(random_.unit());
   }
 
-  /// The side on which q lies, for each surface without edges.
+  /// Returns the side on which q lies, for each surface without edges.
   [[nodiscard]] std::vector<int> sides(const Vec3& q) const {
     std::vector<int> result;
     for (const Object& object : scene_.objects) {
@@ -179,7 +179,8 @@ class World {
     return bvh_->occluded({.o = q, .t_min = 0, .d = {0, 0, 1}, .t_max = 0});
   }
 
-  // True if a ray crosses the mesh an odd number of times. Triangles without area don't count.
+  // Returns true if a ray crosses the mesh an odd number of times. Triangles without area don't
+  // count.
   [[nodiscard]] bool is_odd(const Ray& ray) const {
     bool odd = false;
     for (auto hit = bvh_->intersect(ray); hit; hit = bvh_->next(ray, *hit))

@@ -35,7 +35,8 @@ Scene scene_of(std::vector<Shape> shapes) {
   return scene;
 }
 
-/// A mesh with duplicates and points, a triangle that is too large for blocks, and other shapes.
+/// Returns a mesh with duplicates and points, a triangle that is too large for blocks, and other
+/// shapes.
 Scene mixed() {
   Mesh mesh = generated::hall(4000);
   for (std::size_t i = 0; i < 50; ++i) {

@@ -22,8 +22,8 @@ namespace {
 using namespace adversarial;
 using exact::Dyadic;
 
-/// A triangle on a wall or floor. It may be tilted or offset by ulps or slightly more, and its
-/// coordinate may be near 0.
+/// Returns a triangle on a wall or floor. It may be tilted or offset by ulps or slightly more, and
+/// its coordinate may be near 0.
 Triangle wall(Random& random) {
   const int axis = random.between(0, 2);
   const float at = random.one_in(3) ? 0 : random.in_cube(1).x * random.power_of_two(-40, 4);

@@ -71,7 +71,7 @@ Vec3 within(const Quadric& q) {
   return {q.a, q.h, q.c};
 }
 
-// The number of float32 numbers between a and b.
+// Returns the number of float32 numbers between a and b.
 std::int64_t steps(float a, float b) {
   const auto place = [](float x) {
     const std::int64_t bits = std::bit_cast<std::int32_t>(std::abs(x));

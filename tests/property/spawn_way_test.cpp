@@ -60,13 +60,13 @@ struct Rational {
   Dyadic weight;
 };
 
-/// The ray's point slightly before or behind t. Its coordinates are rational because t is.
+/// Returns the ray's point slightly before or behind t. Its coordinates are rational because t is.
 Rational beside(const Ray& ray, const exact::Root& t, bool before) {
   const Dyadic little = before ? Dyadic(-0x1p-200) : Dyadic(0x1p-200);
   return {t.r * exact::vector(ray.o) + (t.p + little * t.r) * exact::vector(ray.d), t.r};
 }
 
-/// True if the segment from w to q, excluding w, meets the triangle.
+/// Returns true if the segment from w to q, excluding w, meets the triangle.
 bool is_met(const Triangle& triangle, const Rational& w, const Vec3& q) {
   const Vector from = exact::vector(q), to_w = w.point - w.weight * from;
   const Vector a = exact::vector(triangle.a) - from, b = exact::vector(triangle.b) - from,

@@ -41,7 +41,7 @@ class Places {
     few_ = few_triangles(tree_);
   }
 
-  /// The triangles that the query finds. Nothing if they are too many.
+  /// Returns the triangles that the query finds. Nothing if they are too many.
   std::optional<std::set<PrimitiveId>> near(const Vec3& lo, const Vec3& hi,
                                             BoxQuery query = {}) const {
     for (int k = 0; k < 3; ++k) query.lo[k] = lo[k], query.hi[k] = hi[k];

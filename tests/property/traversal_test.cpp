@@ -30,7 +30,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 using Answers = std::vector<std::optional<Hit>>;
 
-// The nearest hit by its definition, computed only with exact arithmetic.
+// Returns the nearest hit by its definition, computed only with exact arithmetic.
 std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   std::optional<exact::Root> nearest;
   std::optional<Hit> best;
@@ -43,8 +43,8 @@ std::optional<Hit> by_definition(const Primitives& primitives, const Ray& ray) {
   return best;
 }
 
-// The nearest hit computed by the float64 filters, which filter_test.cpp compares with exact
-// arithmetic. Exact arithmetic decides uncertain cases.
+// Returns the nearest hit computed by the float64 filters, which filter_test.cpp compares with
+// exact arithmetic. Exact arithmetic decides uncertain cases.
 std::optional<Hit> by_asking_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   RayPacket bundle(primitives, std::span(&ray, 1));

@@ -29,7 +29,7 @@ Scene scene_of(std::vector<Shape> shapes) {
 
 class Random {
  public:
-  /// A random number in [-1, 1).
+  /// Returns a random number in [-1, 1).
   float symmetric() { return static_cast<float>(static_cast<std::int32_t>(bits_())) * 0x1p-31F; }
   Vec3 in_cube() { return {symmetric(), symmetric(), symmetric()}; }
   Triangle triangle(float size) {

@@ -47,7 +47,7 @@ struct Extremes {
     if (below(4) == 0) return Vec3(any());
     return {any(), any(), any()};
   }
-  /// A point whose coordinates equal those of p or are neighboring numbers.
+  /// Returns a point whose coordinates equal those of p or are neighboring numbers.
   Vec3 place_near(const Vec3& p) {
     Vec3 result = p;
     for (int i = 0; i < 3; ++i)
@@ -91,7 +91,7 @@ std::vector<LightBounds> lights(Extremes& random, std::size_t count) {
   return result;
 }
 
-/// The light's importance without its cosine factors.
+/// Returns the light's importance without its cosine factors.
 double head_on(const LightBounds& light, const Vec3& p) {
   const DVec3 low(light.low), high(light.high), way = DVec3(p) - (low + high) / 2.0;
   const double square = std::max(glm::dot(way, way), glm::dot(high - low, high - low) / 4);

@@ -35,8 +35,8 @@ TEST(Invariance, ClosedSurfacesLetNoLightIn) {
   }
 }
 
-/// A square in the plane y = 0 with edges of length 64. Its 2 n^2 triangles have vertices on a
-/// grid.
+/// Returns a square in the plane y = 0 with edges of length 64. Its 2 n^2 triangles have vertices
+/// on a grid.
 Mesh tiled_floor(std::uint32_t n) {
   Mesh mesh;
   for (std::uint32_t j = 0; j <= n; ++j) {
@@ -79,8 +79,8 @@ TEST(Invariance, FlatTrianglesCastNoShadows) {
   }
 }
 
-/// A specular and a diffuse block on a floor under an area light. All vertices are on a grid of
-/// 1/8.
+/// Returns a specular and a diffuse block on a floor under an area light. All vertices are on a
+/// grid of 1/8.
 Scene blocks(const Vec3& shift) {
   Scene scene;
   scene.materials = {{.base_color = {0.7F, 0.6F, 0.5F, 1}},

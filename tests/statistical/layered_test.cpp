@@ -76,7 +76,7 @@ std::vector<Example> surfaces() {
   return result;
 }
 
-/// The material as seen from the other side of the surface: rotated by 180 degrees about x.
+/// Returns the material as seen from the other side of the surface: rotated by 180 degrees about x.
 Example turned(Example s) {
   if (s.base.eta) s.base.eta = 1 / *s.base.eta;
   s.base.along.y = -s.base.along.y;

@@ -29,8 +29,9 @@ std::size_t cell_of(const Vec3& d) {
   return std::size_t(row * kColumns + std::min(int(u * kColumns), kColumns - 1));
 }
 
-/// A scene with area lights on all sides of the origin. They are one-sided or two-sided, and face
-/// the origin or not. A large one is close, and some are shapes. The map has a bright spot.
+/// Returns a scene with area lights on all sides of the origin. They are one-sided or two-sided,
+/// and face the origin or not. A large one is close, and some are shapes. The map has a bright
+/// spot.
 Scene lamps(bool with_map) {
   Scene scene;
   scene.materials = {{.double_sided = false, .emissive = Vec3(3)}, {.emissive = Vec3(1)}};

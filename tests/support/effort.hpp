@@ -10,7 +10,7 @@
 
 namespace microtrace {
 
-/// The number in an environment variable, or `fallback` if the variable is not set.
+/// Returns the number in an environment variable, or `fallback` if the variable is not set.
 [[nodiscard]] inline std::uint64_t from_environment(const char* variable, std::uint64_t fallback) {
   const char* text = std::getenv(variable);
   return text == nullptr ? fallback : std::stoull(text);
@@ -18,15 +18,15 @@ namespace microtrace {
 
 namespace oracle {
 
-/// The number of cases of one test: a fraction of MICROTRACE_ORACLE_CASES, which is 1000000 by
-/// default.
+/// Returns the number of cases of one test: a fraction of MICROTRACE_ORACLE_CASES, which is 1000000
+/// by default.
 [[nodiscard]] inline int case_count(double share) {
   return static_cast<int>(
       share * static_cast<double>(from_environment("MICROTRACE_ORACLE_CASES", 1'000'000)));
 }
 
-/// The random generator of one test, seeded by MICROTRACE_ORACLE_SEED and the test's number. Prints
-/// the seed.
+/// Returns the random generator of one test, seeded by MICROTRACE_ORACLE_SEED and the test's
+/// number. Prints the seed.
 [[nodiscard]] inline adversarial::Random announced_random(std::uint64_t test) {
   const std::uint64_t seed = from_environment("MICROTRACE_ORACLE_SEED", 1);
   std::cout << "MICROTRACE_ORACLE_SEED=" << seed << '\n';
@@ -49,15 +49,15 @@ inline constexpr std::uint64_t kUsualRays = 100'000;
 inline constexpr std::uint64_t kUsualRays = 1'000'000;
 #endif
 
-/// The number of rays of one test: a fraction of MICROTRACE_TRAVERSAL_RAYS. The variable's default
-/// is 1000000, or a tenth of this in builds with sanitizers.
+/// Returns the number of rays of one test: a fraction of MICROTRACE_TRAVERSAL_RAYS. The variable's
+/// default is 1000000, or a tenth of this in builds with sanitizers.
 [[nodiscard]] inline std::size_t ray_count(double share) {
   return static_cast<std::size_t>(
       share * static_cast<double>(from_environment("MICROTRACE_TRAVERSAL_RAYS", kUsualRays)));
 }
 
-/// The random generator of one test, seeded by MICROTRACE_TRAVERSAL_SEED and the test's number.
-/// Prints the seed.
+/// Returns the random generator of one test, seeded by MICROTRACE_TRAVERSAL_SEED and the test's
+/// number. Prints the seed.
 [[nodiscard]] inline adversarial::Random announced_random(std::uint64_t test) {
   const std::uint64_t seed = from_environment("MICROTRACE_TRAVERSAL_SEED", 1);
   std::cout << "MICROTRACE_TRAVERSAL_SEED=" << seed << '\n';

@@ -35,7 +35,7 @@ class Json {
 
   [[nodiscard]] static Json array(std::initializer_list<Json> values = {});
   [[nodiscard]] static Json object();
-  /// An array of `count` equal values.
+  /// Returns an array of `count` equal values.
   [[nodiscard]] static Json repeated(std::size_t count, const Json& value);
   /// Throws the same exceptions as nlohmann::json.
   [[nodiscard]] static Json parse(std::string_view text);
@@ -62,8 +62,8 @@ class Json {
   [[nodiscard]] std::size_t to_size() const;
   [[nodiscard]] bool operator==(const Json& other) const;
 
-  /// The JSON text, on one line if `indentation` is negative. Otherwise each value has a line of
-  /// its own.
+  /// Returns the JSON text, on one line if `indentation` is negative. Otherwise each value has a
+  /// line of its own.
   [[nodiscard]] std::string dump(int indentation = -1) const;
   friend std::ostream& operator<<(std::ostream& out, const Json& json);
 

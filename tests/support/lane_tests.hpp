@@ -23,7 +23,7 @@ class LaneRandom {
   Vec3 vector() { return {signed_unit(), signed_unit(), signed_unit()}; }
   Vec3 color() { return {number(), number(), number()}; }
   Vec3 direction() { return unit<1>(vector() + Vec3(0, 0, 1e-3F)); }
-  /// A random direction on the side of the plane to which its normal n points.
+  /// Returns a random direction on the side of the plane to which its normal n points.
   Vec3 above(const Vec3& n) {
     const Vec3 w = direction();
     return glm::dot(w, n) < 0 ? -w : w;

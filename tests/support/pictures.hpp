@@ -27,7 +27,7 @@ struct Shot {
       {.threads = shot.threads, .integrator = &path, .samples = shot.samples, .seed = shot.seed});
 }
 
-/// All pixels, row by row.
+/// Returns all pixels, row by row.
 [[nodiscard]] inline std::vector<DVec3> pixels_of(const Film& film) {
   std::vector<DVec3> result;
   for (std::uint32_t y = 0; y < film.size().height; ++y) {
@@ -36,7 +36,7 @@ struct Shot {
   return result;
 }
 
-/// The mean of all pixels.
+/// Returns the mean of all pixels.
 [[nodiscard]] inline DVec3 mean_of(const Film& film) {
   DVec3 sum(0);
   const std::vector<DVec3> pixels = pixels_of(film);
@@ -67,7 +67,7 @@ struct Estimate {
   return Estimate(means);
 }
 
-/// A parallelogram. Its front is seen from where the rotation from `along` to `up` is
+/// Returns a parallelogram. Its front is seen from where the rotation from `along` to `up` is
 /// counterclockwise.
 [[nodiscard]] inline Mesh parallelogram(const Vec3& corner, const Vec3& along, const Vec3& up) {
   return {.positions = {corner, corner + along, corner + along + up, corner + up},

@@ -26,7 +26,7 @@ std::string chunk(const PngChunk& chunk) {
   return big_endian(static_cast<std::uint32_t>(chunk.data.size())) + body + big_endian(crc(body));
 }
 
-/// A zlib stream of uncompressed blocks (RFC 1950 and 1951).
+/// Returns a zlib stream of uncompressed blocks (RFC 1950 and 1951).
 std::string stored(std::string_view bytes) {
   std::string result = "\x78\x01";
   std::uint32_t a = 1, b = 0;

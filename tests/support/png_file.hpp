@@ -29,7 +29,7 @@ struct PngPicture {
 
 [[nodiscard]] std::string png_file(const PngPicture& picture);
 
-/// A PNG file with four channels of eight bits.
+/// Returns a PNG file with four channels of eight bits.
 [[nodiscard]] std::string png_of(std::uint32_t width, std::uint32_t height,
                                  const std::vector<std::uint8_t>& rgba);
 

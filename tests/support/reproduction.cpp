@@ -67,7 +67,7 @@ std::string object(const Quadric& q) {
          '}';
 }
 
-/// The coordinate axis that has the largest angle to v.
+/// Returns the coordinate axis that has the largest angle to v.
 Vec3 across(const Vec3& v) {
   const Vec3 size = glm::abs(v);
   if (size.x <= size.y && size.x <= size.z) return {1, 0, 0};

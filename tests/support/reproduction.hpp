@@ -12,7 +12,8 @@ namespace microtrace::adversarial {
 /// Shapes whose first hit src/exact computes.
 using FirstHitShape = std::variant<Sphere, Plane, Disc, Triangle, Quadric>;
 
-/// The ray's numbers in hexadecimal, and a scene whose only pixel looks along the ray at the shape.
+/// Returns the ray's numbers in hexadecimal, and a scene whose only pixel looks along the ray at
+/// the shape.
 [[nodiscard]] std::string reproduction(const Ray& ray, const FirstHitShape& shape);
 
 }  // namespace microtrace::adversarial

@@ -25,7 +25,7 @@ bool holds(const Bounds& b, const Vec3& p) {
          p.z <= b.hi.z;
 }
 
-// True if the box contains p, apart from rounding errors of p.
+// Returns true if the box contains p, apart from rounding errors of p.
 bool nearly_holds(const Bounds& b, const DVec3& p, const DVec3& slack) {
   return glm::all(glm::lessThanEqual(DVec3(b.lo) - slack, p)) &&
          glm::all(glm::lessThanEqual(p, DVec3(b.hi) + slack));

@@ -24,7 +24,7 @@ class TreeWalk {
 
   [[nodiscard]] const std::string& fault() const { return fault_; }
   [[nodiscard]] int depth() const { return depth_; }  ///< number of nodes on the longest path
-  /// The number of triangles in blocks. A triangle counts once per leaf.
+  /// Returns the number of triangles in blocks. A triangle counts once per leaf.
   [[nodiscard]] std::size_t triangle_references() const { return triangle_references_; }
   [[nodiscard]] Place place(PrimitiveId id) const {
     return id < places_.size() ? places_[id] : Place::nowhere;
@@ -56,8 +56,8 @@ struct TreeCost {
 };
 [[nodiscard]] TreeCost cost_of(const Tree& tree);
 
-/// The cost of a simple, good tree. It splits triangles into halves of equal count along the
-/// longest axis of the centroids. Each node has three levels of splits, and each leaf has up to
+/// Returns the cost of a simple, good tree. It splits triangles into halves of equal count along
+/// the longest axis of the centroids. Each node has three levels of splits, and each leaf has up to
 /// eight triangles.
 [[nodiscard]] TreeCost cost_of_object_medians(const Mesh& mesh);
 

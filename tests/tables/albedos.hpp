@@ -6,7 +6,7 @@
 
 namespace microtrace::tables {
 
-/// The alpha of bsdf::Ggx for this roughness.
+/// Returns the alpha of bsdf::Ggx for this roughness.
 [[nodiscard]] double alpha_of(double roughness);
 
 [[nodiscard]] double fifth_power(double x);
@@ -16,7 +16,7 @@ struct Albedo {
   double f1 = 0, schlick = 0;
 };
 
-/// The directional albedo of single scattering for light to or from wo.
+/// Returns the directional albedo of single scattering for light to or from wo.
 [[nodiscard]] Albedo ggx_albedo(const Alphas& alphas, const Direction& wo,
                                 const Quadrature& points);
 
@@ -39,7 +39,7 @@ class Sheen {
   [[nodiscard]] double around(double z, double z_in, double masking,
                               const Quadrature& points) const;
 
-  /// The directional albedo.
+  /// Returns the directional albedo.
   [[nodiscard]] double albedo(double z, const Quadrature& points) const;
 
  private:

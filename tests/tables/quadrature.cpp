@@ -13,7 +13,7 @@ struct Legendre {
   double value, derivative;
 };
 
-/// The Legendre polynomial of degree n at x, for |x| < 1.
+/// Returns the Legendre polynomial of degree n at x, for |x| < 1.
 Legendre legendre(int n, double x) {
   double last = 1, value = x;
   for (int k = 2; k <= n; ++k) {

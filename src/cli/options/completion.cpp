@@ -59,7 +59,7 @@ std::vector<std::string> words_of(const Option& option) {
   return option.words != nullptr ? option.words() : std::vector<std::string>{};
 }
 
-/// True if the word after the option is its value.
+/// Returns true if the word after the option is its value.
 bool has_value(const Option& option) {
   return !option.is_flag();
 }

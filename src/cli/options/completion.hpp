@@ -8,13 +8,13 @@
 
 namespace microtrace::cli {
 
-/// True if the first argument is "completion".
+/// Returns true if the first argument is "completion".
 [[nodiscard]] bool is_completion(int argc, char** argv);
 
 /// Prints the script to standard output; returns the exit code.
 [[nodiscard]] int print_completion(int argc, char** argv);
 
-/// The script for bash, zsh or fish; nothing for another shell.
+/// Returns the script for bash, zsh or fish; nothing for another shell.
 [[nodiscard]] std::optional<std::string> completion_script(std::string_view shell);
 
 }  // namespace microtrace::cli

@@ -3,7 +3,7 @@
 namespace microtrace::cli {
 namespace {
 
-/// The rows from the option `first` to the option `last`.
+/// Returns the rows from the option `first` to the option `last`.
 std::span<const Option> rows(std::span<const Option> table, std::string_view first,
                              std::string_view last) {
   const auto begin = std::ranges::find(table, first, &Option::name);

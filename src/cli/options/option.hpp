@@ -50,7 +50,7 @@ struct Option {
   /// order of the table. Null for --help and --version, which end the program.
   void (*set)(Arguments&, const OptionValue&) = nullptr;
 
-  /// The first long name, such as "--output", or the name of the positional argument.
+  /// Returns the first long name, such as "--output", or the name of the positional argument.
   [[nodiscard]] std::string_view name() const;
   [[nodiscard]] std::vector<std::string_view> all_names() const;
   [[nodiscard]] bool is_flag() const { return metavar.empty() || !implied_value.empty(); }
@@ -63,7 +63,7 @@ struct OptionGroup {
   std::span<const Option> options;
 };
 
-/// All options of a command, in the order of --help.
+/// Returns all options of a command, in the order of --help.
 [[nodiscard]] std::vector<OptionGroup> option_groups(Command command);
 
 // The tables, one for each heading.
@@ -81,7 +81,7 @@ struct OptionGroup {
 [[nodiscard]] std::span<const Option> dataset_options();
 [[nodiscard]] std::span<const Option> verify_options();
 
-/// True if every row has names, a help text and a stated effect on samples.
+/// Returns true if every row has names, a help text and a stated effect on samples.
 constexpr bool is_complete(std::span<const Option> options) {
   return std::ranges::all_of(options, [](const Option& option) {
     return !option.names.empty() && !option.help.empty() && option.samples != Samples::undecided;

@@ -13,18 +13,19 @@
 
 namespace microtrace::cli {
 
-/// The camera of --view or --eye if one of them is given; otherwise a camera that frames the scenes
-/// added to `framing`. The camera is in the coordinates of `framing`. Throws Error (usage).
+/// Returns the camera of --view or --eye if one of them is given; otherwise a camera that frames
+/// the scenes added to `framing`. The camera is in the coordinates of `framing`. Throws Error
+/// (usage).
 [[nodiscard]] PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options);
 
-/// The camera that the options select, or the scene's default camera. If the scene has no such
-/// camera, throws Error (usage) with the names of the scene's cameras.
+/// Returns the camera that the options select, or the scene's default camera. If the scene has no
+/// such camera, throws Error (usage) with the names of the scene's cameras.
 [[nodiscard]] Camera choose_camera(const Scene& scene, const CameraOptions& options,
                                    ImageSize size);
 
-/// A static camera that frames all pictures of a sequence, in world coordinates. Absent if the
-/// sequence uses a camera of the scene or is a single picture. Loads the scene at the time of every
-/// picture.
+/// Returns a static camera that frames all pictures of a sequence, in world coordinates. Absent if
+/// the sequence uses a camera of the scene or is a single picture. Loads the scene at the time of
+/// every picture.
 [[nodiscard]] std::optional<PerspectiveCamera> frame_all(SceneFile& file, const Sequence& sequence,
                                                          const Arguments& arguments);
 

@@ -29,7 +29,7 @@ struct FrameRange {
 /// the pattern.
 void check_pattern(const char* option, const std::string& pattern);
 
-/// The file name of one frame.
+/// Returns the file name of one frame.
 [[nodiscard]] std::filesystem::path frame_path(const std::string& pattern, std::uint32_t frame);
 
 }  // namespace microtrace::cli

@@ -18,7 +18,7 @@
 namespace microtrace::cli {
 namespace {
 
-/// True if the id channel is rendered only for the sidecar, which counts each id's pixels.
+/// Returns true if the id channel is rendered only for the sidecar, which counts each id's pixels.
 bool needs_ids_for_sidecar_only(const Arguments& arguments, const PictureFiles& files) {
   return !files.sidecar.empty() &&
          std::ranges::find(arguments.aovs.exact, Aov::id) == arguments.aovs.exact.end();
@@ -34,16 +34,16 @@ void save_picture(const Arguments& arguments, const Scene& scene, const Camera& 
   save_image(film, files.picture, arguments.ppm, files.sidecar.empty() ? nullptr : &sidecar);
 }
 
-/// True if lines about written files are printed. If JSON is requested, standard error contains
-/// only JSON.
+/// Returns true if lines about written files are printed. If JSON is requested, standard error
+/// contains only JSON.
 bool reports_files(const Arguments& arguments) {
   return !arguments.quiet && arguments.statistics != Statistics::json &&
          arguments.progress != Progress::json;
 }
 
-/// The growth of the tree's cost at which slower rays lose as much time as refitting the previous
-/// frame's tree saves. Refitting saves about 250 ns per primitive. Rays take about 500 ns per
-/// sample, half of it in the tree.
+/// Returns the growth of the tree's cost at which slower rays lose as much time as refitting the
+/// previous frame's tree saves. Refitting saves about 250 ns per primitive. Rays take about 500 ns
+/// per sample, half of it in the tree.
 double max_cost_growth_of(const Scene& scene, ImageSize size, std::uint32_t samples) {
   std::size_t primitives = 0;
   for (const Object& object : scene.objects) primitives += primitive_count(object.shape);

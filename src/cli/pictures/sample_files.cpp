@@ -11,14 +11,14 @@
 namespace microtrace::cli {
 namespace {
 
-/// A string of all inputs on which samples depend: the program's version, the scene's files and the
-/// options.
+/// Returns a string of all inputs on which samples depend: the program's version, the scene's files
+/// and the options.
 std::string identity_of(const Arguments& arguments, std::uint64_t files) {
   return "version\t" MICROTRACE_VERSION "\nscene files\t" + std::to_string(files) + "\n" +
          arguments.identity;
 }
 
-/// The checkpoints to continue from, without duplicates.
+/// Returns the checkpoints to continue from, without duplicates.
 std::vector<std::filesystem::path> files_of(const SamplingOptions& sampling) {
   std::vector<std::filesystem::path> files = sampling.resume;
   std::error_code ignored;

@@ -15,8 +15,8 @@ class Sequence {
   explicit Sequence(const Arguments& arguments) : arguments_(arguments) {}
 
   [[nodiscard]] std::uint32_t count() const;
-  /// The animation time of picture `index` in seconds; absent if the scene is rendered without
-  /// animation. `index` counts from 0.
+  /// Returns the animation time of picture `index` in seconds; absent if the scene is rendered
+  /// without animation. `index` counts from 0.
   [[nodiscard]] std::optional<double> time(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path picture(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path sidecar(std::uint32_t index) const;

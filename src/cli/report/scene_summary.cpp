@@ -19,7 +19,7 @@ std::string counted(std::size_t number, const char* what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
 }
 
-/// The numbers of primitives of each kind.
+/// Returns the numbers of primitives of each kind.
 std::string primitives_text(const Scene& scene) {
   std::size_t triangles = 0, segments = 0, others = 0;
   for (const Object& object : scene.objects) {

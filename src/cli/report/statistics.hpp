@@ -26,7 +26,7 @@ class Stopwatch {
   }
   void written() { write_ = lap(); }
 
-  /// The time for loading, rendering and writing.
+  /// Returns the time for loading, rendering and writing.
   [[nodiscard]] double seconds() const { return load_ + render_ + write_; }
 
   /// Prints times, numbers of rays and memory use to standard error.

@@ -33,7 +33,7 @@ bool has_emissive_surfaces(const Scene& scene) {
   });
 }
 
-/// The exposure in stops that raises this value to at least 1/2.
+/// Returns the exposure in stops that raises this value to at least 1/2.
 int exposure_for(float brightest) {
   int exponent = 0;
   std::frexp(brightest, &exponent);

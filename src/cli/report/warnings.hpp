@@ -42,7 +42,8 @@ class Warnings {
   std::set<std::string> printed_;
 };
 
-/// The warning for a picture in which no object is visible, or which is almost entirely black.
+/// Returns the warning for a picture in which no object is visible, or which is almost entirely
+/// black.
 [[nodiscard]] std::optional<Diagnostic> picture_warning(const FilmView& view,
                                                         const Arguments& arguments,
                                                         const Scene& scene);

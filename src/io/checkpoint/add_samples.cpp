@@ -23,7 +23,8 @@ std::map<std::string, std::string, std::less<>> entries_of(std::string_view iden
   return entries;
 }
 
-/// A message about the first entry that differs, such as "made with --seed 1, not with --seed 2".
+/// Returns a message about the first entry that differs, such as "made with --seed 1, not with
+/// --seed 2".
 std::string difference(std::string_view there, std::string_view here) {
   const auto theirs = entries_of(there), ours = entries_of(here);
   for (const auto& [name, value] : theirs) {

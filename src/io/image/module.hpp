@@ -35,8 +35,8 @@ class ImageModule {
   /// Error(unsupported) that lists the searched folders.
   ImageModule(std::string file, std::string_view extension);
 
-  /// The pixel format of files with this extension (lower case, no dot). Throws Error(usage) if the
-  /// module can't write them.
+  /// Returns the pixel format of files with this extension (lower case, no dot). Throws
+  /// Error(usage) if the module can't write them.
   [[nodiscard]] MicrotraceFormat find_format(const std::string& extension) const;
 
   /// Passes all bytes of the picture's file to `out`. Throws Error(io).

@@ -118,7 +118,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     return std::min(text_.find_first_not_of(kWhitespace, offset), text_.size());
   }
 
-  /// The position of the next token, and the tokens allowed there.
+  /// Returns the position of the next token, and the tokens allowed there.
   [[nodiscard]] SyntaxContext next_token() const {
     using Expects = SyntaxContext::Expects;
     SyntaxContext context{
@@ -230,7 +230,8 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     outdone_keys_.pointer = child(pointer(), first->key);
   }
 
-  /// The pointer to the innermost open value, or to the member whose key was read most recently.
+  /// Returns the pointer to the innermost open value, or to the member whose key was read most
+  /// recently.
   [[nodiscard]] std::string pointer() const {
     std::string out;
     for (const JsonValue* value : open_) {

@@ -42,7 +42,8 @@ struct JsonValue {
   void index_members();
 
  private:
-  /// The index of the member with this name. Equal to the number of members if it is absent.
+  /// Returns the index of the member with this name. Equal to the number of members if it is
+  /// absent.
   [[nodiscard]] std::size_t position(std::string_view key) const;
 
   /// The members' indices sorted by key. Null if there are few members.
@@ -95,7 +96,7 @@ class JsonDocument {
 [[nodiscard]] std::string child(const std::string& pointer, std::string_view key);
 [[nodiscard]] std::string child(const std::string& pointer, std::size_t index);
 
-/// The unescaped reference tokens of a JSON pointer. Nothing if the pointer is malformed.
+/// Returns the unescaped reference tokens of a JSON pointer. Nothing if the pointer is malformed.
 [[nodiscard]] std::optional<std::vector<std::string>> pointer_tokens(std::string_view pointer);
 
 /// The value that a JSON pointer names, or null.

@@ -14,8 +14,8 @@ struct Place {
 
 [[nodiscard]] Place place_of(std::string_view text, std::size_t offset);
 
-/// The line that contains the byte at `offset`, truncated to 120 columns, and below it a caret
-/// under this byte. Unprintable characters are escaped.
+/// Returns the line that contains the byte at `offset`, truncated to 120 columns, and below it a
+/// caret under this byte. Unprintable characters are escaped.
 [[nodiscard]] std::string excerpt(std::string_view text, std::size_t offset);
 
 }  // namespace microtrace::io

@@ -32,23 +32,23 @@ class JsonReader {
   /// suggests the most similar name.
   void require_object(std::initializer_list<std::string_view> known) const;
   void require_object() const;
-  /// The member with this key. If it is missing, `member` throws an error that points to the
-  /// object.
+  /// Returns the member with this key. If it is missing, `member` throws an error that points to
+  /// the object.
   [[nodiscard]] JsonReader member(std::string_view key) const;
   [[nodiscard]] std::optional<JsonReader> find(std::string_view key) const;
-  /// All members with their keys.
+  /// Returns all members with their keys.
   [[nodiscard]] std::vector<std::pair<std::string, JsonReader>> members() const;
 
-  /// The elements of an array. If `count` is given, there must be exactly this many.
+  /// Returns the elements of an array. If `count` is given, there must be exactly this many.
   [[nodiscard]] std::vector<JsonReader> items(std::optional<std::size_t> count = {}) const;
 
   [[nodiscard]] std::string string() const;
-  /// A string that is not empty.
+  /// Returns a string that is not empty.
   [[nodiscard]] std::string name() const;
-  /// A number that is finite in float32.
+  /// Returns a number that is finite in float32.
   [[nodiscard]] double number() const;
   [[nodiscard]] float float32() const { return static_cast<float>(number()); }
-  /// An integer from 0 to 2^53.
+  /// Returns an integer from 0 to 2^53.
   [[nodiscard]] std::uint64_t count() const;
   [[nodiscard]] DVec3 vector() const;
   [[nodiscard]] Vec3 vector32() const { return Vec3(vector()); }

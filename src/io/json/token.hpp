@@ -6,10 +6,10 @@
 
 namespace microtrace::io {
 
-/// The byte after the string that starts at `start`.
+/// Returns the byte after the string that starts at `start`.
 [[nodiscard]] std::size_t string_end(std::string_view text, std::size_t start);
 
-/// The byte after the number that starts at `start`.
+/// Returns the byte after the number that starts at `start`.
 [[nodiscard]] std::size_t number_end(std::string_view text, std::size_t start);
 
 }  // namespace microtrace::io

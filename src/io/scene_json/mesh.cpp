@@ -16,8 +16,8 @@
 namespace microtrace::io {
 namespace {
 
-/// A rotation by Rodrigues' formula: v -> cos v + sin (axis x v) + (1 - cos) axis (axis . v), where
-/// axis is a unit vector.
+/// Returns a rotation by Rodrigues' formula: v -> cos v + sin (axis x v) + (1 - cos) axis (axis .
+/// v), where axis is a unit vector.
 DMat4 rotation(const DVec3& axis, double degrees) {
   const double sine = sin_degrees(degrees), cosine = cos_degrees(degrees);
   DMat4 out(1);

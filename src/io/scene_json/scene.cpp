@@ -47,7 +47,7 @@ void read_cameras(const JsonReader& json, Scene& scene) {
   }
 }
 
-/// The picture size for the default camera.
+/// Returns the picture size for the default camera.
 ImageSize default_size(const Scene& scene) {
   if (scene.cameras.empty()) return {};
   const auto* calibrated = std::get_if<CalibratedCamera>(&scene.cameras.front().camera);

@@ -48,7 +48,8 @@ std::string rows(const DMat4& m) {
   return text += ']';
 }
 
-/// The inverse of a rigid transform. It is computed by transposing the rotation, without division.
+/// Returns the inverse of a rigid transform. It is computed by transposing the rotation, without
+/// division.
 DMat4 inverse(const DMat4& rigid) {
   const glm::dmat3 back = glm::transpose(glm::dmat3(rigid));
   DMat4 result(back);
@@ -131,7 +132,7 @@ std::string object_text(const Object& object, std::size_t id, const io::SeenPixe
   return text += '}';
 }
 
-/// A JSON array with one item per line.
+/// Returns a JSON array with one item per line.
 template <class Item>
 std::string list(std::size_t count, Item&& item) {
   std::string text = "[";

@@ -43,8 +43,8 @@ class MemoryFile : public Imf::IStream {
   std::size_t size_, place_ = 0;
 };
 
-/// The names of the color channels: R, G and B outside of layers, or of the first layer that has
-/// all three. For gray images, the name is Y or that of the only channel.
+/// Returns the names of the color channels: R, G and B outside of layers, or of the first layer
+/// that has all three. For gray images, the name is Y or that of the only channel.
 std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
   std::vector<std::string> layers{""};
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {

@@ -46,7 +46,7 @@ Imf::PixelType type_of(MicrotraceNumber number) {
   return number == kMicrotraceU32 ? Imf::UINT : Imf::FLOAT;
 }
 
-/// The box of pixels that starts at (x0, y0). Its ends are inclusive, as OpenEXR requires.
+/// Returns the box of pixels that starts at (x0, y0). Its ends are inclusive, as OpenEXR requires.
 Box2i box_of(std::uint32_t x0, std::uint32_t y0, std::uint32_t width, std::uint32_t height) {
   const V2i first(static_cast<int>(x0), static_cast<int>(y0));
   return {first, first + V2i(static_cast<int>(width) - 1, static_cast<int>(height) - 1)};

@@ -25,7 +25,7 @@ std::runtime_error complaint(const std::string& otherwise) {
   return std::runtime_error(message.empty() ? otherwise : message);
 }
 
-/// The index of the first of the channels red, green and blue, or of the gray channel.
+/// Returns the index of the first of the channels red, green and blue, or of the gray channel.
 int first_color(const ImageSpec& spec) {
   for (int i = 0; i + 2 < spec.nchannels; ++i) {
     if (spec.channel_name(i) == "R" && spec.channel_name(i + 1) == "G" &&
@@ -35,8 +35,8 @@ int first_color(const ImageSpec& spec) {
   return 0;
 }
 
-/// The format of returned samples. 8-bit and 16-bit integers are returned unchanged, floating-point
-/// numbers as float32. Half floats convert to float32 exactly.
+/// Returns the format of returned samples. 8-bit and 16-bit integers are returned unchanged,
+/// floating-point numbers as float32. Half floats convert to float32 exactly.
 MicrotraceNumber number_of(const ImageSpec& spec) {
   if (spec.format == TypeDesc::UINT8) return kMicrotraceU8;
   if (spec.format == TypeDesc::UINT16) return kMicrotraceU16;

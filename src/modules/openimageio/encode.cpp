@@ -35,13 +35,13 @@ std::unique_ptr<ImageOutput> find_writer(const std::string& extension) {
   return writer;
 }
 
-/// True for the format that stores linear light. OpenEXR has its own module.
+/// Returns true for the format that stores linear light. OpenEXR has its own module.
 bool is_float_format(std::string_view name) {
   return name == "hdr";
 }
 
-/// True for formats that preserve alpha exactly. GIF's alpha has only one bit, and writers of other
-/// formats change the colors.
+/// Returns true for formats that preserve alpha exactly. GIF's alpha has only one bit, and writers
+/// of other formats change the colors.
 bool holds_alpha(std::string_view name) {
   constexpr std::array kNames = {"png", "tiff", "targa", "webp", "bmp"};
   return std::ranges::find(kNames, name) != kNames.end();

@@ -26,8 +26,8 @@ void expect_near(const Vec3& value, const Vec3& wanted) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], wanted[i], 1e-6) << i;
 }
 
-/// A cube that makes one full rotation about z between 1 and 3 seconds, in four quarter turns, and
-/// moves by 10 along x.
+/// Returns a cube that makes one full rotation about z between 1 and 3 seconds, in four quarter
+/// turns, and moves by 10 along x.
 AssetBuilder turning_cube() {
   AssetBuilder asset = cube();
   const float half = std::sqrt(0.5F);

@@ -115,7 +115,8 @@ std::vector<unsigned> grid_triangles() {
   return result;
 }
 
-/// A grid of triangles. If `triangles` is false, a line strip, which is compressed in mode INDICES.
+/// Returns a grid of triangles. If `triangles` is false, a line strip, which is compressed in mode
+/// INDICES.
 CompressedAsset grid(bool triangles, const std::function<void(std::string&)>& spoil = {}) {
   CompressedAsset result;
   const std::vector<std::int16_t> positions = grid_positions();

@@ -54,7 +54,7 @@ bool is_texture(const Rule& rule) {
   return rule.place == Place::texture_info;
 }
 
-/// A value that is not the default of any property.
+/// Returns a value that is not the default of any property.
 Json value_of(const Rule& rule) {
   const double least = std::max(rule.min, -1.0), most = std::min(rule.max, least + 1);
   // Distinct keys get distinct values, at least where a test combines them.
@@ -154,7 +154,7 @@ std::vector<Vec3> picture_of(const Objects& objects) {
   return pixels;
 }
 
-/// True if the last of the extension objects changes the picture.
+/// Returns true if the last of the extension objects changes the picture.
 bool is_seen(Objects objects) {
   const std::vector<Vec3> with = picture_of(objects);
   objects.pop_back();
@@ -212,8 +212,8 @@ TEST(GltfExtensions, EachPropertyThatIsReadHasARule) {
   EXPECT_GT(count, keys.size());
 }
 
-/// The extension names between two headings of docs/gltf.md. A table row may abbreviate names to
-/// their endings: `KHR_materials_ior`, `_specular`.
+/// Returns the extension names between two headings of docs/gltf.md. A table row may abbreviate
+/// names to their endings: `KHR_materials_ior`, `_specular`.
 std::set<std::string> documented(const std::string& heading, const std::string& next) {
   std::string text = text_of("docs/gltf.md");
   text = text.substr(text.find(heading));

@@ -23,7 +23,7 @@ std::string ktx2_file(const std::string& name) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The cube with a texture whose source is image 0 (KTX2). Image 1 (PNG) is the fallback.
+/// Returns the cube with a texture whose source is image 0 (KTX2). Image 1 (PNG) is the fallback.
 AssetBuilder textured(const std::string& ktx2) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {"KHR_texture_basisu"};

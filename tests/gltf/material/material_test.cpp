@@ -13,8 +13,8 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
-/// The cube with this material. All its extensions are declared, and 24 textures with different
-/// images exist.
+/// Returns the cube with this material. All its extensions are declared, and 24 textures with
+/// different images exist.
 AssetBuilder with_material(const char* material) {
   AssetBuilder asset = cube();
   asset.json["materials"][0] = Json::parse(material);
@@ -229,7 +229,7 @@ TEST(GltfMaterial, EachTextureIsVisitedOnceWithItsEncoding) {
   EXPECT_THAT(encodings, ElementsAre(1, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1));
 }
 
-// The indices of the images that are decoded for pictures with this detail.
+// Returns the indices of the images that are decoded for pictures with this detail.
 std::vector<std::size_t> decoded(const AssetBuilder& asset, SurfaceDetail detail) {
   const Scene scene = load(asset, {.detail = detail}).scene;
   std::vector<std::size_t> result;

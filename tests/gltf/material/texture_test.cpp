@@ -14,7 +14,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::NotNull;
 
-/// The cube with one texture on its material, and an image of one pixel.
+/// Returns the cube with one texture on its material, and an image of one pixel.
 AssetBuilder textured() {
   AssetBuilder asset = cube();
   asset.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};

@@ -12,7 +12,7 @@ using ::testing::SizeIs;
 
 constexpr const char* kExtension = "EXT_mesh_gpu_instancing";
 
-/// The triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
+/// Returns the triangle (0,0,0) (1,0,0) (0,1,0) on a node at x = 100.
 AssetBuilder triangle() {
   AssetBuilder asset;
   asset.json["extensionsUsed"] = {kExtension};

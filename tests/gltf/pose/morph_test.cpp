@@ -13,7 +13,7 @@ Mesh first_mesh(const LoadedScene& loaded) {
   return std::get<Mesh>(loaded.scene.objects.at(0).shape);
 }
 
-/// The triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with all attributes and two morph targets.
+/// Returns the triangle (0, 0, 0), (1, 0, 0), (0, 1, 0) with all attributes and two morph targets.
 AssetBuilder morphed_triangle() {
   AssetBuilder asset;
   const Json attributes = {

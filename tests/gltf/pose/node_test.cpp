@@ -12,7 +12,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// The triangle (0, 0, 0), (1, 0, 0), (0, 2, 0) on node 0.
+/// Returns the triangle (0, 0, 0), (1, 0, 0), (0, 2, 0) on node 0.
 AssetBuilder triangle() {
   AssetBuilder asset;
   asset.add_object(

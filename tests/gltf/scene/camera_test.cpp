@@ -15,7 +15,7 @@ Json perspective() {
   return {{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}};
 }
 
-/// The cube, and this camera on a new root node 1.
+/// Returns the cube, and this camera on a new root node 1.
 AssetBuilder with_camera(const Json& camera) {
   AssetBuilder asset = cube();
   asset.json["cameras"] = Json::array({camera});

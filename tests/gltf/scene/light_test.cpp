@@ -15,8 +15,8 @@ using ::testing::SizeIs;
 
 constexpr const char* kExtension = "KHR_lights_punctual";
 
-/// The cube, and each of these lights on a node of its own. All nodes have the same rotation and
-/// scale.
+/// Returns the cube, and each of these lights on a node of its own. All nodes have the same
+/// rotation and scale.
 AssetBuilder lit(const Json& lights) {
   AssetBuilder asset = cube();
   asset.json["extensionsUsed"] = {kExtension};

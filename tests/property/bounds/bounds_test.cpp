@@ -29,7 +29,7 @@ exact::Vector vector(const auto& numbers, std::size_t i) {
 exact::Root number(double t) {
   return exact::rational(exact::Dyadic(t), exact::Dyadic(1.0F));
 }
-// The signed area of the parallelogram spanned by ab and ap, projected along the z axis.
+// Returns the signed area of the parallelogram spanned by ab and ap, projected along the z axis.
 exact::Dyadic area(const exact::Vector& a, const exact::Vector& b, const exact::Vector& p) {
   return cross(b - a, p - a).z;
 }

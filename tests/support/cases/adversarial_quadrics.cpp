@@ -5,7 +5,7 @@
 namespace microtrace::adversarial {
 namespace {
 
-/// A quadric with coefficients drawn by `draw`. Some of the ten are omitted.
+/// Returns a quadric with coefficients drawn by `draw`. Some of the ten are omitted.
 template <class Draw>
 Quadric drawn(Random& random, Draw draw) {
   Quadric q;
@@ -15,13 +15,13 @@ Quadric drawn(Random& random, Draw draw) {
   return q;
 }
 
-/// The left-hand side of the quadric's equation. Exact for small integers.
+/// Returns the left-hand side of the quadric's equation. Exact for small integers.
 float value(const Quadric& q, const Vec3& p) {
   return q.a * p.x * p.x + q.b * p.y * p.y + q.c * p.z * p.z + q.d * p.x * p.y + q.e * p.x * p.z +
          q.f * p.y * p.z + q.g * p.x + q.h * p.y + q.i * p.z + q.j;
 }
 
-/// The quadric of the sphere with center c and squared radius r2. Exact for small integers.
+/// Returns the quadric of the sphere with center c and squared radius r2. Exact for small integers.
 Quadric sphere(const Vec3& c, float r2) {
   return {.a = 1,
           .b = 1,

@@ -53,7 +53,7 @@ struct Line {
   Vec3 o, d;
 };
 
-/// The ray along the line over the interval [0, infinity].
+/// Returns the ray along the line over the interval [0, infinity].
 [[nodiscard]] Ray ray(const Line& line);
 
 template <class S>

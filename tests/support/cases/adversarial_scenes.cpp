@@ -12,8 +12,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A point, a segment whose third vertex is at one end or between them, or a triangle. Half of the
-// calls use a small grid, on which many vertices coincide.
+// Returns a point, a segment whose third vertex is at one end or between them, or a triangle. Half
+// of the calls use a small grid, on which many vertices coincide.
 Corners degenerate_corners(Random& random) {
   const bool on_grid = random.one_in(2);
   const auto anywhere = [&] { return on_grid ? random.on_grid(2) : random.in_cube(2); };
@@ -91,7 +91,7 @@ SceneKind any_kind(Random& random) {
       random.between(0, static_cast<int>(kSceneKinds.size()) - 1))];
 }
 
-// A vertex of a random triangle, or a point of an edge or of the interior.
+// Returns a vertex of a random triangle, or a point of an edge or of the interior.
 Vec3 target(Random& random, const Scene& scene) {
   const Object& object = scene.objects[static_cast<std::size_t>(
       random.between(0, static_cast<int>(scene.objects.size()) - 1))];

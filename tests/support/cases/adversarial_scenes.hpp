@@ -14,7 +14,7 @@ namespace microtrace::adversarial {
 
 using Corners = std::array<Vec3, 3>;
 
-/// A mesh of triangles made by make_corners(), without shared vertices.
+/// Returns a mesh of triangles made by make_corners(), without shared vertices.
 [[nodiscard]] Mesh mesh_of(int triangles, auto&& make_corners) {
   Mesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -43,17 +43,17 @@ inline constexpr std::array kSceneKinds = {
 
 [[nodiscard]] const char* name(SceneKind kind);
 
-/// A scene with a mesh of up to 400 triangles and often a second mesh, which may be a copy of the
-/// first. Other shapes may be added.
+/// Returns a scene with a mesh of up to 400 triangles and often a second mesh, which may be a copy
+/// of the first. Other shapes may be added.
 [[nodiscard]] Scene random_scene(Random& random, SceneKind kind);
-/// A random scene of a random kind.
+/// Returns a random scene of a random kind.
 [[nodiscard]] Scene random_scene(Random& random);
 
-/// A random point from which rays are likely to hit the scene. It is often on a surface.
+/// Returns a random point from which rays are likely to hit the scene. It is often on a surface.
 [[nodiscard]] Vec3 origin(Random& random, const Scene& scene);
 
-/// A ray from o, often toward a vertex or a point of an edge. Some rays have a short interval, an
-/// axis-aligned direction, or a length beyond the kernels' limits.
+/// Returns a ray from o, often toward a vertex or a point of an edge. Some rays have a short
+/// interval, an axis-aligned direction, or a length beyond the kernels' limits.
 [[nodiscard]] Ray random_ray(Random& random, const Scene& scene, const Vec3& o);
 
 /// Rays without a common origin. Some are invalid, exceed the kernels' limits, or share an origin

@@ -37,7 +37,7 @@ Vec3 axis(Random& random) {
   return v;
 }
 
-/// An integer vector perpendicular to n. Small if n is small.
+/// Returns an integer vector perpendicular to n. Small if n is small.
 Vec3 perpendicular(Random& random, const Vec3& n) {
   return glm::cross(n, random.on_grid(3));
 }
@@ -47,7 +47,7 @@ Vec3 nonzero_on_grid(Random& random, int n) {
   return v == Vec3(0) ? Vec3(1, 0, 0) : v;
 }
 
-/// A random length between about 2^lo and 2^hi.
+/// Returns a random length between about 2^lo and 2^hi.
 float any_length(Random& random, int lo, int hi) {
   return std::abs(random.any_float(lo, hi));
 }
@@ -68,8 +68,8 @@ Ray any_ray(Random& random, const Magnitude& of_o) {
   return ray({random.any_vector(of_o.lo, of_o.hi), random.any_vector(of_d.lo, of_d.hi)});
 }
 
-/// A ray whose origin coordinates are small multiples of `spacing`, which callers choose from
-/// 2^-149 to 2^-120.
+/// Returns a ray whose origin coordinates are small multiples of `spacing`, which callers choose
+/// from 2^-149 to 2^-120.
 Ray subnormal_ray(Random& random, float spacing) {
   return ray({random.on_grid(9, spacing),
               random.on_grid(3, random.one_in(2) ? random.power_of_two(-149, 0) : 1)});

@@ -10,8 +10,8 @@
 namespace microtrace::generated {
 namespace {
 
-// The output function of SplitMix64, applied to a counter (Steele, Lea, Flood: Fast splittable
-// pseudorandom number generators, 2014).
+// Returns the output function of SplitMix64, applied to a counter (Steele, Lea, Flood: Fast
+// splittable pseudorandom number generators, 2014).
 std::uint64_t random_bits(std::uint64_t counter) {
   std::uint64_t z = counter * 0x9E3779B97F4A7C15U;
   z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
@@ -45,7 +45,7 @@ void add_box(Mesh& mesh, const Vec3& lo, const Vec3& hi, bool inside = false) {
   }
 }
 
-/// A point with coordinates in tenths, a grid to which many modeling programs snap.
+/// Returns a point with coordinates in tenths, a grid to which many modeling programs snap.
 Vec3 tenths(int x, int y, int z) {
   return {0.1 * x, 0.1 * y, 0.1 * z};
 }
@@ -184,8 +184,8 @@ ArchitectureScene stepped_terrain() {
   return scene;
 }
 
-/// A room of n x n x n cells. at(i, k) is the stored coordinate of grid line i as computed for cell
-/// k.
+/// Returns a room of n x n x n cells. at(i, k) is the stored coordinate of grid line i as computed
+/// for cell k.
 ArchitectureScene tiled_room(std::string name, std::uint32_t n,
                              const std::function<float(std::uint32_t, std::uint32_t)>& at) {
   ArchitectureScene scene{.name = std::move(name), .mesh = {}, .lamp = {}, .views = {}};

@@ -40,7 +40,7 @@ struct ArchitectureScene {
 /// float64 and rounds once.
 [[nodiscard]] ArchitectureScene turned(ArchitectureScene scene);
 
-/// A scene of the mesh and the emitter, in this order, with diffuse materials.
+/// Returns a scene of the mesh and the emitter, in this order, with diffuse materials.
 [[nodiscard]] Scene as_scene(const ArchitectureScene& architecture);
 
 }  // namespace microtrace::generated

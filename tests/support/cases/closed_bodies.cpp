@@ -106,8 +106,8 @@ Solid icosahedron(Random& random) {
   return solid;
 }
 
-/// The convex hull. Adds points one by one. Each new point replaces the faces that it sees, and is
-/// joined to the edges around them.
+/// Returns the convex hull. Adds points one by one. Each new point replaces the faces that it sees,
+/// and is joined to the edges around them.
 Mesh hull(std::vector<Vec3> points) {
   Mesh mesh{.positions = std::move(points),
             .triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
@@ -149,7 +149,7 @@ float ulp(float x) {
   return std::nextafter(std::abs(x), std::numeric_limits<float>::infinity()) - std::abs(x);
 }
 
-/// The largest spacing of float32 numbers at the body's position.
+/// Returns the largest spacing of float32 numbers at the body's position.
 float greatest_ulp(const Vec3& center, float size) {
   return std::max({ulp(center.x), ulp(center.y), ulp(center.z), ulp(size)});
 }

@@ -26,9 +26,9 @@ inline constexpr std::array kBodyKinds = {
 
 [[nodiscard]] const char* name(BodyKind kind);
 
-/// A body of 4 to 64 triangles, or of twice as many for a shell. Each edge has an even number of
-/// triangles, so a point is inside if a ray from it crosses an odd number of triangles. Because of
-/// rounding, triangles may overlap or have no area.
+/// Returns a body of 4 to 64 triangles, or of twice as many for a shell. Each edge has an even
+/// number of triangles, so a point is inside if a ray from it crosses an odd number of triangles.
+/// Because of rounding, triangles may overlap or have no area.
 [[nodiscard]] Mesh closed_body(Random& random, BodyKind kind, const Vec3& center, float size);
 
 }  // namespace microtrace::adversarial

@@ -21,8 +21,8 @@ Mesh scaled(Mesh mesh, const Vec3& scale, const Vec3& offset) {
   return mesh;
 }
 
-// A cube whose faces have n x n cells of two triangles. All vertices are at integers. Each face is
-// a coplanar wall, and every axis-aligned ray from an integer point hits vertices or edges.
+// Returns a cube whose faces have n x n cells of two triangles. All vertices are at integers. Each
+// face is a coplanar wall, and every axis-aligned ray from an integer point hits vertices or edges.
 Mesh cube(int n) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {

@@ -22,8 +22,8 @@ struct ClosedMesh {
 /// from the origin.
 [[nodiscard]] std::vector<ClosedMesh> closed_meshes();
 
-/// A ray from o that is aimed exactly at a vertex, or at one of the fifteen points that divide an
-/// edge into sixteen equal parts. `o` must be on the grid.
+/// Returns a ray from o that is aimed exactly at a vertex, or at one of the fifteen points that
+/// divide an edge into sixteen equal parts. `o` must be on the grid.
 [[nodiscard]] Ray aimed_exactly(Random& random, const ClosedMesh& closed, const Vec3& o);
 
 }  // namespace microtrace::adversarial

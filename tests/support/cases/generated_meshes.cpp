@@ -86,8 +86,8 @@ struct RadiusHeight {
 
 }  // namespace
 
-// An octahedron whose faces are divided into k x k triangles each, projected to a sphere and
-// displaced.
+// Returns an octahedron whose faces are divided into k x k triangles each, projected to a sphere
+// and displaced.
 Mesh displaced_sphere(std::size_t triangles) {
   const std::uint32_t k = root(static_cast<double>(triangles) / 8);
   Mesh mesh;

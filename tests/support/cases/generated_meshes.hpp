@@ -10,14 +10,14 @@
 
 namespace microtrace::generated {
 
-/// A closed surface around the origin, similar to a scanned object. Its radius is about 1, and each
-/// of its many bumps has many triangles.
+/// Returns a closed surface around the origin, similar to a scanned object. Its radius is about 1,
+/// and each of its many bumps has many triangles.
 [[nodiscard]] Mesh displaced_sphere(std::size_t triangles);
 
-/// A height field over a square with edges of 2 in the xz plane.
+/// Returns a height field over a square with edges of 2 in the xz plane.
 [[nodiscard]] Mesh terrain(std::size_t triangles);
 
-/// A hall of 40 x 10 x 20 with two rows of columns. Walls, beams and cloths have few large
+/// Returns a hall of 40 x 10 x 20 with two rows of columns. Walls, beams and cloths have few large
 /// triangles, and shafts have long thin ones. Most triangles are tiny and belong to capitals and
 /// busts.
 [[nodiscard]] Mesh hall(std::size_t triangles);

@@ -22,8 +22,8 @@ struct SolidCase {
 /// follow.
 [[nodiscard]] std::vector<SolidCase> solid_cases(Random& random, int rounds);
 
-/// A point that is on a vertex, an edge or a face as closely as float32 allows, a few ulps away
-/// from one, or anywhere near the surface.
+/// Returns a point that is on a vertex, an edge or a face as closely as float32 allows, a few ulps
+/// away from one, or anywhere near the surface.
 [[nodiscard]] Vec3 point_about(Random& random, const SolidCase& solid_case);
 
 }  // namespace microtrace::adversarial

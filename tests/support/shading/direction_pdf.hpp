@@ -14,7 +14,7 @@
 
 namespace microtrace {
 
-/// A direction in local coordinates with z up. Angles are in radians.
+/// Returns a direction in local coordinates with z up. Angles are in radians.
 inline Vec3 direction(double theta, double phi = 0.3) {
   return Vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
 }

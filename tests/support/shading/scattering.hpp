@@ -12,7 +12,7 @@
 
 namespace microtrace::bsdf {
 
-/// The surface with these parameters, in local shading coordinates.
+/// Returns the surface with these parameters, in local shading coordinates.
 inline Surface<1> surface_of(const Parameters& parameters, const Layers& layers = {},
                              const Vec3& coat_normal = {0, 0, 1}) {
   SurfaceLanes lanes{};

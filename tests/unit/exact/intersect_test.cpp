@@ -18,7 +18,7 @@ Ray ray(const Vec3& o, const Vec3& d, float t_min = 0, float t_max = kInfinity) 
   return {.o = o, .t_min = t_min, .d = d, .t_max = t_max};
 }
 
-/// True if the first hit is exactly at t.
+/// Returns true if the first hit is exactly at t.
 template <class Shape>
 ::testing::AssertionResult hits_at(float t, const Shape& shape, const Ray& ray) {
   const auto hit = first_hit(shape, ray);

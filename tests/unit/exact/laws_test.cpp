@@ -23,7 +23,7 @@ constexpr std::array kKindsWithin2To60 = {TriangleKind::unit,     TriangleKind::
                                           TriangleKind::sliver,   TriangleKind::far_from_zero,
                                           TriangleKind::coplanar, TriangleKind::degenerate};
 
-/// True if both miss, or if both hit at the same t.
+/// Returns true if both miss, or if both hit at the same t.
 ::testing::AssertionResult same(const std::optional<Root>& x, const std::optional<Root>& y) {
   if (x.has_value() != y.has_value()) {
     return ::testing::AssertionFailure() << "one hits, one misses";
@@ -143,7 +143,7 @@ TEST(ExactLaws, PlaneIsItsQuadric) {
   }
 }
 
-/// True if the ray's point at t lies in the plane.
+/// Returns true if the ray's point at t lies in the plane.
 bool is_in_plane_at(float t, const Plane& plane, Ray ray) {
   ray.t_min = ray.t_max = t;
   return first_hit(plane, ray).has_value();

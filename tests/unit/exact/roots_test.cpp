@@ -8,7 +8,7 @@
 namespace microtrace {
 namespace {
 
-/// The polynomial with coefficients c, constant term first, multiplied by (1 - x / root).
+/// Returns the polynomial with coefficients c, constant term first, multiplied by (1 - x / root).
 std::vector<double> with_root(const std::vector<double>& c, double root) {
   std::vector<double> product(c.size() + 1);
   for (std::size_t i = 0; i < c.size(); ++i) {

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// The four-term Blackman-Harris window, 3 pixels wide and normalized, at t pixels from its center.
+/// Returns the four-term Blackman-Harris window, 3 pixels wide and normalized, at t pixels from its
+/// center.
 double density(double t) {
   if (std::abs(t) > 1.5) return 0;
   const double x = 2 * kPi * t / 3;

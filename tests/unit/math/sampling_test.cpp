@@ -48,7 +48,7 @@ TEST(SamplePattern, PowersOfTwoAreNets) {
 
 constexpr Vec3 kWhite{1}, kBlue{0, 0, 1};
 
-/// A white half plane x < edge. The camera of drawn() shows [-1, 1] x [-1, 1].
+/// Returns a white half plane x < edge. The camera of drawn() shows [-1, 1] x [-1, 1].
 Scene half_plane(float edge) {
   Scene scene;
   scene.background = kBlue;

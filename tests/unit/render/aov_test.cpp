@@ -35,7 +35,7 @@ const std::vector<std::uint32_t>& ids(const Film& film, const char* name) {
   return channel<std::uint32_t>(film, std::string("id.") + name);
 }
 
-/// The value of a three-channel AOV at a pixel.
+/// Returns the value of a three-channel AOV at a pixel.
 DVec3 triple(const Film& film, const std::string& aov, std::size_t pixel,
              const char* names = "XYZ") {
   DVec3 v;
@@ -158,7 +158,7 @@ TEST(Aov, BarycentricsWeighTheCorners) {
   EXPECT_GT(seen, 100);
 }
 
-/// A mesh of two adjacent triangles with texture coordinates, in front of a floor.
+/// Returns a mesh of two adjacent triangles with texture coordinates, in front of a floor.
 Scene patchwork() {
   Mesh mesh{.positions = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}},
             .triangles = {{0, 1, 2}, {0, 2, 3}}};

@@ -37,7 +37,7 @@ std::shared_ptr<const RadianceMap> map_of(
   return std::make_shared<const RadianceMap>(std::move(map));
 }
 
-/// A dim map with a sun that is one pixel wide.
+/// Returns a dim map with a sun that is one pixel wide.
 std::shared_ptr<const RadianceMap> sunny_map(std::uint32_t width, std::uint32_t height) {
   return map_of(width, height, [&](std::uint32_t x, std::uint32_t y) {
     if (x == width / 3 && y == height / 4) return Vec3(20000, 18000, 15000);

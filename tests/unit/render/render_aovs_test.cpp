@@ -28,7 +28,8 @@ namespace {
 constexpr ImageSize kSize{.width = 43, .height = 27};
 constexpr std::uint32_t kGuard = 0xDEADBEEF;
 
-/// A bumpy square of n x n x 2 triangles that faces +z, with normals and texture coordinates.
+/// Returns a bumpy square of n x n x 2 triangles that faces +z, with normals and texture
+/// coordinates.
 Mesh bumpy_square(const Vec3& center, float half, std::uint32_t n) {
   Mesh mesh;
   mesh.uv_sets.emplace_back();
@@ -61,7 +62,8 @@ std::shared_ptr<const Image> noisy_image() {
   return std::make_shared<const Image>(image);
 }
 
-/// A scene with all kinds of shapes, and with every material property that affects visibility.
+/// Returns a scene with all kinds of shapes, and with every material property that affects
+/// visibility.
 Scene everything() {
   Scene scene;
   scene.images.push_back(noisy_image());
@@ -116,7 +118,7 @@ Scene far_away() {
   return scene;
 }
 
-/// A scene with a single, culled wall.
+/// Returns a scene with a single, culled wall.
 Scene all_culled() {
   Scene scene;
   scene.materials.push_back({});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr TextureFootprint kNear{};  // smaller than a pixel
 
-/// A one-row image with these gray levels from left to right.
+/// Returns a one-row image with these gray levels from left to right.
 Image strip(std::vector<std::uint8_t> grays) {
   return {.width = static_cast<std::uint32_t>(grays.size()),
           .height = 1,
@@ -101,7 +101,7 @@ TEST(TextureMap, KeepsSixteenBits) {
   EXPECT_NEAR(color.w, 1 / 65535.0, 1e-10);
 }
 
-/// An 8 x 8 checkerboard of black and white pixels.
+/// Returns an 8 x 8 checkerboard of black and white pixels.
 Image checker() {
   std::vector<std::uint8_t> samples;
   for (int y = 0; y < 8; ++y) {

@@ -123,8 +123,8 @@ constexpr RationalDistortion kRational{
     .k1 = 4.2, .k2 = 1.3, .p1 = -0.001, .p2 = 0.0007, .k3 = 0.05, .k4 = 4.6, .k5 = 2.1, .k6 = 0.3};
 constexpr FisheyeDistortion kWide{.k1 = 0.03, .k2 = -0.008, .k3 = 0.001, .k4 = -0.0001};
 
-/// The direction with polar angle `from_axis` and azimuth `around`, in degrees, in OpenCV's camera
-/// space: x right, y down, z forward.
+/// Returns the direction with polar angle `from_axis` and azimuth `around`, in degrees, in OpenCV's
+/// camera space: x right, y down, z forward.
 DVec3 at_angles(double from_axis, double around) {
   return {sin_degrees(from_axis) * cos_degrees(around),
           sin_degrees(from_axis) * sin_degrees(around), cos_degrees(from_axis)};

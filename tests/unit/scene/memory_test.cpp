@@ -111,7 +111,7 @@ TEST_F(FreeMemory, RespectsGroupsOfVersion1) {
   EXPECT_EQ(free_memory(root_), 500U);
 }
 
-/// A ball with `count` materials and `count` textures that all share one image.
+/// Returns a ball with `count` materials and `count` textures that all share one image.
 Scene textured(std::size_t count) {
   Scene scene;
   const Image image{

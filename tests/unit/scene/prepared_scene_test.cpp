@@ -38,7 +38,7 @@ std::shared_ptr<const Image> checkers() {
   return image;
 }
 
-/// A textured terrain, an emitter and a point light, all translated by `shift`.
+/// Returns a textured terrain, an emitter and a point light, all translated by `shift`.
 Scene furnished(const Vec3& shift = Vec3(0)) {
   Scene scene;
   Mesh mesh = generated::terrain(400);

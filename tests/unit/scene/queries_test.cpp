@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-// A cube whose faces don't share vertices, as in glTF.
+// Returns a cube whose faces don't share vertices, as in glTF.
 Mesh cube(const Vec3& lo, float edge) {
   Mesh mesh;
   for (int axis = 0; axis < 3; ++axis) {

@@ -36,7 +36,7 @@ Scene scene_of(std::vector<Vec3> positions, std::vector<Segment> segments) {
   return scene;
 }
 
-/// The covered pixels, as column from the left and row from the bottom.
+/// Returns the covered pixels, as column from the left and row from the bottom.
 std::vector<Pixel> drawn(const Scene& scene, const Camera& camera, ImageSize size = kSize) {
   Film film = render(scene, camera, size, {.threads = 1});
   std::vector<Pixel> result;
@@ -52,7 +52,7 @@ std::vector<Pixel> line(const Vec3& a, const Vec3& b, const Camera& camera = kPi
   return drawn(scene_of({a, b}, {{0, 1}}), camera);
 }
 
-/// True if the pixels are 8-connected.
+/// Returns true if the pixels are 8-connected.
 bool is_connected(const std::vector<Pixel>& pixels) {
   if (pixels.empty()) return false;
   std::vector<bool> reached(pixels.size());

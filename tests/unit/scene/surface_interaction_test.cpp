@@ -29,7 +29,7 @@ SurfaceInteraction meet(Shape shape, const Ray& ray) {
   return result;
 }
 
-/// The triangle (0,0,0) (1,0,0) (0,1,0), which faces +z.
+/// Returns the triangle (0,0,0) (1,0,0) (0,1,0), which faces +z.
 Mesh corner() {
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

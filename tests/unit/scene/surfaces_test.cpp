@@ -53,7 +53,7 @@ class Values {
   std::size_t size_ = 0;
 };
 
-/// True if both values have the same bits or both are NaN.
+/// Returns true if both values have the same bits or both are NaN.
 template <class T>
 bool is_same(T a, T b) {
   if constexpr (std::is_floating_point_v<T>)

@@ -26,7 +26,8 @@ struct Sheet {
   std::function<Vec2(double, double)> uv;
 };
 
-/// A grid of 2 * columns * rows triangles. Seen from the front, x points right and y points up.
+/// Returns a grid of 2 * columns * rows triangles. Seen from the front, x points right and y points
+/// up.
 Mesh grid(const Sheet& sheet, std::uint32_t columns, std::uint32_t rows) {
   Mesh mesh;
   mesh.uv_sets.resize(1);
@@ -57,7 +58,7 @@ Sheet with_uv(Sheet sheet, std::function<Vec2(double, double)> uv) {
   return sheet;
 }
 
-/// The generated tangents of the mesh's vertices.
+/// Returns the generated tangents of the mesh's vertices.
 Array<Vec4> tangents_of(Mesh mesh) {
   make_tangents(mesh, 0);
   return mesh.tangents;
@@ -241,7 +242,8 @@ TEST(Tangents, WithoutNormalsTrianglesAreFlat) {
   }
 }
 
-/// The tangents of a bumpy sheet with a fold, by corner of the triangles in their original order.
+/// Returns the tangents of a bumpy sheet with a fold, by corner of the triangles in their original
+/// order.
 std::vector<Vec4> shuffled_corners(std::uint32_t seed) {
   const Sheet sheet{
       .position = [](double x, double y) { return Vec3(x, y, 0.1 * std::sin(9 * x) * y); },

@@ -27,7 +27,7 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-/// The number of morph targets of a mesh. Each primitive has as many as the first one.
+/// Returns the number of morph targets of a mesh. Each primitive has as many as the first one.
 std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
   if (!mesh) return 0;
   const auto& primitives = model.meshes[*mesh].primitives;
@@ -77,8 +77,8 @@ class AnimationPlayer::Reader {
     AnimatedProperty property{};
   };
 
-  /// The node and property that a channel animates. A KHR_animation_pointer may refer to a property
-  /// of a node, such as /nodes/0/rotation, or of another object.
+  /// Returns the node and property that a channel animates. A KHR_animation_pointer may refer to a
+  /// property of a node, such as /nodes/0/rotation, or of another object.
   std::optional<Target> target_of(const Element& at) {
     const Element name = at.member("path");
     if (name.value->string == "pointer") {
@@ -128,7 +128,8 @@ class AnimationPlayer::Reader {
     return std::nullopt;
   }
 
-  /// The number of components of one value. Returns nothing if the target can't be animated.
+  /// Returns the number of components of one value. Returns nothing if the target can't be
+  /// animated.
   std::optional<std::size_t> width_of(const Target& target) {
     const auto& [at, node, path, property] = target;
     if (is_pointed_at(path)) return property.width;
@@ -146,13 +147,13 @@ class AnimationPlayer::Reader {
     return path == Path::rotation ? 4 : 3;
   }
 
-  /// True for properties that only KHR_animation_pointer can animate.
+  /// Returns true for properties that only KHR_animation_pointer can animate.
   static bool is_pointed_at(Path path) {
     return path == Path::property || path == Path::visibility;
   }
 
-  /// True if the sampler's accessors fit a target of KHR_animation_pointer. Numbers may be floats
-  /// or integers. Booleans require integers and STEP interpolation.
+  /// Returns true if the sampler's accessors fit a target of KHR_animation_pointer. Numbers may be
+  /// floats or integers. Booleans require integers and STEP interpolation.
   bool fits(const Element& sampler, const Target& target) const {
     const Model::Accessor& in = accessor(sampler.member("input"));
     const Model::Accessor& out = accessor(sampler.member("output"));

@@ -19,7 +19,7 @@ namespace microtrace::io::gltf {
 [[nodiscard]] std::vector<std::size_t> choose_animations(const Asset& asset,
                                                          const std::string& wanted);
 
-/// True if a channel of these animations targets a material's property.
+/// Returns true if a channel of these animations targets a material's property.
 [[nodiscard]] bool animate_materials(const Asset& asset,
                                      const std::vector<std::size_t>& animations);
 
@@ -31,8 +31,8 @@ class AnimationPlayer {
   AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                   const std::vector<std::size_t>& animations);
 
-  /// The values of all channels at a time in seconds. If several channels have the same target, the
-  /// last one applies.
+  /// Returns the values of all channels at a time in seconds. If several channels have the same
+  /// target, the last one applies.
   [[nodiscard]] PosedAsset at(double time) const;
 
  private:

@@ -16,7 +16,7 @@ Quaternion quaternion_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-/// The value or tangent with this index among the sampler's outputs.
+/// Returns the value or tangent with this index among the sampler's outputs.
 std::vector<double> output(const Keyframes& keys, std::size_t number) {
   const float* first = keys.values->data() + number * keys.width;
   return {first, first + keys.width};

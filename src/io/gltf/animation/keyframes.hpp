@@ -24,7 +24,7 @@ struct Keyframes {
   std::shared_ptr<const std::vector<float>> values;
 };
 
-/// True if all times are finite and strictly ascending.
+/// Returns true if all times are finite and strictly ascending.
 [[nodiscard]] bool is_ascending(const std::vector<float>& times);
 [[nodiscard]] bool are_finite(const std::vector<float>& numbers);
 
@@ -32,8 +32,8 @@ struct Keyframes {
 /// finite. Possibly no key remains.
 void keep_ascending(Keyframes& keys);
 
-/// The value at `time` in seconds. The time is clamped to the range of the keys (glTF 2.0, section
-/// 3.11 and appendix C). Rotations have unit length unless the stored ones are zero.
+/// Returns the value at `time` in seconds. The time is clamped to the range of the keys (glTF 2.0,
+/// section 3.11 and appendix C). Rotations have unit length unless the stored ones are zero.
 [[nodiscard]] std::vector<double> value_at(const Keyframes& keys, double time);
 
 /// Interpolates between unit quaternions a (t = 0) and b (t = 1) along the shorter arc at constant

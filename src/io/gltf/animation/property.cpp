@@ -78,7 +78,7 @@ JsonValue& make_member(JsonValue& object, const std::string& key) {
   return object.members.back().value;
 }
 
-/// The items of an array. Empty if the object or the array is absent.
+/// Returns the items of an array. Empty if the object or the array is absent.
 std::span<JsonValue> items(JsonValue* object, std::string_view key) {
   JsonValue* array = object != nullptr ? object->find(key) : nullptr;
   return array != nullptr ? std::span(array->items) : std::span<JsonValue>();

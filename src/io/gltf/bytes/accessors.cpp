@@ -132,7 +132,7 @@ struct AccessorReader::Source {
     return load_unsigned(&sparse_indices[i * component_size(type)], type);
   }
 
-  /// The number of the first sparse element whose index is at least `index`.
+  /// Returns the number of the first sparse element whose index is at least `index`.
   [[nodiscard]] std::size_t first_sparse(std::uint32_t index) const {
     std::size_t first = 0, last = sparse_count;
     while (first < last) {

@@ -27,10 +27,10 @@ class AccessorReader {
   /// The arguments must outlive the reader.
   AccessorReader(const Asset& asset, const Model& model, const BufferViews& views);
 
-  /// True if all buffers that the accessor refers to have data.
+  /// Returns true if all buffers that the accessor refers to have data.
   [[nodiscard]] bool has_data(std::size_t accessor) const;
 
-  /// The number of elements.
+  /// Returns the number of elements.
   [[nodiscard]] std::size_t count(std::size_t accessor) const;
 
   /// Reads all elements of the accessor. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,

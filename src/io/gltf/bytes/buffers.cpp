@@ -16,13 +16,13 @@ std::string decode(Asset& asset, const Element& uri) {
   return decode_data_uri(asset, uri);
 }
 
-/// True if the BIN chunk has the buffer's data. In a GLB file, this is the first buffer, if it has
-/// no URI.
+/// Returns true if the BIN chunk has the buffer's data. In a GLB file, this is the first buffer, if
+/// it has no URI.
 bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }
 
-/// True for a fallback buffer: its views also have compressed data, which is read instead.
+/// Returns true for a fallback buffer: its views also have compressed data, which is read instead.
 bool is_fallback(const Element& buffer) {
   const auto compression = extension(buffer, "EXT_meshopt_compression");
   if (!compression) return false;

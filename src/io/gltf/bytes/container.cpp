@@ -47,7 +47,7 @@ class ChunkReader {
     return {type, data};
   }
 
-  /// True if the lengths of all chunks so far are multiples of 4, as glTF requires.
+  /// Returns true if the lengths of all chunks so far are multiples of 4, as glTF requires.
   [[nodiscard]] bool is_aligned() const { return is_aligned_; }
 
   [[noreturn]] void fail(const std::string& what) const {

@@ -32,7 +32,7 @@ int hex_digit(char c) {
   return l >= 'a' && l <= 'f' ? l - 'a' + 10 : -1;
 }
 
-/// True if the URI begins with a scheme: ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":".
+/// Returns true if the URI begins with a scheme: ALPHA *( ALPHA / DIGIT / "+" / "-" / "." ) ":".
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && colon < uri.find('/');

@@ -17,7 +17,7 @@ std::string text(double number) {
   return std::to_string(static_cast<unsigned long long>(number));
 }
 
-/// True if glTF 2.0, section 3.11, allows this accessor format for a path.
+/// Returns true if glTF 2.0, section 3.11, allows this accessor format for a path.
 bool is_allowed(const std::string& path, const Format& f) {
   if (path == "translation" || path == "scale") return f == Format{"VEC3", kFloat32};
   const char* type = path == "rotation" ? "VEC4" : "SCALAR";

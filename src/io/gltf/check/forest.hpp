@@ -19,7 +19,7 @@ class NodeForest {
 
   [[nodiscard]] std::optional<std::size_t> parent(std::size_t node) const;
   [[nodiscard]] std::size_t root(std::size_t node) const { return places_[node].root; }
-  /// True if `node` is `ancestor` or a descendant of it.
+  /// Returns true if `node` is `ancestor` or a descendant of it.
   [[nodiscard]] bool is_within(std::size_t node, std::size_t ancestor) const {
     return places_[ancestor].first <= places_[node].first &&
            places_[node].first < places_[ancestor].end;

@@ -47,7 +47,7 @@ const char* name_of(Purpose purpose) {
   return "";
 }
 
-/// True if the buffer views for this purpose may have a target.
+/// Returns true if the buffer views for this purpose may have a target.
 bool is_vertex_data(Purpose purpose) {
   return purpose == Purpose::vertex_attribute || purpose == Purpose::vertex_indices;
 }

@@ -19,7 +19,7 @@ struct Format {
   bool normalized = false;
 
   bool operator==(const Format&) const = default;
-  /// The format in words, for example "VEC3 of componentType 5126".
+  /// Returns the format in words, for example "VEC3 of componentType 5126".
   [[nodiscard]] std::string text() const;
 };
 

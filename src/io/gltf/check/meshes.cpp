@@ -29,8 +29,8 @@ bool is_one_of(int value, std::initializer_list<int> values) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// True if glTF 2.0 allows the format for the attribute: section 3.7.2.1, or 3.7.2.2 for morph
-/// targets.
+/// Returns true if glTF 2.0 allows the format for the attribute: section 3.7.2.1, or 3.7.2.2 for
+/// morph targets.
 bool is_standard(std::string_view name, const Format& f, bool of_target) {
   const bool is_float = f.component_type == kFloat32 && !f.normalized;
   const bool is_unit = f.normalized && is_one_of(f.component_type, {kUint8, kUint16});
@@ -48,7 +48,7 @@ bool is_standard(std::string_view name, const Format& f, bool of_target) {
   return f.component_type != kUint32;  // application-specific attribute
 }
 
-/// True for the additional formats of KHR_mesh_quantization.
+/// Returns true for the additional formats of KHR_mesh_quantization.
 bool is_quantized(std::string_view name, const Format& f, bool of_target) {
   const bool is_signed = is_one_of(f.component_type, {kInt8, kInt16});
   const bool is_short = is_signed || is_one_of(f.component_type, {kUint8, kUint16});

@@ -5,8 +5,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The number of the texture coordinate set. KHR_texture_transform may override the number in the
-/// texture info.
+/// Returns the number of the texture coordinate set. KHR_texture_transform may override the number
+/// in the texture info.
 double set_of(const JsonValue& info) {
   const JsonValue* transform = extension(info, "KHR_texture_transform");
   const JsonValue* set = transform != nullptr ? transform->find("texCoord") : nullptr;

@@ -15,7 +15,7 @@ struct MaterialTextures {
   bool needs_tangents = false;
 };
 
-/// The texture infos of each material and its extensions.
+/// Returns the texture infos of each material and its extensions.
 [[nodiscard]] std::vector<MaterialTextures> texture_infos(const Asset& asset);
 
 }  // namespace microtrace::io::gltf

@@ -19,10 +19,10 @@ struct Element {
   const JsonValue* value;
   std::string pointer;
 
-  /// The member with this key. If it is absent, the result has this element's value and the absent
-  /// member's pointer.
+  /// Returns the member with this key. If it is absent, the result has this element's value and the
+  /// absent member's pointer.
   [[nodiscard]] Element member(std::string_view key) const;
-  /// The item with this index. If it is absent, the result is as for member().
+  /// Returns the item with this index. If it is absent, the result is as for member().
   [[nodiscard]] Element item(std::size_t index) const;
 };
 
@@ -37,14 +37,14 @@ class Asset {
 
   /// The items of an array in the root object. Empty if the array is absent.
   [[nodiscard]] const std::vector<JsonValue>& array(std::string_view name) const;
-  /// Item `index` of the root object's array `name`. The item must exist.
+  /// Returns item `index` of the root object's array `name`. The item must exist.
   [[nodiscard]] Element element(std::string_view name, std::size_t index) const;
 
   /// The value that a JSON pointer names, or null.
   [[nodiscard]] const JsonValue* find(std::string_view pointer) const;
-  /// True if extensionsUsed contains the extension.
+  /// Returns true if extensionsUsed contains the extension.
   [[nodiscard]] bool uses(std::string_view extension) const;
-  /// True if extensionsRequired contains the extension.
+  /// Returns true if extensionsRequired contains the extension.
   [[nodiscard]] bool requires_extension(std::string_view extension) const;
 
   /// Removes invalid members of an object from the asset's JSON, so no reader sees them. The caller
@@ -62,8 +62,8 @@ class Asset {
   /// Reports a violation of glTF 2.0 that doesn't prevent rendering. Rendering reports it as a
   /// warning, validation as an error.
   void tolerate(const Element& at, const std::string& message);
-  /// All warnings in file order. If there are more than 100 different texts, a last warning states
-  /// how many are omitted.
+  /// Returns all warnings in file order. If there are more than 100 different texts, a last warning
+  /// states how many are omitted.
   [[nodiscard]] std::vector<Diagnostic> warnings() const;
 
  private:

@@ -12,8 +12,8 @@ enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
 inline constexpr int kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123, kUint32 = 5125,
                      kFloat32 = 5126;
 
-/// The type that has this name in glTF, such as "VEC3". The name must be one of the seven that
-/// glTF defines.
+/// Returns the type that has this name in glTF, such as "VEC3". The name must be one of the seven
+/// that glTF defines.
 [[nodiscard]] ElementType element_type(std::string_view name);
 
 [[nodiscard]] constexpr bool is_matrix(ElementType type) {
@@ -21,12 +21,12 @@ inline constexpr int kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123,
 }
 [[nodiscard]] std::size_t component_count(ElementType type);
 
-/// The size of a component in bytes.
+/// Returns the size of a component in bytes.
 [[nodiscard]] std::size_t component_size(int component_type);
-/// The number of bytes between the starts of tightly packed elements. Each column of a matrix is
-/// padded to a multiple of 4 bytes (glTF 2.0, section 3.6.2.4).
+/// Returns the number of bytes between the starts of tightly packed elements. Each column of a
+/// matrix is padded to a multiple of 4 bytes (glTF 2.0, section 3.6.2.4).
 [[nodiscard]] std::size_t element_size(ElementType type, int component_type);
-/// The size of the last element in bytes. Its last column needs no padding.
+/// Returns the size of the last element in bytes. Its last column needs no padding.
 [[nodiscard]] std::size_t element_extent(ElementType type, int component_type);
 
 }  // namespace microtrace::io::gltf

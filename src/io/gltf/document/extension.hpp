@@ -10,7 +10,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The object of this extension in `object`, if any.
+/// Returns the object of this extension in `object`, if any.
 [[nodiscard]] std::optional<Element> extension(const Element& object, std::string_view name);
 /// The same object without its pointer, or null.
 [[nodiscard]] const JsonValue* extension(const JsonValue& object, std::string_view name);

@@ -9,7 +9,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The number, if the text consists of decimal digits only.
+/// Returns the number, if the text consists of decimal digits only.
 [[nodiscard]] inline std::optional<std::size_t> index_in(std::string_view text) {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -17,7 +17,7 @@ namespace microtrace::io::gltf {
   return value;
 }
 
-/// The set number of a vertex attribute, for example 1 for TEXCOORD_1.
+/// Returns the set number of a vertex attribute, for example 1 for TEXCOORD_1.
 [[nodiscard]] inline std::optional<std::size_t> set_in(std::string_view attribute) {
   return index_in(attribute.substr(attribute.find('_') + 1));
 }

@@ -26,12 +26,12 @@ constexpr std::array<std::string_view, 7> kParsedMembers = {
 /// allows, and stores sparse offsets as int.
 constexpr std::array<std::string_view, 4> kLeftOut = {"extensions", "extras", "indices", "sparse"};
 
-/// True if check_schema has removed the type of an accessor because it was unknown.
+/// Returns true if check_schema has removed the type of an accessor because it was unknown.
 bool is_unknown(const JsonValue& accessor) {
   return accessor.find("type") == nullptr || accessor.find("componentType") == nullptr;
 }
 
-/// The part of the repaired JSON that tinygltf parses, as text.
+/// Returns the part of the repaired JSON that tinygltf parses, as text.
 std::string parsed_part(const JsonValue& root) {
   std::string text = "{";
   const auto separate = [&text] {
@@ -60,7 +60,7 @@ std::string parsed_part(const JsonValue& root) {
   return text + '}';
 }
 
-/// A parser that accesses no files and decodes no images.
+/// Returns a parser that accesses no files and decodes no images.
 tinygltf::TinyGLTF make_parser() {
   tinygltf::TinyGLTF parser;
   tinygltf::FsCallbacks none{};
@@ -100,7 +100,7 @@ std::size_t index_of(const JsonValue& value) {
   return static_cast<std::size_t>(value.number);
 }
 
-/// The index in an optional member.
+/// Returns the index in an optional member.
 std::optional<std::size_t> index_in(const JsonValue& object, std::string_view key) {
   const JsonValue* value = object.find(key);
   return value != nullptr ? std::optional(index_of(*value)) : std::nullopt;

@@ -10,7 +10,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The finite float32 nearest to x.
+/// Returns the finite float32 nearest to x.
 [[nodiscard]] float finite_float(double x);
 
 [[nodiscard]] float number(const JsonValue& object, std::string_view key, float standard);
@@ -30,7 +30,7 @@ template <typename Vector>
 /// Reads an index of at most 2^32 - 1. Returns 0 if it is absent.
 [[nodiscard]] std::uint32_t index(const JsonValue& object, std::string_view key);
 
-/// The object's name. Empty if absent.
+/// Returns the object's name. Empty if absent.
 [[nodiscard]] std::string name_of(const JsonValue& object);
 
 }  // namespace microtrace::io::gltf

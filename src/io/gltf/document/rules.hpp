@@ -94,7 +94,7 @@ constexpr Rule factor(std::string_view key) {
 constexpr Rule at_least(std::string_view key, double min) {
   return {.key = key, .form = Form::number, .min = min, .repair = Repair::clamp};
 }
-/// A number above 0. If it is absent or invalid, the default applies.
+/// Returns a number above 0. If it is absent or invalid, the default applies.
 constexpr Rule positive(std::string_view key) {
   return {.key = key, .form = Form::number, .min = 0, .above_min = true, .repair = Repair::drop};
 }
@@ -113,7 +113,7 @@ constexpr Rule color(std::string_view key, double max = 1, std::size_t channels 
           .most = channels,
           .repair = Repair::clamp};
 }
-/// One of several numbers. An invalid number counts as absent.
+/// Returns one of several numbers. An invalid number counts as absent.
 constexpr Rule choice(std::string_view key, std::span<const double> values) {
   return {.key = key, .form = Form::integer, .values = values, .repair = Repair::drop};
 }
@@ -122,7 +122,7 @@ constexpr Rule choice(std::string_view key, std::span<const std::string_view> st
   return {
       .key = key, .form = Form::string, .required = required, .strings = strings, .repair = repair};
 }
-/// A texture info with these properties.
+/// Returns a texture info with these properties.
 constexpr Rule texture(std::string_view key, std::span<const Rule> members = kTextureInfoRules) {
   return {.key = key, .form = Form::object, .members = members, .place = Place::texture_info};
 }

@@ -44,7 +44,7 @@ struct Extension {
   [[nodiscard]] const ExtensionObject* object_in(Place place) const;
 };
 
-/// All known extensions, sorted by name. Unknown extensions are ignored with a warning.
+/// Returns all known extensions, sorted by name. Unknown extensions are ignored with a warning.
 [[nodiscard]] std::span<const Extension> extensions();
 
 /// The extension with this name, or null.

@@ -87,7 +87,7 @@ constexpr Rule kAnimationPointer[] = {{.key = "pointer", .form = Form::string, .
 constexpr Rule kPackets[] = {{.key = "packets", .form = Form::anything, .required = true}};
 constexpr Rule kPacket[] = {index_of("packet", kPacketsArray, true)};
 
-/// The row of an extension that adds an image format.
+/// Returns the row of an extension that adds an image format.
 constexpr Extension image_row(string_view name, Support support, string_view image_type) {
   return {.name = name,
           .support = support,

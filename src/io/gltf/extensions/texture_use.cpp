@@ -10,8 +10,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The transform of KHR_texture_transform. It scales, then rotates counterclockwise as seen with v
-/// pointing down, then translates.
+/// Returns the transform of KHR_texture_transform. It scales, then rotates counterclockwise as seen
+/// with v pointing down, then translates.
 Mat3x2 texture_transform(const JsonValue& json) {
   const Vec2 offset = vector(json, "offset", Vec2(0)), scale = vector(json, "scale", Vec2(1));
   const JsonValue* rotation = json.find("rotation");

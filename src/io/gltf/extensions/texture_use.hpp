@@ -10,7 +10,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The textureInfo with this key, if the object has one.
+/// Returns the textureInfo with this key, if the object has one.
 [[nodiscard]] std::optional<TextureUse> texture_use(const JsonValue& object, std::string_view key);
 
 }  // namespace microtrace::io::gltf

@@ -32,7 +32,7 @@ std::string_view media_type(ImageFormat format) {
   return kTypes[static_cast<std::size_t>(format)];
 }
 
-/// The declared media type of an image. Empty if undeclared.
+/// Returns the declared media type of an image. Empty if undeclared.
 std::string_view declared_type(const Element& at) {
   if (const JsonValue* type = at.value->find("mimeType")) return type->string;
   const JsonValue* uri = at.value->find("uri");

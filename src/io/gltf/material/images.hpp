@@ -23,7 +23,7 @@ struct ImageUse {
   [[nodiscard]] bool is_wanted() const { return srgb || linear; }
 };
 
-/// The uses of each image by the drawn materials in a picture with this detail.
+/// Returns the uses of each image by the drawn materials in a picture with this detail.
 [[nodiscard]] std::vector<ImageUse> image_uses(std::span<const Material> materials,
                                                const std::vector<bool>& drawn,
                                                std::span<const Texture> textures,

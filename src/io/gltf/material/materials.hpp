@@ -13,8 +13,8 @@ namespace microtrace::io::gltf {
 /// Treatment of layers that are invisible because their factor is 0, and of their textures.
 enum class UnusedLayers { left_out, kept };
 
-/// The materials of `root` in file order, followed by the default material, which primitives
-/// without a material use (glTF 2.0, section 3.9.7).
+/// Returns the materials of `root` in file order, followed by the default material, which
+/// primitives without a material use (glTF 2.0, section 3.9.7).
 [[nodiscard]] std::vector<Material> make_materials(const JsonValue& root,
                                                    UnusedLayers unused = UnusedLayers::left_out);
 

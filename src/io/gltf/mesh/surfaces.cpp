@@ -19,7 +19,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The texture coordinate set that defines the material's tangents, if the material needs tangents.
+/// Returns the texture coordinate set that defines the material's tangents, if the material needs
+/// tangents.
 std::optional<std::uint32_t> tangent_set(const Material& material) {
   if (material.normal_texture) return material.normal_texture->uv_set;
   if (material.clearcoat && material.clearcoat->normal_texture) {
@@ -111,14 +112,14 @@ class SurfaceMaker {
   }
 
  private:
-  /// The index of the primitive's material. Primitives without one use the default material, which
-  /// make_materials appends.
+  /// Returns the index of the primitive's material. Primitives without one use the default
+  /// material, which make_materials appends.
   std::uint32_t material_of(const Model::Primitive& primitive) const {
     if (primitive.material) return static_cast<std::uint32_t>(*primitive.material);
     return static_cast<std::uint32_t>(materials_.size() - 1);
   }
 
-  /// The index of a material's unlit copy, which add_unlit_copies will make later.
+  /// Returns the index of a material's unlit copy, which add_unlit_copies will make later.
   std::uint32_t unlit(std::uint32_t material) {
     auto found = std::ranges::find(unlit_, material);
     if (found == unlit_.end()) found = unlit_.insert(found, material);

@@ -52,7 +52,7 @@ class AttributeReader {
   }
 
  private:
-  /// The accessor of an attribute, if the primitive has it and its data is present.
+  /// Returns the accessor of an attribute, if the primitive has it and its data is present.
   std::optional<std::size_t> find(const std::string& name,
                                   std::initializer_list<ElementType> types) {
     const auto attribute = primitive_.attributes.find(name);
@@ -79,7 +79,7 @@ class AttributeReader {
   std::span<const std::uint32_t> vertices_;
 };
 
-/// True if the material or the caller needs this set of texture coordinates.
+/// Returns true if the material or the caller needs this set of texture coordinates.
 bool is_wanted(std::uint32_t set, const AttributeWish& wish) {
   if (wish.detail != SurfaceDetail::color) return true;
   const auto& use = wish.material.base_color_texture;

@@ -17,7 +17,7 @@ bool starts_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
 
-/// True if the node itself is visible. The pose may animate this.
+/// Returns true if the node itself is visible. The pose may animate this.
 bool is_shown(const Asset& asset, std::size_t node, const PosedNodes& pose) {
   const auto posed = pose.empty() ? pose.end() : pose.find(node);
   if (posed != pose.end() && posed->second.visible) return *posed->second.visible;

@@ -20,7 +20,7 @@ namespace microtrace::io::gltf {
 /// The joints and weights of each vertex of a surface.
 class JointBlend {
  public:
-  /// The weighted mean of the matrices of the vertex's joints, in float64.
+  /// Returns the weighted mean of the matrices of the vertex's joints, in float64.
   [[nodiscard]] DMat4 world_from_mesh(std::size_t vertex) const;
 
  private:

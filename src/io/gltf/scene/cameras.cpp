@@ -12,8 +12,8 @@
 namespace microtrace::io::gltf {
 namespace {
 
-/// The camera pose of a node. Uses only the node's position and orientation, because scale must not
-/// distort a camera's view.
+/// Returns the camera pose of a node. Uses only the node's position and orientation, because scale
+/// must not distort a camera's view.
 std::optional<Pose> pose_of(const DMat4& world_from_node) {
   const DVec3 position(world_from_node[3]);
   const auto direction = normalized(-DVec3(world_from_node[2]));

@@ -114,7 +114,7 @@ Decoded decode(const std::string& bytes, const std::filesystem::path& path) {
   return decoded;
 }
 
-/// A table that converts all sRGB values of this integer type to linear light.
+/// Returns a table that converts all sRGB values of this integer type to linear light.
 template <class Number>
 std::vector<float> srgb_table() {
   constexpr std::size_t kCount = std::size_t{std::numeric_limits<Number>::max()} + 1;

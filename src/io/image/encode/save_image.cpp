@@ -15,8 +15,8 @@
 namespace microtrace {
 namespace {
 
-/// The name's extension in lower case without the dot. Returns "ppm" for standard output, and for
-/// streams without an extension. Otherwise throws Error(usage) if there is no extension.
+/// Returns the name's extension in lower case without the dot. Returns "ppm" for standard output,
+/// and for streams without an extension. Otherwise throws Error(usage) if there is no extension.
 std::string format_extension(const std::filesystem::path& path) {
   if (path == "-") return "ppm";
   std::string extension = path.extension().string();

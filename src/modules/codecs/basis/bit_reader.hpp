@@ -11,8 +11,8 @@ class BitReader {
  public:
   explicit BitReader(Bytes bytes) : bytes_(bytes) {}
 
-  /// The next `count` bits, 0 to 32. The first bit becomes the lowest. Bits beyond the end of the
-  /// data are zeros.
+  /// Returns the next `count` bits, 0 to 32. The first bit becomes the lowest. Bits beyond the end
+  /// of the data are zeros.
   [[nodiscard]] std::uint32_t peek(unsigned count) const {
     const std::size_t first = position_ / 8;
     const std::size_t end = std::min(bytes_.size(), first + 5);

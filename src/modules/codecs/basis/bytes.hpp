@@ -16,7 +16,7 @@ class Damage : public std::runtime_error {
 
 using Bytes = std::span<const unsigned char>;
 
-/// The `size` bytes at `offset`. Throws Damage(words) if `bytes` ends before them.
+/// Returns the `size` bytes at `offset`. Throws Damage(words) if `bytes` ends before them.
 inline Bytes part_of(Bytes bytes, std::uint64_t offset, std::uint64_t size, const char* words) {
   if (offset > bytes.size() || size > bytes.size() - offset) throw Damage(words);
   return bytes.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));

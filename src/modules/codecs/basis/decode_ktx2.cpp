@@ -13,8 +13,8 @@
 namespace basis {
 namespace {
 
-/// The texture's blocks, which have `size` bytes in all. If they are compressed, decompresses them
-/// into `storage`.
+/// Returns the texture's blocks, which have `size` bytes in all. If they are compressed,
+/// decompresses them into `storage`.
 Bytes uastc_blocks(const Ktx2& ktx2, std::size_t size, std::vector<unsigned char>& storage) {
   if (!ktx2.is_zstd) return ktx2.level;
   // Checks the content size in Zstandard's frame header before memory is allocated.

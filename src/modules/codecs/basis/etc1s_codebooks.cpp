@@ -5,8 +5,8 @@ namespace {
 
 constexpr const char* kDamaged = "the BasisLZ global data is damaged";
 
-/// The index of the Huffman table, out of three, for the difference from a channel's previous
-/// value.
+/// Returns the index of the Huffman table, out of three, for the difference from a channel's
+/// previous value.
 std::size_t delta_table(std::uint32_t previous) {
   if (previous <= 9) return 0;
   return previous <= 21 ? 1 : 2;

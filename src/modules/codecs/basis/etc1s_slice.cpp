@@ -105,7 +105,8 @@ class SliceDecoder {
     return last_prediction_;
   }
 
-  /// An index into the codebook, or the codebook's size `count` plus an index into the history.
+  /// Returns an index into the codebook, or the codebook's size `count` plus an index into the
+  /// history.
   std::uint32_t selector_symbol(std::uint32_t count) {
     constexpr std::uint32_t kLeastRun = 3, kLongRun = 63;
     if (run_ > 0) {
@@ -139,7 +140,7 @@ constexpr std::array<std::array<int, 4>, 8> kModifiers = {{{-8, -2, 2, 8},
                                                            {-106, -33, 33, 106},
                                                            {-183, -47, 47, 183}}};
 
-/// The four colors of a block.
+/// Returns the four colors of a block.
 std::array<Color, 4> palette(const Endpoint& endpoint) {
   std::array<Color, 4> result{};
   for (std::size_t i = 0; i < 4; ++i) {

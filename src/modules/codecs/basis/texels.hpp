@@ -11,7 +11,7 @@ namespace basis {
 using Color = std::array<std::uint8_t, 4>;  ///< red, green, blue, alpha
 using Block = std::array<Color, 16>;        ///< 4 x 4 texels, row by row
 
-/// The number of blocks along a side with this many texels.
+/// Returns the number of blocks along a side with this many texels.
 constexpr std::uint32_t blocks_along(std::uint32_t texels) {
   return texels / 4 + (texels % 4 != 0 ? 1 : 0);
 }

@@ -7,13 +7,14 @@
 
 namespace microtrace::io::gltf {
 
-/// The number with enough digits to identify it.
+/// Returns the number with enough digits to identify it.
 [[nodiscard]] std::string text_of(double number);
 
-/// The range of valid numbers, for example " of at least 0 and at most 1". Empty without a range.
+/// Returns the range of valid numbers, for example " of at least 0 and at most 1". Empty without a
+/// range.
 [[nodiscard]] std::string range_of(const Rule& rule);
 
-/// The list of valid values, for example "OPAQUE", "MASK", "BLEND".
+/// Returns the list of valid values, for example "OPAQUE", "MASK", "BLEND".
 [[nodiscard]] std::string values_of(const Rule& rule);
 
 }  // namespace microtrace::io::gltf

@@ -8,7 +8,7 @@
 
 namespace microtrace::io::gltf {
 
-/// The rules of the root object, which refer to the rules of all other objects.
+/// Returns the rules of the root object, which refer to the rules of all other objects.
 [[nodiscard]] std::span<const Rule> gltf_rules();
 
 /// Checks the asset against the rules. Throws Error (invalid_scene) at the first violation that

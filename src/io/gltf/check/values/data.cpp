@@ -41,7 +41,7 @@ Bounds bounds_of(const Elements& elements) {
   return result;
 }
 
-/// True if no number is infinite or NaN. Such numbers have an exponent of all ones.
+/// Returns true if no number is infinite or NaN. Such numbers have an exponent of all ones.
 bool all_finite(const Elements& elements) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   const std::size_t components = elements.components();
@@ -246,7 +246,7 @@ class IndexCheck {
     return model_.accessors[static_cast<std::size_t>(attributes.members[0].value.number)].count;
   }
 
-  /// The greatest index in an accessor. Nothing if Elements::of can't read the accessor.
+  /// Returns the greatest index in an accessor. Nothing if Elements::of can't read the accessor.
   std::optional<double> greatest(std::size_t accessor) {
     std::optional<double>& result = greatest_[accessor];
     if (result) return result;

@@ -21,7 +21,7 @@ class Elements {
 
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] std::size_t components() const { return components_; }
-  /// The number of bytes between the starts of neighboring elements.
+  /// Returns the number of bytes between the starts of neighboring elements.
   [[nodiscard]] std::size_t stride() const { return stride_; }
   [[nodiscard]] int component_type() const { return component_type_; }
 
@@ -33,7 +33,7 @@ class Elements {
     return value;
   }
 
-  /// One component of an element, converted from any component type.
+  /// Returns one component of an element, converted from any component type.
   [[nodiscard]] double number(std::size_t element, std::size_t component) const;
 
  private:

@@ -13,7 +13,7 @@ struct AccessorUses {
   bool spline = false;  ///< true if the quaternions belong to a cubic spline
 };
 
-/// The uses of each accessor, by accessor index.
+/// Returns the uses of each accessor, by accessor index.
 [[nodiscard]] std::vector<AccessorUses> accessor_uses(const Asset& asset);
 
 }  // namespace microtrace::io::gltf
