@@ -6,8 +6,8 @@ target_compile_options(microtrace_flags INTERFACE
   # a*b+c must round twice on every machine. Fused multiply-adds would make results depend on the compiler and the
   # instruction set.
   -ffp-contract=off
-  # These options don't change results. Without them, square roots need branches, and conditionals can't become vector
-  # selections.
+  # These options don't change results. Without them, compilers must add branches to square roots
+  # and can't vectorize conditional expressions.
   -fno-math-errno -fno-trapping-math)
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # Disables GCC's false warning on "text" + std::string (GCC bug 105651).

@@ -102,7 +102,7 @@ int exit_code_of(const Work& work) {
   }
 }
 
-/// A command that is named by the first argument.
+/// A command that the user selects by its name as the first argument.
 struct NamedCommand {
   std::string_view name;
   cli::Command command;

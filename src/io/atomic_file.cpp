@@ -29,8 +29,8 @@ namespace fs = std::filesystem;
   throw Error(ErrorKind::io, named == "-" ? "standard output" : named.string(), message);
 }
 
-/// Returns the number of the descriptor that a path names: "-", /dev/fd/N or /proc/self/fd/N, to
-/// which /dev/stdout is a link.
+/// Returns the open descriptor that a path names: 1 for "-", N for /dev/fd/N and /proc/self/fd/N.
+/// /dev/stdout is a link to the latter.
 std::optional<int> descriptor_number(const fs::path& path) {
   if (path == "-") return STDOUT_FILENO;
   const fs::path folder = path.parent_path();
@@ -140,7 +140,7 @@ void AtomicFile::open_temporary() {
     temporary_.clear();
     fail(error, "name a file in a folder that may be written to");
   }
-  // Some file systems don't support permissions. The write must not fail there.
+  // Ignores failure, because some file systems don't support permissions.
   if (mode) static_cast<void>(::fchmod(descriptor_, *mode));
 }
 
@@ -159,7 +159,8 @@ void AtomicFile::close() {
   if (descriptor_ < 0) return;
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
-  // If close() is interrupted (EINTR), Linux has closed the descriptor and the kernel has the data.
+  // On Linux, a close() that returns EINTR has already closed the descriptor and handed over the
+  // data.
   if (closed != 0 && errno != EINTR) fail(errno, "free some space, or name another file");
 }
 

@@ -13,7 +13,7 @@ namespace microtrace::io {
                                const std::filesystem::path& path);
 
 /// During its lifetime, read_file() on this thread reads only files in these folders or below. It
-/// refuses symbolic links that lead elsewhere. If several objects exist, the most recent one
+/// rejects symbolic links that lead elsewhere. If several objects exist, only the most recent one
 /// applies.
 class ConfinedReads {
  public:

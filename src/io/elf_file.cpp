@@ -90,8 +90,8 @@ std::string damage_of_elf_file(const std::filesystem::path& path) {
   const auto holds_section = [&](const Section& section) {
     return section.sh_type == SHT_NOBITS || file.holds(section.sh_offset, section.sh_size);
   };
-  // In a valid file, only the first section has type null. Further ones mean that zeros overwrote
-  // the end of the file.
+  // In a valid file, only the first section has the type null. More of them mean that the end of
+  // the file was overwritten with zeros.
   const auto is_null = [](const Section& section) { return section.sh_type == SHT_NULL; };
   const bool is_whole = !segments.empty() && std::ranges::all_of(segments, holds_segment) &&
                         std::ranges::count_if(sections, is_null) == 1 &&

@@ -89,8 +89,8 @@ std::string read_descriptor(int descriptor, const std::string& name, std::size_t
       S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 0;
   if (claimed > limit) fail_too_large(name, limit);
 
-  // To detect whether the file is longer than the limit or its reported size, one byte more is
-  // requested.
+  // Requests one byte more, to detect a file that is longer than the limit or than its reported
+  // size.
   std::string bytes;
   bool ended = fill(descriptor, name, bytes, std::min(kChunk, limit + 1));
   if (inspect) inspect(bytes);
@@ -117,7 +117,7 @@ void note_unread_file(const std::filesystem::path& path) {
 
 std::string read_regular_file(const std::filesystem::path& path, std::size_t limit) {
   const std::string name = path.string();
-  // Opening a pipe would block until it has a writer.
+  // Without O_NONBLOCK, opening a pipe would block until the pipe has a writer.
   const Descriptor descriptor = open_file(path, O_NONBLOCK);
   ConfinedReads::require(path, descriptor.number());
   struct stat status {};

@@ -13,10 +13,10 @@ namespace microtrace::io {
 inline constexpr std::size_t kMaxFileSize = std::size_t{1} << 30;
 
 /// Returns the bytes of a regular file, a pipe or a device. Throws Error: io for a missing file, a
-/// directory or an unreadable file, limit for more than `limit` bytes. The reported size is checked
-/// before memory is allocated. For files without a reported size, the buffer grows. `inspect`
-/// receives the first bytes (64 KiB, or all of a smaller file) before the rest is read. It may
-/// throw to reject the file early.
+/// directory or an unreadable file; limit if there are more than `limit` bytes. The reported size
+/// is checked before memory is allocated. For files without a reported size, the buffer grows.
+/// `inspect` receives the first bytes (64 KiB, or all of a smaller file) before the rest is read.
+/// It may throw to reject the file early.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit,
                                     const std::function<void(std::string_view)>& inspect = {});
 

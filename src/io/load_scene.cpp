@@ -50,8 +50,8 @@ void refuse_foreign_format(const std::string& extension, std::string_view first,
                   extension + " out.glb)");
 }
 
-/// Throws if no JSON text can start with these bytes. A long file that is not JSON is thus not read
-/// to its end.
+/// Throws if no JSON text can start with these bytes. This avoids reading a long file that is not
+/// JSON to its end.
 void require_start_of_json(std::string_view first, const std::string& name) {
   const std::string_view text = behind_space(first);
   if (text.empty()) return;
@@ -63,8 +63,8 @@ void require_start_of_json(std::string_view first, const std::string& name) {
 
 using Reader = std::variant<io::JsonDocument, io::GltfFile>;
 
-/// Opens a scene. `extension` is the file's extension in lower case. If it is not a known one, the
-/// content selects the format.
+/// Opens a scene. `extension` is the file's extension in lower case. If it is unknown, the format
+/// is detected from the content.
 Reader open(std::string_view bytes, const std::string& extension, const std::string& name,
             const std::filesystem::path& folder, const LoadOptions& options) {
   if (extension == ".gltf" || extension == ".glb" || bytes.starts_with(kGlbMagic)) {

@@ -1,6 +1,6 @@
 #pragma once
-/// Lists the temporary files that exist. A signal handler may call remove_unfinished_files() of
-/// <microtrace/io.hpp>, which removes them.
+/// Keeps a list of the temporary files that currently exist. remove_unfinished_files() in
+/// <microtrace/io.hpp> deletes these files and may be called by a signal handler.
 
 namespace microtrace::io {
 

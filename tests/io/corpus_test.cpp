@@ -1,5 +1,5 @@
-// Checks that every file in bad/ is refused with exactly the message beside it, and that every file
-// in good/ is read.
+// Checks that every file in bad/ is rejected with exactly the message beside it, and that every
+// file in good/ is read.
 
 #include "io/file.hpp"
 #include "support/source_folder.hpp"

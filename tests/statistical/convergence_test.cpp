@@ -117,7 +117,7 @@ TEST(Convergence, PicturesWithFewSamplesAreUnbiased) {
   EXPECT_LT(far / n, 0.02);
 }
 
-// Alpha must end paths with the right probability, even over many layers.
+// Alpha must end paths with the correct probability, even over many layers.
 TEST(Convergence, LayersTransmitByOpacity) {
   Scene scene;
   scene.materials = {{.base_color = {0, 0, 0, 0.25F}, .alpha_mode = AlphaMode::blend},

@@ -16,7 +16,7 @@ std::string joined(const std::vector<std::string>& words, std::string_view betwe
   return text;
 }
 
-/// Puts a backslash before each of these characters.
+/// Puts a backslash before each character that `special` contains.
 std::string escaped(const std::string& text, std::string_view special) {
   std::string out;
   for (const char c : text) {

@@ -23,8 +23,8 @@ struct Arguments;
 /// The commands that take an option.
 enum class Command { render, merge, dataset, verify };
 
-/// Effect of an option on the samples of Monte Carlo integrators. Samples of several runs can be
-/// combined only if the runs agree in all options that change samples.
+/// The effect of an option on the samples of Monte Carlo integrators. Samples of several runs can
+/// be combined only if all options that change samples have the same values in these runs.
 enum class Samples { undecided, change, keep };
 
 /// Values that shells offer for completion, in addition to Option::words.
@@ -66,7 +66,7 @@ struct OptionGroup {
 /// Returns all options of a command, in the order of --help.
 [[nodiscard]] std::vector<OptionGroup> option_groups(Command command);
 
-// The tables, one for each heading.
+// The tables of options, one for each heading of --help.
 [[nodiscard]] std::span<const Option> picture_options();
 [[nodiscard]] std::span<const Option> camera_options();
 [[nodiscard]] std::span<const Option> light_options();

@@ -26,7 +26,7 @@ struct Given {
   std::vector<std::string> values;
 };
 
-/// Splits the command line by CLI11. The rows of the option table convert the values.
+/// Splits the command line with CLI11. The option table's rows convert the values.
 class Parser {
  public:
   explicit Parser(Command command) {
@@ -38,7 +38,7 @@ class Parser {
     for (const auto& [option, added] : options_) {
       if (!option->needs.empty()) added->needs(app_.get_option(std::string(option->needs)));
       std::istringstream excluded{std::string(option->excludes)};
-      // Commands that share a table may lack some options of other tables.
+      // `excludes` may name options of other tables that this command lacks.
       for (std::string name; excluded >> name;) {
         if (CLI::Option* other = app_.get_option_no_throw(name)) added->excludes(other);
       }
@@ -100,7 +100,8 @@ std::string identity_of(const std::vector<Given>& given) {
     char before = '\t';
     for (const std::string& value : values) {
       identity += before;
-      // Values may contain any bytes. Replaces the two that separate entries.
+      // Values may contain any bytes, so the two characters that separate entries are replaced with
+      // spaces.
       for (const char c : value) identity += c == '\n' || c == '\t' ? ' ' : c;
       before = ' ';
     }

@@ -10,7 +10,7 @@ class ParseError;
 
 namespace microtrace::cli {
 
-/// Returns the message for a command line that CLI11 refuses. It reports an unknown option, with
+/// Returns the message for a command line that CLI11 rejects. It reports an unknown option, with
 /// the most similar known name, before any other error.
 [[nodiscard]] std::string message_of(Command command, const CLI::App& app,
                                      const CLI::ParseError& error);

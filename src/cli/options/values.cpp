@@ -40,7 +40,7 @@ std::optional<Vec3> parse_hex_color(std::string_view digits) {
   return color;
 }
 
-/// Rounds directly to float32, because rounding to float64 first would round twice.
+/// Parses directly to float32, because parsing to float64 first would round the number twice.
 std::optional<float> parse_float(std::string_view text) {
   float value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -8,7 +8,7 @@ namespace microtrace::cli {
 namespace {
 
 /// A pattern with the frame number inserted, and the number of insertions. filled() returns nothing
-/// if the pattern uses % for anything else.
+/// if % appears in the pattern for any other purpose.
 struct Filled {
   std::string text;
   int places = 0;

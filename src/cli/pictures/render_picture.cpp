@@ -41,9 +41,9 @@ bool reports_files(const Arguments& arguments) {
          arguments.progress != Progress::json;
 }
 
-/// Returns the growth of the tree's cost at which slower rays lose as much time as refitting the
-/// previous frame's tree saves. Refitting saves about 250 ns per primitive. Rays take about 500 ns
-/// per sample, half of it in the tree.
+/// Returns the break-even growth of the tree's cost: the growth at which slower rays lose as much
+/// time as refitting the previous frame's tree saves. Refitting saves about 250 ns per primitive.
+/// Rays take about 500 ns per sample, half of it in the tree.
 double max_cost_growth_of(const Scene& scene, ImageSize size, std::uint32_t samples) {
   std::size_t primitives = 0;
   for (const Object& object : scene.objects) primitives += primitive_count(object.shape);

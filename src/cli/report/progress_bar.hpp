@@ -7,8 +7,8 @@ namespace microtrace::cli {
 /// Returns a function that draws a progress bar with the remaining time on standard error. The bar
 /// appears after half a second and is cleared at the end. With several pictures it shows the number
 /// of the current picture. The function is empty if standard error is not a terminal that can draw
-/// the bar. This function and the next return functions that must be called with the finished
-/// fraction of the work.
+/// the bar. The caller must pass the finished fraction of the work to the returned function, also
+/// for progress_lines().
 [[nodiscard]] std::function<void(double)> progress_bar(std::uint32_t pictures);
 
 /// Returns a function that writes lines {"progress": FRACTION, "seconds": SINCE_START} to standard

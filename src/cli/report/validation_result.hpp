@@ -13,7 +13,7 @@ namespace microtrace::cli {
 /// can't be written.
 void print_validation_result(const std::string& scene, std::size_t errors, std::size_t warnings);
 
-/// Prints the result for a scene that was refused, such as `scene: invalid`.
+/// Prints the result for a scene that was rejected, such as `scene: invalid`.
 void print_refusal(const std::string& scene, ErrorKind kind);
 
 }  // namespace microtrace::cli

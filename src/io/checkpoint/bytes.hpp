@@ -30,7 +30,8 @@ class ByteReader {
     return taken;
   }
 
-  /// Reads one number. If too few bytes are left, sets is_short() and returns 0.
+  /// Reads one number. If too few bytes are left, returns 0, and is_short() returns true from then
+  /// on.
   template <std::unsigned_integral Number>
   [[nodiscard]] Number number() {
     const auto taken = take(sizeof(Number));

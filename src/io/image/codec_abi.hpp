@@ -1,6 +1,6 @@
 #pragma once
 /// The C interface between the library and its module of image codecs. If the interface changes,
-/// the number in the functions' names must change too. An old module is then refused instead of
+/// the number in the functions' names must change too. An old module is then rejected instead of
 /// called with the wrong arguments.
 
 #include <cstddef>

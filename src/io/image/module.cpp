@@ -71,7 +71,7 @@ void require_threads(const FormatModule& module, const std::string& file) {
                 "needs OpenImageIO, whose libraries start more threads than the limits on "
                 "processes and memory allow; raise these, or use .ppm, .png or .exr");
   };
-  // Checked only until it succeeds, because threads that run already need not start again.
+  // Checks only until it succeeds, because the libraries start their threads only once.
   static const bool is_granted = require();
   static_cast<void>(is_granted);
 }

@@ -25,8 +25,8 @@ struct FormatModule {
 /// dot).
 [[nodiscard]] const FormatModule& module_for(std::string_view extension);
 
-/// Must be called before the module is loaded for `file`. Throws Error (limit) if the module starts
-/// more threads than the system allows.
+/// Throws Error (limit) if the module starts more threads than the system allows. Must be called
+/// before the module is loaded. Messages name `file`.
 void require_threads(const FormatModule& module, const std::string& file);
 
 class ImageModule {

@@ -1,8 +1,8 @@
 #pragma once
 /// The C interface between the library and its modules of image formats: OpenEXR for .exr, and
 /// OpenImageIO for all others except PPM and PNG. If the interface changes, the number in the
-/// functions' names must change too. An old module is then refused instead of called with the wrong
-/// arguments.
+/// functions' names must change too. An old module is then rejected instead of called with the
+/// wrong arguments.
 
 #include <cstddef>
 #include <cstdint>
@@ -52,8 +52,8 @@ struct MicrotracePicture {
 /// Receives text or bytes. `context` belongs to the caller. Never throws.
 using MicrotraceSink = void (*)(void* context, const char* bytes, std::size_t size);
 
-/// If pictures with this extension (lower case, no dot) can be written, sets `format` and returns
-/// 1. Otherwise returns 0.
+/// If the module can write pictures with this extension (lower case, no dot), sets `format` and
+/// returns 1. Otherwise returns 0.
 using MicrotraceFindFormat = int (*)(const char* extension, MicrotraceFormat* format);
 
 /// Passes the bytes of the picture's file to `out` and returns 0. If it fails, passes a reason to

@@ -100,7 +100,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     fail(explain(text_, context, reason));
   }
 
-  /// Throws Error if anything follows the root value. The parser would stop at a zero byte.
+  /// Throws Error if anything follows the root value, because the parser stops at a zero byte.
   void require_end() const {
     const SyntaxContext context = next_token();
     if (context.token != text_.size()) fail(explain_misplaced(text_, context));
@@ -186,7 +186,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
   bool open(JsonValue::Kind kind) {
     const std::size_t start = next_token().token;
     if (open_.size() == kMaxJsonDepth) {
-      // The error has no pointer, because it would be extremely long.
+      // The error has no JSON pointer, because at this depth the pointer would be extremely long.
       throw Error(ErrorKind::limit,
                   document_.at(start, "", "arrays and objects are nested more than 256 deep"));
     }
@@ -217,9 +217,9 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     });
   }
 
-  /// Records an object's duplicate keys, and the pointer of the first duplicate in the text.
-  /// Pointers may be as long as the text, so one is made only if no earlier duplicate is known.
-  /// Enclosing objects end later, but may contain earlier ones.
+  /// Records an object's duplicate keys. Makes a pointer, which may be as long as the text, only
+  /// for the first duplicate known so far. An enclosing object ends later but may have an earlier
+  /// one.
   void note_outdone(const JsonValue& object, const std::vector<std::size_t>& offsets) {
     const bool is_first = outdone_keys_.count == 0 || offsets.front() < outdone_keys_.offset;
     outdone_keys_.count += offsets.size();
@@ -230,8 +230,7 @@ class TreeBuilder final : public nlohmann::json_sax<nlohmann::json> {
     outdone_keys_.pointer = child(pointer(), first->key);
   }
 
-  /// Returns the pointer to the innermost open value, or to the member whose key was read most
-  /// recently.
+  /// Returns the pointer to the innermost open value, or to the member whose key was read last.
   [[nodiscard]] std::string pointer() const {
     std::string out;
     for (const JsonValue* value : open_) {

@@ -43,12 +43,12 @@ class JsonReader {
   [[nodiscard]] std::vector<JsonReader> items(std::optional<std::size_t> count = {}) const;
 
   [[nodiscard]] std::string string() const;
-  /// Returns a string that is not empty.
+  /// Reads a string that must not be empty.
   [[nodiscard]] std::string name() const;
-  /// Returns a number that is finite in float32.
+  /// Reads a number that must be finite in float32.
   [[nodiscard]] double number() const;
   [[nodiscard]] float float32() const { return static_cast<float>(number()); }
-  /// Returns an integer from 0 to 2^53.
+  /// Reads an integer from 0 to 2^53.
   [[nodiscard]] std::uint64_t count() const;
   [[nodiscard]] DVec3 vector() const;
   [[nodiscard]] Vec3 vector32() const { return Vec3(vector()); }

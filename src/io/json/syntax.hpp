@@ -30,9 +30,9 @@ struct SyntaxError {
   std::string message;
 };
 
-/// Makes the message for a syntax error. `reason` is the lexer's message about the token: "invalid
-/// string: ...", "invalid number; ...", "invalid literal". Any other text means that the token is
-/// valid but misplaced.
+/// Makes the message for a syntax error. `reason` is the parser's message. It begins with "invalid
+/// string: ", "invalid number; " or "invalid literal" if the token is malformed. Any other text
+/// means that the token is valid but in the wrong place.
 [[nodiscard]] SyntaxError explain(std::string_view text, const SyntaxContext& context,
                                   std::string_view reason);
 

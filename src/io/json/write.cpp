@@ -9,7 +9,7 @@
 namespace microtrace::io {
 namespace {
 
-/// Replaces the comma after the last item, if there is one, by the closing bracket.
+/// Replaces the comma after the last item, if there is one, with the closing bracket.
 void close(std::string& text, char bracket) {
   if (text.back() == ',') text.pop_back();
   text += bracket;

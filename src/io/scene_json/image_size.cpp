@@ -6,8 +6,8 @@
 namespace microtrace::io {
 namespace {
 
-/// Reads the width or height of a picture. Numbers beyond std::uint32_t become its maximum, which
-/// validate() refuses.
+/// Reads the width or height of a picture. Numbers beyond the range of std::uint32_t become its
+/// maximum, which validate() rejects.
 std::uint32_t read_side(const JsonReader& json) {
   return static_cast<std::uint32_t>(std::min<std::uint64_t>(json.count(), 0xFFFFFFFFU));
 }

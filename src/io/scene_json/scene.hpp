@@ -9,8 +9,8 @@
 
 namespace microtrace::io {
 
-/// Reads a scene. Mesh files must be in `folder` or below. They are posed according to the options.
-/// Throws Error at the first invalid value.
+/// Reads a scene. Mesh files must be in `folder` or below. Their meshes are posed according to the
+/// options. Throws Error at the first invalid value.
 [[nodiscard]] LoadedScene read_json_scene(const JsonDocument& document,
                                           const std::filesystem::path& folder,
                                           const LoadOptions& options = {});

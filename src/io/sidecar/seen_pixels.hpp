@@ -1,5 +1,5 @@
 #pragma once
-/// Finds the visible pixels and bounding boxes of objects in a picture.
+/// Counts the pixels in which each object of a picture is visible, and finds their bounding boxes.
 
 #include <microtrace/film.hpp>
 

@@ -6,8 +6,8 @@
 
 // Decoding gives the same samples on every machine. libjpeg-turbo's slow integer transform
 // (JDCT_ISLOW), triangular upsampling and color conversion use integer arithmetic, and their SIMD
-// code is bit-exact. The fast and the floating-point transforms are not bit-exact and therefore not
-// used.
+// code is bit-exact. The fast and the floating-point transforms are not bit-exact and are therefore
+// not used.
 
 namespace {
 

@@ -9,8 +9,8 @@
 namespace {
 
 /// Returns true if the first chunk is one of those that RFC 9649, sections 2.5 to 2.7, allows.
-/// After any other chunk, libwebp would decode the following bytes as a picture without a
-/// container, with an arbitrary size.
+/// After any other chunk, libwebp would decode the bytes that follow as a picture without a
+/// container, whose size is arbitrary.
 bool begins_with_a_picture(std::string_view bytes) {
   const std::string_view kind = bytes.substr(12, 4);
   return kind == "VP8 " || kind == "VP8L" || kind == "VP8X";

@@ -1,6 +1,6 @@
 /// Provides meshoptimizer's decoders behind the C interface of io/gltf/bytes/meshopt_abi.hpp. They
-/// use only integers, so their versions for different processors give the same bytes. The library's
-/// filters use floating-point numbers; they are not used here.
+/// compute only with integers, so their versions for different processors give the same bytes. The
+/// library's own filters compute with floating-point numbers and are not used.
 
 #include "io/gltf/bytes/meshopt_abi.hpp"
 

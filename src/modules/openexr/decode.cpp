@@ -65,7 +65,7 @@ std::vector<std::string> colors_of(const Imf::ChannelList& channels) {
 }
 
 void decode(const char* bytes, std::size_t size, const MicrotraceColorSink& sink) {
-  // Makes OpenEXR refuse larger images before it allocates memory for their lines.
+  // Makes OpenEXR reject larger images before it allocates memory for their lines.
   Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
   MemoryFile memory(bytes, size);
   Imf::InputFile file(memory, 0);  // 0: no threads

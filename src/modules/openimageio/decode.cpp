@@ -18,8 +18,8 @@ using OIIO::ImageInput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Makes an exception of OpenImageIO's error message. Messages that are not fetched are printed at
-/// exit.
+/// Makes an exception from OpenImageIO's error message. OpenImageIO prints messages that nobody
+/// fetched at exit.
 std::runtime_error complaint(const std::string& otherwise) {
   const std::string message = OIIO::geterror();
   return std::runtime_error(message.empty() ? otherwise : message);

@@ -68,8 +68,8 @@ ImageSpec describe(const MicrotracePicture& picture, std::span<const MicrotraceC
     spec.full_width = static_cast<int>(picture.whole_width);
     spec.full_height = static_cast<int>(picture.whole_height);
   }
-  // Not for TIFF: it would store the color space in a second directory, which OpenImageIO can't
-  // link when it writes to memory.
+  // Omitted for TIFF, whose writer would store the color space in a second directory. OpenImageIO
+  // can't link this directory when it writes to memory.
   if (format != "tiff" && picture.is_color != 0)
     spec.attribute("oiio:ColorSpace", is_float_format(format) ? "Linear" : "sRGB");
   for (const MicrotraceNote& note : std::span(picture.notes, picture.note_count)) {

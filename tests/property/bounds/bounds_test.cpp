@@ -57,7 +57,7 @@ void expect_holds(const FilterResult& filtered, const exact::Root& t) {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Range kEverywhere{.t_min = -kInfinity, .t_max = kInfinity};
 
-// Checks that certain results are right and that bounds hold.
+// Checks that results marked as certain are correct, and that bounds hold.
 template <class S>
 void check(const S& shape, const Vec3& o, const Vec3& d) {
   const Ray ray{.o = o, .t_min = 0, .d = d};

@@ -255,7 +255,7 @@ TEST(PreparedScene, OwnsItsScene) {
   static_assert(std::is_constructible_v<Bvh, const Scene&>);
 }
 
-/// Checks that both functions refuse the scene with an error at this pointer.
+/// Checks that both functions reject the scene with an error at this pointer.
 void expect_refused(const Scene& scene, const char* pointer) {
   const auto expect = [&](const auto& f) {
     try {

@@ -207,7 +207,7 @@ class AnimationPlayer::Reader {
     return keys;
   }
 
-  /// Removes invalid keys. Each accessor is examined once, even if samplers share it.
+  /// Removes invalid keys. Examines each accessor only once, even if several samplers share it.
   void repair(const Element& input, const Element& output, Keyframes& keys) {
     const auto [ascends, new_times] = ascends_.try_emplace(accessor_of(input));
     if (new_times) ascends->second = is_ascending(*keys.times);

@@ -26,8 +26,8 @@ namespace microtrace::io::gltf {
 /// Reads and checks animations, and evaluates them at any time.
 class AnimationPlayer {
  public:
-  /// Ignores channels without a target node. Warns of properties that can't be animated, and
-  /// ignores their channels. Throws Error: invalid_scene, limit.
+  /// Ignores channels without a target node. Ignores channels of properties that can't be animated,
+  /// with a warning. Throws Error: invalid_scene, limit.
   AnimationPlayer(Asset& asset, const Model& model, AccessorReader& reader,
                   const std::vector<std::size_t>& animations);
 

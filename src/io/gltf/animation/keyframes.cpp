@@ -108,8 +108,8 @@ std::vector<double> value_at(const Keyframes& keys, double time) {
 
 Quaternion slerp(const Quaternion& a, const Quaternion& b, double t) {
   const Quaternion near_b = glm::dot(a, b) < 0 ? -b : b;
-  // The angle between a and b, in [0, pi/2]. For small angles, the arccosine of their dot product
-  // would be inaccurate.
+  // The angle between a and b, in [0, pi/2]. It is computed by an arctangent, because the arccosine
+  // of a . b would be inaccurate for small angles.
   const double across = glm::length(a - near_b), along = glm::length(a + near_b);
   const double angle = 2 * atan_radians(across / along);
   if (!(angle > 0)) return a;

@@ -28,8 +28,8 @@ struct Keyframes {
 [[nodiscard]] bool is_ascending(const std::vector<float>& times);
 [[nodiscard]] bool are_finite(const std::vector<float>& numbers);
 
-/// Removes keys whose time is not greater than the previous one, and keys with numbers that are not
-/// finite. Possibly no key remains.
+/// Removes keys whose time does not exceed that of the previous key, and keys with numbers that are
+/// not finite. There may be no keys left.
 void keep_ascending(Keyframes& keys);
 
 /// Returns the value at `time` in seconds. The time is clamped to the range of the keys (glTF 2.0,

@@ -21,7 +21,7 @@ const JsonValue* item_of(const JsonValue& array, std::string_view token) {
   return index && *index < array.items.size() ? &array.items[*index] : nullptr;
 }
 
-/// Follows a JSON pointer through the asset and, in parallel, through the schema's rules.
+/// Follows a JSON pointer through the asset and, at the same time, through the schema's rules.
 class Walk {
  public:
   explicit Walk(const Asset& asset) : object_(asset.root().value) {}

@@ -26,8 +26,7 @@ struct AnimatedProperty {
 [[nodiscard]] std::optional<AnimatedProperty> find_property(const Asset& asset,
                                                             std::string_view pointer);
 
-/// Copies the members of the root object that contain properties found by find_property, except
-/// nodes.
+/// Copies the root object's members in which find_property finds properties, except for the nodes.
 [[nodiscard]] JsonValue animated_part(const JsonValue& root);
 
 /// Writes a value, clamped to the property's range, into a copy made by animated_part.

@@ -16,8 +16,8 @@
 
 namespace microtrace::io::gltf {
 
-/// A limit on several numbers, such as the elements of an accessor without a buffer view, the
-/// indices of all primitives, and the triangles and the vertices of all mesh instances in a scene.
+/// The maximum for each of several counts: elements of an accessor without a buffer view, indices
+/// of all primitives, triangles of all mesh instances, vertices of all mesh instances, and others.
 inline constexpr std::size_t kMaxElements = std::size_t{1} << 27;
 
 /// Decodes accessors with any component type: interleaved, sparse, or without a buffer view
@@ -34,11 +34,11 @@ class AccessorReader {
   [[nodiscard]] std::size_t count(std::size_t accessor) const;
 
   /// Reads all elements of the accessor. Element is float, glm::vec2, Vec3, glm::vec4, glm::mat4,
-  /// std::uint32_t or glm::uvec4, with as many components as the accessor's type. As floats,
-  /// normalized integers are in [0, 1] or [-1, 1] (glTF 2.0, section 3.11), and other integers keep
-  /// their value. Each is rounded once. Integers are read from unsigned component types only.
-  /// Throws Error (invalid_scene) if sparse indices are out of order or range, and (limit) if more
-  /// than kMaxElements have no buffer view.
+  /// std::uint32_t or glm::uvec4, with as many components as the accessor's type. If Element
+  /// consists of floats, normalized integers are converted to [0, 1] or [-1, 1] (glTF 2.0, section
+  /// 3.11), and other integers keep their values. Each number is rounded once. Integers are read
+  /// from unsigned component types only. Throws Error (invalid_scene) if sparse indices are out of
+  /// order or range, and (limit) if more than kMaxElements have no buffer view.
   template <typename Element>
   [[nodiscard]] std::vector<Element> read(std::size_t accessor);
 

@@ -16,13 +16,14 @@ std::string decode(Asset& asset, const Element& uri) {
   return decode_data_uri(asset, uri);
 }
 
-/// Returns true if the BIN chunk has the buffer's data. In a GLB file, this is the first buffer, if
-/// it has no URI.
+/// Returns true if the buffer's data is in the BIN chunk of a GLB file. This is the case for the
+/// first buffer, if it has no URI.
 bool is_bin(std::size_t index, const JsonValue& buffer) {
   return index == 0 && buffer.find("uri") == nullptr;
 }
 
-/// Returns true for a fallback buffer: its views also have compressed data, which is read instead.
+/// Returns true for a fallback buffer. Each of its views also has compressed data, which is read
+/// instead.
 bool is_fallback(const Element& buffer) {
   const auto compression = extension(buffer, "EXT_meshopt_compression");
   if (!compression) return false;
@@ -30,7 +31,8 @@ bool is_fallback(const Element& buffer) {
   return fallback != nullptr && fallback->boolean;
 }
 
-/// Warns of a buffer without data. This is not an error, because an extension may supply the data.
+/// Warns about a buffer without data. This is not an error, because an extension may supply the
+/// data.
 void missing(Asset& asset, const Element& buffer, bool is_bin) {
   if (is_bin) {
     asset.tolerate(buffer, "has no uri, but the file has no BIN chunk");

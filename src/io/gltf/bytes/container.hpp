@@ -1,5 +1,6 @@
 #pragma once
-/// The containers of glTF: JSON text, and GLB, a binary file that contains JSON and one buffer.
+/// The two containers of glTF: a JSON text, or a GLB file, which is binary and contains JSON and
+/// one buffer.
 
 #include <cstddef>
 #include <optional>

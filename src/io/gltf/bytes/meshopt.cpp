@@ -59,7 +59,7 @@ Description describe(const Asset& asset, const Element& at, const Model::BufferV
   return result;
 }
 
-/// Returns the bytes of the compressed data in its buffer. Nothing if the buffer has no data.
+/// Returns the compressed data. Returns nothing if the buffer that should contain them has no data.
 std::optional<std::string_view> compressed(const Asset& asset, const Element& at,
                                            const std::vector<Buffer>& buffers) {
   const auto& bytes = buffers[index(asset, at, "buffer", buffers.size())].bytes;

@@ -1,6 +1,6 @@
 #pragma once
 /// The C interface between the library and its module for meshoptimizer. If the interface changes,
-/// the number in the function's name must change too. An old module is then refused instead of
+/// the number in the function's name must change too. An old module is then rejected instead of
 /// called with the wrong arguments.
 
 #include <cstddef>

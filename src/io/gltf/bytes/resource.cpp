@@ -39,7 +39,7 @@ std::string read_resource(const Asset& asset, const Element& uri, const Resource
   // Reading a pipe or device could block forever.
   if (!std::filesystem::is_regular_file(path, code)) {
     const bool missing = !std::filesystem::exists(path, code);
-    // If a file is missing, the asset is incomplete. This is not a failure of the machine.
+    // A missing file means that the asset is incomplete, not that the machine failed.
     const ErrorKind kind = missing ? ErrorKind::invalid_scene : ErrorKind::io;
     asset.fail(uri, file + (missing ? " does not exist" : " is not a regular file"), kind);
   }

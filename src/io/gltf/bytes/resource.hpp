@@ -20,13 +20,14 @@ struct ResourceFolders {
 };
 
 /// Reads a file in one of the folders or below. `what` names the kind of file in error messages,
-/// for example "buffer". Throws Error: invalid_scene for a refused URI, io, and limit for a file
+/// for example "buffer". Throws Error: invalid_scene for a rejected URI, io, and limit for a file
 /// larger than `max_bytes`.
 [[nodiscard]] std::string read_resource(const Asset& asset, const Element& uri,
                                         const ResourceFolders& folders, const char* what,
                                         std::size_t max_bytes);
 
-/// Records a file that a URI names but that is not read. Outputs must not overwrite it either.
+/// Records a file that a URI names but that is not read, so that outputs don't overwrite this file
+/// either.
 void note_unread_resource(const Element& uri, const ResourceFolders& folders);
 
 }  // namespace microtrace::io::gltf

@@ -105,7 +105,7 @@ RelativePath relative_path(std::string_view uri) {
   if (path->starts_with('/')) {
     return {*path, "is absolute; use a path relative to the asset", true};
   }
-  // Resolves "." and "..". The path that is checked here is then the path that is opened later.
+  // Resolves "." and ".." by name, so that the path checked here is the path that is opened later.
   const std::filesystem::path plain = std::filesystem::path(*path).lexically_normal();
   if (*plain.begin() == "..") {
     return {*path, "leaves the asset's folder by \"..\"", true};

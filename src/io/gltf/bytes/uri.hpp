@@ -25,11 +25,11 @@ struct DataUri {
 /// Decodes percent-encoding. Returns nothing if a % is not followed by two hexadecimal digits.
 [[nodiscard]] std::optional<std::string> decode_percent(std::string_view text);
 
-/// A path made from a file URI, or the reason for refusing it.
+/// A path made from a file URI, or the reason for rejecting it.
 struct RelativePath {
-  std::string path{};      ///< percent-decoded; contains "." and ".." only if refused
+  std::string path{};      ///< percent-decoded; contains "." and ".." only if rejected
   std::string refusal{};   ///< reason; empty if the path is accepted
-  bool leads_out = false;  ///< refused only because the path leaves, or may leave, the folder
+  bool leads_out = false;  ///< rejected only because the path leaves, or may leave, the folder
 };
 
 /// Accepts relative paths (RFC 3986, section 4.2, path-noscheme). After "." and ".." are resolved

@@ -62,7 +62,7 @@ class AnimationCheck {
   /// Removes the channel's target. Readers ignore a channel without one (glTF 2.0, section 3.11).
   void leave_out(const Element& target) { asset_.drop(target, {"node", "extensions"}); }
 
-  /// Warns of a violation that makes the channel unplayable. Returns false.
+  /// Warns about a violation that makes the channel unplayable. Returns false.
   bool wrong(const Element& at, const std::string& message) {
     asset_.tolerate(at, message + "; the channel is ignored");
     return false;

@@ -64,7 +64,7 @@ void check_camera(Asset& asset, const Element& at) {
 void check_cameras(Asset& asset) {
   for (std::size_t i = 0; i < asset.array("cameras").size(); ++i) {
     const Element at = asset.element("cameras", i);
-    // If the type is missing, check_schema has removed it with a warning because it was unknown.
+    // The type is missing if check_schema has removed it, with a warning, because it was unknown.
     if (at.value->find("type") != nullptr) check_camera(asset, at);
   }
 }

@@ -65,7 +65,7 @@ void check_version(Asset& asset) {
   }
 }
 
-/// Warns of an extension that is required but not used, which glTF 2.0, section 3.12, forbids.
+/// Warns about an extension that is required but not used, which glTF 2.0, section 3.12, forbids.
 void check_extension(Asset& asset, const Element& at) {
   if (at.value->kind != JsonValue::Kind::string) asset.fail(at, "must be a string");
   const std::string& name = at.value->string;

@@ -11,8 +11,8 @@ namespace microtrace::io::gltf {
 /// version and the extensions may change the schema. Throws Error: invalid_scene, unsupported.
 void check_requirements(Asset& asset);
 
-/// Adds one warning for each kind of feature that is used but ignored. `detail` matters because
-/// flat pictures ignore emission.
+/// Adds one warning for each kind of feature that is used but ignored. `detail` tells whether the
+/// picture is flat: flat pictures ignore emission.
 void warn_of_ignored_features(Asset& asset, SurfaceDetail detail);
 
 }  // namespace microtrace::io::gltf

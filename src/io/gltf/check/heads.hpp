@@ -57,9 +57,10 @@ class AccessorHeads {
     return heads_[static_cast<std::size_t>(index.number)];
   }
 
-  /// Records that the index `at` uses an accessor and its view for this purpose. Warns if either
-  /// already has a different purpose, if the view's target contradicts the purpose, if the purpose
-  /// allows no stride, or if two vertex attributes share a view without a stride.
+  /// Records that the index `at` refers to an accessor, and uses it and its view for this purpose.
+  /// Warns if either already has a different purpose, if the view's target contradicts the purpose,
+  /// if the view has a stride that the purpose forbids, or if two vertex attributes share a view
+  /// without a stride.
   void use(const Element& at, Purpose purpose);
   void use_view(const Element& at, std::size_t view, Purpose purpose);
 

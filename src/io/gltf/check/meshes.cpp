@@ -119,8 +119,8 @@ class MeshCheck {
     if (!dropped.empty()) asset_.drop(at, {dropped.begin(), dropped.end()});
   }
 
-  /// Requires that set numbers are consecutive from 0, and that JOINTS and WEIGHTS have equally
-  /// many sets.
+  /// Requires that set numbers are consecutive from 0, and that there are as many sets of JOINTS as
+  /// of WEIGHTS.
   void sets(const Element& at) const {
     std::size_t joints = 0, weights = 0;
     for (const std::string_view name : {"TEXCOORD", "COLOR", "JOINTS", "WEIGHTS"}) {
@@ -150,7 +150,7 @@ class MeshCheck {
       accessors_.use(attribute, Purpose::vertex_attribute);
       if (!format(attribute, split(member.key).name, of_target)) {
         dropped.push_back(member.key);
-        // Joints and weights are useless without each other.
+        // Joints without weights, and weights without joints, are useless.
         if (member.key.starts_with("JOINTS_")) dropped.push_back("WEIGHTS_" + member.key.substr(7));
         if (member.key.starts_with("WEIGHTS_")) dropped.push_back("JOINTS_" + member.key.substr(8));
         continue;

@@ -1,8 +1,8 @@
 #pragma once
 /// Rules for relations between the objects of an asset, with one function for each kind of object.
 /// The functions expect an asset that check_schema has accepted. They throw Error (invalid_scene)
-/// at the first violation that can't be repaired. For each of the others, they remove the invalid
-/// values from the asset's JSON and warn.
+/// at the first violation that can't be repaired. For each other violation, they remove the invalid
+/// values from the asset's JSON and add a warning.
 
 #include "io/gltf/check/forest.hpp"
 #include "io/gltf/check/heads.hpp"

@@ -37,7 +37,7 @@ void check_bounds(Asset& asset, const Element& at) {
 
 void check_accessor(Asset& asset, const Element& at) {
   if (at.value->find("componentType") == nullptr || at.value->find("type") == nullptr) {
-    return;  // check_schema has warned of an unknown type
+    return;  // check_schema has warned about an unknown type
   }
   check_bounds(asset, at);
   const JsonValue* component = at.value->find("componentType");

@@ -1,5 +1,5 @@
 #pragma once
-/// The vertex attributes that the textures of materials need.
+/// The vertex attributes that materials need for their textures.
 
 #include "io/gltf/document/asset.hpp"
 
@@ -11,7 +11,8 @@ namespace microtrace::io::gltf {
 
 struct MaterialTextures {
   std::vector<std::pair<std::string, double>> sets;  ///< each texture's key and TEXCOORD set
-  /// True if the vertices need TANGENT because no normal texture defines tangents.
+  /// True if the vertices need TANGENT: the material has anisotropy or a clear coat normal texture,
+  /// but no normal texture, whose coordinates would define tangents.
   bool needs_tangents = false;
 };
 

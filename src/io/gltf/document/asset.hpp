@@ -28,7 +28,7 @@ struct Element {
 
 class Asset {
  public:
-  /// The document must outlive the asset, which modifies it only in drop and set. Warns of
+  /// The document must outlive the asset, which modifies it only in drop and set. Warns about
   /// duplicate keys.
   explicit Asset(JsonDocument& json);
 
@@ -59,8 +59,8 @@ class Asset {
   /// Adds a warning. Warnings with the same text are merged into one, which states the first place
   /// in the file and the number of places.
   void warn(const Element& at, const std::string& message);
-  /// Reports a violation of glTF 2.0 that doesn't prevent rendering. Rendering reports it as a
-  /// warning, validation as an error.
+  /// Records a violation of glTF 2.0 that doesn't prevent rendering. It is shown as a warning when
+  /// rendering, and as an error when validating.
   void tolerate(const Element& at, const std::string& message);
   /// Returns all warnings in file order. If there are more than 100 different texts, a last warning
   /// states how many are omitted.
@@ -73,7 +73,7 @@ class Asset {
     Severity severity = Severity::warning;
   };
 
-  /// Adds `places` places, of which `at` is the first.
+  /// Records that the message applies to `places` places, of which `at` is the first.
   void note(const Element& at, const std::string& message, Severity severity, std::size_t places);
 
   JsonDocument& json_;

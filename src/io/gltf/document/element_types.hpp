@@ -8,7 +8,7 @@ namespace microtrace::io::gltf {
 
 enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
 
-/// Component types. The values are those of OpenGL's constants.
+/// Component types, with the values of the corresponding OpenGL constants.
 inline constexpr int kInt8 = 5120, kUint8 = 5121, kInt16 = 5122, kUint16 = 5123, kUint32 = 5125,
                      kFloat32 = 5126;
 

@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 7> kParsedMembers = {
     "asset", "scene", "scenes", "nodes", "meshes", "accessors", "bufferViews"};
 
 /// Members omitted from the text that tinygltf parses. Indices and sparse parts are read from the
-/// JSON instead, because tinygltf 2.7.0 refuses index accessors without a buffer view, which glTF
+/// JSON instead, because tinygltf 2.7.0 rejects index accessors without a buffer view, which glTF
 /// allows, and stores sparse offsets as int.
 constexpr std::array<std::string_view, 4> kLeftOut = {"extensions", "extras", "indices", "sparse"};
 
@@ -206,7 +206,7 @@ Model::Node node_of(tinygltf::Node& node) {
   return result;
 }
 
-/// Makes a skin from the JSON, because tinygltf 2.7.0 refuses skins without inverse bind matrices,
+/// Makes a skin from the JSON, because tinygltf 2.7.0 rejects skins without inverse bind matrices,
 /// which glTF allows.
 Model::Skin skin_of(const JsonValue& json) {
   Model::Skin result{.inverse_bind_matrices = index_in(json, "inverseBindMatrices")};
@@ -223,8 +223,8 @@ std::size_t count_values(const JsonValue& value) {
   return result;
 }
 
-/// Counts the model's memory by the number of items in the asset's arrays. kParts estimates the
-/// size of small members.
+/// Counts the model's memory, which is estimated from the number of items in the asset's arrays.
+/// kParts is the estimated size of an item's small members.
 void count_model(const Asset& asset) {
   const auto count = [](std::size_t items, std::size_t bytes) {
     take_memory(items * bytes, "the asset's model");
@@ -246,7 +246,7 @@ void count_model(const Asset& asset) {
 }  // namespace
 
 Model parse_model(const Asset& asset) {
-  // Memory for the text, for tinygltf's own JSON, and for its result.
+  // Estimated memory for the text, for tinygltf's own JSON tree, and for tinygltf's result.
   constexpr std::size_t kBytesOfValue = 160, kBytesOfItem = 512;
   const JsonValue& root = *asset.root().value;
   std::size_t work_bytes = count_values(root) * kBytesOfValue;

@@ -50,7 +50,7 @@ enum class Place {
 
 /// The repair of a value that is outside its rule's range or list.
 enum class Repair {
-  none,   ///< no repair: the asset is refused
+  none,   ///< no repair: the asset is rejected
   clamp,  ///< replaced by the nearest number in range
   drop,   ///< removed, which gives the default
   keep,   ///< kept, because readers handle it

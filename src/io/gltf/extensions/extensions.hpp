@@ -1,5 +1,5 @@
 #pragma once
-/// The list of extensions, with everything that the reader and the schema need to know about them.
+/// The list of extensions, with the data that the reader and the schema need for each.
 ///
 /// To add KHR_materials_example, add its properties to <microtrace/material.hpp>, their textures to
 /// scene/material_textures.hpp, its rules, reader and row to material_extensions.cpp, its effect to
@@ -21,7 +21,7 @@ namespace microtrace::io::gltf {
 enum class Support {
   full,      ///< rendered as the extension specifies
   harmless,  ///< ignored with a warning; the picture is correct without it
-  none,      ///< ignored with a warning; refused if the asset requires it
+  none,      ///< ignored with a warning; rejected if the asset requires it
 };
 
 /// The object that an extension adds to objects of one kind.
@@ -36,8 +36,8 @@ struct Extension {
   std::array<ExtensionObject, 8> objects{};
   /// Reads the extension's object in a material. Null if the extension adds none to materials.
   void (*read_material)(const JsonValue& object, Material& material) = nullptr;
-  /// The media type of images to which textures can refer only by this extension. Empty if there is
-  /// none.
+  /// The media type of images to which textures can refer only through this extension. Empty if the
+  /// extension adds no image type.
   std::string_view image_type{};
 
   /// The object that the extension adds to objects of this kind, or null.
@@ -50,7 +50,7 @@ struct Extension {
 /// The extension with this name, or null.
 [[nodiscard]] const Extension* find_extension(std::string_view name);
 
-/// The parts of the list.
+/// The two parts of the list that extensions() returns.
 [[nodiscard]] std::span<const Extension> material_extensions();
 [[nodiscard]] std::span<const Extension> other_extensions();
 

@@ -138,7 +138,7 @@ Volume volume(const JsonValue& json) {
   Volume result{.thickness = number(json, "thicknessFactor", 0),
                 .texture = texture_use(json, "thicknessTexture"),
                 .attenuation_color = vector(json, "attenuationColor", Vec3(1))};
-  // A positive distance in the file must stay positive after rounding to float32.
+  // A positive distance in the file must not round to 0 in float32.
   result.attenuation_distance =
       std::max(number(json, "attenuationDistance", result.attenuation_distance),
                std::numeric_limits<float>::min());
@@ -159,8 +159,8 @@ constexpr Extension row(std::string_view name, std::span<const Rule> rules,
           .read_material = read};
 }
 
-/// The material extensions, sorted by name. They change different properties, so their order
-/// doesn't matter. The exception is emission, which one extension scales and another removes.
+/// The material extensions, sorted by name. They can be read in any order, because each changes its
+/// own properties. The exception is emission: one extension scales it and another removes it.
 constexpr Extension kList[] = {
     row("KHR_materials_anisotropy", kAnisotropyRules,
         read_layer<&Material::anisotropy, anisotropy>),

@@ -23,7 +23,8 @@ namespace {
 
 /// The maximum size of an image file in bytes.
 constexpr std::size_t kMaxImageBytes = std::size_t{1} << 30U;
-/// The maximum size of all images in bytes. If images share a file or a buffer view, each counts.
+/// The maximum total size of all image files in bytes. A file or buffer view counts once for each
+/// image that uses it.
 constexpr std::uint64_t kMaxBytesOfImages = std::uint64_t{1} << 32U;
 
 std::string_view media_type(ImageFormat format) {
@@ -47,9 +48,8 @@ std::string small_letters(std::string_view text) {
   return result;
 }
 
-/// Returns true if a data URI declares the right media type, and warns otherwise (glTF 2.0, section
-/// 2.8; the Khronos validator does too). image/jpg is not a registered media type, but it is
-/// common.
+/// Returns true if a data URI declares the correct media type. Otherwise warns (glTF 2.0, section
+/// 2.8), as the Khronos validator does. Accepts image/jpg, which is not registered but common.
 bool check_media_type(Asset& asset, const Element& uri, ImageFormat format) {
   constexpr std::array<std::string_view, 2> kNotDecoded = {"image/avif", "image/vnd-ms.dds"};
   const std::string type = small_letters(split_data_uri(uri.value->string)->media_type);
@@ -129,8 +129,8 @@ class ImageLoader {
                             std::string(known->name));
   }
 
-  /// Warns of violations of KHR_texture_basisu that don't prevent decoding. The decoder refuses all
-  /// others.
+  /// Warns about violations of KHR_texture_basisu that don't prevent decoding. The decoder rejects
+  /// files with other violations.
   void check_ktx2(const Element& at, const ImageHeader& header, std::string_view bytes,
                   ImageUse use) {
     if (header.width % 4 != 0 || header.height % 4 != 0) {
@@ -141,7 +141,7 @@ class ImageLoader {
     if (colors->is_premultiplied) {
       asset_.tolerate(at, "declares premultiplied alpha; the colors are used as they are");
     }
-    // An image may contain colors in RGB and other data in alpha. Alpha is linear in either
+    // An image may be used both for its colors and for data in its alpha. Alpha is linear in either
     // encoding.
     const bool is_srgb = colors->encoding == ColorEncoding::srgb;
     if (!use.is_wanted() || (colors->encoding && (is_srgb ? use.srgb : use.linear))) return;

@@ -30,9 +30,9 @@ struct ImageUse {
                                                std::size_t images, SurfaceDetail detail);
 
 /// Returns the decoded pixels of each wanted image. The result is null for an image that is not
-/// wanted or can't be decoded. Examines all images. Warns of unsupported formats. Throws the errors
-/// of read_resource, and Error: invalid_scene for a damaged header or, in a wanted image, damaged
-/// data; limit if the wanted images have more than kMaxTexturePixels together.
+/// wanted or can't be decoded. Examines all images. Warns about unsupported formats. Throws the
+/// errors of read_resource, and Error: invalid_scene for a damaged header or, in a wanted image,
+/// damaged data; limit if the wanted images have more than kMaxTexturePixels together.
 [[nodiscard]] std::vector<std::shared_ptr<const Image>> load_images(
     Asset& asset, const BufferViews& views, const ResourceFolders& folders,
     const std::vector<ImageUse>& uses);

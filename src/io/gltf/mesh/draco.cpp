@@ -79,7 +79,8 @@ struct DracoDecoder::Job {
     return true;
   }
 
-  /// The bytes of three indices: as decoded, and as stored for the accessor.
+  /// The size of a triangle's three indices, which are stored twice: as decoded, and converted for
+  /// the accessor.
   static constexpr std::size_t kBytesOfTriangle = 3 * 2 * sizeof(std::uint32_t);
 };
 
@@ -112,7 +113,7 @@ void keep_complaint(void* job, const char* text) {
   try {
     static_cast<Job*>(job)->complaint = text;
   } catch (const std::bad_alloc&) {
-    // The failure is reported even if there is no memory for its reason.
+    // If there is no memory for a copy of the text, the failure is reported without a reason.
   }
 }
 

@@ -18,11 +18,11 @@ class DracoDecoder {
   DracoDecoder(Asset& asset, const Model& model, const BufferViews& views, AccessorReader& reader)
       : asset_(asset), model_(model), views_(views), reader_(reader) {}
 
-  /// Decodes a compressed primitive. In the reader, replaces the elements and counts of its
-  /// accessors. Returns false if the primitive is not compressed. Also returns false, with a
-  /// warning, if it can't be decoded and the asset doesn't require the extension. Decoded indices
-  /// form triangles, whatever the primitive's mode. Throws Error: invalid_scene, limit,
-  /// unsupported.
+  /// Decodes a compressed primitive, and replaces the elements and counts of its accessors in the
+  /// AccessorReader. Returns false if the primitive is not compressed. Also returns false, with a
+  /// warning, if the primitive can't be decoded and the asset doesn't require the extension.
+  /// Decoded indices form triangles, whatever the primitive's mode. Throws Error: invalid_scene,
+  /// limit, unsupported.
   bool decode(const Element& at, const Model::Primitive& primitive);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// The C interface between the library and its module for Draco. If the interface changes, the
-/// number in the function's name must change too. An old module is then refused instead of called
+/// number in the function's name must change too. An old module is then rejected instead of called
 /// with the wrong arguments.
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct MicrotraceDracoAttribute {
 struct MicrotraceDraco {
   const char* bytes;
   std::size_t size;
-  /// Meshes with more triangles, or with more than 3 points per triangle, are refused.
+  /// Meshes with more triangles, or with more than 3 points per triangle, are rejected.
   std::size_t most_triangles;
   std::uint32_t* indices;  ///< 3 per triangle
   MicrotraceDracoAttribute* attributes;

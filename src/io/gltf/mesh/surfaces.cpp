@@ -36,7 +36,7 @@ std::size_t bytes_of_topology(Model::Mode mode, std::size_t vertices) {
 }
 
 /// Removes vertices that are not finite, and the triangles and segments that use them. Returns true
-/// if there were any.
+/// if any vertex was removed.
 bool leave_out_infinite(Surface& surface) {
   Mesh& mesh = surface.mesh;
   const auto is_bad = [&](std::uint32_t i) { return !is_finite(mesh.positions[i]); };

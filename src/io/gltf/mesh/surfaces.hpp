@@ -28,10 +28,11 @@ struct Surface {
   std::size_t number = 0;      ///< index of the primitive in its mesh
 };
 
-/// Makes the surfaces of each mesh. Adds to `unlit` the materials of points and lines without
-/// normals. These points and lines get the indices of the copies that add_unlit_copies appends
-/// later. Primitives without POSITION or data give no surface, with a warning. Throws Error:
-/// invalid_scene for accessors of the wrong type or indices out of range, limit.
+/// Makes the surfaces of each mesh. Points and lines without normals need unlit materials: their
+/// original materials are added to `unlit`, and they get the indices of the unlit copies that
+/// add_unlit_copies appends later. Primitives without POSITION or data give no surface, with a
+/// warning. Throws Error: invalid_scene for accessors of the wrong type or indices out of range,
+/// limit.
 [[nodiscard]] std::vector<std::vector<Surface>> make_surfaces(Asset& asset, const Model& model,
                                                               AccessorReader& reader,
                                                               std::span<const Material> materials,

@@ -47,7 +47,7 @@ void for_each_index(Mesh& mesh, Visit&& visit) {
   }
 }
 
-/// Finds the used vertices by marking them.
+/// Finds the used vertices by marking them in an array with an entry for each vertex.
 std::vector<std::uint32_t> used_of_few(Mesh& mesh, std::size_t vertex_count, std::size_t uses) {
   std::vector<bool> used(vertex_count);
   for_each_index(mesh, [&](std::uint32_t index) { used[index] = true; });

@@ -38,7 +38,7 @@ struct VertexTransform {
   glm::dmat3 normals;
 };
 
-/// Returns the morphed vector if there is one, otherwise the mesh's own.
+/// Returns the morphed vector if there is one, otherwise the vector in the mesh.
 template <typename Own>
 DVec3 vector_of(const Array<Own>& own, const std::vector<DVec3>& morphed, std::size_t i) {
   return morphed.empty() ? DVec3(own[i]) : morphed[i];

@@ -9,10 +9,10 @@
 
 namespace microtrace::io::gltf {
 
-/// Transforms a mesh in float64 and rounds once. No other step rounds geometry. A mirroring
-/// transform reverses the winding, so front faces stay front faces (glTF 2.0, section 3.7.4).
-/// Normals are transformed by the inverse transpose and normalized. A normal without direction
-/// becomes zero. Morphed attributes replace the mesh's own.
+/// Transforms a mesh in float64 and rounds the result once. No other step rounds geometry. A
+/// mirroring transform reverses the winding, so front faces stay front faces (glTF 2.0, section
+/// 3.7.4). Normals are transformed by the inverse transpose and normalized. A normal without
+/// direction becomes zero. Morphed attributes replace the mesh's own.
 [[nodiscard]] Mesh baked(const Mesh& mesh, const Morphed& morphed, const DMat4& world_from_mesh);
 
 /// Does the same with one transform per vertex. Reverses a triangle's winding if the transform of

@@ -17,8 +17,8 @@ namespace microtrace::io::gltf {
 
 /// The maximum number of vertex displacements in one pose.
 inline constexpr std::size_t kMaxDisplacements = std::size_t{1} << 29;
-/// The minimum number of displacements that each target of a primitive counts as, because examining
-/// a target takes time too.
+/// Each target of a primitive counts as at least this many displacements, because even an empty
+/// target takes time to examine.
 inline constexpr std::size_t kLeastDisplacements = 64;
 
 /// Morphed attributes, which replace the mesh's own. An attribute is empty if no target changes it.

@@ -80,8 +80,8 @@ std::vector<PlacedNode> NodeTree::place(Asset& asset, const DMat4& world_from_as
   } else {
     first = model_.scenes[model_.scene];
   }
-  // A scene that lists a child node as a root is invalid. If the child's parent is drawn, the child
-  // is placed under it.
+  // A scene that lists a child node as a root is invalid. If the parent is drawn too, the child is
+  // placed only below its parent.
   std::stable_partition(first.begin(), first.end(),
                         [this](std::size_t node) { return !parents_[node]; });
   std::vector<bool> placed(parents_.size());

@@ -78,7 +78,7 @@ class UniqueNames {
     }
   };
 
-  // There may be millions of instances: an arena allocates their names and frees them together.
+  // Memory for the names of possibly millions of instances. The arena frees them all at once.
   std::pmr::monotonic_buffer_resource memory_;
   std::pmr::unordered_map<std::pmr::string, std::size_t, Hash, std::equal_to<>> uses_{&memory_};
 };

@@ -56,7 +56,8 @@ auto guarded(const std::string& name, Part&& part) {
 
 }  // namespace
 
-/// All data of the file except poses. The members are in the order of reading and checking.
+/// All data of the file that don't depend on the pose. The members are declared in the order in
+/// which they are read and checked.
 struct GltfFile::Content {
   Content(std::string_view bytes, const std::string& file_name, const std::filesystem::path& folder,
           const LoadOptions& options)

@@ -16,10 +16,10 @@ namespace microtrace::io {
 /// An asset that is read and checked once, and can then be posed for many different times.
 class GltfFile {
  public:
-  /// Reads the bytes of a .gltf or .glb file, whose kind is detected by the first four bytes. The
-  /// bytes must outlive this object. Error messages name the file `name`. External files are loaded
-  /// from `folder` or below. Throws Error: invalid_scene, unsupported (a required extension,
-  /// another version), io (an external file), limit, usage (an unknown animation).
+  /// Reads the bytes of a .gltf or .glb file. The first four bytes distinguish the two. The bytes
+  /// must outlive this object. Error messages name the file `name`. External files are loaded from
+  /// `folder` or below. Throws Error: invalid_scene, unsupported (a required extension, another
+  /// version), io (an external file), limit, usage (an unknown animation).
   GltfFile(std::string_view bytes, const std::string& name, const std::filesystem::path& folder,
            const LoadOptions& options = {});
   ~GltfFile();

@@ -10,8 +10,8 @@ enum class ImageFormat { unknown, png, jpeg, webp, ktx2 };
 
 struct ImageHeader {
   ImageFormat format = ImageFormat::unknown;
-  /// Whether the header is complete, is cut off because the file ends within it, or is invalid.
-  /// Only a complete header has a size.
+  /// The state of the header: complete, cut off because the file ends within it, or invalid. Only a
+  /// complete header has a size.
   enum class State { whole, cut_off, damaged } state = State::whole;
   std::uint32_t width = 0, height = 0;
 };

@@ -9,7 +9,7 @@
 namespace microtrace::io {
 namespace {
 
-/// Returns round(255 v) for v in [0, 1]. Clamps values outside. Converts NaN to 0.
+/// Returns round(255 v), where v is first clamped to [0, 1]. Returns 0 for NaN.
 std::uint8_t encode_linear(float v) {
   if (!(v > 0)) return 0;
   return v >= 1 ? 255 : static_cast<std::uint8_t>(v * 255 + 0.5F);

@@ -12,8 +12,8 @@ struct Note {
   std::string name, text;
 };
 
-/// Notes about the display transforms that were requested, if any. If the format stores linear
-/// light, the note says that none was applied.
+/// Returns notes about the requested display transforms, if any. If the format stores linear light,
+/// the notes state that no transform was applied.
 [[nodiscard]] std::vector<Note> notes_of(const Display& display, bool holds_light);
 
 }  // namespace microtrace::io

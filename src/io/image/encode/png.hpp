@@ -23,8 +23,8 @@ class PngEncoder {
   /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error(io).
   void encode(const Film& film, const std::function<void(std::string_view)>& out) const;
 
-  /// Like the other function, for a picture whose description lacks the callbacks. `row` returns
-  /// the samples of a row.
+  /// Encodes a picture whose description lacks the callbacks. `row` returns the samples of a row.
+  /// Otherwise like the other encode().
   void encode(MicrotracePng picture, const std::function<const void*(std::uint32_t y)>& row,
               const std::function<void(std::string_view)>& out) const;
 

@@ -9,8 +9,8 @@
 
 namespace microtrace::io {
 
-/// Returns the magic number, width and height, and the maximum 255, each on a line of its own,
-/// without comments.
+/// Returns three lines without comments: the magic number, the width and height, and the maximum
+/// 255.
 [[nodiscard]] std::string ppm_header(ImageSize size, PpmEncoding encoding);
 
 /// Appends row y of the picture, which must not have alpha. Lines of P3 have at most 70 characters,

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads numbers from a file's bytes, with checks of bounds.
+/// Reads numbers from a file's bytes, with bounds checks.
 
 #include <cstddef>
 #include <cstdint>

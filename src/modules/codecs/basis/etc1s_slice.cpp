@@ -20,7 +20,7 @@ std::uint64_t read_groups(BitReader& bits, unsigned width) {
   throw Damage(kDamaged);
 }
 
-/// A history of recently used selectors, in approximate move-to-front order.
+/// The history of recently used selectors, in approximate move-to-front order.
 class History {
  public:
   explicit History(std::size_t size) : values_(size), next_(size / 2) {}

@@ -9,7 +9,7 @@ namespace basis {
 
 struct Pattern {
   std::array<std::uint8_t, 16> subset{};  ///< subset of each texel
-  /// True for the first texel of a subset, whose weights have one bit fewer.
+  /// True for the first texel of each subset. Weights of these texels have one bit fewer.
   std::array<bool, 16> is_anchor{};
 };
 

@@ -12,8 +12,8 @@ namespace microtrace::io::gltf {
 [[nodiscard]] std::span<const Rule> gltf_rules();
 
 /// Checks the asset against the rules. Throws Error (invalid_scene) at the first violation that
-/// can't be repaired. Repairs the others in the asset's JSON, with a warning, so later code can
-/// rely on the schema. Invalid values are repaired as the `repair` of their rule requires. Null
+/// can't be repaired. Repairs all other violations in the asset's JSON, with a warning for each, so
+/// later code can rely on the schema. Invalid values are repaired as Rule::repair specifies. Null
 /// values and attributes with unknown names are removed. Extensions are removed if they are
 /// undeclared, misplaced, or lack an extension on which they depend. Properties unknown to glTF
 /// 2.0, repeated items and empty arrays stay.

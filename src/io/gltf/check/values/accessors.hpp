@@ -6,9 +6,9 @@
 
 namespace microtrace::io::gltf {
 
-/// Checks that each buffer view and accessor of the model stays in range, that strides are wide
-/// enough, and that sparse parts are well formed (glTF 2.0, sections 3.6.2.4 and 3.6.2.3). Throws
-/// Error (invalid_scene). Warns of misaligned accessors.
+/// Checks that each buffer view and accessor of the model stays in range, that no stride is smaller
+/// than an element, and that sparse parts are well formed (glTF 2.0, sections 3.6.2.4 and 3.6.2.3).
+/// Throws Error (invalid_scene). Warns about misaligned accessors.
 void check_accessors(Asset& asset, const Model& model);
 
 }  // namespace microtrace::io::gltf

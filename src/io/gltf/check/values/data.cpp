@@ -41,7 +41,7 @@ Bounds bounds_of(const Elements& elements) {
   return result;
 }
 
-/// Returns true if no number is infinite or NaN. Such numbers have an exponent of all ones.
+/// Returns true if no number is infinite or NaN, which have an exponent of all ones.
 bool all_finite(const Elements& elements) {
   constexpr std::uint32_t kExponent = 0x7F800000;
   const std::size_t components = elements.components();
@@ -221,7 +221,7 @@ class DataCheck {
   const Elements& elements_;
 };
 
-/// Checks the indices of primitives without positions. make_surfaces checks all others.
+/// Checks the indices of primitives without positions. make_surfaces checks all other indices.
 class IndexCheck {
  public:
   IndexCheck(Asset& asset, const Model& model, const BufferViews& views)
@@ -261,7 +261,8 @@ class IndexCheck {
   std::vector<std::optional<double>> greatest_;  // by accessor; empty until first needed
 };
 
-/// Limits the total size, because a small file with overlapping accessors could take long to read.
+/// Limits the total size, because overlapping accessors of a small file could take a long time to
+/// read.
 void check_size(const Asset& asset, const Model& model) {
   double bytes = 0;
   for (std::size_t i = 0; i < model.accessors.size(); ++i) {

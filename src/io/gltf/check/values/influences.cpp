@@ -85,7 +85,7 @@ class InfluenceCheck {
 
   void check_weights(const Element& at) const {
     // glTF 2.0, section 3.7.3.3, allows the sum to differ from 1 by this number for each nonzero
-    // weight. For integer weights, a sum that is off by one unit exceeds this tolerance.
+    // weight. The tolerance is so small that sums of integer weights must be exact.
     constexpr double kTolerance = 2e-7;
     bool negative = false, twice = false;
     std::size_t unequal = 0;

@@ -6,8 +6,8 @@
 namespace microtrace::io::gltf {
 
 /// Checks JOINTS_n and WEIGHTS_n of skinned meshes. Throws Error (invalid_scene) for a joint
-/// missing from the skin. Warns of negative weights, of joints that occur twice in a vertex, and of
-/// weights that don't sum to 1.
+/// missing from the skin. Warns about negative weights, about joints that occur twice in a vertex,
+/// and about weights that don't sum to 1.
 void check_influences(Asset& asset, const Model& model, const BufferViews& views);
 
 }  // namespace microtrace::io::gltf
