@@ -34,10 +34,11 @@ struct Traced {
 /// of kTileEdge.
 [[nodiscard]] std::vector<Ray> primary_rays(const Camera& camera, ImageSize size);
 
-/// Returns one ray from each hit, in the order of the hits. Directions are cosine-distributed about
-/// the geometric normal on the side of the incoming ray. Origins are 1e-5 times the extent above
-/// the surface, so that rounding in either program never puts an origin on the wrong side. Hit ids
-/// must be triangle indices of the mesh. Triangles without area emit no rays.
+/// Returns one ray for each hit, which starts at the hit point, in the order of the hits.
+/// Directions are cosine-distributed about the geometric normal on the side of the incoming ray.
+/// Origins are 1e-5 times the extent above the surface, so that rounding in either program never
+/// puts an origin on the wrong side. Hit ids must be triangle indices of the mesh. Triangles
+/// without area emit no rays.
 [[nodiscard]] std::vector<Ray> cosine_rays(const Mesh& mesh, const Traced& traced, double extent,
                                            float t_max, std::uint64_t seed);
 

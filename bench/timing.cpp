@@ -21,8 +21,8 @@ double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// The volatile variables make the processor multiply at run time, in this thread's floating-point
-// mode.
+// Because the variables are volatile, the multiplication happens at run time, in this thread's
+// floating-point mode.
 void require_denormals() {
   const volatile float least_normal = std::numeric_limits<float>::min();
   const volatile float least_denormal = std::numeric_limits<float>::denorm_min();

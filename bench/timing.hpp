@@ -12,8 +12,8 @@ namespace microtrace::bench {
 [[nodiscard]] double seconds(unsigned threads, const std::function<void()>& f);
 
 /// Calls f(begin, end) for consecutive parts of [0, size), one per thread. Parts begin at multiples
-/// of 64. Throws if a thread flushes denormal numbers to zero before or after the call: Embree's
-/// manual recommends flushing, but both programs must run in the same mode.
+/// of 64. Throws if a thread flushes denormal numbers to zero before or after the call. Embree's
+/// manual recommends this mode, but both programs must run in the same mode.
 void split(unsigned threads, std::size_t size,
            const std::function<void(std::size_t, std::size_t)>& f);
 

@@ -58,8 +58,8 @@ std::string name_of(const std::string& scene, PeerMode mode) {
          (mode.coherent ? " coherent" : "");
 }
 
-// Embree's fastest mode for the query. It is determined with one thread, because processor time
-// varies less than elapsed time.
+// Determines Embree's fastest mode for the query with one thread, because processor time varies
+// less than elapsed time.
 Choice best_choice(const std::vector<Peer>& peers, bool robust, Question& question) {
   Choice best;
   double best_seconds = std::numeric_limits<double>::infinity();

@@ -31,7 +31,8 @@ def in_gltf(p):
 
 def load(asset):
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    # Without this option, the importer divides light intensities by 683 lumens per watt. microtrace doesn't.
+    # Without this option, the importer divides light intensities by 683 lumens per watt, which
+    # microtrace doesn't do.
     bpy.ops.import_scene.gltf(filepath=str(asset), export_import_convert_lighting_mode="COMPAT")
     for thing in list(bpy.data.objects):
         thing.animation_data_clear()

@@ -78,7 +78,7 @@ class Animation(ProgramTest):
         (self.folder / "move.gltf").write_text(moving_square())
 
     def square_at(self, *arguments):
-        # Ten pixels show one unit, and the picture's lower left corner is at (-2, -1).
+        # A unit is ten pixels long, and the picture's lower left corner is at (-2, -1).
         result = self.run_program("move.gltf", *FLAT, "--size", "80x60", "-o", "-", *arguments)
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         column, row = lower_left(result.stdout)
@@ -200,7 +200,8 @@ class Animation(ProgramTest):
         asset["scenes"][0]["nodes"] = [0]
         (self.folder / "move.gltf").write_text(json.dumps(asset))
         self.assertEqual(self.frames("--frames", "0:2", "--fps", "1", "--view", "front", "-o", "move_%04d.ppm").returncode, 0)
-        # The frame fits all poses. The square moves from its left side to its right and covers a width of five squares.
+        # The camera frames all poses. The square moves from the left edge of the picture to the
+        # right edge, across a width of five squares.
         left = [lower_left((self.folder / f"move_000{k}.ppm").read_bytes())[0] for k in range(3)]
         self.assertTrue(0 < left[0] < 4, left)
         self.assertAlmostEqual(left[1] - left[0], 31, delta=1)

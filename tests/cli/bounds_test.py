@@ -62,7 +62,7 @@ class Bounds(ProgramTest):
                 self.assertEqual(process.returncode, 6, said)
                 self.assertIn(path.name, said)
                 self.assertIn("--memory-limit", said)
-                # The margin is for the program itself. Sanitizers need additional memory.
+                # The margin covers the program itself, but not the additional memory of sanitizers.
                 if "ASAN_OPTIONS" not in os.environ:
                     self.assertLess(usage.ru_maxrss / 1024, 3 * limit + 64)
                 self.assertFalse((self.folder / "out.ppm").exists())

@@ -391,7 +391,7 @@ class CommandLine(ProgramTest):
             self.assertEqual(result.returncode, 4, name)
             message = result.stderr.decode()
             self.assertIn(f"error: {name}: microtrace reads JSON scenes and glTF (.gltf, .glb), not .{name[2:].lower()}; convert", message)
-        # The content selects the format of a file with a foreign extension.
+        # If the file has the extension of another format, the format is detected from the content.
         self.write("scene.obj", minimal())
         self.assertEqual(self.run_program("scene.obj", "-q", "-o", "a.ppm").returncode, 0)
 
@@ -605,7 +605,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(result.returncode, 5)
 
     def test_interrupt_leaves_nothing(self):
-        # Would take far longer than any test if it were not interrupted.
+        # Without the interruption, this rendering would take much longer than any test.
         process = subprocess.Popen([PROGRAM, SCENE, "--size", "8000x8000", "--spp", "256", "-t", "1", "--progress", "json"],
                                    cwd=self.folder, stderr=subprocess.PIPE)
         self.assertIn(b"progress", process.stderr.readline())

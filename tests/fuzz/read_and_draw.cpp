@@ -35,7 +35,7 @@ const std::filesystem::path& empty_folder() {
 }
 
 std::optional<LoadedScene> read(std::string_view bytes, const std::string& name) {
-  // Poses the assets in files of odd length.
+  // Poses assets whose files have an odd number of bytes, and renders others as stored.
   LoadOptions options;
   if (bytes.size() % 2 == 1) options = {.time = 0.5, .animation = "all"};
   try {

@@ -1,7 +1,7 @@
 #pragma once
 /// A mesh that was encoded and decoded by Google's Draco library. The code is in a separate module,
-/// because the Draco library contains another copy of tinygltf. The two copies must not be linked
-/// into one program.
+/// because the Draco library contains its own copy of tinygltf, which must not be linked into one
+/// program with the other copy.
 
 #include <microtrace/math.hpp>
 

@@ -44,7 +44,8 @@ std::vector<Number> pixels(ImageInput& in, TypeDesc type) {
   return result;
 }
 
-/// Returns the gradient with alpha, which increases from 0 on the left to 1 on the right.
+/// Returns the gradient with an alpha channel. Alpha increases from 0 on the left to 1 on the
+/// right.
 Film see_through() {
   Film film({19, 7}, Film::Alpha::premultiplied);
   const Film colors = gradient();

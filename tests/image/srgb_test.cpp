@@ -23,8 +23,8 @@ TEST(Srgb, EachThresholdIsTheLeastFloatThatRoundsUp) {
     const float threshold = kSrgbThresholds[k];
     const float below = std::nextafter(threshold, 0.0F);
     const long double half = static_cast<long double>(k) + 0.5L;
-    // The margin proves that long double is precise enough for every case, because its error here
-    // is below 1e-16.
+    // The error of transfer() is below 1e-16, so this margin proves that long double is precise
+    // enough in every case.
     EXPECT_GT(transfer(threshold) - half, 1e-13L) << k;
     EXPECT_GT(half - transfer(below), 1e-13L) << k;
     EXPECT_EQ(encode_srgb(threshold), k + 1);

@@ -120,8 +120,8 @@ TEST(RootOracle, OrderOfLargeRootsAndOfNearlyEqualOnes) {
     const int lo = full_range ? -149 : -9, hi = full_range ? 127 : 9;
     const Root x = large_root(random, lo, hi), y = large_root(random, lo, hi);
     check(x, y);
-    // First compares with the same number in another form, then with a number that differs from it
-    // in a very low bit.
+    // First compares the root with an equal number in another form, then with a number that differs
+    // from it in a very low bit.
     const Dyadic k = 3.0f;
     Root z{x.p * k, x.q * k * k, x.r * k, x.sign};
     check(x, z);

@@ -1,5 +1,5 @@
-// Checks that Bvh returns the hit with the least (t, PrimitiveId) over all primitives, where each
-// primitive is decided exactly.
+// Checks that Bvh returns the hit with the least (t, PrimitiveId) of all primitives. Exact
+// arithmetic determines the hit of each primitive.
 
 #include "exact/intersect.hpp"
 #include "support/cases/adversarial_rays.hpp"

@@ -117,7 +117,7 @@ TEST_P(DegenerateCost, DuplicatesCostNothing) {
   }
 }
 
-// The first counts are too small for a tree, the last one is large enough.
+// Scenes with the first counts are too small for a tree. The scene with the last count has a tree.
 TEST_P(DegenerateCost, DuplicatesOfAFewTrianglesCostNothing) {
   Mesh once;
   add_triangle(once, {-1, -1, 0.1F}, {1, -0.9F, 0.3F}, {0.2F, 1, -0.4F});
@@ -224,7 +224,7 @@ TEST_P(DegenerateCost, SegmentsCostNothing) {
 }
 
 // Casts rays in the plane of segments and triangles, and rays that start on a segment's line. The
-// filters must be certain that these miss.
+// filters must be certain that these rays miss.
 TEST_P(DegenerateCost, RaysInThePlaneCostLittle) {
   Random random(34);
   for (const std::size_t count : {4U, 40U}) {

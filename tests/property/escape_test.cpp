@@ -1,5 +1,5 @@
-// Checks that no path leaves a closed mesh unless it is transmitted. The meshes have few triangles.
-// They are tiny to huge, far away or a few ulps thick, alone or with other shapes inside. Tests
+// Checks that no path leaves a closed mesh unless it is transmitted. The meshes have few triangles
+// and any size. Some are far away, some are a few ulps thick, and some contain other shapes. Tests
 // every function.
 
 #include "accel/kernels/dispatch.hpp"
@@ -69,7 +69,7 @@ class World {
     for (PrimitiveId id = 0; id < triangles_; ++id)
       has_area_.push_back(exact::TrianglePlane(triangle_of(mesh(), id)).has_area());
     if (random.one_in(3)) add_others();
-    // Adds so many triangles that a single leaf can't contain them.
+    // Adds more triangles than fit into a single leaf.
     if (random.one_in(3)) {
       const Vec3 away = center_ + Vec3(64 * size_, 0, 0);
       scene_.objects.push_back(
@@ -95,8 +95,8 @@ class World {
     return inside > 0;
   }
 
-  /// Returns true if a ray is inside the mesh just behind a hit. Nothing if two further hits have
-  /// the same t, because they may be on an edge or a vertex.
+  /// Returns true if a ray is inside the mesh just behind a hit. Returns nothing if two later hits
+  /// have the same t, because these may be on an edge or a vertex.
   [[nodiscard]] std::optional<bool> is_inside_behind(const Ray& ray, const Hit& hit) const {
     bool odd = false;
     float t = hit.t;

@@ -183,7 +183,7 @@ TEST_P(Laws, MirroredAndPermutedAxesHaveNoEffect) {
   });
 }
 
-// The test uses only numbers that scaling neither overflows nor underflows.
+// The test uses only numbers that neither overflow nor underflow when they are scaled.
 TEST_P(LawsOfSize, ScalingByPowersOfTwoHasNoEffect) {
   for_each_case(4, [](Random& random, Case c) {
     const bool exact =

@@ -103,7 +103,8 @@ TEST(AllHits, OfNoRays) {
   EXPECT_TRUE(intersect_all(scene, std::span(&ray, 1)).of(0).empty());
 }
 
-// Compares the results of every kernel. The tests above use only the best one.
+// Compares the results of every kernel. The other tests use only the kernel that the library
+// selects.
 TEST(Queries, HaveTheSameResultsWithAllInstructionSets) {
   Random random(65);
   Scene scene = random_scene(random);

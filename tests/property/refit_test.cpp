@@ -80,8 +80,8 @@ struct Deformation {
   std::size_t rays = 300;
 };
 
-/// The number of rays for slow deformations: rays beyond the kernels' limits and coordinates of all
-/// magnitudes need exact arithmetic.
+/// The number of rays for deformations whose rays are slow. Rays beyond the kernels' limits, and
+/// coordinates of all magnitudes, need exact arithmetic.
 constexpr std::size_t kFewRays = 10;
 
 Deformation of_points(const char* name, std::function<void(Vec3&, Random&)> move,

@@ -93,8 +93,8 @@ void add(Scene& scene, const Shape& shape) {
   scene.objects.push_back({.name = "", .shape = shape});
 }
 
-/// Rays that leave hits must have the same answers with and without knowledge of the primitives
-/// that they have left.
+/// Rays that leave a surface must have the same results whether or not the query names the
+/// primitive that they leave.
 void check_rays(const Bvh& bvh, const std::vector<Bvh::Spawn>& spawns, const Origins& origins) {
   std::vector<Ray> rays;
   std::vector<PrimitiveId> left;
@@ -154,8 +154,8 @@ std::size_t check(Random& random, const Scene& scene, const std::vector<Known>& 
   return found;
 }
 
-/// The fraction of MICROTRACE_TRAVERSAL_RAYS that gives the number of shapes to test, and the
-/// maximum number of shapes per scene.
+/// The number of shapes to test, as a fraction of MICROTRACE_TRAVERSAL_RAYS, and the maximum number
+/// of shapes per scene.
 struct Effort {
   double share;
   int most;

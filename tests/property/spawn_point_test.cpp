@@ -137,7 +137,7 @@ TEST(SpawnPoint, BoundsHoldOnWalls) {
     check(ray, triangle, count);
   }
   EXPECT_GT(count.hits, traversal::ray_count(0.05));
-  // All other rays hit at grazing angles.
+  // The rays without a certain point hit at grazing angles.
   EXPECT_GT(count.sure, count.hits / 100 * 97);
   EXPECT_GT(count.sure_in_lanes, count.hits / 100 * 97);
 }

@@ -174,7 +174,7 @@ void check_all_kinds(double least_share, MakeCase make_case) {
     SCOPED_TRACE(name(kind));
     const Count count = check_kind(33, [&](Random& random) { return make_case(random, kind); });
     EXPECT_GE(count.spawned, count.hits * (kind == ShapeKind::full_range ? 0.8 : least_share));
-    // Of the discs across the full float32 range, about one in 25 is hit. The number varies
+    // Rays hit about one in 25 discs whose numbers span the full float32 range. The number varies
     // randomly.
     EXPECT_GT(count.hits, kCasesPerKind / 40);
   }

@@ -52,8 +52,8 @@ Mesh soup(std::size_t triangles, float size) {
   return mesh;
 }
 
-// Builds and walks the tree. Expects each primitive in the array `expected(id)`, except duplicates,
-// and except points, which are never in blocks.
+// Builds and walks the tree. Expects each primitive, except duplicates, in the array
+// `expected(id)`. Points are an exception too, because they are never in blocks.
 template <class Expected>
 Tree check(const Scene& scene, Expected expected) {
   const Primitives primitives(scene);

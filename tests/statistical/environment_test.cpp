@@ -1,4 +1,5 @@
-// Compares light from maps with quadrature that uses an independent float64 lookup.
+// Compares light from environment maps with quadrature that uses an independent float64 lookup of
+// the map.
 
 #include "support/shading/scattering.hpp"
 

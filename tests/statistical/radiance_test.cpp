@@ -204,8 +204,8 @@ struct Lamp {
 
 class LampShapes : public testing::TestWithParam<Lamp> {};
 
-// One sample per pixel is nearly sufficient. If only BSDFs were sampled, the error for lights of
-// this size would exceed the mean.
+// Light sampling makes nearly one sample per pixel sufficient. With BSDF sampling only, the error
+// for lights of this size would exceed the mean.
 TEST_P(LampShapes, HaveTheExpectedRadiance) {
   for (const Material& material : {kMatt, kShiny}) {
     Floor floor(material);

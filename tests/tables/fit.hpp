@@ -32,7 +32,7 @@ class Factors {
 [[nodiscard]] std::vector<double> fit(const std::vector<Factors>& axes,
                                       const std::vector<double>& targets);
 
-/// Does the same, but the square of an error above a target counts 1 + penalty times.
+/// Like fit(), but the square of an error above a target is weighted by 1 + penalty.
 [[nodiscard]] std::vector<double> low_fit(const std::vector<Factors>& axes,
                                           const std::vector<double>& targets, double penalty);
 

@@ -10,7 +10,7 @@ struct StatedError {
   double above, below, rms;
 };
 
-/// Measured for equal steps of cos(theta) in a column, and equal steps of roughness.
+/// Measured at equally spaced values of cos(theta) in a column, and of roughness.
 inline constexpr StatedError kGgxF1Error{.above = 0.006, .below = 0.0006, .rms = 0.0004};
 inline constexpr StatedError kGgxSchlickError{.above = 0.025, .below = 0.017, .rms = 0.0011};
 /// Compared with the means of the interpolated albedos.
@@ -21,7 +21,7 @@ inline constexpr StatedError kGgxMeanSchlickError{
 /// The range of albedos of white metal with multiple scattering, for cos(theta) > 0.02.
 inline constexpr double kLeastWhiteMetal = 0.9945, kMostWhiteMetal = 1.0007;
 
-/// Measured for equal steps of row and column, from cos(theta) = 0.0001.
+/// Measured at equally spaced rows and columns, from cos(theta) = 0.0001 on.
 inline constexpr StatedError kSheenError{.above = 0.07, .below = 0.03, .rms = 0.006};
 inline constexpr double kMostSheen = 1.01;  ///< maximum albedo of the divided model
 

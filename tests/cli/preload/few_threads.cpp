@@ -1,5 +1,6 @@
-// This preloaded library limits the number of threads. Creating a thread fails if more than
-// MOST_THREADS threads besides the first were started and not joined, even if they have ended.
+// This preloaded library limits the number of threads. Creating a thread fails if there are already
+// MOST_THREADS threads, besides the first, that were started and not joined. Threads that have
+// ended but were not joined count too.
 
 #include <atomic>
 #include <cerrno>

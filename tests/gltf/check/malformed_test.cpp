@@ -235,7 +235,7 @@ TEST(GltfMalformed, TooManyInstancesAreRefusedBeforeAllocation) {
   }
 }
 
-/// If any single byte of a file is wrong, loading must succeed or throw an Error.
+/// Whichever single byte of a file is changed, loading must either succeed or throw an Error.
 TEST(GltfMalformed, AnyByteOfABinaryFileMayBeDamaged) {
   const std::string good = cube().glb();
   std::size_t refused = 0;

@@ -11,8 +11,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A violation of the specification that gives a warning and can still be rendered. `where` and
-/// `value` are arguments of mutated().
+/// A violation of the specification that causes only a warning, so the asset can still be rendered.
+/// `where` and `value` are arguments of mutated().
 struct Survived {
   const char* where;
   const char* value;

@@ -26,8 +26,8 @@ void expect_near(const Array<Vec3>& values, const std::vector<Vec3>& wanted) {
 const double half = std::sqrt(0.5);
 
 /// Returns an arm in the plane z = 0, along x from 0 to 2. The shoulder (node 1) is at x = 0 and
-/// moves the vertices there. The elbow (node 2) is at x = 1 and moves the vertices at x = 2. Both
-/// have equal weights for the vertices at x = 1. Node 0 has the mesh.
+/// moves the vertices there. The elbow (node 2) is at x = 1 and moves the vertices at x = 2. The
+/// vertices at x = 1 have equal weights for both joints. Node 0 has the mesh.
 template <typename Joint = std::uint8_t>
 AssetBuilder arm() {
   AssetBuilder asset;

@@ -1,6 +1,6 @@
-// Tests the kernels of every instruction set as bounds_test.cpp tests filters. Each tree has one
-// triangle and is queried by every function. The worst inputs with and without fused multiply-adds
-// differ, so each bound has inputs for both.
+// Tests the kernels of every instruction set in the same way as bounds_test.cpp tests the filters.
+// Each tree has one triangle and is queried by every function. The worst inputs with and without
+// fused multiply-adds differ, so each bound has inputs for both.
 
 #include "accel/few_triangles.hpp"
 #include "accel/kernel_rays.hpp"
@@ -136,7 +136,7 @@ class OneTriangle {
       expect_right({tile.best_lo[i], tile.best_hi[i], tile.best_id[i]});
   }
 
-  // Casts rays from different origins. They are numerous enough to traverse the tree as packets.
+  // Casts rays from different origins, as many as are needed for tracing them as packets.
   void in_a_stream(const Kernels& kernels) const {
     const auto stream = std::make_unique<KernelStream>();
     const StreamFallback slow{

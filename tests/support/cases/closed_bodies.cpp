@@ -121,7 +121,7 @@ Mesh hull(std::vector<Vec3> points) {
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
     // The edges of the faces that the point sees, with their directions in these faces. Edges
     // between two such faces cancel. If rounding makes faces overlap, more than two faces may share
-    // an edge. An even number of them cancels.
+    // an edge. Pairs of opposite edges cancel in this case too.
     std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles.edit(), [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;

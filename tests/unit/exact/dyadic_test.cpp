@@ -16,7 +16,7 @@ int sign(Int128 x) {
   return x < 0 ? -1 : x > 0;
 }
 
-/// Converts x to a Dyadic in digits of 40 bits.
+/// Converts x to a Dyadic, 40 bits at a time.
 Dyadic dyadic(Int128 x) {
   const Int128 magnitude = x < 0 ? -x : x;
   Dyadic sum;

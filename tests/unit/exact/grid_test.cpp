@@ -1,5 +1,5 @@
-// Every result of Grid must equal that of Dyadic, and Grid must decide most cases with coordinates
-// that occur in scenes.
+// Checks that every result of Grid equals that of Dyadic, and that Grid handles most cases with
+// coordinates that occur in scenes.
 
 #include "exact/grid.hpp"
 
