@@ -25,7 +25,7 @@ def read(path):
 
 
 def scale(values, low, high):
-    """A logarithmic axis that extends slightly beyond the values: its function from values to
+    """Returns a logarithmic axis that extends slightly beyond the values: its function from values to
     coordinates, and the logarithms of its ends."""
     first, last = math.log10(min(values) / 1.15), math.log10(max(values) * 1.15)
     return lambda v: low + (math.log10(v) - first) / (last - first) * (high - low), first, last

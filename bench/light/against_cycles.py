@@ -41,7 +41,7 @@ def load(asset):
 
 
 def box():
-    """The center of the scene's bounding box, in glTF's axes, and the length of the box's diagonal."""
+    """Returns the center of the scene's bounding box, in glTF's axes, and the length of the box's diagonal."""
     graph = bpy.context.evaluated_depsgraph_get()
     corners = []
     for thing in bpy.context.scene.objects:
@@ -120,7 +120,7 @@ def shown(light):
 
 
 def compare(asset, options):
-    """The mean and the 99th percentile of the difference, and the mean light of Cycles' picture and of microtrace's."""
+    """Returns the mean and the 99th percentile of the difference, and the mean light of Cycles' picture and of microtrace's."""
     sky, theirs, ours = (options.folder / name for name in ("sky.hdr", f"{asset.stem}_cycles.exr", f"{asset.stem}.exr"))
     load(asset)
     target, diagonal = box()

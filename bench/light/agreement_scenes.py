@@ -30,7 +30,7 @@ def quad(corner, along, up):
 
 
 def box(low, high):
-    """The six faces of a box. Their front sides are outside."""
+    """Returns the six faces of a box. Their front sides are outside."""
     x, y, z = np.diag(np.subtract(high, low).astype(float))
     low, high = np.array(low, float), np.array(high, float)
     return [quad(low, y, x), quad(low, z, y), quad(low, x, z), quad(high, -x, -y), quad(high, -y, -z), quad(high, -z, -x)]

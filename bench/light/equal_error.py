@@ -39,7 +39,7 @@ def main():
     width, height = options.size.split("x")
 
     def ours(spp, seed):
-        """The picture and the processor seconds of rendering."""
+        """Returns the picture and the processor seconds of rendering."""
         seconds = time_helmet.ours(program, folder, options.env, spp, options.size, seed=seed)[1]
         return read(folder / "ours.exr"), seconds
 

@@ -21,7 +21,7 @@ def bump(x, width):
 
 
 def shell(u, v):
-    """A skull with a crest, ears and a hollow for the visor. v starts at the top, and +z is the front."""
+    """Returns a skull with a crest, ears and a hollow for the visor. v starts at the top, and +z is the front."""
     phi, theta = (u - 0.5) * 2 * np.pi, v * np.pi
     d = np.stack([np.sin(phi) * np.sin(theta), np.cos(theta), np.cos(phi) * np.sin(theta)], -1)
     x, y, z = d[..., 0], d[..., 1], d[..., 2]
@@ -63,7 +63,7 @@ def hose(side):
 
 
 def patch(surface, columns, rows, box):
-    """A mesh of the surface over a grid in the unit square of (u, v). Its texture coordinates fill `box`."""
+    """Returns a mesh of the surface over a grid in the unit square of (u, v). Its texture coordinates fill `box`."""
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
     p, e = surface(u, v), 1e-4
     inner = np.clip(v, 2 * e, 1 - 2 * e)  # the direction along u is undefined at a pole
@@ -100,7 +100,7 @@ def helmet():
 
 
 def camera_rotation():
-    """The quaternion that rotates -z to the direction from the eye to the target and keeps +y up."""
+    """Returns the quaternion that rotates -z to the direction from the eye to the target and keeps +y up."""
     back = np.subtract(EYE, TARGET)
     yaw = np.arctan2(back[0], back[2]) / 2
     pitch = -np.arctan2(back[1], np.hypot(back[0], back[2])) / 2

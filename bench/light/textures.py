@@ -7,7 +7,7 @@ SIZE = 2048
 
 
 def noise(random, size, cells):
-    """Periodic noise in [0, 1], interpolated smoothly between random values on a grid of cells x cells."""
+    """Returns periodic noise in [0, 1], interpolated smoothly between random values on a grid of cells x cells."""
     grid = random.random((cells, cells)).astype(np.float32)
     at = np.arange(size, dtype=np.float32) * cells / size
     low = at.astype(int)
@@ -19,7 +19,7 @@ def noise(random, size, cells):
 
 
 def cloudy(random, first, octaves):
-    """A sum of noises of several scales, in [0, 1]."""
+    """Returns a sum of noises of several scales, in [0, 1]."""
     sum_, weight = np.zeros((SIZE, SIZE), np.float32), 0.0
     for i in range(octaves):
         sum_ += noise(random, SIZE, first << i) * 0.5**i
@@ -67,7 +67,7 @@ def maps():
 
 
 def sky(width=512):
-    """A sky over brown ground. The sun is about 3 degrees wide, 45 degrees high, and to the right of the front."""
+    """Returns a sky over brown ground. The sun is about 3 degrees wide, 45 degrees high, and to the right of the front."""
     height = width // 2
     v, u = (np.mgrid[0:height, 0:width] + 0.5) / np.array([height, width])[:, None, None]
     theta, phi = v * np.pi, (u - 0.5) * 2 * np.pi

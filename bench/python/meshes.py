@@ -6,7 +6,7 @@ import numpy as np
 
 
 def bumpy_sphere(columns, rows):
-    """Vertices, faces and texture coordinates of a bumpy sphere with about 2 * columns * rows
+    """Returns vertices, faces and texture coordinates of a bumpy sphere with about 2 * columns * rows
     triangles."""
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
     phi, theta = 2 * np.pi * u, np.pi * v
@@ -20,20 +20,20 @@ def bumpy_sphere(columns, rows):
 
 
 def orbit(count):
-    """Positions of cameras around the origin."""
+    """Returns positions of cameras around the origin."""
     turn = 2 * np.pi * np.arange(count) / count
     return np.stack([3.2 * np.sin(turn), np.full(count, 1.0), 3.2 * np.cos(turn)], -1)
 
 
 def random_rays(count):
-    """Rays between uniformly distributed points in two cubes around the unit sphere."""
+    """Returns rays between uniformly distributed points in two cubes around the unit sphere."""
     rng = np.random.default_rng(1)
     origins = rng.uniform(-2, 2, (count, 3))
     return np.concatenate([origins, rng.uniform(-1, 1, (count, 3)) - origins], 1).astype(np.float32)
 
 
 def icosphere(levels):
-    """A subdivided icosahedron with 20 * 4^levels faces."""
+    """Returns a subdivided icosahedron with 20 * 4^levels faces."""
     import trimesh
 
     mesh = trimesh.creation.icosphere(subdivisions=levels)
@@ -53,7 +53,7 @@ def closed_meshes():
 
 
 def aimed_rays(vertices, faces, center, count):
-    """Rays from points near the center. One half is aimed at vertices, the other half at points on
+    """Returns rays from points near the center. One half is aimed at vertices, the other half at points on
     edges."""
     rng = np.random.default_rng(2)
     extent = vertices.max(0).astype(float) - vertices.min(0)

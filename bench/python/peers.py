@@ -1,4 +1,4 @@
-"""Asks microtrace and its peers the same queries, on one thread."""
+"""Runs the same queries with microtrace and its peers, on one thread."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FOV = 45.0
 
 
 def texture():
-    """A checkerboard of 512 x 512 pixels."""
+    """Returns a checkerboard of 512 x 512 pixels."""
     grid = (np.indices((512, 512)) // 32).sum(0) % 2
     return np.repeat((grid * 200 + 40).astype(np.uint8)[..., None], 3, -1)
 
@@ -34,7 +34,7 @@ def frame(eye):
 
 
 def directions(eye, size):
-    """Directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
+    """Returns directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
     float32."""
     width, height = size
     forward, right, up = frame(eye)

@@ -164,7 +164,7 @@ class RaycastingScene:
         self, query_points: Any, nthreads: int = 0, nsamples: int = 1
     ) -> Tensor:
         """Returns the distance of each point from the triangles, negative inside, float32.
-        `nsamples` has no effect, because one exact test suffices."""
+        `nsamples` has no effect, because one exact test is sufficient."""
         points, threads = _numbers(query_points), nthreads or self._threads
         prepared = self._prepared()
         distance = prepared.closest_point(points, threads=threads).distance

@@ -15,8 +15,7 @@ namespace microtrace::python {
 namespace {
 
 /// A block of memory for an array. The memory of deleted arrays is kept for new arrays of the same
-/// size, because the system takes as long to provide cleared pages as the library takes to fill
-/// them.
+/// size, because getting cleared pages from the system takes as long as filling them.
 class Memory {
  public:
   explicit Memory(std::size_t bytes) : bytes_(rounded(bytes)), data_(take(bytes_)) {

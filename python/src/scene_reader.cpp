@@ -26,7 +26,7 @@ Enum named(const std::string& name, const std::array<const char*, n>& names, con
   throw nb::value_error((std::string(what) + " must be one of " + all + ", not " + name).c_str());
 }
 
-/// Assigns consecutive places to Python objects.
+/// Assigns consecutive indices, called places, to Python objects.
 class Places {
  public:
   /// Returns the object's place. If the object is new, calls add(), which appends the object to its

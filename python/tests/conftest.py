@@ -15,7 +15,7 @@ SCENES = REPOSITORY / "scenes"
 
 @pytest.fixture
 def program() -> str:
-    """The program of the same version, which pip installs beside Python."""
+    """Returns the program of the same version, which pip installs beside Python."""
     installed = Path(sys.executable).parent / "microtrace"
     found = os.environ.get("MICROTRACE_PROGRAM") or str(installed)
     assert Path(found).exists(), "install the package or set MICROTRACE_PROGRAM"
@@ -28,7 +28,7 @@ def rng() -> np.random.Generator:
 
 
 def icosphere(levels: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices and faces of a subdivided icosahedron, closed and facing outward."""
+    """Returns vertices and faces of a subdivided icosahedron, closed and facing outward."""
     g = (1 + 5**0.5) / 2
     corners = [(s, t, 0.0) for s in (-1.0, 1.0) for t in (-g, g)]
     vertices = [np.roll(corner, k) for k in range(3) for corner in corners]

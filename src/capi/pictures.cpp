@@ -69,7 +69,7 @@ std::vector<Aov> aovs_of(const char* names) {
   return aovs;
 }
 
-/// Copies the values of a channel, whose numbers must be of type Number.
+/// Copies the values of a channel. Its numbers must have the type Number.
 template <class Number>
 mt_status copy_channel(const mt_film* film, std::size_t channel, Number* values) {
   return guarded([&] {

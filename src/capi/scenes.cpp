@@ -136,7 +136,7 @@ mt_status mt_scene_from_meshes(const mt_mesh* meshes, size_t count, uint32_t thr
     if (count > 0) require(meshes, "meshes");
     require(scene, "scene");
     LoadedScene loaded;
-    // The caller may have been compiled with a shorter mt_mesh.
+    // The caller may have been compiled with an older header, in which mt_mesh is smaller.
     const auto* bytes = reinterpret_cast<const unsigned char*>(meshes);
     const std::size_t stride = count > 0 ? meshes->size : 0;
     for (std::size_t i = 0; i < count; ++i, bytes += stride) {

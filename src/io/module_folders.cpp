@@ -7,7 +7,7 @@
 #include <sys/auxv.h>
 #include <system_error>
 
-/// Defined in programs to which CMake links the static library.
+/// Defined only in programs that CMake links with the static library.
 extern "C" [[gnu::weak, gnu::visibility("hidden")]] const char microtrace_module_folder[];
 
 namespace microtrace::io {

@@ -13,7 +13,7 @@ class Option:
 
     @property
     def name(self):
-        """The first long name, or the name of a positional argument."""
+        """Returns the first long name, or the name of a positional argument."""
         return next((name for name in self.names if name.startswith("--")), self.names[0])
 
 

@@ -33,7 +33,7 @@ def error_pointers(report):
 
 
 def names_one_of(complaints, pointers):
-    """True if a message points to the place of an error, or to a place above or below it.
+    """Returns True if a message points to the place of an error, or to a place above or below it.
 
     The two programs differ in the depth of pointers.
     """

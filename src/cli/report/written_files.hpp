@@ -13,8 +13,8 @@ struct WrittenFiles {
   std::filesystem::path sidecar;  ///< empty if there is none
 };
 
-/// Prints a line like "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Doesn't mention
-/// standard output.
+/// Prints a line like "wrote a.png: 640 x 480 pixels, 64 samples each, in 1.2 s". Prints nothing
+/// about files that are standard output.
 void report_written(const WrittenFiles& files, ImageSize size, std::uint32_t samples,
                     double seconds);
 

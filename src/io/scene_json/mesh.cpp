@@ -103,7 +103,7 @@ MeshFiles::MeshFiles(const std::filesystem::path& folder, const LoadOptions& opt
 MeshFiles::~MeshFiles() = default;
 
 void MeshFiles::expect(const JsonReader& json) {
-  // An invalid member "file" is reported when it is read.
+  // If the member "file" is invalid, read() reports it.
   if (const JsonValue* file = json.value().find("file")) ++uses_[file->string];
 }
 

@@ -5,7 +5,7 @@ At least one test must fail. If an entry cites a proof beside the bound, only th
 usage: mutations.py BUILD FOLDER [NAME...]
 
 BUILD is a Ninja build of the unchanged source. Unchanged object files are taken from it. FOLDER receives the copy. If NAMEs
-are given, only bounds whose name contains one of them are tried. Not part of ctest, because it takes some minutes. The exit
+are given, only bounds whose name contains one of them are tried. Not part of ctest, because it takes a few minutes. The exit
 status is 1 if a halved bound is undetected or no longer exists.
 """
 

@@ -119,9 +119,9 @@ Mesh hull(std::vector<Vec3> points) {
     for (auto& t : mesh.triangles.edit()) std::swap(t[1], t[2]);
   }
   for (std::uint32_t i = 4; i < mesh.positions.size(); ++i) {
-    // The edges of the faces that the point sees, with their directions in these faces. Edges
-    // between two such faces cancel. If rounding makes faces overlap, more than two faces may share
-    // an edge. Pairs of opposite edges cancel in this case too.
+    // The edges of the faces that the point sees, with their directions in these faces. An edge
+    // between two such faces cancels. If rounding makes faces overlap, more than two faces may
+    // share an edge, and each pair of them cancels.
     std::map<Edge, Edge> edges;
     std::erase_if(mesh.triangles.edit(), [&](const auto& t) {
       if (side({t[0], t[1], t[2]}, i) <= 0) return false;

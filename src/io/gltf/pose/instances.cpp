@@ -22,7 +22,8 @@ class Maker {
   Maker(Asset& asset, const Model& model, AccessorReader& reader, const Element& at)
       : asset_(asset), model_(model), reader_(reader), attributes_(at.member("attributes")) {}
 
-  /// Makes the transforms. Returns nothing, with a warning, if an attribute's buffer has no data.
+  /// Makes the transforms of the instances. Returns nothing, with a warning, if an attribute's
+  /// buffer has no data.
   std::optional<std::vector<DMat4>> make(std::size_t most) {
     std::optional<std::size_t> count;
     for (const JsonMember& member : attributes_.value->members) {

@@ -24,7 +24,7 @@ class Poser {
   Poser(Asset& asset, const Model& model, AccessorReader& reader, const NodeTree& tree,
         const PosedNodes& pose, const DMat4& world_from_asset);
 
-  /// Returns true if joints place the surface, and not the node's transform.
+  /// Returns true if joints, not the node's transform, determine the surface's position.
   [[nodiscard]] bool has_skin(std::size_t node) const {
     return model_.nodes[node].skin.has_value();
   }

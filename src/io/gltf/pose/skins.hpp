@@ -43,9 +43,9 @@ class Skins {
       : asset_(asset), model_(model), reader_(reader), world_from_node_(world_from_node) {}
 
   /// Reads the joints and weights of a surface. Returns nothing if the skin has no joints or the
-  /// primitive has no JOINTS_0. The node's transform then places the surface. Scales weights that
-  /// don't sum to 1, with a warning. Vertices without weights follow their first joint. Throws
-  /// Error (invalid_scene) for a joint missing from the skin.
+  /// primitive has no JOINTS_0. In these cases, the node's transform determines the surface's
+  /// position. Scales weights that don't sum to 1, with a warning. Vertices without weights follow
+  /// their first joint. Throws Error (invalid_scene) for a joint missing from the skin.
   [[nodiscard]] std::optional<JointBlend> blend(std::size_t skin, std::size_t mesh,
                                                 const Surface& surface);
 

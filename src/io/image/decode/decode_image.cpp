@@ -21,8 +21,8 @@ struct Decoding {
   std::exception_ptr failure{};
 };
 
-/// An upper bound of a decoder's working memory per pixel, for example coefficients of a
-/// progressive JPEG or colors of a WebP. The decoded pixels are counted separately.
+/// An upper bound of a decoder's working memory in bytes per pixel, for example for coefficients of
+/// a progressive JPEG or colors of a WebP. The decoded pixels are counted separately.
 constexpr std::uint64_t kWorkOfPixel = 6;
 
 void* begin(void* context, const MicrotraceImageHeader* header) {
