@@ -85,7 +85,7 @@ DatasetIdentity read_identity(const fs::path& path) {
   return identity;
 }
 
-/// The first difference that makes two data sets different.
+/// Returns the first difference between two data sets.
 std::optional<std::string> difference(const DatasetIdentity& a, const DatasetIdentity& b) {
   if (a.program != b.program) return "another version, " + a.program + " instead of " + b.program;
   if (a.scene != b.scene) return "another scene, " + a.scene + " instead of " + b.scene;
@@ -137,8 +137,8 @@ DatasetFile existing(const fs::path& folder, const std::string& name) {
   return *file;
 }
 
-/// True if the folder contains nothing but what another process that starts the same data set may
-/// have written so far.
+/// Returns true if the folder contains nothing but what another process that starts the same data
+/// set may have written so far.
 bool is_unused(const fs::path& folder) {
   std::error_code error;
   return std::ranges::all_of(fs::directory_iterator(folder, error), [](const auto& entry) {

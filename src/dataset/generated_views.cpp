@@ -8,16 +8,16 @@
 namespace microtrace {
 namespace {
 
-/// The view whose direction has this azimuth in degrees and this height above the center of a unit
-/// sphere, in [-1, 1].
+/// Returns the view whose direction has this azimuth in degrees and this height above the center of
+/// a unit sphere, in [-1, 1].
 DatasetView view_at(double azimuth, double height) {
   const double radius = std::sqrt((1 - height) * (1 + height));
   const double elevation = atan2_radians(height, radius) * (180 / std::numbers::pi);
   return {.camera = View{.azimuth = azimuth, .elevation = elevation}};
 }
 
-/// A number in [0, 1): SplitMix64 (G. Steele, D. Lea and C. Flood, Fast splittable pseudorandom
-/// number generators, 2014) at position `index`.
+/// Returns a number in [0, 1): SplitMix64 (G. Steele, D. Lea and C. Flood, Fast splittable
+/// pseudorandom number generators, 2014) at position `index`.
 double random(std::uint64_t seed, std::uint64_t index) {
   std::uint64_t z = (seed << 32U) + (index + 1) * 0x9e3779b97f4a7c15U;
   z = (z ^ z >> 30U) * 0xbf58476d1ce4e5b9U;
@@ -36,7 +36,7 @@ std::vector<DatasetView> orbit_views(std::uint32_t count, double elevation) {
 
 std::vector<DatasetView> hemisphere_views(std::uint32_t count) {
   std::vector<DatasetView> views;
-  // The turn between consecutive points is 1 / (golden ratio)^2 of a revolution.
+  // The angle between consecutive points is 1 / (golden ratio)^2 of a revolution.
   constexpr double kTurn = 2 - std::numbers::phi;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double revolutions = i * kTurn;

@@ -14,7 +14,7 @@ namespace {
 
 using io::JsonReader;
 
-/// A name that can be part of a file name.
+/// Returns a name that can be part of a file name.
 std::string read_name(const JsonReader& json) {
   std::string name = json.name();
   const bool is_safe = std::ranges::all_of(name, [](char c) {

@@ -47,7 +47,7 @@ struct CameraFrame {
       result[k] = axes[k / 3][static_cast<glm::length_t>(k % 3)] + 0.0;  // -0 becomes 0
     return result;
   }
-  /// The point in camera space, times `scale`.
+  /// Returns the point in camera space, times `scale`.
   [[nodiscard]] std::array<double, 3> of(const DVec3& point, double scale) const {
     const DVec3 way = point - position;
     std::array<double, 3> result{};
@@ -60,7 +60,8 @@ struct CameraFrame {
   DVec3 position;
 };
 
-/// A bounding box as bop_toolkit computes it: corner, and differences of the pixels' coordinates.
+/// Returns a bounding box as bop_toolkit computes it: corner, and differences of the pixels'
+/// coordinates.
 std::string bop_box(const Mask* mask) {
   if (mask == nullptr) return "[-1,-1,-1,-1]";
   const PixelRect& box = mask->box();
@@ -120,7 +121,7 @@ void check(const DrawnView& view, const BopOptions& options) {
     throw Error(ErrorKind::usage, view.name, "a view needs a depth for each of its pixels");
 }
 
-/// The value of scene_camera.json for an image.
+/// Returns the value of scene_camera.json for an image.
 std::string camera_json(const CameraModel& model, const CameraFrame& frame, const DVec3& world,
                         const BopOptions& options) {
   const std::array<double, 9> k{model.pixels_per_unit.x,

@@ -63,7 +63,7 @@ class PointTree {
     return index;
   }
 
-  /// An upper bound of the squared distances between the points of two nodes.
+  /// Returns an upper bound of the squared distances between the points of two nodes.
   [[nodiscard]] double bound(std::size_t a, std::size_t b) const {
     const Node &p = nodes_[a], &q = nodes_[b];
     return squared_distance(glm::max(p.high - q.low, q.high - p.low), DVec3(0));

@@ -21,12 +21,12 @@ std::string segmentation(const Mask& mask, ImageSize size) {
       .text();
 }
 
-/// The last line of a part.
+/// Returns the last line of a part.
 std::string end_of_part(std::size_t annotations) {
   return JsonText('{').member("annotations", static_cast<std::uint64_t>(annotations)).text();
 }
 
-/// The lines of a part without the last one.
+/// Returns the lines of a part without the last one.
 std::vector<std::string_view> lines_of(std::string_view part, std::size_t index) {
   std::vector<std::string_view> lines;
   for (std::size_t end = 0; (end = part.find('\n')) != std::string_view::npos;) {

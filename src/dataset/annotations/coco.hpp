@@ -26,7 +26,7 @@ class Categories {
   /// Adds the categories of all objects of a scene, in their order.
   void add(const Scene& scene);
 
-  /// The number of an object's category. Throws Error (usage) if it was not added.
+  /// Returns the number of an object's category. Throws Error (usage) if it was not added.
   [[nodiscard]] std::uint32_t of(const Scene& scene, const Object& object) const;
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }

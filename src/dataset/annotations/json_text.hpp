@@ -35,20 +35,20 @@ class JsonText {
     append(value);
     return *this;
   }
-  /// Adds an element that is JSON already.
+  /// Adds an element that is given as JSON text.
   JsonText& json_item(std::string_view json) {
     separate();
     text_ += json;
     return *this;
   }
-  /// Adds a member that is JSON already.
+  /// Adds a member whose value is given as JSON text.
   JsonText& json_member(std::string_view name, std::string_view json) {
     key(name);
     text_ += json;
     return *this;
   }
 
-  /// The text, with the closing bracket.
+  /// Returns the text, with the closing bracket.
   [[nodiscard]] std::string text() const { return text_ + (text_[0] == '{' ? '}' : ']'); }
 
  private:
@@ -65,7 +65,7 @@ class JsonText {
   std::string text_;
 };
 
-/// A JSON array of numbers.
+/// Returns a JSON array of numbers.
 template <class Numbers>
 [[nodiscard]] std::string json_array(const Numbers& numbers) {
   JsonText array('[');

@@ -17,7 +17,7 @@ struct PixelRun {
   [[nodiscard]] bool operator==(const PixelRun&) const = default;
 };
 
-/// A set of pixels. It takes memory for its outline only.
+/// A set of pixels. It stores runs of pixels in rows, so its memory is proportional to its outline.
 class Mask {
  public:
   /// Adds a pixel. Pixels must be added row by row, and from left to right in each row.
@@ -25,7 +25,7 @@ class Mask {
 
   /// The pixels in order. Runs neither overlap nor touch.
   [[nodiscard]] const std::vector<PixelRun>& runs() const { return runs_; }
-  /// The number of pixels.
+  /// Returns the number of pixels.
   [[nodiscard]] std::uint64_t area() const { return area_; }
   /// The bounding box. All 0 if the mask is empty.
   [[nodiscard]] const PixelRect& box() const { return box_; }
@@ -36,8 +36,9 @@ class Mask {
   PixelRect box_;
 };
 
-/// The run lengths of a mask in the order of COCO: column by column, beginning with the number of
-/// pixels outside the mask, which may be 0. Their sum is the number of pixels of the picture.
+/// Returns the run lengths of a mask in the order of COCO: column by column, beginning with the
+/// number of pixels outside the mask, which may be 0. Their sum is the number of pixels of the
+/// picture.
 [[nodiscard]] std::vector<std::uint64_t> column_counts(const Mask& mask, ImageSize size);
 
 /// Encodes run lengths as the `counts` string of COCO's compressed run-length encoding: the

@@ -17,7 +17,8 @@
 namespace microtrace::dataset {
 namespace {
 
-/// An object covers a pixel. Pixels are numbered row by row from the first row of a strip.
+/// A pixel, and an object that covers it. Pixels are numbered row by row from the first row of a
+/// strip.
 struct Cover {
   std::uint32_t object, pixel;
 
@@ -29,8 +30,8 @@ void sort_without_duplicates(std::vector<Cover>& covers) {
   covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
 }
 
-/// Collects the objects on the camera rays of a strip of the picture. Being an integrator, it gets
-/// the same rays as the AOVs, and the same coverage of surfaces.
+/// Collects the objects that the camera rays of a strip of the picture hit. It is an integrator, so
+/// it gets the same rays as the AOVs and treats partly transparent surfaces in the same way.
 class CoverCollector final : public Integrator {
  public:
   CoverCollector(std::uint32_t width, std::uint32_t first_row)
@@ -63,7 +64,7 @@ class CoverCollector final : public Integrator {
 
   [[nodiscard]] bool is_data() const override { return true; }
 
-  /// All covers so far, in order.
+  /// Returns all covers so far, in order.
   [[nodiscard]] std::vector<Cover> take() {
     sort_without_duplicates(covers_);
     return std::move(covers_);

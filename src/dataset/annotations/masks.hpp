@@ -19,19 +19,19 @@ struct ObjectMask {
 /// Masks in the order of the objects. Objects without pixels are left out.
 using Masks = std::vector<ObjectMask>;
 
-/// The object's mask, or null if it has no pixels.
+/// Returns the object's mask, or null if it has no pixels.
 [[nodiscard]] const Mask* find_mask(const Masks& masks, std::uint32_t object);
 
-/// The pixels in which each object is visible. Throws Error (usage) if view.objects doesn't have
-/// one value per pixel, or if the scene has fewer objects.
+/// Returns the pixels in which each object is visible. Throws Error (usage) if view.objects doesn't
+/// have one value per pixel, or if the scene has fewer objects.
 [[nodiscard]] Masks visible_masks(const DrawnView& view);
 
-/// The amodal masks: the pixels in which each object would be visible without the other objects.
-/// The ray through the pixel's center hits the object at a point that is neither a culled back face
-/// nor removed by an alpha mask; other surfaces may be in front of it. The visible mask is a part
-/// of the amodal mask. Pixels outside the picture don't count. The memory needed is that of the
-/// masks and of the hits of some 65 000 pixels. Throws Error: limit if memory runs out, canceled if
-/// options.progress returns false.
+/// Returns the amodal masks: the pixels in which each object would be visible without the other
+/// objects. The ray through the pixel's center hits the object at a point that is neither a culled
+/// back face nor removed by an alpha mask; other surfaces may be in front of it. The visible mask
+/// is a part of the amodal mask. Pixels outside the picture don't count. The memory needed is that
+/// of the masks and of the hits of some 65 000 pixels. Throws Error: limit if memory runs out,
+/// canceled if options.progress returns false.
 [[nodiscard]] Masks amodal_masks(const PreparedScene& scene, const Camera& camera, ImageSize size,
                                  const QueryOptions& options = {});
 

@@ -7,7 +7,7 @@
 
 namespace microtrace::dataset {
 
-/// The vertices of a mesh or triangle; empty for other shapes.
+/// Returns the vertices of a mesh or triangle; empty for other shapes.
 [[nodiscard]] inline std::vector<Vec3> mesh_points(const Shape& shape) {
   if (const auto* mesh = std::get_if<Mesh>(&shape))
     return {mesh->positions.begin(), mesh->positions.end()};

@@ -12,7 +12,7 @@
 namespace microtrace::dataset {
 namespace {
 
-/// The checksum of ZIP archives, CRC-32 (ISO/IEC 13239).
+/// Returns the checksum of ZIP archives, CRC-32 (ISO/IEC 13239).
 std::uint32_t checksum(std::string_view bytes) {
   static const std::array<std::uint32_t, 256> table = [] {
     std::array<std::uint32_t, 256> entries{};
@@ -35,7 +35,7 @@ constexpr std::string_view kType<std::uint32_t> = "<u4";
 template <>
 constexpr std::string_view kType<std::uint8_t> = "|u1";
 
-/// The .npy file of an array, format version 1.0: its data begin at a multiple of 64 bytes.
+/// Returns the .npy file of an array, format version 1.0: its data begin at a multiple of 64 bytes.
 std::string npy(const NpzArray& array) {
   std::size_t count = 1;
   std::string shape = "(";
@@ -69,7 +69,8 @@ std::string npy(const NpzArray& array) {
       array.values);
 }
 
-/// The part of a file's header that occurs at the file and in the archive's directory.
+/// Returns the part of a file's header that occurs both before the file and in the archive's
+/// directory.
 std::string common_header(std::string_view name, std::string_view file) {
   constexpr std::uint16_t kUtf8 = 1 << 11;         // names are UTF-8
   constexpr std::uint16_t kFirstDay = 1 << 5 | 1;  // January 1, 1980
