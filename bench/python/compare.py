@@ -23,7 +23,7 @@ import peers
 
 
 def median_times(jobs, rounds):
-    """Returns the median processor time of each job. The jobs take turns, after one round of warming up."""
+    """The median processor time of each job. The jobs take turns, after one round of warming up."""
     times = {name: [] for name in jobs}
     for k in range(rounds + 1):
         for name, job in jobs.items():
@@ -35,13 +35,13 @@ def median_times(jobs, rounds):
 
 
 def has_llvm():
-    """Returns True if the caller has chosen a version of LLVM. The choice is the caller's, because older
+    """True if the caller has chosen a version of LLVM. The choice is the caller's, because older
     versions abort on processors with AVX-512."""
     return bool(os.environ.get("DRJIT_LIBLLVM_PATH"))
 
 
 def views(quick, rounds):
-    """Measures how many views of a textured model are rendered per processor second: depth, both normals and object."""
+    """Measures views per processor second: depth, both normals and object of a textured model."""
     vertices, faces, uv = meshes.bumpy_sphere(90, 86)
     count, size = (4, (160, 120)) if quick else (100, (640, 480))
     makers = {"microtrace": peers.microtrace_views, "Open3D": peers.open3d_views,
@@ -59,7 +59,7 @@ def views(quick, rounds):
 
 
 def rays(quick, rounds):
-    """Measures how many random rays are traced per processor second. Each query returns t and ids in NumPy arrays."""
+    """Measures random rays per processor second. Queries return t and ids in NumPy arrays."""
     edge = 60 if quick else 708
     vertices, faces, _ = meshes.bumpy_sphere(edge, edge)
     batch = meshes.random_rays(10**4 if quick else 10**7)
@@ -95,7 +95,7 @@ def edges(quick, _):
 
 
 def start(quick, rounds):
-    """Returns processor seconds and resident MiB of importing a package and loading a scene, in excess of
+    """processor seconds and resident MiB of importing a package and loading a scene, in excess of
     importing NumPy."""
     model = os.path.join(os.path.dirname(__file__), "..", "..", "scenes", "gltf", "textured.glb")
     programs = {

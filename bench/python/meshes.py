@@ -6,7 +6,7 @@ import numpy as np
 
 
 def bumpy_sphere(columns, rows):
-    """Returns vertices, faces and texture coordinates of a bumpy sphere with about 2 * columns * rows
+    """vertices, faces and texture coordinates of a bumpy sphere with about 2 * columns * rows
     triangles."""
     u, v = np.meshgrid(np.linspace(0, 1, columns + 1), np.linspace(0, 1, rows + 1))
     phi, theta = 2 * np.pi * u, np.pi * v
@@ -53,7 +53,7 @@ def closed_meshes():
 
 
 def aimed_rays(vertices, faces, center, count):
-    """Returns rays from points near the center. One half is aimed at vertices, the other half at points on
+    """rays from points near the center. One half is aimed at vertices, the other half at points on
     edges."""
     rng = np.random.default_rng(2)
     extent = vertices.max(0).astype(float) - vertices.min(0)

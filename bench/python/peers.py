@@ -34,7 +34,7 @@ def frame(eye):
 
 
 def directions(eye, size):
-    """Returns directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
+    """directions of the rays through the pixel centers, scaled to depth 1: (height, width, 3)
     float32."""
     width, height = size
     forward, right, up = frame(eye)

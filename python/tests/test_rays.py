@@ -18,7 +18,7 @@ from hypothesis.extra.numpy import arrays
 
 
 def exact_hit(ray: np.ndarray, corners: np.ndarray) -> Fraction | None:
-    """Returns the exact t of the hit with a triangle that is not degenerate and not seen edge-on."""
+    """The exact t of the hit with a triangle that is not degenerate and not seen edge-on."""
     o, d = ([Fraction(float(x)) for x in part] for part in (ray[:3], ray[3:]))
     a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
 
