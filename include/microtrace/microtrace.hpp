@@ -1,12 +1,12 @@
 #pragma once
 /// Includes all headers of the library.
 
+#include <microtrace/annotations.hpp>
 #include <microtrace/aov.hpp>
 #include <microtrace/array.hpp>
 #include <microtrace/bvh.hpp>
 #include <microtrace/camera.hpp>
 #include <microtrace/checkpoint.hpp>
-#include <microtrace/coco.hpp>
 #include <microtrace/dataset.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/digest.hpp>

@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import REPOSITORY, SCENES
+from PIL import Image
 from pycocotools import mask as coco_mask
 from pycocotools.coco import COCO
 
@@ -97,6 +98,81 @@ def test_amodal_masks_contain_visible_ones(program, tmp_path):
         assert annotation["occlude_rate"] == pytest.approx(1 - visible.sum() / amodal.sum())
         hidden += int(amodal.sum() - visible.sum())
     assert hidden > 0
+
+
+def test_npz_has_the_numbers_of_exr(program, tmp_path):
+    folder = tmp_path / "set"
+    dataset(
+        program,
+        folder,
+        "--views",
+        "orbit:2",
+        "--size",
+        "31x22",
+        "--formats",
+        "exr,npz",
+        "--aov",
+        "depth,normal,id",
+        "--background",
+        "transparent",
+    )
+    for view in range(2):
+        picture = Exr(folder / f"{view:06d}.exr")
+        arrays = np.load(folder / f"{view:06d}.npz")
+        names = {
+            "color": ["R", "G", "B", "A"],
+            "depth": ["depth.Z"],
+            "normal": ["normal.X", "normal.Y", "normal.Z"],
+            "id": ["id.instance", "id.primitive", "id.material"],
+        }
+        assert set(arrays) == set(names)
+        for name, channels in names.items():
+            expected = np.stack([np.array(picture.channels[c]) for c in channels], -1)
+            dtype = np.uint32 if name == "id" else np.float32
+            expected = expected.astype(dtype).reshape(arrays[name].shape)
+            assert arrays[name].dtype == dtype
+            assert np.array_equal(arrays[name], expected), name
+
+
+def test_bop_has_the_ids_and_depths_of_exr(program, tmp_path):
+    folder = tmp_path / "set"
+    dataset(
+        program,
+        folder,
+        "--views",
+        "orbit:2",
+        "--size",
+        "47x33",
+        "--formats",
+        "exr,bop",
+        "--aov",
+        "depth,id",
+        "--depth-scale",
+        "0.5",
+    )
+    scene = folder / "bop" / "train" / "000000"
+    info = json.loads((scene / "scene_gt_info.json").read_text())
+    poses = json.loads((scene / "scene_gt.json").read_text())
+    cameras = json.loads((scene / "scene_camera.json").read_text())
+    for view in range(2):
+        picture = Exr(folder / f"{view:06d}.exr")
+        ids = np.array(picture.channels["id.instance"])
+        depth = np.array(picture.channels["depth.Z"])
+        assert cameras[str(view)]["depth_scale"] == 0.5
+        stored = np.array(Image.open(scene / "depth" / f"{view:06d}.png"))
+        seen = (ids != 0) & (depth * 2000 < 65535)
+        assert np.all(np.abs(stored[seen] - depth[seen] * 2000) <= 0.5001)
+        assert Image.open(scene / "rgb" / f"{view:06d}.png").size == (47, 33)
+        for i, (pose, counts) in enumerate(zip(poses[str(view)], info[str(view)], strict=True)):
+            visible, whole = (
+                np.array(Image.open(scene / name / f"{view:06d}_{i:06d}.png")) == 255
+                for name in ("mask_visib", "mask")
+            )
+            assert np.array_equal(visible, ids == pose["obj_id"])
+            assert not np.any(visible & ~whole)
+            assert counts["px_count_visib"] == visible.sum()
+            assert counts["px_count_all"] == whole.sum()
+            assert (folder / "bop" / "models" / f"obj_{pose['obj_id']:06d}.ply").exists()
 
 
 def test_categories(program, tmp_path):

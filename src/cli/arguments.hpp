@@ -4,7 +4,7 @@
 #include "cli/options/values.hpp"
 #include "cli/pictures/frames.hpp"
 
-#include <microtrace/coco.hpp>
+#include <microtrace/annotations.hpp>
 #include <microtrace/defaults.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/io.hpp>
@@ -80,13 +80,14 @@ struct SamplingOptions {
 };
 
 /// A kind of file that a data set has for each view.
-enum class DatasetFormat { png, exr, coco };
+enum class DatasetFormat { png, exr, npz, coco, bop };
 
 struct DatasetOptions {
   std::string views{};  ///< a file or a generator; empty: one view, or the frames
   std::vector<DatasetFormat> formats{DatasetFormat::png};
   std::string name = "{view:06d}";
   CocoOptions coco{};
+  double depth_scale = 0.1;  ///< millimeters per step of BOP's depths
   std::optional<Shard> shard{};
   std::uint32_t redraw = 1;  ///< number of views that `verify` renders again
   /// The options on which the files depend, and their command line.

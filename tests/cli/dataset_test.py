@@ -98,12 +98,13 @@ class Dataset(ProgramTest):
         self.assertEqual(self.contents("parts"), self.contents())
 
     def test_annotations_are_the_same_in_shards(self):
-        options = ["--views", "random:4", *SMALL, "--formats", "png,coco"]
+        options = ["--views", "random:4", *SMALL, "--formats", "png,npz,coco,bop", "--amodal"]
         self.dataset(*options)
         coco = json.loads((self.folder / "out/coco.json").read_text())
         self.assertEqual([image["file_name"] for image in coco["images"]], [f"{view:06d}.png" for view in range(4)])
         self.assertGreater(len(coco["annotations"]), 4)
-        self.assertIn("coco.json", (self.folder / "out/manifest.json").read_text())
+        for name in ("coco.json", "bop/train/000000/scene_gt.json", "000002.npz"):
+            self.assertIn(name, (self.folder / "out/manifest.json").read_text())
         for shard in ("2/2", "1/2"):
             self.dataset(*options, "--shard", shard, output="parts")
         self.assertEqual(self.contents("parts"), self.contents())

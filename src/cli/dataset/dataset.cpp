@@ -40,17 +40,29 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
           .arguments = arguments.dataset.command_line};
 }
 
-/// Writes the files about all views.
+/// Writes the files about all views. `scene` is that of the first view.
 void finish(const Arguments& arguments, const std::vector<DatasetView>& views,
             const DatasetFolder& folder, const Scene& scene) {
-  std::vector<std::string> more;
-  const std::vector<DatasetFormat>& formats = arguments.dataset.formats;
-  if (std::ranges::find(formats, DatasetFormat::coco) != formats.end()) {
-    std::vector<fs::path> parts;
+  const auto parts = [&](DatasetFormat format) {
+    std::vector<fs::path> paths;
     for (std::uint32_t view = 0; view < views.size(); ++view)
-      parts.push_back(folder.path() / annotations_name(arguments, views[view], view));
+      paths.push_back(folder.path() / annotations_name(arguments, views[view], view, format));
+    return paths;
+  };
+  std::vector<std::string> more;
+  if (writes(arguments, DatasetFormat::coco)) {
     more.emplace_back("coco.json");
-    join_coco(parts, scene, arguments.dataset.coco.categories, folder.path() / more.back());
+    join_coco(parts(DatasetFormat::coco), scene, arguments.dataset.coco.categories,
+              folder.path() / more.back());
+  }
+  if (writes(arguments, DatasetFormat::bop)) {
+    join_bop(parts(DatasetFormat::bop), folder.path() / kBopScene);
+    for (const char* name : {"scene_camera.json", "scene_gt.json", "scene_gt_info.json"})
+      more.push_back(std::string(kBopScene) + name);
+    for (const NamedFile& file : bop_models(scene)) {
+      more.push_back("bop/" + file.name);
+      write_dataset_file(folder.path() / more.back(), file.bytes);
+    }
   }
   folder.write_manifest(more);
 }
@@ -89,7 +101,10 @@ void write_dataset(const Arguments& given) {
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(order.size()));
   }
   const std::uint32_t missing = folder.missing();
-  if (missing == 0) finish(arguments, views, folder, renderer.scene());
+  if (missing == 0) {
+    renderer.load(views.front());
+    finish(arguments, views, folder, renderer.scene());
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   report(arguments, rendered, order.size() - rendered, missing, seconds.count());
 }

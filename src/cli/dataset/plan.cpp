@@ -68,8 +68,14 @@ std::string stem_of(const Arguments& arguments, const DatasetView& view, std::ui
 }
 
 std::string annotations_name(const Arguments& arguments, const DatasetView& view,
-                             std::uint32_t index) {
-  return "annotations/" + stem_of(arguments, view, index) + ".txt";
+                             std::uint32_t index, DatasetFormat format) {
+  return "annotations/" + stem_of(arguments, view, index) +
+         (format == DatasetFormat::bop ? ".bop.txt" : ".coco.txt");
+}
+
+bool writes(const Arguments& arguments, DatasetFormat format) {
+  const std::vector<DatasetFormat>& formats = arguments.dataset.formats;
+  return std::ranges::find(formats, format) != formats.end();
 }
 
 std::vector<std::uint32_t> rendering_order(const std::vector<DatasetView>& views,

@@ -19,9 +19,15 @@ namespace microtrace::cli {
 [[nodiscard]] std::string stem_of(const Arguments& arguments, const DatasetView& view,
                                   std::uint32_t index);
 
-/// The name of the file with a view's annotations for COCO.
+/// The name of the file with a view's annotations for COCO or BOP, until they are joined.
 [[nodiscard]] std::string annotations_name(const Arguments& arguments, const DatasetView& view,
-                                           std::uint32_t index);
+                                           std::uint32_t index, DatasetFormat format);
+
+/// Returns true if the data set has files of this format.
+[[nodiscard]] bool writes(const Arguments& arguments, DatasetFormat format);
+
+/// The folder of the views in BOP's format.
+inline constexpr const char* kBopScene = "bop/train/000000/";
 
 /// The indices of the shard's views, ordered so that views with the same variant, time and
 /// environment follow each other: such views share one preparation.

@@ -15,11 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The extension of the pictures.
-const char* extension_of(DatasetFormat format) {
-  return format == DatasetFormat::exr ? ".exr" : ".png";
-}
-
 void create_folder_of(const fs::path& path) {
   std::error_code error;
   fs::create_directories(path.parent_path(), error);  // writing the file reports failures
@@ -94,38 +89,43 @@ Camera ViewRenderer::camera_of(const DatasetView& view, ImageSize size) const {
   return choose_camera(*scene_, options, size);
 }
 
-bool ViewRenderer::writes(DatasetFormat format) const {
-  const std::vector<DatasetFormat>& formats = arguments_.dataset.formats;
-  return std::ranges::find(formats, format) != formats.end();
-}
-
-std::string ViewRenderer::save_annotations(const DatasetView& view, CocoPicture picture,
-                                           const Film& film, const fs::path& folder) const {
-  const auto ids = std::ranges::find(film.channels, "id.instance", &Channel::name);
-  const DatasetFormat format = writes(DatasetFormat::exr) && !writes(DatasetFormat::png)
-                                   ? DatasetFormat::exr
-                                   : DatasetFormat::png;
-  picture.file = stem_of(arguments_, view, picture.index) + extension_of(format);
-  picture.size = film.size();
-  picture.ids = std::get<std::vector<std::uint32_t>>(ids->values);
-  CocoOptions options = arguments_.dataset.coco;
-  options.threads = arguments_.threads;
-  std::string name = annotations_name(arguments_, view, picture.index);
-  write_dataset_file(folder / name, coco_annotations(*prepared_, picture, options));
-  return name;
-}
-
-std::string ViewRenderer::save(Film& film, DatasetFormat format, const std::string& stem,
-                               const fs::path& folder) const {
-  std::string name = stem + extension_of(format);
+std::string ViewRenderer::save_picture(Film& film, const std::string& name,
+                                       const fs::path& folder) const {
   const fs::path path = folder / name;
   create_folder_of(path);
   // PNG stores only colors.
   std::vector<Channel> hidden;
-  if (format == DatasetFormat::png) hidden.swap(film.channels);
+  const bool hides = path.extension() == ".png";
+  if (hides) hidden.swap(film.channels);
   save_image(film, path);
-  if (format == DatasetFormat::png) hidden.swap(film.channels);
+  if (hides) hidden.swap(film.channels);
   return name;
+}
+
+std::string ViewRenderer::save_coco(const DatasetView& view, AnnotatedPicture picture,
+                                    const fs::path& folder) const {
+  const bool is_exr =
+      writes(arguments_, DatasetFormat::exr) && !writes(arguments_, DatasetFormat::png);
+  picture.file = stem_of(arguments_, view, picture.index) + (is_exr ? ".exr" : ".png");
+  std::string name = annotations_name(arguments_, view, picture.index, DatasetFormat::coco);
+  write_dataset_file(folder / name, coco_annotations(*prepared_, picture, arguments_.dataset.coco,
+                                                     arguments_.threads));
+  return name;
+}
+
+void ViewRenderer::save_bop(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
+                            const fs::path& folder, std::vector<std::string>& names) {
+  const BopAnnotations bop =
+      bop_annotations(*prepared_, picture, arguments_.dataset.depth_scale, arguments_.threads);
+  warnings_.report(bop.warnings);
+  const auto save = [&](const std::string& name, const std::string& bytes) {
+    write_dataset_file(folder / name, bytes);
+    names.push_back(name);
+  };
+  for (const NamedFile& file : bop.files) save(kBopScene + file.name, file.bytes);
+  save(annotations_name(arguments_, view, picture.index, DatasetFormat::bop), bop.part);
+  const std::string color = dataset_file_name("rgb/{view:06d}.png", "", picture.index, "");
+  names.push_back(save_picture(film, kBopScene + color, folder));
 }
 
 std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint32_t index,
@@ -145,24 +145,44 @@ std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint
                         .filter = arguments_.sampling.filter,
                         .seed = arguments_.sampling.seed,
                         .memory = &memory_,
-                        .crop = arguments_.crop,
                         .aovs = arguments_.aovs.exact,
                         .sampled_aovs = arguments_.aovs.sampled,
                         .transparent = arguments_.environment.is_transparent()};
-  const bool needs_ids =
-      writes(DatasetFormat::coco) && std::ranges::find(options.aovs, Aov::id) == options.aovs.end();
-  if (needs_ids) options.aovs.push_back(Aov::id);
+  // Channels for annotations that the pictures don't need.
+  std::vector<Aov> hidden;
+  const auto need = [&](Aov aov) {
+    if (std::ranges::find(options.aovs, aov) != options.aovs.end()) return;
+    options.aovs.push_back(aov);
+    hidden.push_back(aov);
+  };
+  const bool is_bop = writes(arguments_, DatasetFormat::bop);
+  if (is_bop || writes(arguments_, DatasetFormat::coco)) need(Aov::id);
+  if (is_bop) need(Aov::depth);
   const Camera camera = camera_of(view, size);
   Film film = microtrace::render(*prepared_, camera, size, options);
   apply_display(film, arguments_.display);
-  const std::string stem = stem_of(arguments_, view, index);
   std::vector<std::string> names;
-  if (writes(DatasetFormat::coco))
-    names.push_back(save_annotations(view, {.index = index, .camera = camera}, film, folder));
-  if (needs_ids)
-    std::erase_if(film.channels, [](const Channel& c) { return c.name.starts_with("id."); });
-  for (const DatasetFormat format : arguments_.dataset.formats) {
-    if (format != DatasetFormat::coco) names.push_back(save(film, format, stem, folder));
+  AnnotatedPicture picture{.index = index, .camera = camera, .size = size};
+  for (const Channel& channel : film.channels) {
+    if (channel.name == "id.instance")
+      picture.ids = std::get<std::vector<std::uint32_t>>(channel.values);
+    if (channel.name == "depth.Z") picture.depth = std::get<std::vector<float>>(channel.values);
+  }
+  if (writes(arguments_, DatasetFormat::coco)) names.push_back(save_coco(view, picture, folder));
+  if (is_bop) save_bop(view, picture, film, folder, names);
+  for (const Aov aov : hidden) {
+    std::erase_if(film.channels, [&](const Channel& c) {
+      return c.name.starts_with(std::string(name_of(aov)) + ".");
+    });
+  }
+  const std::string stem = stem_of(arguments_, view, index);
+  if (writes(arguments_, DatasetFormat::png))
+    names.push_back(save_picture(film, stem + ".png", folder));
+  if (writes(arguments_, DatasetFormat::exr))
+    names.push_back(save_picture(film, stem + ".exr", folder));
+  if (writes(arguments_, DatasetFormat::npz)) {
+    names.push_back(stem + ".npz");
+    write_dataset_file(folder / names.back(), npz_of(film));
   }
   return names;
 }

@@ -4,7 +4,7 @@
 #include "cli/arguments.hpp"
 #include "cli/report/warnings.hpp"
 
-#include <microtrace/coco.hpp>
+#include <microtrace/annotations.hpp>
 #include <microtrace/dataset.hpp>
 #include <microtrace/digest.hpp>
 #include <microtrace/environment.hpp>
@@ -43,11 +43,12 @@ class ViewRenderer {
  private:
   [[nodiscard]] Camera camera_of(const DatasetView& view, ImageSize size) const;
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
-  [[nodiscard]] bool writes(DatasetFormat format) const;
-  std::string save_annotations(const DatasetView& view, CocoPicture picture, const Film& film,
-                               const std::filesystem::path& folder) const;
-  std::string save(Film& film, DatasetFormat format, const std::string& stem,
-                   const std::filesystem::path& folder) const;
+  std::string save_picture(Film& film, const std::string& name,
+                           const std::filesystem::path& folder) const;
+  std::string save_coco(const DatasetView& view, AnnotatedPicture picture,
+                        const std::filesystem::path& folder) const;
+  void save_bop(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
+                const std::filesystem::path& folder, std::vector<std::string>& names);
 
   Arguments& arguments_;
   Warnings& warnings_;

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::array kFormats{Choice<DatasetFormat>{"png", DatasetFormat::png},
                               Choice<DatasetFormat>{"exr", DatasetFormat::exr},
-                              Choice<DatasetFormat>{"coco", DatasetFormat::coco}};
+                              Choice<DatasetFormat>{"npz", DatasetFormat::npz},
+                              Choice<DatasetFormat>{"coco", DatasetFormat::coco},
+                              Choice<DatasetFormat>{"bop", DatasetFormat::bop}};
 constexpr std::array kCategories{Choice<CocoCategories>{"objects", CocoCategories::objects},
                                  Choice<CocoCategories>{"materials", CocoCategories::materials}};
 
@@ -52,9 +54,9 @@ constexpr std::array kDatasetOptions{
     Option{.names = "--formats",
            .metavar = "LIST",
            .help =
-               "files to write for each view, comma-separated: png (colors), exr (colors and "
-               "the channels of --aov), coco (masks and boxes of the visible objects, joined in "
-               "coco.json)",
+               "files to write for each view, comma-separated: png (colors), exr or npz (colors "
+               "and the channels of --aov), coco (masks and boxes of the visible objects, "
+               "joined in coco.json), bop (depth, masks and poses, in the folder bop)",
            .default_value = "png",
            .samples = Samples::change,
            .words = [] { return names_of(kFormats); },
@@ -84,6 +86,15 @@ constexpr std::array kDatasetOptions{
                    "visible without the others",
            .samples = Samples::change,
            .set = [](Arguments& a, const OptionValue&) { a.dataset.coco.amodal = true; }},
+    Option{
+        .names = "--depth-scale",
+        .metavar = "MM",
+        .help = "millimeters per step of the depth pictures of bop, if a unit of the scene is a "
+                "meter",
+        .default_value = "0.1",
+        .samples = Samples::change,
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.dataset.depth_scale = value.positive_number(); }},
     Option{.names = "--shard",
            .metavar = "I/N",
            .help = "render only part I of N of the views; several processes may fill one folder at "

@@ -32,7 +32,8 @@ std::vector<OptionGroup> option_groups(Command command) {
   }
   if (command == Command::dataset) {
     return {{"Data set", dataset_options()},
-            {"Pictures", rows(picture_options(), "--size", "--aov")},
+            {"Pictures", rows(picture_options(), "--size", "--size")},
+            {"Pictures", rows(picture_options(), "--background", "--aov")},
             {"Camera of views without one", camera_options()},
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},

@@ -1,0 +1,126 @@
+#include "dataset/annotations/bop.hpp"
+#include "dataset/annotations/bop_models.hpp"
+#include "dataset/annotations/coco.hpp"
+#include "dataset/annotations/masks.hpp"
+#include "io/atomic_file.hpp"
+#include "io/file.hpp"
+
+#include <microtrace/annotations.hpp>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microtrace {
+namespace {
+
+namespace fs = std::filesystem;
+
+dataset::Categories categories_of(const Scene& scene, CocoCategories kind) {
+  dataset::Categories categories(kind == CocoCategories::materials
+                                     ? dataset::CategoryBy::material_name
+                                     : dataset::CategoryBy::object_name);
+  categories.add(scene);
+  return categories;
+}
+
+std::vector<std::uint32_t> objects_of(const AnnotatedPicture& picture) {
+  std::vector<std::uint32_t> objects(picture.ids.size());
+  // The id 0 becomes kNoObject.
+  static_assert(dataset::kNoObject == std::uint32_t{0} - 1);
+  std::ranges::transform(picture.ids, objects.begin(), [](std::uint32_t id) { return id - 1; });
+  return objects;
+}
+
+/// The result refers to its arguments.
+dataset::DrawnView view_of(const PreparedScene& scene, const AnnotatedPicture& picture,
+                           const std::vector<std::uint32_t>& objects) {
+  return {.index = picture.index,
+          .name = "",
+          .scene = &scene,
+          .camera = &picture.camera,
+          .size = picture.size,
+          .objects = objects,
+          .depth = picture.depth,
+          .color_file = picture.file};
+}
+
+dataset::Masks amodal_masks_of(const PreparedScene& scene, const AnnotatedPicture& picture,
+                               unsigned threads) {
+  QueryOptions options;
+  options.threads = threads;
+  return dataset::amodal_masks(scene, picture.camera, picture.size, options);
+}
+
+auto reader_of(std::span<const fs::path> parts) {
+  return [parts](std::size_t i) { return io::read_file(parts[i], io::kMaxFileSize); };
+}
+
+/// Writes what `join` passes to its argument into a file.
+template <class Join>
+void write_joined(const fs::path& path, const Join& join) {
+  io::AtomicFile out(path);
+  join([&](std::string_view bytes) { out.write(bytes); });
+  out.commit();
+}
+
+}  // namespace
+
+std::string coco_annotations(const PreparedScene& scene, const AnnotatedPicture& picture,
+                             const CocoOptions& options, unsigned threads) {
+  const std::vector<std::uint32_t> objects = objects_of(picture);
+  const dataset::DrawnView view = view_of(scene, picture, objects);
+  dataset::Masks amodal;
+  if (options.amodal) amodal = amodal_masks_of(scene, picture, threads);
+  return dataset::coco_part(view, categories_of(scene.scene(), options.categories),
+                            dataset::visible_masks(view), options.amodal ? &amodal : nullptr);
+}
+
+void join_coco(std::span<const fs::path> parts, const Scene& scene, CocoCategories categories,
+               const fs::path& output) {
+  write_joined(output, [&](const auto& out) {
+    dataset::join_coco(categories_of(scene, categories), parts.size(), reader_of(parts), out);
+  });
+}
+
+BopAnnotations bop_annotations(const PreparedScene& scene, const AnnotatedPicture& picture,
+                               double depth_scale, unsigned threads) {
+  const std::vector<std::uint32_t> objects = objects_of(picture);
+  const dataset::DrawnView view = view_of(scene, picture, objects);
+  dataset::BopView bop =
+      dataset::bop_view(view, dataset::BopFrames(scene.scene()), dataset::visible_masks(view),
+                        amodal_masks_of(scene, picture, threads), {.depth_scale = depth_scale});
+  BopAnnotations result{
+      .part = std::move(bop.part), .files = {}, .warnings = std::move(bop.warnings)};
+  for (dataset::NamedBytes& file : bop.files)
+    result.files.push_back({std::move(file.name), std::move(file.bytes)});
+  return result;
+}
+
+void join_bop(std::span<const fs::path> parts, const fs::path& folder) {
+  using dataset::BopFile;
+  for (const auto& [file, name] : {std::pair(BopFile::scene_camera, "scene_camera.json"),
+                                   std::pair(BopFile::scene_gt, "scene_gt.json"),
+                                   std::pair(BopFile::scene_gt_info, "scene_gt_info.json")}) {
+    write_joined(folder / name, [&](const auto& out) {
+      dataset::join_bop(file, parts.size(), reader_of(parts), out);
+    });
+  }
+}
+
+std::vector<NamedFile> bop_models(const Scene& scene) {
+  const dataset::BopFrames frames(scene);
+  std::vector<NamedFile> files;
+  std::vector<dataset::BopModel> models;
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    std::optional<dataset::BopModel> model = dataset::bop_model(scene, i, frames);
+    if (!model) continue;
+    files.push_back({std::move(model->file.name), std::move(model->file.bytes)});
+    models.push_back(std::move(*model));
+  }
+  files.push_back({"models/models_info.json", dataset::bop_models_info(models)});
+  return files;
+}
+
+}  // namespace microtrace
