@@ -20,8 +20,8 @@
 namespace microtrace::capi {
 namespace {
 
-[[noreturn]] void refuse(const std::string& message) {
-  throw Error(ErrorKind::usage, "", message);
+[[noreturn]] void refuse(const std::string& reason) {
+  throw Error(ErrorKind::usage, "", reason);
 }
 
 void check(const std::optional<BrokenRule>& broken, const std::string& what) {
