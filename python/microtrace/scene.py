@@ -68,8 +68,8 @@ class Scene(Brief):
                 integers.
             material: default: Material().
             transform: (4, 4) matrix from the mesh's space to world space, applied in float64 with
-                results rounded once. If it mirrors the mesh, the winding is reversed, so front faces
-                stay front faces.
+                results rounded once. If it mirrors the mesh, the winding is reversed, so front
+                faces stay front faces.
             name: any text.
 
         Raises:
