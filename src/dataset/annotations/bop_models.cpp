@@ -135,15 +135,16 @@ std::optional<BopModel> bop_model(const Scene& scene, std::uint32_t object, cons
   const Array<Corners> triangles = mesh != nullptr ? mesh->triangles : Array<Corners>{{0, 1, 2}};
 
   std::string ply = ply_header(positions.size(), triangles.size(), has_normals);
-  std::vector<DVec3> points;
+  std::vector<Vec3> stored;
+  for (const Vec3& p : positions)
+    stored.emplace_back((DVec3(p) - frames.origin(object)) * options.millimeters_per_unit);
+  const std::vector<DVec3> points(stored.begin(), stored.end());
   DVec3 low(std::numeric_limits<double>::infinity()), high = -low;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Vec3 stored((DVec3(positions[i]) - frames.origin(object)) * options.millimeters_per_unit);
-    append_vector(ply, stored);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    append_vector(ply, stored[i]);
     if (has_normals) append_vector(ply, mesh->normals[i]);
-    points.emplace_back(stored);
-    low = glm::min(low, points.back());
-    high = glm::max(high, points.back());
+    low = glm::min(low, points[i]);
+    high = glm::max(high, points[i]);
   }
   for (const Corners& corners : triangles) {
     ply += '\3';
