@@ -100,13 +100,14 @@ BopAnnotations bop_annotations(const PreparedScene& scene, const AnnotatedPictur
 
 void join_bop(std::span<const fs::path> parts, const fs::path& folder) {
   using dataset::BopFile;
-  for (const auto& [file, name] : {std::pair(BopFile::scene_camera, "scene_camera.json"),
-                                   std::pair(BopFile::scene_gt, "scene_gt.json"),
-                                   std::pair(BopFile::scene_gt_info, "scene_gt_info.json")}) {
+  const auto write = [&](BopFile file, const char* name) {
     write_joined(folder / name, [&](const auto& out) {
       dataset::join_bop(file, parts.size(), reader_of(parts), out);
     });
-  }
+  };
+  write(BopFile::scene_camera, "scene_camera.json");
+  write(BopFile::scene_gt, "scene_gt.json");
+  write(BopFile::scene_gt_info, "scene_gt_info.json");
 }
 
 std::vector<NamedFile> bop_models(const Scene& scene) {
