@@ -31,7 +31,10 @@ class MICROTRACE_EXPORT Primitives {
   [[nodiscard]] PrimitiveId count() const { return count_; }
 
   /// The index in Scene::objects of the object that contains the primitive.
-  [[nodiscard]] std::size_t object_index(PrimitiveId id) const;
+  [[nodiscard]] std::size_t object_index(PrimitiveId id) const {
+    const ObjectRange& range = ranges_[id >> range_shift_];
+    return range.count == 1 ? range.first : find_object(range, id);
+  }
   /// The lowest PrimitiveId in the object that contains the primitive.
   [[nodiscard]] PrimitiveId first_id(PrimitiveId id) const { return first_ids_[object_index(id)]; }
   /// The lowest PrimitiveId in the object with this index.
@@ -87,9 +90,20 @@ class MICROTRACE_EXPORT Primitives {
   template <class T>
   static constexpr bool is_mesh = std::is_same_v<std::remove_cvref_t<T>, Mesh>;
 
+  /// The objects `first` to `first + count - 1`.
+  struct ObjectRange {
+    std::uint32_t first, count;
+  };
+
+  void make_ranges();
+  [[nodiscard]] std::size_t find_object(const ObjectRange& range, PrimitiveId id) const;
+
   const Scene* scene_;
   std::vector<PrimitiveId> first_ids_;  // the lowest PrimitiveId of each object
   PrimitiveId count_ = 0;
+  // Range i contains the objects of the primitives [i << range_shift_, (i + 1) << range_shift_).
+  std::vector<ObjectRange> ranges_;
+  unsigned range_shift_ = 0;
 };
 
 }  // namespace microtrace

@@ -1,5 +1,7 @@
 #include "render/integrators/outgoing_rays.hpp"
 
+#include <new>
+
 namespace microtrace {
 
 std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
@@ -18,7 +20,7 @@ std::size_t OutgoingRays::spawn_origins(const Bvh& bvh, ShadowRays& shadow_rays,
     const Bvh::Spawn& spawn = spawns_[path_spawns_[i]];
     const auto& origin = origins_[path_spawns_[i]];
     if (!origin) continue;
-    paths.rays[count] = {.o = *origin, .t_min = 0, .d = spawn.direction};
+    ::new (&paths.rays[count]) Ray{.o = *origin, .t_min = 0, .d = spawn.direction};
     paths.left[count] = spawn.hit.id;
     paths.states[count++] = paths_[i];
   }

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <new>
 #include <optional>
 #include <span>
 
@@ -28,8 +29,8 @@ class OutgoingRays {
     // A punctual light is at t = 1. An emissive triangle is hit at about t = 1.
     const float t_max = light.is_far || light.target ? kInfinity : 1;
     shadow_spawns_[shadow_count_] = spawn(ray, hit, light.to_light);
-    shadows_[shadow_count_++] = {
-        .color = color, .t_max = t_max, .slot = slot, .target = light.target};
+    ::new (&shadows_[shadow_count_++])
+        ShadowRays::Shadow{.color = color, .t_max = t_max, .slot = slot, .target = light.target};
   }
 
   /// Adds the next ray of a path, in this direction. Returns the path's state, which the caller
@@ -51,7 +52,8 @@ class OutgoingRays {
 
  private:
   std::size_t spawn(const Ray& ray, const Hit& hit, const Vec3& direction) {
-    spawns_[spawn_count_] = {.ray = &ray, .hit = hit, .direction = direction};
+    // Creates the spawn in place, because copying a struct that was just written in parts is slow.
+    ::new (&spawns_[spawn_count_]) Bvh::Spawn{.ray = &ray, .hit = hit, .direction = direction};
     return spawn_count_++;
   }
 

@@ -1,15 +1,19 @@
 #include "render/integrators/shadow_rays.hpp"
 
+#include <new>
+
 namespace microtrace {
 
 void ShadowRays::add(const Shadow& shadow, const Vec3& origin, const Vec3& direction,
                      PrimitiveId surface) {
   Group& group = shadow.target ? aimed_ : free_;
-  group.add(shadow, {.o = origin, .t_min = 0, .d = direction, .t_max = shadow.t_max}, surface);
+  // Creates the ray in place, because copying a struct that was just written in parts is slow.
+  ::new (&group.rays[group.count])
+      Ray{.o = origin, .t_min = 0, .d = direction, .t_max = shadow.t_max};
+  group.finish(shadow, surface);
 }
 
-void ShadowRays::Group::add(const Shadow& shadow, const Ray& ray, PrimitiveId surface) {
-  rays[count] = ray;
+void ShadowRays::Group::finish(const Shadow& shadow, PrimitiveId surface) {
   light[count] = shadow.color;
   slots[count] = shadow.slot;
   targets[count] = shadow.target;
@@ -62,8 +66,9 @@ std::uint64_t ShadowRays::trace(const Bvh& bvh, const Shading& shading, Backface
     if (!occluded[i]) {
       colors[free_.slots[i]] += free_.light[i];
     } else if (!shading.all_cover() || (passes_backs && shading.has_open_backs())) {
-      met_.add({.color = free_.light[i], .t_max = 0, .slot = free_.slots[i], .target = {}},
-               free_.rays[i], free_.left[i]);
+      met_.rays[met_.count] = free_.rays[i];
+      met_.finish({.color = free_.light[i], .t_max = 0, .slot = free_.slots[i], .target = {}},
+                  free_.left[i]);
     }
   }
   free_.count = 0;

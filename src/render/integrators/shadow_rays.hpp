@@ -47,7 +47,8 @@ class ShadowRays {
     std::array<std::optional<PrimitiveId>, kRandomBatch> targets;
     std::array<PrimitiveId, kRandomBatch> left;
 
-    void add(const Shadow& shadow, const Ray& ray, PrimitiveId surface);
+    /// Completes the entry whose ray is rays[count], and counts it.
+    void finish(const Shadow& shadow, PrimitiveId surface);
   };
 
   std::uint64_t pass_layers(const Bvh& bvh, const Shading& shading, bool passes_backs, Group& group,

@@ -5,7 +5,6 @@
 #include "render/kernels/lane_access.hpp"
 
 #include <cstring>
-#include <optional>
 
 namespace microtrace {
 namespace {
@@ -141,7 +140,8 @@ void VertexQueue::continue_path(int lane, const WaveStep& step, OutgoingRays& ou
   next = *vertex.path;
   next.throughput = got(scatter_.next_throughput, lane);
   next.pdf = pdf;
-  next.from = {.p = got(light_choices_.p, lane), .n = got(scatter_.frame_n, lane)};
+  next.from.p = got(light_choices_.p, lane);
+  next.from.n = got(scatter_.frame_n, lane);
   next.begin = vertex.width;
   next.spread += step.spread(pdf);
   if (!features_.transmits || scatter_.is_below[lane] == 0) return;
@@ -160,8 +160,7 @@ void VertexQueues::begin(const Shading& shading, const Lighting& lighting) {
 }
 
 void VertexQueues::add(const WaveStep& step, const Vertex& vertex, OutgoingRays& outgoing) {
-  std::optional<BsdfInput> varying;
-  const BsdfInput& input = shading_->bsdf_input(vertex.point, vertex.channel, varying);
+  const BsdfInput& input = shading_->bsdf_input(vertex.point, vertex.channel, varying_);
   std::unique_ptr<VertexQueue>& queue = queues_[static_cast<std::size_t>(input.features.index())];
   if (!queue) {
     queue = std::make_unique<VertexQueue>(input.features, kernels_);

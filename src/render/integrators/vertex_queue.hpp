@@ -14,6 +14,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace microtrace {
 
@@ -90,6 +91,8 @@ class VertexQueues {
   const Shading* shading_ = nullptr;
   const Lighting* lighting_ = nullptr;
   std::array<std::unique_ptr<VertexQueue>, bsdf::Features::kCount> queues_;  // by Features::index()
+  // The input of a vertex with textures. A local variable would be cleared for each vertex.
+  std::optional<BsdfInput> varying_;
 };
 
 }  // namespace microtrace
