@@ -28,13 +28,15 @@ struct Checkpoint {
 MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
                                        const std::filesystem::path& path);
 
-/// Reads a checkpoint. Throws Error (io) if the file can't be read, is not a checkpoint, has a
-/// different version, or is damaged.
+/// Reads a checkpoint. Throws Error: io if the file can't be read, is not a checkpoint, has a
+/// different version, or is damaged; unsupported if the module that decompresses it is missing.
 [[nodiscard]] MICROTRACE_EXPORT Checkpoint load_checkpoint(const std::filesystem::path& path);
 
 /// Adds the samples of `other`, which was read from `path`, to `checkpoint`; moves them if
 /// `checkpoint` has no samples yet. Throws Error (usage) if they belong to a different picture, or
-/// if some of them are already present. The message names the difference between the pictures.
+/// if some of them are already present. The message names the difference between the pictures. The
+/// display becomes that of the checkpoint with the first samples, so checkpoints may be added in
+/// any order.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
                                    const std::filesystem::path& path);
 

@@ -51,9 +51,9 @@ enum class PixelFilter {
 /// picture can then be displayed, and the rendering can be stopped and resumed. The division into
 /// passes has no effect on the finished picture.
 struct Passes {
-  /// If not null, continues from the samples in these sums and adds the new samples to them. The
-  /// sums must belong to the same part of the same picture and may hold any of its samples. They
-  /// must not be used after render() throws. If null, starts without samples.
+  /// If not null, continues from the samples in these sums and adds those of each pass at its end.
+  /// The sums must belong to the same part of the same picture and may hold any of its samples. If
+  /// render() throws, they hold the passes that ended. If null, starts without samples.
   SampleSums* sums = nullptr;
   /// Takes only the samples in this range; nothing: all samples.
   std::optional<SampleRange> part{};
@@ -88,8 +88,8 @@ struct RenderOptions {
   std::uint32_t samples = 1;
   PixelFilter filter = PixelFilter::box;  ///< others displace the box filter's samples
   std::uint32_t seed = 0;                 ///< random seed; a different seed gives different noise
-  /// If set, renders in passes, which takes 88 bytes of memory per pixel. Otherwise the picture is
-  /// finished tile by tile.
+  /// If set, renders in passes, which takes 88 bytes of memory per pixel, and another 88 bytes if
+  /// Passes::sums is set. Otherwise the picture is finished tile by tile.
   std::optional<Passes> passes{};
   RenderCounts* counts = nullptr;  ///< if not null, set at the end
   MemoryBudget* memory = nullptr;  ///< if not null, counts the memory of the call until it returns

@@ -114,8 +114,10 @@ struct Arguments {
   PathOptions path{};  ///< options of the path integrator
   Channels aovs{};
   CameraOptions camera{};
-  unsigned threads = 0;                         ///< 0: default_threads()
-  std::optional<double> max_time{};             ///< seconds for the whole run
+  unsigned threads = 0;              ///< 0: default_threads()
+  std::optional<double> max_time{};  ///< seconds for the whole run
+  /// Ends the run with its parent process, which has this id; 0: the current parent.
+  std::optional<std::uint32_t> parent{};
   std::optional<std::uint64_t> memory_limit{};  ///< bytes; absent: default_memory_limit()
   PpmEncoding ppm = PpmEncoding::binary;
   Statistics statistics = Statistics::none;

@@ -1,13 +1,16 @@
 #include "cli/merge.hpp"
 
+#include "base/memory_account.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/output_paths.hpp"
+#include "cli/pictures/sample_files.hpp"
 #include "cli/report/written_files.hpp"
 
 #include <microtrace/checkpoint.hpp>
 
 #include <chrono>
 #include <cstdio>
+#include <span>
 #include <string>
 
 namespace microtrace::cli {
@@ -30,25 +33,35 @@ std::string missing_samples(const Checkpoint& all) {
 
 void merge_samples(const Arguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::filesystem::path &picture = arguments.output, &merged = arguments.sampling.checkpoint;
+  if (picture.empty() && merged.empty())
+    throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
   const ReadFiles inputs;
+  MemoryBudget budget(default_memory_limit());
+  MemoryAccount memory(&budget);
+  const MemoryScope scope(memory);
   Checkpoint all = load_checkpoint(arguments.checkpoints.front());
-  check_image_path(arguments.output, {.alpha = all.has_alpha});
-  for (std::size_t i = 1; i < arguments.checkpoints.size(); ++i)
-    add_samples(all, load_checkpoint(arguments.checkpoints[i]), arguments.checkpoints[i]);
-  check_no_input_is_overwritten(inputs, {{"--output", arguments.output}});
+  if (!merged.empty()) check_checkpoint_path(merged);
+  if (!picture.empty()) check_image_path(picture, {.alpha = all.has_alpha});
+  check_outputs_differ({{"--output", picture}, {"--checkpoint", merged}});
+  add_files(all, std::span(arguments.checkpoints).subspan(1), memory);
+  check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
   const std::string missing = missing_samples(all);
   if (!missing.empty() && !arguments.allows_missing_samples) {
     throw Error(ErrorKind::usage, "",
                 missing + "; add the checkpoints of the missing shards, or use --partial");
   }
   if (!missing.empty() && !arguments.quiet) std::fprintf(stderr, "warning: %s\n", missing.c_str());
-  Film film = picture_of(all);
-  apply_display(film, arguments.display);
-  save_image(film, arguments.output, arguments.ppm);
+  if (!merged.empty()) save_checkpoint(all, merged);
+  if (!picture.empty()) {
+    Film film = picture_of(all);
+    apply_display(film, arguments.display);
+    save_image(film, picture, arguments.ppm);
+  }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   if (!arguments.quiet) {
-    report_written({.main = arguments.output, .sidecar = {}}, film.size(), all.sums.count(),
-                   seconds.count());
+    report_written({.main = picture.empty() ? merged : picture, .sidecar = {}},
+                   all.sums.window.size(), all.sums.count(), seconds.count());
   }
 }
 

@@ -90,6 +90,8 @@ template <class Work>
 int exit_code_of(const Work& work) {
   try {
     return work();
+  } catch (const cli::Interruption& interruption) {
+    return 128 + interruption.signal;
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return static_cast<int>(error.kind());
@@ -100,6 +102,12 @@ int exit_code_of(const Work& work) {
     std::fprintf(stderr, "error: %s\n", printable(error.what()).c_str());
     return static_cast<int>(ErrorKind::internal);
   }
+}
+
+/// Applies the options that end a run early.
+void limit_run(const cli::Arguments& arguments) {
+  if (arguments.parent) cli::end_with_parent(*arguments.parent);
+  if (arguments.max_time) cli::end_after(*arguments.max_time);
 }
 
 /// A command that the user selects by its name as the first argument.
@@ -125,17 +133,17 @@ int cli::run_program(int argc, char** argv) {
     if (argc < 2 || argv[1] != named.name) continue;
     const cli::Parsed parsed = cli::parse_arguments(named.command, argc - 1, argv + 1);
     if (parsed.exit_code) return *parsed.exit_code;
-    if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
     return exit_code_of([&] {
+      limit_run(parsed.arguments);
       named.run(parsed.arguments);
       return 0;
     });
   }
   const cli::Parsed parsed = cli::parse_arguments(cli::Command::render, argc, argv);
   if (parsed.exit_code) return *parsed.exit_code;
-  if (parsed.arguments.max_time) cli::end_after(*parsed.arguments.max_time);
   return exit_code_of([&] {
     const cli::Arguments& arguments = parsed.arguments;
+    limit_run(arguments);
     try {
       return render_pictures(arguments);
     } catch (const Error& error) {

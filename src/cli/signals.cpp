@@ -1,23 +1,48 @@
 #include "cli/signals.hpp"
 
+#include "base/start_threads.hpp"
+
 #include <microtrace/error.hpp>
 #include <microtrace/io.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <sys/time.h>
+#include <thread>
 #include <unistd.h>
+#include <vector>
 
 namespace microtrace::cli {
 namespace {
+
+/// The recorded signal, or one of these states. A single variable, because other threads run
+/// handlers while the main thread begins or ends a delay.
+constexpr int kNotDelaying = 0, kDelaying = -1;
+std::atomic<int> delayed_signal{kNotDelaying};
+static_assert(std::atomic<int>::is_always_lock_free, "signal handlers use it");
 
 // These signal handlers make only async-signal-safe calls.
 
 void end_at_once(int signal) {
   remove_unfinished_files();
   _exit(128 + signal);
+}
+
+/// Records the signal if signals are delayed and none is recorded. Returns the previous state.
+int record(int signal) {
+  int state = kDelaying;
+  delayed_signal.compare_exchange_strong(state, signal);
+  return state;
+}
+
+void end_soon(int signal) {
+  const int before = record(signal);
+  // Beyond its limit, the kernel repeats XCPU every second, which may be too short for saving.
+  const bool is_repeated = before > 0 && signal == SIGXCPU;
+  if (before != kDelaying && !is_repeated) end_at_once(signal);
 }
 
 void end_at_limit(int /*signal*/) {
@@ -32,6 +57,7 @@ void handle(int signal, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
   ::sigfillset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
   ::sigaction(signal, &action, nullptr);
 }
 
@@ -44,7 +70,8 @@ bool is_ignored(int signal) {
 
 void handle_signals() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
-    if (!is_ignored(signal)) handle(signal, end_at_once);
+    const bool can_wait = signal == SIGINT || signal == SIGTERM || signal == SIGXCPU;
+    if (!is_ignored(signal)) handle(signal, can_wait ? end_soon : end_at_once);
   }
   handle(SIGPIPE, SIG_IGN);
   handle(SIGXFSZ, SIG_IGN);
@@ -65,6 +92,43 @@ void end_after(double seconds) {
   timer.it_value.tv_usec =
       static_cast<suseconds_t>(std::min((time - std::floor(time)) * 1e6, 999999.0));
   ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+DelayedSignals::DelayedSignals() {
+  int state = kNotDelaying;
+  delayed_signal.compare_exchange_strong(state, kDelaying);
+}
+
+DelayedSignals::~DelayedSignals() {
+  int state = kDelaying;
+  delayed_signal.compare_exchange_strong(state, kNotDelaying);
+}
+
+int DelayedSignals::received() {
+  return std::max(delayed_signal.load(), 0);
+}
+
+void end_with_parent(std::uint32_t parent) {
+  static constexpr useconds_t kInterval = 100'000;
+  const pid_t first = parent != 0 ? static_cast<pid_t>(parent) : ::getppid();
+  const auto is_orphan = [first] { return ::getppid() != first; };
+  if (is_orphan()) end_at_once(SIGTERM);
+  // The kernel's parent-death signal (PR_SET_PDEATHSIG) would also arrive when the thread of the
+  // parent that started this process ends, while the parent lives on.
+  sigset_t all, former;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &former);
+  std::vector<std::jthread> watcher = start_threads(1, [is_orphan] {
+    while (!is_orphan()) ::usleep(kInterval);
+    // No second signal: one that ended the parent may have arrived here too.
+    if (record(SIGTERM) == kNotDelaying) end_at_once(SIGTERM);
+  });
+  ::pthread_sigmask(SIG_SETMASK, &former, nullptr);
+  if (watcher.empty()) {
+    throw Error(ErrorKind::limit, "--end-with-parent",
+                "needs a thread, which the system refuses to start; raise the limit on processes");
+  }
+  watcher.front().detach();
 }
 
 }  // namespace microtrace::cli

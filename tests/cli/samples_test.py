@@ -13,6 +13,7 @@ import sys
 import time
 import unittest
 from pathlib import Path
+from random import Random
 
 from program import PROGRAM, ProgramTest, environment
 
@@ -74,6 +75,114 @@ class Samples(ProgramTest):
         self.assertEqual(stats["samples_per_pixel"], 3000)
         self.assertLess(stats["rays"], 3000 * 32 * 20)
         self.assertEqual(self.bytes_of("out.ppm"), self.whole(*options))
+
+    def test_terminated_runs_save_their_samples(self):
+        whole = self.whole("--spp", "3000")
+        arguments = [SCENE, *LIGHT, "--spp", "3000", "-o", "out.ppm", "--checkpoint", "c"]
+        saved, random = 0, Random(5)
+        for _ in range(20):
+            process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, env=environment(),
+                                       stderr=subprocess.PIPE)
+            time.sleep(random.uniform(0, 0.3))
+            process.send_signal(random.choice([signal.SIGTERM, signal.SIGINT, signal.SIGXCPU]))
+            _, message = process.communicate(timeout=60)
+            if process.returncode == 0:
+                break
+            # An early signal ends the program before it has installed its handlers, or at once.
+            self.assertIn(process.returncode, [sign * number for sign, base in ((1, 128), (-1, 0)) for number in
+                                               (base + signal.SIGTERM, base + signal.SIGINT, base + signal.SIGXCPU)])
+            if message.endswith(b"interrupted: the samples are saved in c\n"):
+                saved += 1
+                self.assertTrue((self.folder / "c").exists())
+            self.assertLessEqual(set(os.listdir(self.folder)), {"c", "whole.ppm"})
+        self.assertGreater(saved, 0)
+        self.render(*map(str, arguments[1 + len(LIGHT):]))
+        self.assertEqual(self.bytes_of("out.ppm"), whole)
+
+    def test_runs_end_with_their_parent(self):
+        arguments = [SCENE, *LIGHT, "--spp", "65536", "--shard", "1/2", "--checkpoint", "c", "--save-every", "1000"]
+        child = [PROGRAM, *map(str, arguments)]
+        code = ("import subprocess, sys, threading, time\n"
+                "def start(): print(subprocess.Popen(sys.argv[1:]).pid, flush=True)\n"
+                "thread = threading.Thread(target=start); thread.start(); thread.join(); time.sleep(100)")
+        parent = subprocess.Popen([sys.executable, "-c", code, *child, "--end-with-parent", "-q"], cwd=self.folder,
+                                  env=environment(), stdout=subprocess.PIPE)
+        pid = int(parent.stdout.readline())
+        time.sleep(0.5)
+        os.kill(pid, 0)  # The end of the thread that started the run doesn't end the run.
+        parent.kill()
+        # The run holds the other end of the pipe until it ends.
+        parent.communicate(timeout=60)
+        self.assertEqual(os.listdir(self.folder), ["c"])
+        other = self.run_program(*child[1:], f"--end-with-parent={os.getpid() + 1}")
+        self.assertEqual(other.returncode, 143)
+        result = self.run_program(SCENE, *LIGHT, "--spp", "1", "-o", "a.ppm", f"--end-with-parent={os.getpid()}")
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def interrupted(self, interrupt, parent=None):
+        """Starts a run that takes long to save its samples, calls interrupt(process id) after the first save, and checks
+        that the samples are saved once more."""
+        command = [PROGRAM, SCENE, *LIGHT[:-1], "1000x1000", "--spp", "65536", "-o", "out.ppm", "--checkpoint", "c",
+                   "--save-every", "0", *(["--end-with-parent"] if parent else [])]
+        process = subprocess.Popen([*(parent or []), *map(str, command)], cwd=self.folder, env=environment(),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        pid = int(process.stdout.readline()) if parent else process.pid
+        while not (self.folder / "c").exists() and process.poll() is None:
+            time.sleep(0.01)
+        interrupt(pid)
+        if parent:
+            process.kill()
+        _, message = process.communicate(timeout=120)
+        self.assertTrue(message.endswith(b"interrupted: the samples are saved in c\n"), message)
+        self.assertEqual(os.listdir(self.folder), ["c"])
+        (self.folder / "c").unlink()
+        return process.returncode
+
+    def test_repeated_notice_of_the_time_limit_does_not_end_the_run_at_once(self):
+        def interrupt(pid):
+            for _ in range(20):
+                time.sleep(0.005)
+                os.kill(pid, signal.SIGXCPU)
+
+        self.assertEqual(self.interrupted(interrupt), 128 + signal.SIGXCPU)
+
+    def test_runs_whose_whole_group_is_interrupted_save_their_samples(self):
+        code = "import subprocess, sys; p = subprocess.Popen(sys.argv[1:]); print(p.pid, flush=True); p.wait()"
+        self.interrupted(lambda pid: os.kill(pid, signal.SIGINT), parent=[sys.executable, "-c", code])
+
+    def test_merges_in_any_order_and_grouping(self):
+        whole = self.whole("--spp", "20")
+        for shard in range(1, 6):
+            self.render("--spp", "20", "--shard", f"{shard}/5", "--checkpoint", f"p{shard}")
+
+        def merge(*arguments, code=0):
+            result = self.run_program("merge", *arguments)
+            self.assertEqual(result.returncode, code, result.stderr)
+            return result.stderr
+
+        merge("p1", "p2", "p3", "p4", "p5", "--checkpoint", "all")
+        random = Random(7)
+        for _ in range(5):
+            parts = [f"p{i}" for i in range(1, 6)]
+            for step in range(4):
+                random.shuffle(parts)
+                name = f"m{step}"
+                merge(parts.pop(), parts.pop(), "--checkpoint", name, "--partial", "-q")
+                parts.append(name)
+            self.assertEqual(self.bytes_of(parts[0]), self.bytes_of("all"))
+        merge("all", "-o", "out.ppm", "--checkpoint", "again")
+        self.assertEqual(self.bytes_of("out.ppm"), whole)
+        self.assertEqual(self.bytes_of("again"), self.bytes_of("all"))
+        self.assertIn(b"all: holds samples 0 to 19, some of", merge("p2", "all", "--checkpoint", "x", code=2))
+        self.assertIn(b"are missing", merge("p1", "p3", "--checkpoint", "x", code=2))
+        self.assertIn(b"would overwrite", merge("p1", "p3", "--checkpoint", "p3", "--partial", code=2))
+        merge("p1", code=2)
+        self.assertFalse((self.folder / "x").exists())
+        # A rendering that continues from all shards draws the channels of one run.
+        parts = [word for i in (4, 2, 5, 1, 3) for word in ("--resume", f"p{i}")]
+        self.render("--spp", "20", *parts, "--aov", "depth,normal,id", "-o", "a.exr")
+        self.render("--spp", "20", "--aov", "depth,normal,id", "-o", "b.exr")
+        self.assertEqual(self.bytes_of("a.exr"), self.bytes_of("b.exr"))
 
     def test_interrupted_runs_leave_complete_files(self):
         process = subprocess.Popen(

@@ -303,15 +303,23 @@ def materials():
     return asset
 
 
-def checkpoint(ranges, width=3, height=2):
+def checkpoint(ranges, compressed=False, width=3, height=2):
     """Returns a checkpoint in the format of src/io/checkpoint/checkpoint.cpp, without the digest at the end."""
     identity = b"--seed\t1\n"
     samples = sum(last - first for first, last in ranges)
-    head = b"microtrace samples\n" + struct.pack("<II", 1, len(identity)) + identity
+    head = b"microtrace samples\n" + struct.pack("<II", 2, len(identity)) + identity
     head += struct.pack("<IIdI", 1, samples, 0.5, 1) + struct.pack("<6I3f", width, height, 0, 0, width, height, 0, 0.25, 1)
     head += struct.pack("<I", len(ranges)) + b"".join(struct.pack("<2I", *r) for r in ranges)
     pixel = b"".join(struct.pack("<Q", word) for word in (0, samples, 1 << 63, samples, 5, 2, samples << 46, 0, 9, samples))
-    return head + (pixel + struct.pack("<I", samples)) * (width * height)
+    pixel += struct.pack("<I", samples)
+    pixels = width * height
+    block = b"".join(bytes([byte]) * pixels for byte in pixel)
+    if compressed:
+        # A Zstandard frame (RFC 8878) with a run of equal bytes for each byte of a pixel. The last run ends the frame.
+        runs = b"".join((pixels << 3 | 1 << 1 | (i + 1 == len(pixel))).to_bytes(3, "little") + bytes([byte])
+                        for i, byte in enumerate(pixel))
+        block = b"\x28\xb5\x2f\xfd\x60" + struct.pack("<H", len(block) - 256) + runs
+    return head + struct.pack("<I", len(block)) + block
 
 
 def strips():
@@ -362,6 +370,7 @@ def main():
         shutil.copy(path, folder / "image" / path.name)
     for name, ranges in {"none": [], "one": [(0, 4)], "two": [(0, 4), (8, 9)]}.items():
         (folder / "checkpoint" / name).write_bytes(checkpoint(ranges))
+        (folder / "checkpoint" / f"{name}_compressed").write_bytes(checkpoint(ranges, compressed=True))
     (folder / "checkpoint.dict").write_text('"microtrace samples"\n"--seed"\n')
     # Markers of JPEG and chunk names of WebP. Most of PNG's are omitted, because PNG chunks have checksums.
     words = [f"\\xff\\x{marker:02x}" for marker in (0xC0, 0xC2, 0xC4, 0xD0, 0xD8, 0xD9, 0xDA, 0xDB, 0xDD, 0xEE)]

@@ -1,17 +1,19 @@
 """Reads, writes and runs the command lines of questions.txt."""
 
+import ctypes
 import dataclasses
 import hashlib
 import json
 import os
 import shlex
+import struct
 import subprocess
 import tempfile
 from pathlib import Path
 
 LIST = Path(__file__).with_name("questions.txt")
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-PIXEL_BYTES, DIGEST_BYTES = 84, 8  # sizes in a checkpoint, see src/io/checkpoint/checkpoint.cpp
+PIXEL_BYTES, BLOCK_PIXELS = 84, 4096  # see src/io/checkpoint/pixel_blocks.hpp
 
 
 @dataclasses.dataclass
@@ -52,12 +54,40 @@ def sha256(data):
     return hashlib.sha256(data).hexdigest()
 
 
-def samples_of(checkpoint, picture):
-    """Returns the bytes of a checkpoint's pixels. Their number is that of the PPM picture's pixels."""
-    width, height = map(int, picture.split(maxsplit=3)[1:3])
-    size = width * height * PIXEL_BYTES
-    assert len(checkpoint) > size + DIGEST_BYTES
-    return checkpoint[-size - DIGEST_BYTES:-DIGEST_BYTES]
+def decompress(frame, size):
+    """Returns the bytes of a Zstandard frame."""
+    library = ctypes.CDLL("libzstd.so.1")
+    library.ZSTD_decompress.restype = ctypes.c_size_t
+    library.ZSTD_decompress.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_size_t]
+    content = ctypes.create_string_buffer(size)
+    assert library.ZSTD_decompress(content, size, frame, len(frame)) == size
+    return content.raw
+
+
+def samples_of(checkpoint):
+    """Returns the sums of a checkpoint's pixels, pixel by pixel. The format is described in
+    src/io/checkpoint/checkpoint.cpp."""
+    at = len(b"microtrace samples\n") + 4
+    (identity,) = struct.unpack_from("<I", checkpoint, at)
+    at += 4 + identity + 4 + 4 + 8 + 4 + 8
+    x0, y0, x1, y1 = struct.unpack_from("<4I", checkpoint, at)
+    at += 4 * 4 + 3 * 4
+    (ranges,) = struct.unpack_from("<I", checkpoint, at)
+    at += 4 + 8 * ranges
+    samples = bytearray()
+    for first in range(0, (x1 - x0) * (y1 - y0), BLOCK_PIXELS):
+        pixels = min(BLOCK_PIXELS, (x1 - x0) * (y1 - y0) - first)
+        (size,) = struct.unpack_from("<I", checkpoint, at)
+        planes = checkpoint[at + 4:at + 4 + size]
+        at += 4 + size
+        if size < pixels * PIXEL_BYTES:
+            planes = decompress(planes, pixels * PIXEL_BYTES)
+        block = bytearray(len(planes))
+        for byte in range(PIXEL_BYTES):
+            block[byte::PIXEL_BYTES] = planes[byte * pixels:(byte + 1) * pixels]
+        samples += block
+    assert at == len(checkpoint) - 8  # the digest
+    return bytes(samples)
 
 
 def ask(program, question, threads=1, isa=None, with_samples=True):
@@ -84,5 +114,5 @@ def ask(program, question, threads=1, isa=None, with_samples=True):
                 if rays[kind]["rays"] == 0:
                     raise RuntimeError(f"{question.text}: casts no {kind} rays, so it compares no light")
             if with_samples:
-                answer["samples"] = sha256(samples_of(checkpoint.read_bytes(), result.stdout))
+                answer["samples"] = sha256(samples_of(checkpoint.read_bytes()))
     return answer

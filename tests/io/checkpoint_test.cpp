@@ -2,12 +2,16 @@
 #include <microtrace/digest.hpp>
 #include <microtrace/error.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -70,6 +74,61 @@ TEST_F(CheckpointFile, DetectsEveryChangedBit) {
   }
 }
 
+/// The file's content with a digest that fits it.
+std::string with_digest(std::string bytes) {
+  Digest digest;
+  digest.add(std::string_view(bytes).substr(0, bytes.size() - 8));
+  for (unsigned i = 0; i < 8; ++i)
+    bytes[bytes.size() - 8 + i] = static_cast<char>(digest.value() >> (8 * i) & 0xFFU);
+  return bytes;
+}
+
+TEST_F(CheckpointFile, StoresSeveralCompressedBlocks) {
+  Checkpoint written = example();
+  written.sums = SampleSums({.width = 200, .height = 90}, {0, 0, 200, 90}, Vec3(0));
+  std::uint32_t state = 1;
+  for (std::size_t i = 0; i < written.sums.pixels.size(); ++i) {
+    state = state * 1664525U + 1013904223U;
+    const float noise = static_cast<float>(state >> 8U) * 0x1p-24F;
+    (void)written.sums.pixels[i].add(Vec3(noise, 1, i < 9000 ? noise : 0), 1, Vec3(0));
+  }
+  written.sums.note({.first = 0, .last = 1});
+  save_checkpoint(written, path_);
+  EXPECT_LT(std::filesystem::file_size(path_), written.sums.pixels.size() * 84 / 3);
+  EXPECT_EQ(load_checkpoint(path_).sums.pixels, written.sums.pixels);
+}
+
+TEST_F(CheckpointFile, DamageBeforeTheDigestIsRefusedOrReadInBoundedMemory) {
+  save_checkpoint(example(), path_);
+  std::string bytes(std::filesystem::file_size(path_), '\0');
+  std::ifstream(path_, std::ios::binary)
+      .read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const auto load = [&](const std::string& content) {
+    std::ofstream(path_, std::ios::binary) << with_digest(content);
+    try {
+      (void)load_checkpoint(path_);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(load(bytes));
+  for (std::size_t i = 0; i < bytes.size() - 8; ++i) {
+    std::string other = bytes;
+    other[i] = static_cast<char>(other[i] ^ (1 << i % 8));
+    (void)load(other);
+    EXPECT_FALSE(load(bytes.substr(0, i) + std::string(8, '\0'))) << i;
+  }
+  EXPECT_FALSE(load(bytes + '\0'));
+  // The last coordinates of the window and the size of the picture claim 2^62 pixels.
+  const std::size_t size = bytes.find("files\t7\n") + 8 + 4 + 4 + 8 + 4;
+  std::string huge = bytes;
+  for (const std::size_t number : {0U, 1U, 4U, 5U})
+    huge.replace(size + 4 * number, 4, "\0\0\0\x7f", 4);
+  EXPECT_FALSE(load(huge));
+}
+
 TEST(Checkpoint, NamesTheDifference) {
   const auto message = [](const std::string& there, const std::string& here) {
     Checkpoint ours{.identity = here};
@@ -93,6 +152,26 @@ TEST(Checkpoint, RefusesSamplesThatArePresent) {
   Checkpoint other = example();
   other.sums.note({.first = 10, .last = 11});
   EXPECT_THROW(add_samples(sum, std::move(other), "c"), Error);
+}
+
+TEST(Checkpoint, DisplayIsThatOfTheFirstSamplesInAnyOrder) {
+  const auto part = [](std::uint32_t first, double exposure) {
+    Checkpoint result{.identity = "a", .display = {.exposure = exposure}};
+    result.sums = SampleSums({.width = 1, .height = 1}, {0, 0, 1, 1}, Vec3(0));
+    if (first != 0) result.sums.note({.first = first, .last = first + 1});
+    return result;
+  };
+  for (const std::vector<Checkpoint>& parts :
+       {std::vector{part(1, 3), part(2, 1), part(3, 2)}, std::vector{part(9, 3), part(0, 2)},
+        std::vector{part(0, 1), part(0, 2)}}) {
+    for (std::size_t turn = 0; turn < parts.size(); ++turn) {
+      std::vector<Checkpoint> turned = parts;
+      std::ranges::rotate(turned, turned.begin() + static_cast<std::ptrdiff_t>(turn));
+      Checkpoint all{.identity = "a"};
+      for (const Checkpoint& next : turned) add_samples(all, next, "c");
+      EXPECT_EQ(all.display.exposure, parts.front().display.exposure) << turn;
+    }
+  }
 }
 
 TEST_F(CheckpointFile, RangesOfSamplesAreInOrderAndApart) {

@@ -20,7 +20,7 @@ Usage: microtrace [OPTIONS] SCENE
 )";
 
 constexpr std::string_view kMergeUsage =
-    R"(microtrace merge: makes one picture from the samples in several checkpoints
+    R"(microtrace merge: joins the samples in several checkpoints to one picture or checkpoint
 Usage: microtrace merge [OPTIONS] CHECKPOINT...
 )";
 
@@ -50,7 +50,8 @@ std::string_view usage_of(Command command) {
 
 constexpr std::string_view kFooter = R"(
 Exit codes: 0 done, 1 internal error, 2 usage error, 3 invalid scene, 4 required feature
-            unsupported, 5 input or output error, 6 limit reached, 130 interrupted.
+            unsupported, 5 input or output error, 6 limit reached, 130 interrupted,
+            143 terminated.
 
 Examples:
   microtrace scenes/perspective1.json -o perspective1.ppm

@@ -2,6 +2,8 @@
 #include "cli/options/option.hpp"
 
 #include <array>
+#include <cstdint>
+#include <limits>
 
 namespace microtrace::cli {
 namespace {
@@ -28,6 +30,16 @@ constexpr std::array kRunningOptions{
            .samples = Samples::keep,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.max_time = value.positive_number(); }},
+    Option{.names = "--end-with-parent",
+           .metavar = "PID",
+           .help = "end the run when its parent process ends, as after the signal TERM; at once if "
+                   "the parent is not process PID",
+           .implied_value = "0",
+           .samples = Samples::keep,
+           .set =
+               [](Arguments& a, const OptionValue& value) {
+                 a.parent = value.whole_number(0, std::numeric_limits<std::int32_t>::max());
+               }},
     Option{.names = "--memory-limit",
            .metavar = "BYTES",
            .help =
@@ -103,10 +115,16 @@ constexpr std::array kMergeOptions{
            .help = "picture file; the extension selects the format",
            .samples = Samples::keep,
            .completion = Completion::files,
-           .is_required = true,
            .set = [](Arguments& a, const OptionValue& value) { a.output = value.text; }},
+    Option{
+        .names = "--checkpoint",
+        .metavar = "FILE",
+        .help = "save the samples of all checkpoints to FILE, which can be merged or continued",
+        .samples = Samples::keep,
+        .completion = Completion::files,
+        .set = [](Arguments& a, const OptionValue& value) { a.sampling.checkpoint = value.text; }},
     Option{.names = "--partial",
-           .help = "make a picture even if samples are missing, which is otherwise an error",
+           .help = "merge even if samples are missing, which is otherwise an error",
            .samples = Samples::keep,
            .set = [](Arguments& a, const OptionValue&) { a.allows_missing_samples = true; }},
 };

@@ -1,11 +1,14 @@
 #include "cli/pictures/render_picture.hpp"
 
+#include "base/printable.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/output_paths.hpp"
 #include "cli/report/progress_bar.hpp"
 #include "cli/report/scene_summary.hpp"
 #include "cli/report/written_files.hpp"
+#include "cli/signals.hpp"
 
+#include <microtrace/error.hpp>
 #include <microtrace/render.hpp>
 #include <microtrace/sidecar.hpp>
 #include <microtrace/threads.hpp>
@@ -13,6 +16,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 namespace microtrace::cli {
@@ -51,14 +55,37 @@ double max_cost_growth_of(const Scene& scene, ImageSize size, std::uint32_t samp
   return 1 + std::min(1.0, static_cast<double>(primitives) / (pixels * samples));
 }
 
-/// Wraps `progress` for RenderOptions. Always returns true, because only signals cancel the
-/// program.
+/// Wraps `progress` for RenderOptions. Only a delayed signal cancels the rendering.
 std::function<bool(double)> shown_by(const std::function<void(double)>& progress) {
-  if (!progress) return nullptr;
   return [&progress](double share) {
-    progress(share);
-    return true;
+    if (progress) progress(share);
+    return DelayedSignals::received() == 0;
   };
+}
+
+/// Renders the picture and saves its samples. After a delayed signal, saves the samples of all
+/// complete passes and throws Interruption.
+Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
+                     const RenderOptions& options, const Arguments& arguments,
+                     const PictureFiles& files) {
+  if (files.samples == nullptr || arguments.sampling.checkpoint.empty())
+    return render(scene, camera, size, options);
+  std::optional<Film> film;
+  {
+    const DelayedSignals delay;
+    try {
+      film = render(scene, camera, size, options);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::canceled) throw;
+    }
+    files.samples->save();
+  }
+  if (film && DelayedSignals::received() == 0) return std::move(*film);
+  if (!arguments.quiet) {
+    std::fprintf(stderr, "interrupted: the samples are saved in %s\n",
+                 printable(arguments.sampling.checkpoint.string()).c_str());
+  }
+  throw Interruption{DelayedSignals::received()};
 }
 
 }  // namespace
@@ -123,7 +150,7 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
                                                   .max_cost_growth = max_cost_growth});
   const std::chrono::duration<double> build = std::chrono::steady_clock::now() - start;
   tables = prepared.tables();
-  Film film = render(prepared, camera, size, options);
+  Film film = render_and_save(prepared, camera, size, options, arguments, files);
   times.build += build.count();
   watch.rendered(times);
   apply_display(film, arguments.display);
@@ -138,7 +165,6 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
         "picture is the same but took longer\n",
         counts.missing_threads, options.threads);
   }
-  if (files.samples != nullptr) files.samples->save();
   const Scene& drawn = prepared.scene();
   if (!std::holds_alternative<Aov>(*arguments.integrator) && (arguments.strict || !arguments.quiet))
     warnings.report_picture(

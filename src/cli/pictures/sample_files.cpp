@@ -32,14 +32,23 @@ std::vector<std::filesystem::path> files_of(const SamplingOptions& sampling) {
 
 }  // namespace
 
+void add_files(Checkpoint& all, std::span<const std::filesystem::path> files,
+               MemoryAccount& memory) {
+  for (const std::filesystem::path& file : files) {
+    MemoryAccount temporary(memory.budget());
+    const MemoryScope scope(all.sums.pixels.empty() ? memory : temporary);
+    add_samples(all, load_checkpoint(file), file);
+  }
+}
+
 SampleFiles::SampleFiles(const Arguments& arguments, std::uint64_t files)
     : arguments_(arguments),
       samples_{.identity = identity_of(arguments, files),
                .has_alpha = arguments.environment.is_transparent(),
                .samples = arguments.sampling.samples},
+      memory_(arguments.load.memory),
       saved_(std::chrono::steady_clock::now()) {
-  for (const std::filesystem::path& file : files_of(arguments.sampling))
-    add_samples(samples_, load_checkpoint(file), file);
+  add_files(samples_, files_of(arguments.sampling), memory_);
 }
 
 std::vector<Diagnostic> SampleFiles::warnings() const {
@@ -64,7 +73,7 @@ Passes SampleFiles::passes(const Display& display) {
 
 void SampleFiles::save() const {
   const std::filesystem::path& file = arguments_.sampling.checkpoint;
-  if (!file.empty()) save_checkpoint(samples_, file);
+  if (!file.empty() && !samples_.sums.pixels.empty()) save_checkpoint(samples_, file);
 }
 
 void SampleFiles::save_if_due() {

@@ -1,6 +1,7 @@
 #pragma once
 /// Reads and writes checkpoints during rendering.
 
+#include "base/memory_account.hpp"
 #include "cli/arguments.hpp"
 
 #include <microtrace/checkpoint.hpp>
@@ -8,9 +9,16 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <span>
 #include <vector>
 
 namespace microtrace::cli {
+
+/// Reads these checkpoints and adds their samples to `all`. Charges the memory of `all` to `memory`
+/// if it has no samples yet.
+void add_files(Checkpoint& all, std::span<const std::filesystem::path> files,
+               MemoryAccount& memory);
 
 class SampleFiles {
  public:
@@ -35,6 +43,7 @@ class SampleFiles {
 
   const Arguments& arguments_;
   Checkpoint samples_;
+  MemoryAccount memory_;  ///< memory of samples that were read
   std::chrono::steady_clock::time_point saved_;
 };
 

@@ -6,7 +6,9 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 namespace microtrace {
 namespace {
@@ -39,6 +41,18 @@ std::string difference(std::string_view there, std::string_view here) {
   return "made with the same options in another order";
 }
 
+/// Returns true if the picture of both checkpoints is displayed like that of `a`: the one with the
+/// first samples, so that the order of merging doesn't matter.
+bool decides_display(const Checkpoint& a, const Checkpoint& b) {
+  const auto key = [](const Checkpoint& checkpoint) {
+    const std::vector<SampleRange>& ranges = checkpoint.sums.ranges();
+    const Display& display = checkpoint.display;
+    return std::tuple(ranges.empty(), ranges.empty() ? 0 : ranges.front().first, display.exposure,
+                      display.tone_map);
+  };
+  return key(a) < key(b);
+}
+
 }  // namespace
 
 void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem::path& path) {
@@ -47,8 +61,9 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
   };
   if (other.identity != checkpoint.identity)
     refuse("holds samples of another picture: " + difference(other.identity, checkpoint.identity));
-  checkpoint.samples = std::max(checkpoint.samples, other.samples);
   if (checkpoint.sums.pixels.empty()) {
+    checkpoint.samples = std::max(checkpoint.samples, other.samples);
+    checkpoint.display = other.display;
     checkpoint.sums = std::move(other.sums);
     return;
   }
@@ -62,6 +77,8 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
              std::to_string(range.last - 1) + ", some of which are already present");
     }
   }
+  if (decides_display(other, checkpoint)) checkpoint.display = other.display;
+  checkpoint.samples = std::max(checkpoint.samples, other.samples);
   checkpoint.sums += theirs;
 }
 

@@ -1,6 +1,9 @@
+#include "base/memory_account.hpp"
 #include "io/atomic_file.hpp"
 #include "io/checkpoint/bytes.hpp"
+#include "io/checkpoint/pixel_blocks.hpp"
 #include "io/file.hpp"
+#include "scene/validate/validate.hpp"
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/digest.hpp>
@@ -9,33 +12,23 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
 // The file contains a magic text, a version, the members in the order in which the functions below
-// read them, the pixels, and a digest of everything before it. All numbers are unsigned and
-// little-endian. Floating-point numbers are stored as their bits.
+// read them, the pixels in blocks (pixel_blocks.hpp), each after its size in bytes, and a digest of
+// everything before it. All numbers are unsigned and little-endian. Floating-point numbers are
+// stored as their bits.
 
 namespace microtrace {
 namespace {
 
 constexpr std::string_view kMagic = "microtrace samples\n";
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kPixelBytes = 10 * 8 + 4;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
 constexpr std::uint32_t kMostSamples = 65536;  // per pixel; sample ranges end at or below it
 constexpr std::uint32_t kMaxIdentity = 1U << 20U;
-
-/// Calls f(number) for each number of a pixel, in file order.
-template <class Pixel, class F>
-void for_each_number(Pixel& pixel, const F& f) {
-  for (auto& channel : pixel.color) {
-    for (auto& word : channel.words) f(word);
-  }
-  for (auto& word : pixel.alpha.words) f(word);
-  for (auto& word : pixel.square.words) f(word);
-  f(pixel.count);
-}
 
 std::string encode_head(const Checkpoint& checkpoint) {
   using io::append;
@@ -107,9 +100,12 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
   }
   const ImageSize size = window.size();
   const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
-  if (reader.is_short() || reader.left() / kPixelBytes != pixels ||
-      reader.left() % kPixelBytes != 0)
+  // Refuses a small file that claims to have many pixels before it allocates memory for them.
+  constexpr std::size_t kLeastBlock = 16;
+  const std::uint64_t blocks = pixels / io::kBlockPixels;
+  if (reader.is_short() || pixels > kMaxImagePixels || reader.left() / kLeastBlock < blocks)
     fail_as_damaged(path);
+  take_memory(pixels * sizeof(PixelSum), "the samples of a checkpoint");
   checkpoint.sums = SampleSums(whole, window, background);
   for (const SampleRange& range : ranges) checkpoint.sums.note(range);
   return checkpoint;
@@ -118,7 +114,6 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
 }  // namespace
 
 void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
-  constexpr std::size_t kBlock = std::size_t{1} << 16U;
   io::AtomicFile file(path);
   Digest digest;
   std::string bytes = encode_head(checkpoint);
@@ -127,20 +122,29 @@ void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& 
     file.write(bytes);
     bytes.clear();
   };
-  for (const PixelSum& pixel : checkpoint.sums.pixels) {
-    for_each_number(pixel, [&](auto number) { io::append(bytes, number); });
-    if (bytes.size() >= kBlock) flush();
-  }
   flush();
+  io::BlockWriter blocks;
+  for (std::span<const PixelSum> left = checkpoint.sums.pixels; !left.empty();) {
+    const auto block = left.first(std::min(left.size(), io::kBlockPixels));
+    left = left.subspan(block.size());
+    const std::string_view encoded = blocks.encode(block);
+    io::append(bytes, static_cast<std::uint32_t>(encoded.size()));
+    bytes += encoded;
+    flush();
+  }
   io::append(bytes, digest.value());
   file.write(bytes);
   file.commit();
 }
 
 Checkpoint load_checkpoint(const std::filesystem::path& path) {
-  const std::string bytes = io::read_file(path, kMaxFileSize, [&](std::string_view first) {
-    if (!first.starts_with(kMagic)) fail(path, "is not a checkpoint of microtrace");
-  });
+  MemoryAccount memory(memory_account().budget());  // of the file's bytes
+  const std::string bytes = [&] {
+    const MemoryScope scope(memory);
+    return io::read_file(path, kMaxFileSize, [&](std::string_view first) {
+      if (!first.starts_with(kMagic)) fail(path, "is not a checkpoint of microtrace");
+    });
+  }();
   io::ByteReader reader(std::string_view(bytes).substr(kMagic.size()));
   const auto version = reader.number<std::uint32_t>();
   if (version != kVersion && !reader.is_short()) {
@@ -155,11 +159,14 @@ Checkpoint load_checkpoint(const std::filesystem::path& path) {
   if (end.number<std::uint64_t>() != digest.value()) fail_as_damaged(path);
   reader = io::ByteReader(content.substr(kMagic.size() + sizeof(kVersion)));
   Checkpoint checkpoint = decode_head(reader, path);
-  for (PixelSum& pixel : checkpoint.sums.pixels) {
-    for_each_number(pixel, [&](auto& number) {
-      number = reader.number<std::remove_cvref_t<decltype(number)>>();
-    });
+  io::BlockReader blocks(path);
+  for (std::span<PixelSum> left = checkpoint.sums.pixels; !left.empty();) {
+    const auto block = left.first(std::min(left.size(), io::kBlockPixels));
+    left = left.subspan(block.size());
+    const auto encoded = reader.take(reader.number<std::uint32_t>());
+    if (reader.is_short() || !encoded || !blocks.decode(*encoded, block)) fail_as_damaged(path);
   }
+  if (reader.left() != 0) fail_as_damaged(path);
   return checkpoint;
 }
 

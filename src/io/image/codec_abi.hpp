@@ -1,5 +1,5 @@
 #pragma once
-/// The C interface between the library and its module of image codecs. If the interface changes,
+/// The C interface between the library and its module of codecs. If the interface changes,
 /// the number in the functions' names must change too. An old module is then rejected instead of
 /// called with the wrong arguments.
 
@@ -54,6 +54,16 @@ struct MicrotracePng {
 /// Writes a PNG file whose bytes depend only on the argument. Returns 1 if all bytes were accepted,
 /// else 0.
 using MicrotraceEncodePng = int (*)(const MicrotracePng* picture);
+
+/// Compresses `size` bytes to a Zstandard frame of at most `capacity` bytes. Returns its size, or 0
+/// if it would be larger.
+using MicrotraceCompress = std::size_t (*)(void* to, std::size_t capacity, const void* from,
+                                           std::size_t size);
+
+/// Decompresses Zstandard frames of `compressed` bytes. Returns 1 if they hold exactly `size`
+/// bytes, else 0.
+using MicrotraceDecompress = int (*)(void* to, std::size_t size, const void* from,
+                                     std::size_t compressed);
 }
 
 namespace microtrace::io {
@@ -61,5 +71,7 @@ namespace microtrace::io {
 inline constexpr char kCodecModuleFileName[] = "microtrace_codecs.so";
 inline constexpr char kDecodeName[] = "microtrace_decode_v1";
 inline constexpr char kEncodePngName[] = "microtrace_encode_png_v3";
+inline constexpr char kCompressName[] = "microtrace_compress_v1";
+inline constexpr char kDecompressName[] = "microtrace_decompress_v1";
 
 }  // namespace microtrace::io

@@ -11,3 +11,7 @@ int decode_jpeg(const unsigned char* bytes, std::size_t size, const MicrotraceIm
 int decode_webp(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int decode_ktx2(const unsigned char* bytes, std::size_t size, const MicrotraceImageSink& sink);
 int encode_png(const MicrotracePng& picture);
+
+// Zstandard, see MicrotraceCompress and MicrotraceDecompress.
+std::size_t compress(void* to, std::size_t capacity, const void* from, std::size_t size);
+int decompress(void* to, std::size_t size, const void* from, std::size_t compressed);

@@ -1,7 +1,7 @@
-/// Decodes PNG, JPEG, WebP and KTX2, and encodes PNG, behind the C interface of
-/// io/image/codec_abi.hpp. The library loads this module if a scene has images or the output is
-/// PNG. It uses small libraries, because loading OpenImageIO would take a quarter of a second and
-/// 130 MB.
+/// Decodes PNG, JPEG, WebP and KTX2, encodes PNG, and compresses checkpoints, behind the C
+/// interface of io/image/codec_abi.hpp. The library loads this module if a scene has images, the
+/// output is PNG or a checkpoint is read or written. It uses small libraries, because loading
+/// OpenImageIO would take a quarter of a second and 130 MB.
 
 #include "modules/codecs/codecs.hpp"
 
@@ -33,5 +33,18 @@ __attribute__((visibility("default"))) int microtrace_decode_v1(const void* data
 
 __attribute__((visibility("default"))) int microtrace_encode_png_v3(const MicrotracePng* picture) {
   return encode_png(*picture);
+}
+
+__attribute__((visibility("default"))) std::size_t microtrace_compress_v1(void* to,
+                                                                          std::size_t capacity,
+                                                                          const void* from,
+                                                                          std::size_t size) {
+  return compress(to, capacity, from, size);
+}
+
+__attribute__((visibility("default"))) int microtrace_decompress_v1(void* to, std::size_t size,
+                                                                    const void* from,
+                                                                    std::size_t compressed) {
+  return decompress(to, size, from, compressed);
 }
 }

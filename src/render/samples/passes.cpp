@@ -1,11 +1,13 @@
 #include "render/samples/passes.hpp"
 
+#include "base/memory_account.hpp"
 #include "render/tile_errors.hpp"
 #include "render/tiles.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 #include <vector>
 
 namespace microtrace {
@@ -23,6 +25,20 @@ void add_tile(const RandomPainter& painter, const PixelRect& tile, const SampleR
   for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
     for (std::uint32_t x = tile.x0; x < tile.x1; ++x) sums.at(x, y) += added[pixel++];
   }
+}
+
+/// Moves the samples of a tile from `pass` to `sums`.
+void move_tile(const PixelRect& tile, SampleSums& pass, SampleSums& sums) {
+  for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
+    for (std::uint32_t x = tile.x0; x < tile.x1; ++x)
+      sums.at(x, y) += std::exchange(pass.at(x, y), PixelSum{});
+  }
+}
+
+/// Sums without samples for the same part of the picture.
+SampleSums empty_like(const SampleSums& sums) {
+  take_memory(sums.pixels.size() * sizeof(PixelSum), "the samples of one pass");
+  return {sums.whole, sums.window, sums.background};
 }
 
 /// The tiles that need no more samples.
@@ -75,6 +91,10 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     return spent.count() >= passes.time_limit;
   };
+  // The caller's sums receive a pass when it is complete, so that a canceled pass leaves no trace.
+  SampleSums pass;
+  if (passes.sums != nullptr && to_do > 0) pass = empty_like(sums);
+  SampleSums& target = passes.sums != nullptr ? pass : sums;
   while (done < to_do) {
     stops.update(sums);
     if (stops.all() || (done > 0 && is_up())) break;
@@ -82,11 +102,15 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
     range.last = std::min(range.last, range.first + std::clamp(done, 1U, kSamplesPerPass));
     range = stops.until_check(range);
     const auto draw = [&](const PixelRect& tile) {
-      if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, sums);
+      if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, target);
     };
     const auto tell = [&](double share) { return progress((done + share * range.size()) / to_do); };
     for_each_tile(sums.window, threads, draw,
                   progress ? std::function<bool(double)>(tell) : nullptr);
+    if (&target == &pass) {
+      const auto move = [&](const PixelRect& tile) { move_tile(tile, pass, sums); };
+      for_each_tile(sums.window, threads, move, nullptr);
+    }
     sums.note(range);
     done += range.size();
     if (passes.after_each) passes.after_each(sums);

@@ -116,6 +116,22 @@ TEST(Passes, StopAtTheTimeLimitAfterTheFirst) {
   expect_equal(film, drawn({.samples = 1}));
 }
 
+TEST(Passes, CanceledPassesLeaveNoTrace) {
+  constexpr std::uint32_t kSamples = 50;
+  const Film whole = drawn({.threads = 2, .samples = kSamples});
+  for (const int calls : {1, 2, 5, 9, 14, 30}) {
+    SampleSums sums;
+    int left = calls;
+    RenderOptions options{.threads = 2, .samples = kSamples, .passes = Passes{.sums = &sums}};
+    options.progress = [&](double) { return --left > 0; };
+    EXPECT_THROW((void)drawn(options), Error) << calls;
+    EXPECT_LT(sums.count(), kSamples);
+    for (const PixelSum& pixel : sums.pixels) ASSERT_EQ(pixel.count, sums.count()) << calls;
+    options.progress = nullptr;
+    expect_equal(drawn(options), whole);
+  }
+}
+
 TEST(Passes, CropEqualsThatPartOfTheWhole) {
   const Film whole = drawn({.samples = 9});
   SampleSums sums;
