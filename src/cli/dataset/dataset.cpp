@@ -6,6 +6,7 @@
 
 #include <microtrace/dataset.hpp>
 #include <microtrace/read_files.hpp>
+#include <microtrace/version.h>
 
 #include <algorithm>
 #include <chrono>
@@ -31,7 +32,7 @@ void check_names(const Arguments& arguments, const std::vector<DatasetView>& vie
 
 DatasetIdentity identity_of(const Arguments& arguments, const std::vector<DatasetView>& views,
                             std::uint64_t digest) {
-  return {.program = "microtrace " MICROTRACE_VERSION,
+  return {.program = "microtrace " MICROTRACE_VERSION_TEXT,
           .scene = fs::path(arguments.scene).filename().string(),
           .digest = digest,
           .options = arguments.dataset.identity,

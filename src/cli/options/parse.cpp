@@ -4,6 +4,7 @@
 #include "cli/options/usage_error.hpp"
 
 #include <microtrace/error.hpp>
+#include <microtrace/version.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -72,7 +73,7 @@ class Parser {
     if (option.name() == "--help") {
       added = app_.set_help_flag(names);
     } else if (option.name() == "--version") {
-      added = app_.set_version_flag(names, "microtrace " MICROTRACE_VERSION);
+      added = app_.set_version_flag(names, "microtrace " MICROTRACE_VERSION_TEXT);
     } else if (option.is_flag()) {
       if (!option.implied_value.empty()) names.append("{").append(option.implied_value).append("}");
       added = app_.add_flag(names);

@@ -1,6 +1,7 @@
 #include "cli/pictures/sample_files.hpp"
 
 #include <microtrace/io.hpp>
+#include <microtrace/version.h>
 
 #include <algorithm>
 #include <string>
@@ -14,7 +15,7 @@ namespace {
 /// Returns a string of all inputs on which samples depend: the program's version, the scene's files
 /// and the options.
 std::string identity_of(const Arguments& arguments, std::uint64_t files) {
-  return "version\t" MICROTRACE_VERSION "\nscene files\t" + std::to_string(files) + "\n" +
+  return "version\t" MICROTRACE_VERSION_TEXT "\nscene files\t" + std::to_string(files) + "\n" +
          arguments.identity;
 }
 
