@@ -5,6 +5,7 @@
 #include "cli/dataset/dataset.hpp"
 #include "cli/merge.hpp"
 #include "cli/options/completion.hpp"
+#include "cli/options/help.hpp"
 #include "cli/options/parse.hpp"
 #include "cli/pictures/camera.hpp"
 #include "cli/pictures/environment.hpp"
@@ -112,15 +113,14 @@ void limit_run(const cli::Arguments& arguments) {
 
 /// A command that the user selects by its name as the first argument.
 struct NamedCommand {
-  std::string_view name;
   cli::Command command;
   void (*run)(const cli::Arguments&);
 };
 
 constexpr std::array kNamedCommands{
-    NamedCommand{"merge", cli::Command::merge, cli::merge_samples},
-    NamedCommand{"dataset", cli::Command::dataset, cli::write_dataset},
-    NamedCommand{"verify", cli::Command::verify, cli::verify_dataset},
+    NamedCommand{cli::Command::merge, cli::merge_samples},
+    NamedCommand{cli::Command::dataset, cli::write_dataset},
+    NamedCommand{cli::Command::verify, cli::verify_dataset},
 };
 
 }  // namespace
@@ -130,7 +130,7 @@ int cli::run_program(int argc, char** argv) {
   cli::handle_signals();
   if (cli::is_completion(argc, argv)) return cli::print_completion(argc, argv);
   for (const NamedCommand& named : kNamedCommands) {
-    if (argc < 2 || argv[1] != named.name) continue;
+    if (argc < 2 || argv[1] != cli::name_of(named.command)) continue;
     const cli::Parsed parsed = cli::parse_arguments(named.command, argc - 1, argv + 1);
     if (parsed.exit_code) return *parsed.exit_code;
     return exit_code_of([&] {

@@ -4,6 +4,7 @@
 usage: completion_test.py PROGRAM [unittest arguments]
 """
 
+import re
 import shlex
 import subprocess
 import sys
@@ -12,6 +13,9 @@ import unittest
 sys.dont_write_bytecode = True
 import option_table
 from program import PROGRAM, ProgramTest
+
+
+COMMANDS = ("merge", "dataset", "verify")
 
 
 class Completion(ProgramTest):
@@ -27,9 +31,9 @@ class Completion(ProgramTest):
         self.assertEqual((result.returncode, result.stderr), (0, ""), command)
         return result.stdout
 
-    def help_options(self):
-        groups = option_table.parse(self.run_program("--help").stdout.decode())
-        return {option.name for options in groups.values() for option in options if option.name.startswith("--")}
+    def help_options(self, *command):
+        groups = option_table.parse(self.run_program(*command, "--help").stdout.decode())
+        return {name for options in groups.values() for option in options for name in option.names if name.startswith("--")}
 
     def complete_in_bash(self, *words):
         script = self.script("bash")
@@ -45,12 +49,27 @@ class Completion(ProgramTest):
         self.assertLessEqual(self.help_options(), self.complete_in_bash("microtrace", "-"))
         self.assertGreater(len(self.help_options()), 30)
         self.assertEqual(self.complete_in_bash("microtrace", "--tonemap", "a"), {"aces", "agx"})
-        self.assertEqual(self.complete_in_bash("microtrace", "m"), {"my scene.json", "model.glb"})
+        self.assertEqual(self.complete_in_bash("microtrace", "m"), {"my scene.json", "model.glb", "merge"})
         self.assertIn("folder", self.complete_in_bash("microtrace", ""))
         self.assertNotIn("notes.txt", self.complete_in_bash("microtrace", ""))
         self.assertIn("notes.txt", self.complete_in_bash("microtrace", "-o", "n"))
         self.assertEqual(self.complete_in_bash("microtrace", "--size", ""), set())
         self.assertEqual(self.complete_in_bash("microtrace", "--env", "s") & {"studio"}, {"studio"})
+
+    def test_commands_in_bash(self):
+        for name in ("scene.json", "sums"):
+            (self.folder / name).write_text("")
+        (self.folder / "set").mkdir()
+        for command in COMMANDS:
+            self.assertEqual(self.help_options(command), self.complete_in_bash("microtrace", command, "--"))
+            self.assertIn(command, self.complete_in_bash("microtrace", command[:2]))
+        self.assertEqual(self.complete_in_bash("microtrace", "merge", "s"), {"script.bash", "scene.json", "sums", "set"})
+        self.assertEqual(self.complete_in_bash("microtrace", "dataset", "s"), {"scene.json", "set"})
+        self.assertEqual(self.complete_in_bash("microtrace", "dataset", "--formats", ""),
+                         {"png", "exr", "npz", "coco", "bop"})
+        self.assertEqual(self.complete_in_bash("microtrace", "verify", ""), {"set"})
+        self.assertEqual(self.complete_in_bash("microtrace", "completion", ""), {"bash", "zsh", "fish"})
+        self.assertEqual(self.complete_in_bash("microtrace", "a.json", "--output", "dataset", "--redraw"), set())
 
     def test_fish(self):
         script = self.script("fish")
@@ -62,13 +81,19 @@ class Completion(ProgramTest):
         self.assertEqual(complete("microtrace --samp"), {"--samples"})
         self.assertLessEqual(self.help_options(), complete("microtrace --"))
         self.assertEqual(complete("microtrace --tonemap a"), {"aces", "agx"})
+        self.assertEqual(complete("microtrace a.json -o verify --redr"), set())
+        self.assertEqual(complete("microtrace completion "), {"bash", "zsh", "fish"})
+        self.assertIn("dataset", complete("microtrace da"))
+        for command in COMMANDS:
+            self.assertEqual(self.help_options(command), complete(f"microtrace {command} --"))
 
     def test_zsh(self):
         script = self.script("zsh")
         self.run_shell("zsh", "-f", "-n", str(script))
-        text = script.read_text()
-        for option in self.help_options():
-            self.assertRegex(text, rf"'(\([^)]*\)|\*){option}[=[]")
+        parts = dict(re.findall(r"^  \((\w+)\)\n    _arguments(.*?) ;;$", script.read_text(), re.MULTILINE | re.DOTALL))
+        for command in ("render", *COMMANDS):
+            for option in self.help_options(*([command] if command != "render" else [])):
+                self.assertRegex(parts[command], rf"'(\([^)]*\)|\*){option}[=[]")
 
     def test_completed_words_are_accepted(self):
         for option in ("--integrator", "--aov", "--tonemap", "--view", "--background", "--env", "--filter", "--ppm",

@@ -1,5 +1,6 @@
 #include "cli/options/completion.hpp"
 
+#include "cli/options/help.hpp"
 #include "cli/options/option.hpp"
 
 #include <microtrace/error.hpp>
@@ -40,15 +41,40 @@ std::string in_single_quotes(const std::string& text) {
   return out + "'";
 }
 
-std::vector<Option> named_options() {
+std::vector<Option> options_of(Command command, bool are_positional) {
   std::vector<Option> options;
-  for (const OptionGroup& group : option_groups(Command::render)) {
+  for (const OptionGroup& group : option_groups(command)) {
     for (const Option& option : group.options) {
-      if (!option.is_positional()) options.push_back(option);
+      if (option.is_positional() == are_positional) options.push_back(option);
     }
   }
   return options;
 }
+
+std::vector<Option> named_options(Command command) {
+  return options_of(command, false);
+}
+
+enum class Operands { scenes, files, folders };
+
+/// Returns the kind of files that the command takes as positional arguments.
+Operands operands_of(Command command) {
+  const Option operand = options_of(command, true).front();
+  if (operand.name() == "SCENE") return Operands::scenes;
+  return operand.completion == Completion::folders ? Operands::folders : Operands::files;
+}
+
+/// Returns the names of all commands but `render`, separated by `between`.
+std::string command_names(std::string_view between) {
+  std::vector<std::string> names;
+  for (const Command command : kCommands) {
+    if (command != Command::render) names.emplace_back(name_of(command));
+  }
+  names.emplace_back("completion");
+  return joined(names, between);
+}
+
+constexpr std::string_view kShells = "bash zsh fish";
 
 std::vector<std::string> names_of(const Option& option) {
   const std::vector<std::string_view> names = option.all_names();
@@ -64,43 +90,67 @@ bool has_value(const Option& option) {
   return !option.is_flag();
 }
 
-std::string bash_script() {
+/// Returns the cases of bash's completion for the word after each option of a command, and for all
+/// other words.
+std::string bash_cases(Command command) {
+  const std::string prefix = std::string(name_of(command)) + ",";
   std::vector<std::string> all_names, files, free;
-  std::string choices;
-  for (const Option& option : named_options()) {
-    const std::vector<std::string> names = names_of(option), words = words_of(option);
+  std::string cases;
+  for (const Option& option : named_options(command)) {
+    std::vector<std::string> names = names_of(option);
+    const std::vector<std::string> words = words_of(option);
     all_names.insert(all_names.end(), names.begin(), names.end());
     if (!has_value(option)) continue;
+    for (std::string& name : names) name.insert(0, prefix);
     const bool takes_file = option.completion != Completion::none;
     if (!words.empty()) {
-      choices += "    " + joined(names, "|") + ") words=" + in_single_quotes(joined(words, " "));
-      choices += takes_file ? " files=yes ;;\n" : " ;;\n";
+      cases += "    " + joined(names, "|") + ") words=" + in_single_quotes(joined(words, " "));
+      cases += takes_file ? " files=yes ;;\n" : " ;;\n";
     } else {
       std::vector<std::string>& kind = takes_file ? files : free;
       kind.insert(kind.end(), names.begin(), names.end());
     }
   }
+  if (!files.empty()) cases += "    " + joined(files, "|") + ") files=yes ;;\n";
+  if (!free.empty()) cases += "    " + joined(free, "|") + ") return ;;\n";
+  const Operands operands = operands_of(command);
+  const std::string_view kind = operands == Operands::scenes    ? "scenes"
+                                : operands == Operands::folders ? "folders"
+                                                                : "yes";
+  return cases + "    " + prefix + "*) names=" + in_single_quotes(joined(all_names, " ")) +
+         " operands=" + std::string(kind) + " ;;\n";
+}
+
+std::string bash_script() {
+  std::string cases;
+  for (const Command command : kCommands) cases += bash_cases(command);
   return R"(# bash completion for microtrace
 _microtrace() {
-  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words= files= file
+  local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} command=render
+  local words= files= names= operands= file
+  if [[ $COMP_CWORD -gt 1 ]]; then
+    case ${COMP_WORDS[1]} in )" +
+         command_names("|") + R"() command=${COMP_WORDS[1]} ;; esac
+  fi
   COMPREPLY=()
-  case $before in
-)" + choices +
-         "    " + joined(files, "|") + ") files=yes ;;\n    " + joined(free, "|") + R"() return ;;
-    *)
-      if [[ $current == -* ]]; then
-        words=)" +
-         in_single_quotes(joined(all_names, " ")) + R"(
-      else
-        files=scenes
-      fi
-      ;;
+  case $command,$before in
+)" + cases +
+         "    completion,*) words='" + std::string(kShells) + R"(' ;;
   esac
+  if [[ -n $names && $current == -* ]]; then
+    words=$names
+  elif [[ -n $names ]]; then
+    files=$operands
+    [[ $COMP_CWORD -gt 1 ]] || words=')" +
+         command_names(" ") + R"('
+  fi
   [[ -n $words ]] && mapfile -t COMPREPLY < <(compgen -W "$words" -- "$current")
   [[ -n $files ]] || return
   compopt -o filenames 2>/dev/null
   while IFS= read -r file; do
-    if [[ $files == yes || -d $file || $file == *.json || $file == *.gltf || $file == *.glb ]]; then
+    if [[ $files == yes || -d $file ]]; then
+      COMPREPLY+=("$file")
+    elif [[ $files == scenes && ($file == *.json || $file == *.gltf || $file == *.glb) ]]; then
       COMPREPLY+=("$file")
     fi
   done < <(compgen -f -- "$current")
@@ -117,35 +167,84 @@ std::string zsh_value(const Option& option) {
   return value + (words.empty() ? " " : "(" + joined(words, " ") + ")");
 }
 
-std::string zsh_script() {
-  std::string script = "#compdef microtrace\n_arguments -s \\\n";
-  for (const Option& option : named_options()) {
+/// Returns the arguments of zsh's function _arguments for a command.
+std::string zsh_arguments(Command command) {
+  std::string script;
+  for (const Option& option : named_options(command)) {
     const std::vector<std::string> names = names_of(option);
     for (const std::string& name : names) {
       std::string entry = option.is_repeatable ? "*" + name : "(" + joined(names, " ") + ")" + name;
       if (has_value(option) && name.starts_with("--")) entry += '=';
       entry += "[" + escaped(std::string(option.help), "[]:\\") + "]";
       if (has_value(option)) entry += zsh_value(option);
-      script += "  " + in_single_quotes(entry) + " \\\n";
+      script += "      " + in_single_quotes(entry) + " \\\n";
     }
   }
-  return script + "  '*:scene:_files -g \"*.(json|gltf|glb)(-.)\"'\n";
+  constexpr std::string_view kScenes = R"#(_files -g "*.(json|gltf|glb)(-.)")#";
+  std::string operands = "_files";
+  if (operands_of(command) == Operands::folders) operands = "_files -/";
+  if (operands_of(command) == Operands::scenes) operands = kScenes;
+  if (command == Command::render) {
+    script += "      '1: : _alternative \"commands:command:(" + command_names(" ") +
+              ")\" \"scenes:scene:" + escaped(operands, "\"\\") + "\"' \\\n";
+  }
+  const std::string_view name = options_of(command, true).front().name();
+  return script + "      '*:" + std::string(name) + ":" + operands + "'";
+}
+
+std::string zsh_script() {
+  std::string script = R"(#compdef microtrace
+local command=render
+if (( CURRENT > 2 )); then
+  case $words[2] in
+    ()" + command_names("|") +
+                       R"()
+      command=$words[2]
+      shift words
+      (( CURRENT-- )) ;;
+  esac
+fi
+case $command in
+)";
+  for (const Command command : kCommands) {
+    script.append("  (").append(name_of(command)).append(")\n    _arguments -s \\\n");
+    script += zsh_arguments(command) + " ;;\n";
+  }
+  return script + "  (completion)\n    _arguments '1:shell:(" + std::string(kShells) +
+         ")' ;;\nesac\n";
 }
 
 std::string fish_script() {
-  std::string script = "# fish completion for microtrace\n";
-  for (const Option& option : named_options()) {
-    script += "complete -c microtrace";
-    for (const std::string& name : names_of(option)) {
-      const bool is_long = name.starts_with("--");
-      script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
+  std::string script = R"(# fish completion for microtrace
+function __microtrace_command
+  set -l words (commandline -opc)
+  if contains -- "$words[2]" )" +
+                       command_names(" ") + R"(
+    test $words[2] = $argv[1]
+  else
+    test render = $argv[1]
+  end
+end
+complete -c microtrace -n 'test (count (commandline -opc)) -eq 1' -a ')" +
+                       command_names(" ") + R"('
+complete -c microtrace -n '__microtrace_command completion' -f -a ')" +
+                       std::string(kShells) + "'\n";
+  for (const Command command : kCommands) {
+    for (const Option& option : named_options(command)) {
+      script.append("complete -c microtrace -n '__microtrace_command ")
+          .append(name_of(command))
+          .append("'");
+      for (const std::string& name : names_of(option)) {
+        const bool is_long = name.starts_with("--");
+        script += (is_long ? " -l " : " -s ") + name.substr(is_long ? 2 : 1);
+      }
+      if (has_value(option)) {
+        const std::vector<std::string> words = words_of(option);
+        script += option.completion != Completion::none ? " -r -F" : " -x";
+        if (!words.empty()) script += " -a " + in_single_quotes(joined(words, " "));
+      }
+      script += " -d " + in_single_quotes(escaped(std::string(option.help), "\\")) + "\n";
     }
-    if (has_value(option)) {
-      const std::vector<std::string> words = words_of(option);
-      script += option.completion != Completion::none ? " -r -F" : " -x";
-      if (!words.empty()) script += " -a " + in_single_quotes(joined(words, " "));
-    }
-    script += " -d " + in_single_quotes(escaped(std::string(option.help), "\\")) + "\n";
   }
   return script;
 }

@@ -102,18 +102,24 @@ std::string line_of(const Option& option) {
 
 }  // namespace
 
-std::string program_name(Command command) {
+std::string_view name_of(Command command) {
   switch (command) {
     case Command::render:
-      return "microtrace";
+      return "render";
     case Command::merge:
-      return "microtrace merge";
+      return "merge";
     case Command::dataset:
-      return "microtrace dataset";
+      return "dataset";
     case Command::verify:
-      return "microtrace verify";
+      return "verify";
   }
   return {};
+}
+
+std::string program_name(Command command) {
+  std::string name = "microtrace";
+  if (command != Command::render) name.append(" ").append(name_of(command));
+  return name;
 }
 
 std::string help_text(Command command) {

@@ -2,8 +2,12 @@
 #include "cli/options/option.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace microtrace::cli {
+
+/// Returns "render" or the argument that selects the command, such as "merge".
+[[nodiscard]] std::string_view name_of(Command command);
 
 /// Returns "microtrace" or "microtrace merge".
 [[nodiscard]] std::string program_name(Command command);

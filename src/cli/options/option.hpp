@@ -11,6 +11,7 @@
 #include "cli/options/option_value.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,8 +21,12 @@ namespace microtrace::cli {
 
 struct Arguments;
 
-/// The commands that take an option.
+/// The commands that take an option. All but `render` are selected by their name as the first
+/// argument.
 enum class Command { render, merge, dataset, verify };
+
+inline constexpr std::array kCommands{Command::render, Command::merge, Command::dataset,
+                                      Command::verify};
 
 /// The effect of an option on the samples of Monte Carlo integrators. Samples of several runs can
 /// be combined only if all options that change samples have the same values in these runs.
