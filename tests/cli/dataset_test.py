@@ -51,6 +51,13 @@ class Dataset(ProgramTest):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual((self.folder / name).read_bytes(), self.contents()[f"{view:06d}{extension}"])
 
+    def test_warnings_about_views_are_printed_once(self):
+        message = self.dataset("--views", "orbit:5", *SMALL, "--formats", "bop", "--depth-scale", "0.001")
+        self.assertEqual(message.count("exceed 65535 steps"), 1, message)
+        self.assertIn("exceed 65535 steps",
+                      self.dataset("--views", "orbit:5", *SMALL, "--formats", "bop", "--depth-scale", "0.001", "--strict",
+                                   code=3, output="strict"))
+
     def test_listed_views(self):
         camera = {"type": "perspective", "position": [0, 1, 8], "direction": [0, 0, -1], "vertical_fov": 30}
         self.dataset(*self.views({"name": "front", "camera": camera},
@@ -123,13 +130,15 @@ class Dataset(ProgramTest):
 
     def test_kills_lose_nothing(self):
         options = ["--views", "random:40", "--size", "64x48", "--quiet"]
+        start = time.monotonic()
         self.dataset(*options)
+        seconds = time.monotonic() - start
         whole = self.contents()
         kills = 0
         randomness = random.Random(7)
         for _ in range(12):
             process = subprocess.Popen([PROGRAM, "dataset", SCENE, "-o", "killed", *options], cwd=self.folder, env=environment())
-            time.sleep(randomness.uniform(0, 0.12))
+            time.sleep(randomness.uniform(0, seconds / 2))
             process.send_signal(signal.SIGKILL)
             kills += process.wait() == -signal.SIGKILL
             if (self.folder / "killed").exists():

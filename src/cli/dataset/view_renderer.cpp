@@ -117,7 +117,7 @@ void ViewRenderer::save_bop(const DatasetView& view, const AnnotatedPicture& pic
                             const fs::path& folder, std::vector<std::string>& names) {
   const BopAnnotations bop =
       bop_annotations(*prepared_, picture, arguments_.dataset.depth_scale, arguments_.threads);
-  warnings_.report(bop.warnings);
+  for (const Diagnostic& warning : bop.warnings) warnings_.report_picture(warning);
   const auto save = [&](const std::string& name, const std::string& bytes) {
     write_dataset_file(folder / name, bytes);
     names.push_back(name);

@@ -27,8 +27,8 @@ class Warnings {
   /// With --strict, throws the first warning as an Error.
   void report(const std::vector<Diagnostic>& warnings);
 
-  /// Reports a warning about a picture in the same way. Of the warnings about a sequence's
-  /// pictures, prints only the first.
+  /// Reports a warning about a picture in the same way. Of the warnings about the pictures of a
+  /// sequence or data set, prints only the first.
   void report_picture(const std::optional<Diagnostic>& warning);
 
   /// Prints the result of --validate and returns the exit code.
