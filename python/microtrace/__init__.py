@@ -23,6 +23,7 @@ from .errors import (
     UnsupportedError,
     UsageError,
 )
+from .hits import AllHits, ClosestPoints, Hits
 from .images import Image, RadianceMap, load_map
 from .lights import DirectionalLight, Environment, Light, PointLight, SpotLight
 from .materials import (
@@ -40,7 +41,7 @@ from .materials import (
     Volume,
 )
 from .pictures import Picture, frame, render
-from .prepared import AllHits, ClosestPoints, Hits, OpenMeshWarning, PreparedScene
+from .prepared import OpenMeshWarning, PreparedScene
 from .scene import Scene, SceneFile, load, scene_of
 from .shapes import Disc, Mesh, Object, Plane, Quadric, Shape, Sphere, Triangle
 

@@ -21,7 +21,7 @@ class Brief:
             if isinstance(value, type(default)) and not _is_array(value) and value == default:
                 continue
             if value is not None or default is dataclasses.MISSING:
-                shown.append(f"{item.name}={_text(value)}")
+                shown.append(f"{item.name}={text(value)}")
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
@@ -29,14 +29,15 @@ def _is_array(value: Any) -> bool:
     return isinstance(value, np.ndarray)
 
 
-def _text(value: Any) -> str:
+def text(value: Any) -> str:
+    """Returns a short text for a value."""
     if _is_array(value):
         return f"<{value.dtype} {value.shape}>"
     if isinstance(value, float):
         return f"{value:.7g}"
     if isinstance(value, tuple):
-        return f"({', '.join(map(_text, value))}{',' if len(value) == 1 else ''})"
+        return f"({', '.join(map(text, value))}{',' if len(value) == 1 else ''})"
     if isinstance(value, list):
-        few = ", ".join(map(_text, value[:3]))
+        few = ", ".join(map(text, value[:3]))
         return f"[{few}, ... {len(value)} in all]" if len(value) > 3 else f"[{few}]"
     return repr(value)

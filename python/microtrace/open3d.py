@@ -93,7 +93,6 @@ class RaycastingScene:
             fields=("t", "object", "primitive", "barycentrics", "face_normal"),
             threads=nthreads or self._threads,
         )
-        assert hits.barycentrics is not None and hits.face_normal is not None
         return {
             "t_hit": _tensor(hits.t),
             "geometry_ids": _ids(hits.object),
@@ -126,7 +125,6 @@ class RaycastingScene:
         numbers = _numbers(rays)
         fields = ("t", "object", "primitive", "barycentrics")
         found, is_new = self._all(numbers, nthreads, fields)
-        assert found.t is not None and found.barycentrics is not None
         ids = found.ray[is_new]
         splits = np.zeros(numbers[..., 0].size + 1, np.int64)
         np.cumsum(np.bincount(ids, minlength=len(splits) - 1), out=splits[1:])
@@ -198,7 +196,6 @@ class RaycastingScene:
             rays, fields=fields, threads=nthreads or self._threads
         )
         t = found.t
-        assert t is not None
         is_new = np.ones(len(t), bool)
         is_new[1:] = (found.ray[1:] != found.ray[:-1]) | (t[1:] != t[:-1])
         return found, is_new
@@ -272,11 +269,9 @@ def _arrays_of(mesh: Any) -> tuple[Any, Any]:
     return mesh.vertices, mesh.faces if hasattr(mesh, "faces") else mesh.triangles
 
 
-def _tensor(array: Array | None) -> Tensor:
-    assert array is not None
+def _tensor(array: Array) -> Tensor:
     return array.view(Tensor)
 
 
-def _ids(indices: Array | None) -> Tensor:
-    assert indices is not None
+def _ids(indices: Array) -> Tensor:
     return indices.view(np.uint32).view(Tensor)  # -1 is INVALID_ID

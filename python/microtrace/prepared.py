@@ -3,102 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_numbers, as_threads, readable
-from ._brief import Brief
 from .errors import warn_caller
+from .hits import AllHits, ClosestPoints, HitField, Hits, output_arrays
 
 if TYPE_CHECKING:
     from .scene import Scene
 
 Array = npt.NDArray[Any]
-HitField = Literal[
-    "t", "object", "primitive", "position", "normal", "face_normal", "barycentrics", "uv", "front"
-]
-
-#: The length of the last axis of each array of Hits; 0 for arrays without this axis.
-_WIDTHS = {
-    "t": 0,
-    "object": 0,
-    "primitive": 0,
-    "position": 3,
-    "normal": 3,
-    "face_normal": 3,
-    "barycentrics": 3,
-    "uv": 2,
-    "front": 0,
-}
-_TYPES: dict[str, Any] = {
-    "object": np.int32,
-    "primitive": np.int32,
-    "front": np.bool_,
-    "position": np.float64,
-}
-
-
-@dataclass(eq=False, repr=False)
-class Hits(Brief):
-    """Hits of rays, in arrays of the rays' leading shape. Arrays that were not requested are
-    None."""
-
-    t: Array | None = None  #: float32, in multiples of the direction's length; infinite for misses
-    object: Array | None = None  #: int32, index into Scene.objects; -1 for misses
-    primitive: Array | None = None  #: int32, index of the mesh's face, or 0; -1 for misses
-    position: Array | None = None  #: (..., 3) float64, world space; 0 for misses
-    normal: Array | None = None  #: (..., 3) float32, unit shading normal of the front
-    face_normal: Array | None = None  #: (..., 3) float32, unit geometric normal of the front
-    barycentrics: Array | None = None  #: (..., 3) float32, weights of the triangle's corners
-    uv: Array | None = None  #: (..., 2) float32, texture coordinates of set 0
-    front: Array | None = None  #: bool; True if the ray arrives at the front side
-
-    @property
-    def hit(self) -> Array:
-        """A bool array; True for each ray that hits anything."""
-        if self.object is not None:
-            return np.asarray(self.object >= 0)
-        if self.primitive is not None:
-            return np.asarray(self.primitive >= 0)
-        if self.t is None:
-            raise ValueError("hit needs one of the fields t, object and primitive")
-        return np.asarray(np.isfinite(self.t))
-
-
-@dataclass(eq=False, repr=False)
-class AllHits(Hits):
-    """All hits of rays, ray by ray.
-
-    The hits of ray i are in the slice [offsets[i] : offsets[i + 1]] of each array.
-    """
-
-    #: int64, (number of rays + 1).
-    offsets: Array = field(default_factory=lambda: np.zeros(1, np.int64))
-    #: int64, index of each hit's ray.
-    ray: Array = field(default_factory=lambda: np.zeros(0, np.int64))
-
-
-@dataclass(eq=False, repr=False)
-class ClosestPoints(Brief):
-    """Nearest points on surfaces, in arrays of the query points' leading shape."""
-
-    position: Array  #: (..., 3) float64, world space; NaN if there is none
-    distance: Array  #: float64; infinite if there is none
-    object: Array  #: int32, index into Scene.objects; -1 if there is none
-    primitive: Array  #: int32, index of the mesh's face
-    barycentrics: Array  #: (..., 3) float64, weights of the triangle's corners
-    sign: Array | None = None  #: int8: -1 inside, 0 on the surface, 1 outside
-
-    @property
-    def signed_distance(self) -> Array:
-        """The distance as float64, negative inside."""
-        if self.sign is None:
-            raise ValueError("ask for it by closest_point(..., signed=True)")
-        return np.asarray(np.where(self.sign < 0, -self.distance, self.distance))
 
 
 class OpenMeshWarning(UserWarning):
@@ -175,7 +93,7 @@ class PreparedScene:
             TypeError: an array contains anything but real numbers.
         """
         flat, shape, low, high = _rays(rays, t_min, t_max)
-        outputs = _outputs(fields, len(flat))
+        outputs = output_arrays(fields, len(flat))
         self._core.intersect(flat, low, high, outputs, as_threads(threads))
         return Hits(**{k: v.reshape(shape + v.shape[1:]) for k, v in outputs.items()})
 
@@ -211,7 +129,7 @@ class PreparedScene:
         """
         flat, _, low, high = _rays(rays, t_min, t_max)
         found = self._core.intersect_all(flat, low, high, as_threads(threads))
-        outputs = _outputs(fields, len(found))
+        outputs = output_arrays(fields, len(found))
         offsets = np.empty(len(flat) + 1, np.int64)
         owners = np.empty(len(found), np.int64)
         self._core.fill_all(found, flat, outputs, offsets, owners, as_threads(threads))
@@ -308,33 +226,21 @@ class PreparedScene:
         owner, face = np.empty(count, np.int32), np.empty(count, np.int32)
         solid = self._solid(object)
         solid.nearest(flat, position, distance, owner, face, barycentrics, as_threads(threads))
-        sign: Array | None = None
-        if signed:
-            sign = -self.locate(flat, object=object, threads=threads).reshape(shape)
-        return ClosestPoints(
-            position.reshape(*shape, 3),
-            distance.reshape(shape),
-            owner.reshape(shape),
-            face.reshape(shape),
-            barycentrics.reshape(*shape, 3),
-            sign,
+        result = ClosestPoints(
+            position=position.reshape(*shape, 3),
+            distance=distance.reshape(shape),
+            object=owner.reshape(shape),
+            primitive=face.reshape(shape),
+            barycentrics=barycentrics.reshape(*shape, 3),
         )
+        if signed:
+            result.sign = -self.locate(flat, object=object, threads=threads).reshape(shape)
+        return result
 
     def _solid(self, object: int | None) -> _core.Solid:
         if object not in self._solids:
             self._solids[object] = _core.Solid(self._core, object)
         return self._solids[object]
-
-
-def _outputs(fields: Iterable[str], count: int) -> dict[str, Array]:
-    result: dict[str, Array] = {}
-    for name in fields:
-        if name not in _WIDTHS:
-            raise ValueError(f"unknown field {name!r}; use some of {', '.join(_WIDTHS)}")
-        width = _WIDTHS[name]
-        size = (count, width) if width else (count,)
-        result[name] = np.empty(size, _TYPES.get(name, np.float32))
-    return result
 
 
 def _points(points: npt.ArrayLike) -> tuple[npt.NDArray[np.float32], tuple[int, ...]]:

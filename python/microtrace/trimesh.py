@@ -57,7 +57,6 @@ class RayMeshIntersector:
         if multiple_hits:
             found = prepared.intersect_all(rays)
             t, tri, ray = found.t, found.primitive, found.ray
-            assert t is not None and tri is not None
             if return_locations:
                 is_new = np.ones(len(t), bool)
                 is_new[1:] = (ray[1:] != ray[:-1]) | (t[1:] != t[:-1])
@@ -68,7 +67,6 @@ class RayMeshIntersector:
                 t, tri, ray = t[few], tri[few], ray[few]
         else:
             nearest = prepared.intersect(rays, fields=("t", "primitive"))
-            assert nearest.t is not None and nearest.primitive is not None
             ray = np.nonzero(nearest.primitive >= 0)[0]
             t, tri = nearest.t[ray], nearest.primitive[ray]
         index_tri, index_ray = tri.astype(np.int64), ray.astype(np.int64)
@@ -96,7 +94,6 @@ class RayMeshIntersector:
         """Returns the first triangle that each ray hits, (m,) int64; -1 for misses."""
         rays = self._rays(ray_origins, ray_directions)
         hits = self._prepared().intersect(rays, fields=("primitive",))
-        assert hits.primitive is not None
         return hits.primitive.astype(np.int64)
 
     def intersects_any(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import pickle
 import signal
 import threading
 import time
@@ -132,7 +134,7 @@ def test_float64_is_rounded_once():
 
 
 def test_fields(ball):
-    hits = ball.intersect([[0.1, 0.2, 5, 0, 0, -2], [9, 9, 9, 1, 0, 0]], fields=mt.prepared._WIDTHS)
+    hits = ball.intersect([[0.1, 0.2, 5, 0, 0, -2], [9, 9, 9, 1, 0, 0]], fields=mt.hits._LAYOUTS)
     assert hits.front.tolist() == [True, False]
     assert hits.object.tolist() == [0, -1]
     vertices, faces = (np.asarray(x) for x in _mesh_of(ball))
@@ -143,7 +145,15 @@ def test_fields(ball):
     assert np.allclose(hits.face_normal[0], normal / np.linalg.norm(normal), atol=1e-6)
     assert hits.normal[1].tolist() == [0, 0, 0]
     only = ball.intersect([[0.1, 0.2, 5, 0, 0, -1]], fields=["primitive"])
-    assert only.t is None and only.primitive == hits.primitive[0] and only.hit.all()
+    assert only.primitive == hits.primitive[0] and only.hit.all()
+    with pytest.raises(AttributeError, match="'t' was not requested; add 't' to fields"):
+        _ = only.t
+    with pytest.raises(AttributeError, match="no attribute 'tee'"):
+        _ = only.tee
+    for other in (copy.copy(only), pickle.loads(pickle.dumps(only))):
+        assert other.primitive == only.primitive and not hasattr(other, "t")
+    assert repr(only) == "Hits(primitive=<int32 (1,)>)"
+    assert ball.intersect(np.zeros((1, 6)), fields="uv").uv.shape == (1, 2)
 
 
 def _mesh_of(prepared):

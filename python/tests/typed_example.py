@@ -39,8 +39,7 @@ def trace(prepared: mt.PreparedScene) -> int:
     rays = np.zeros((4, 6), np.float32)
     rays[:, 2], rays[:, 5] = 5, -1
     hits = prepared.intersect(rays, t_max=[1, 2, 3, np.inf], fields=["t", "object"])
-    if hits.t is None:
-        raise AssertionError
+    nearest: npt.NDArray[np.float32] = hits.t
     blocked: npt.NDArray[np.bool_] = prepared.occluded(rays)
     crossings: npt.NDArray[np.uint32] = prepared.count_crossings(rays)
     every = prepared.intersect_all(rays)
@@ -51,6 +50,7 @@ def trace(prepared: mt.PreparedScene) -> int:
         inside.tolist() == [1]
         and near.signed_distance.tolist() == lengths(near.position - (0.1, 0.1, -1)).tolist()
     )
+    assert nearest.shape == (4,)
     return int(blocked.sum()) - int(hits.hit.sum())
 
 
