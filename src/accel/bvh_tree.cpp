@@ -1,6 +1,5 @@
 #include "accel/bvh_tree.hpp"
 
-#include "accel/build/references/reference.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/error.hpp>
@@ -11,23 +10,10 @@
 namespace microtrace {
 namespace {
 
-// Maximum number of primitives for which testing all of them is faster than traversing a tree.
-constexpr PrimitiveId kFew = 16;
-
 // Upper bound of the memory per primitive during the build, including pieces of split triangles.
 constexpr std::uint64_t kBytesOfPrimitive = 120;
 
 constexpr const char* kMemoryUse = "the tree of primitives";
-
-Tree tree_of_few(const Primitives& primitives) {
-  build::References references = build::gather(primitives);
-  Tree tree;
-  tree.duplicates = Duplicates(references, primitives);
-  tree.unbounded = std::move(references.unbounded);
-  for (const build::Reference& reference : references.bounded)
-    tree.unbounded.push_back(reference.id());
-  return tree;
-}
 
 /// Reserves memory for a build. Releases the previous tree if the budget has no room for both
 /// trees.
@@ -42,7 +28,7 @@ MemoryAccount room_for_build(PrimitiveId count, BvhOptions& options) {
   return temporary_memory(count * kBytesOfPrimitive, kMemoryUse);
 }
 
-Tree tree_of_many(const Primitives& primitives, BvhOptions& options) {
+Tree make_tree(const Primitives& primitives, BvhOptions& options) {
   const MemoryAccount room = room_for_build(primitives.count(), options);
   BuildOptions build{.fast = options.fast_build,
                      .threads = options.threads,
@@ -57,10 +43,7 @@ Tree tree_of_many(const Primitives& primitives, BvhOptions& options) {
 std::shared_ptr<const BvhTree> make_bvh_tree(const Primitives& primitives, BvhOptions options) {
   const FloatEnvironment environment;
   MemoryAccount memory(memory_account().budget());
-  if (primitives.count() <= kFew)
-    return std::make_shared<BvhTree>(
-        BvhTree{.tree = tree_of_few(primitives), .memory = std::move(memory)});
-  Tree tree = tree_of_many(primitives, options);
+  Tree tree = make_tree(primitives, options);
   memory.take(memory_of(tree), kMemoryUse);
   return std::make_shared<BvhTree>(BvhTree{.tree = std::move(tree), .memory = std::move(memory)});
 }

@@ -17,7 +17,7 @@ struct BvhTree {
   MemoryAccount memory;
 };
 
-/// Builds the tree. For scenes with few primitives, stores all of them in Tree::unbounded instead.
+/// Builds the tree.
 /// Throws Error (limit) if memory runs out or there are too many primitives.
 [[nodiscard]] std::shared_ptr<const BvhTree> make_bvh_tree(const Primitives& primitives,
                                                            BvhOptions options);

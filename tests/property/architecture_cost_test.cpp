@@ -7,6 +7,7 @@
 #include <microtrace/render.hpp>
 
 #include <cctype>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -60,6 +61,19 @@ INSTANTIATE_TEST_SUITE_P(Scenes, ArchitectureCost,
                            for (char& c : word) c = std::isalnum(c) != 0 ? c : '_';
                            return word;
                          });
+
+// Scenes with few triangles had no tree, so the filters tested each triangle for each ray.
+TEST(StageCounts, RaysInSmallScenesRarelyReachTheFilters) {
+  auto scene = generated::turned(generated::architecture("room"));
+  for (const std::size_t triangles : {1, 4, 12, 14, 15, 30}) {
+    SCOPED_TRACE(triangles);
+    auto small = scene;
+    small.mesh.triangles.resize(triangles);
+    const auto [stages, questions] = draw(small, small.views[0], 1);
+    ASSERT_GT(questions, 10'000U);
+    EXPECT_LE(stages.filters * 5, questions);
+  }
+}
 
 TEST(StageCounts, DoNotDependOnThreads) {
   const auto scene = generated::architecture("skewed room");

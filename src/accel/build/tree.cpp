@@ -8,6 +8,9 @@
 #include "accel/build/wide/tree_writer.hpp"
 #include "accel/build/wide/wide_tree.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
 namespace microtrace {
 namespace {
 
@@ -27,12 +30,30 @@ void plan(BinaryTree& binary, WorkerPool& pool) {
   plan_node(binary.root);
 }
 
+/// In scenes with at most this number of primitives, testing each primitive that is not a triangle
+/// is faster than traversal.
+constexpr PrimitiveId kFewPrimitives = 16;
+/// Beside other primitives, the kernels need at least this number of triangles to pay off.
+constexpr std::ptrdiff_t kWorthKernels = 4;
+
+/// Takes primitives that are tested faster one by one out of a scene with few primitives.
+void take_out_few(References& references) {
+  const auto begin = references.bounded.begin(), end = references.bounded.end();
+  const auto others = std::stable_partition(
+      begin, end, [](const Reference& r) { return r.weight() == kTriangleWeight; });
+  const bool is_mixed = others != end || !references.unbounded.empty();
+  const auto first = is_mixed && others - begin < kWorthKernels ? begin : others;
+  for (auto taken = first; taken != end; ++taken) references.unbounded.push_back(taken->id());
+  references.bounded.erase(first, end);
+}
+
 }  // namespace
 
 Tree build_tree(const Primitives& primitives, BuildOptions options) {
   References references = gather(primitives);
   Duplicates duplicates(references, primitives);
   references.hashes = {};
+  if (primitives.count() <= kFewPrimitives) take_out_few(references);
   WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
   Tree tree;
   if (const Tree* const previous = options.previous.get();

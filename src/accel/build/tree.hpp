@@ -47,12 +47,14 @@ inline constexpr int kMaxDepth = 64;
 /// in a leaf.
 struct Tree {
   PageVector<WideNode> nodes;
-  PageVector<TriangleBlock> blocks;    ///< triangles with every |coordinate| at most 2^38
-  std::vector<PrimitiveId> others;     ///< larger triangles, spheres, discs
-  std::vector<PrimitiveId> unbounded;  ///< planes, quadrics, and shapes beyond the float32 range
-  Duplicates duplicates;               ///< triangles equal to one in the tree
-  ChildRef root = 0;                   ///< a node without children if there are no leaves
-  Bounds bounds;                       ///< bounds of all leaves
+  PageVector<TriangleBlock> blocks;  ///< triangles with every |coordinate| at most 2^38
+  std::vector<PrimitiveId> others;   ///< larger triangles, spheres, discs
+  /// Planes, quadrics, shapes beyond the float32 range, and primitives of scenes with so few of
+  /// them that testing each is faster.
+  std::vector<PrimitiveId> unbounded;
+  Duplicates duplicates;  ///< triangles equal to one in the tree
+  ChildRef root = 0;      ///< a node without children if there are no leaves
+  Bounds bounds;          ///< bounds of all leaves
 
   // The following members are for refitted().
   std::size_t primitives = 0;                ///< number of primitives in leaves
