@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace microtrace {
 
@@ -21,6 +22,9 @@ struct Checkpoint {
   std::uint32_t samples = 1;  ///< requested samples per pixel
   Display display{};          ///< how 8-bit formats show the picture
   SampleSums sums{};
+  /// Other channels of the picture. compute_channels() computes some of them from the sums, so
+  /// their values are not saved.
+  std::vector<Channel> channels{};
 };
 
 /// Writes a checkpoint; the file appears whole or not at all. Throws Error: io if it can't be
@@ -36,7 +40,7 @@ MICROTRACE_EXPORT void save_checkpoint(const Checkpoint& checkpoint,
 /// `checkpoint` has no samples yet. Throws Error (usage) if they belong to a different picture, or
 /// if some of them are already present. The message names the difference between the pictures. The
 /// display becomes that of the checkpoint with the first samples, so checkpoints may be added in
-/// any order.
+/// any order. The channels are those of the checkpoints with the most requested samples.
 MICROTRACE_EXPORT void add_samples(Checkpoint& checkpoint, Checkpoint other,
                                    const std::filesystem::path& path);
 

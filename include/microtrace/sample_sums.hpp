@@ -10,6 +10,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace microtrace {
@@ -92,6 +94,13 @@ class MICROTRACE_EXPORT SampleSums {
 
   std::vector<SampleRange> ranges_;
 };
+
+/// Computes the channels that depend only on the sums: those of SampledAov::variance and
+/// SampledAov::samples. Leaves other channels as they are.
+MICROTRACE_EXPORT void compute_channels(const SampleSums& sums, std::span<Channel> channels);
+
+/// Returns true if compute_channels() computes the channel with this name.
+[[nodiscard]] MICROTRACE_EXPORT bool is_computed_channel(std::string_view name);
 
 /// Returns the picture of the samples so far, either with alpha or over the background.
 [[nodiscard]] MICROTRACE_EXPORT Film develop(const SampleSums& sums, Film::Alpha alpha);

@@ -1,17 +1,23 @@
 #include "cli/merge.hpp"
 
 #include "base/memory_account.hpp"
+#include "base/printable.hpp"
 #include "cli/pictures/environment.hpp"
 #include "cli/pictures/output_paths.hpp"
 #include "cli/pictures/sample_files.hpp"
+#include "cli/pictures/sequence.hpp"
 #include "cli/report/written_files.hpp"
 
 #include <microtrace/checkpoint.hpp>
 
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <system_error>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -29,22 +35,36 @@ std::string missing_samples(const Checkpoint& all) {
   return ranges;
 }
 
-}  // namespace
+/// Removes files that don't exist, with warnings, if samples may be missing.
+void skip_missing(std::vector<std::filesystem::path>& files, const Arguments& arguments) {
+  if (!arguments.frames || !arguments.allows_missing_samples) return;
+  std::erase_if(files, [&](const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) return false;
+    if (!arguments.quiet)
+      std::fprintf(stderr, "warning: %s is missing\n", printable(file.string()).c_str());
+    return true;
+  });
+}
 
-void merge_samples(const Arguments& arguments) {
+/// Merges the checkpoints of one picture.
+void merge_picture(const Arguments& arguments, const Sequence& sequence, std::uint32_t index) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::filesystem::path &picture = arguments.output, &merged = arguments.sampling.checkpoint;
-  if (picture.empty() && merged.empty())
-    throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
   const ReadFiles inputs;
   MemoryBudget budget(default_memory_limit());
   MemoryAccount memory(&budget);
   const MemoryScope scope(memory);
-  Checkpoint all = load_checkpoint(arguments.checkpoints.front());
+  std::vector<std::filesystem::path> files = sequence.checkpoints(index);
+  skip_missing(files, arguments);
+  if (files.empty()) return;
+  const std::filesystem::path picture = sequence.picture(index),
+                              merged = sequence.checkpoint(index);
+  Checkpoint all = load_checkpoint(files.front());
   if (!merged.empty()) check_checkpoint_path(merged);
-  if (!picture.empty()) check_image_path(picture, {.alpha = all.has_alpha});
+  if (!picture.empty())
+    check_image_path(picture, {.alpha = all.has_alpha, .channels = !all.channels.empty()});
   check_outputs_differ({{"--output", picture}, {"--checkpoint", merged}});
-  add_files(all, std::span(arguments.checkpoints).subspan(1), memory);
+  add_files(all, std::span(files).subspan(1), memory, true);
   check_no_input_is_overwritten(inputs, {{"--output", picture}, {"--checkpoint", merged}});
   const std::string missing = missing_samples(all);
   if (!missing.empty() && !arguments.allows_missing_samples) {
@@ -63,6 +83,17 @@ void merge_samples(const Arguments& arguments) {
     report_written({.main = picture.empty() ? merged : picture, .sidecar = {}},
                    all.sums.window.size(), all.sums.count(), seconds.count());
   }
+}
+
+}  // namespace
+
+void merge_samples(const Arguments& arguments) {
+  if (arguments.output.empty() && arguments.sampling.checkpoint.empty())
+    throw Error(ErrorKind::usage, "", "merge needs --output or --checkpoint");
+  const Sequence sequence(arguments);
+  check_paths(ReadFiles(), sequence);
+  for (std::uint32_t index = 0; index < sequence.count(); ++index)
+    merge_picture(arguments, sequence, index);
 }
 
 }  // namespace microtrace::cli

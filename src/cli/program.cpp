@@ -40,6 +40,7 @@ int render_pictures(cli::Arguments arguments) {
   arguments.load.times = &times;
   arguments.load.detail = cli::surface_detail(arguments);
   std::optional<ReadDigest> digest;
+  std::optional<std::uint64_t> scene_files;
   if (arguments.sampling.uses_files()) digest.emplace();
   const ReadFiles inputs;
   SceneFile file(arguments.scene, arguments.load);
@@ -70,10 +71,13 @@ int render_pictures(cli::Arguments arguments) {
     if (arguments.validate) continue;
 
     if (index == 0) {
-      cli::check_no_input_is_overwritten(inputs, {{"--checkpoint", arguments.sampling.checkpoint}});
-      if (digest) log.report(samples.emplace(arguments, digest->value()).warnings());
       cli::check_paths(inputs, sequence);
+      if (digest) scene_files = digest->value();  // without the checkpoints, which are read next
     }
+    if (scene_files)
+      log.report(samples.emplace(arguments, sequence, index, *scene_files).warnings());
+    cli::check_no_input_is_overwritten(
+        inputs, {{"--output", sequence.picture(index)}, {"--sidecar", sequence.sidecar(index)}});
     const cli::PictureFiles files{.picture = sequence.picture(index),
                                   .sidecar = sequence.sidecar(index),
                                   .samples = samples ? &*samples : nullptr};

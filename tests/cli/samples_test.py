@@ -304,7 +304,7 @@ class Samples(ProgramTest):
                           ["--shard", "3/2", "--checkpoint", "c", "--spp", "4"],
                           ["--shard", "1/5", "--checkpoint", "c", "--spp", "4"],
                           ["--shard", "1/2", "--checkpoint", "c", "--spp", "4", "-o", "a.ppm"],
-                          ["--shard", "1/2", "--checkpoint", "c", "--spp", "4", "--aov", "depth"],
+                          ["--shard", "1/2", "--checkpoint", "c", "--spp", "4", "--sidecar", "a.json"],
                           ["--checkpoint", "a.ppm", "-o", "a.ppm"], ["--time-limit", "-1"],
                           ["--time-limit", "soon"], ["--checkpoint", "c", "--frames", "0:1", "-o", "%d.ppm"],
                           ["--progressive", "-o", "-"], ["--target-error", "0"],

@@ -86,7 +86,7 @@ def samples_of(checkpoint):
         for byte in range(PIXEL_BYTES):
             block[byte::PIXEL_BYTES] = planes[byte * pixels:(byte + 1) * pixels]
         samples += block
-    assert at == len(checkpoint) - 8  # the digest
+    assert at == len(checkpoint) - 4 - 8  # the number of channels and the digest
     return bytes(samples)
 
 

@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -31,6 +33,11 @@ Checkpoint example() {
   }
   checkpoint.sums.note({.first = 2, .last = 4});
   checkpoint.sums.note({.first = 6, .last = 8});
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  checkpoint.channels = {
+      {.name = "depth.Z", .values = std::vector<float>{1, -0.0F, kInfinity, 2, 3, 1e-40F}},
+      {.name = "samples.N", .values = std::vector<float>(6, 7)},
+      {.name = "id.instance", .values = std::vector<std::uint32_t>{0, 1, 0xffffffff, 3, 4, 5}}};
   return checkpoint;
 }
 
@@ -57,6 +64,24 @@ TEST_F(CheckpointFile, StoresAllMembers) {
   EXPECT_EQ(read.sums.background, written.sums.background);
   EXPECT_EQ(read.sums.ranges(), written.sums.ranges());
   EXPECT_EQ(read.sums.pixels, written.sums.pixels);
+  ASSERT_EQ(read.channels.size(), 3U);
+  for (const std::size_t i : {0U, 2U}) {
+    EXPECT_EQ(read.channels[i].name, written.channels[i].name);
+    EXPECT_EQ(read.channels[i].values, written.channels[i].values);
+  }
+  const Film film = picture_of(read);
+  EXPECT_EQ(film.channels[0].values, written.channels[0].values);
+  EXPECT_EQ(film.channels[1].name, "samples.N");
+  EXPECT_EQ(std::get<std::vector<float>>(film.channels[1].values), std::vector<float>(6, 4));
+}
+
+TEST(Checkpoint, RefusesOtherValuesOfChannels) {
+  Checkpoint sum = example(), other = example();
+  other.sums = SampleSums(sum.sums.whole, sum.sums.window, sum.sums.background);
+  std::get<std::vector<float>>(other.channels[1].values)[0] = 1;  // computed from the samples
+  EXPECT_NO_THROW(add_samples(sum, other, "c"));
+  std::get<std::vector<float>>(other.channels[0].values)[1] = 0;
+  EXPECT_THROW(add_samples(sum, other, "c"), Error);
 }
 
 TEST_F(CheckpointFile, DetectsEveryChangedBit) {
@@ -93,9 +118,15 @@ TEST_F(CheckpointFile, StoresSeveralCompressedBlocks) {
     (void)written.sums.pixels[i].add(Vec3(noise, 1, i < 9000 ? noise : 0), 1, Vec3(0));
   }
   written.sums.note({.first = 0, .last = 1});
+  std::vector<float> depths(written.sums.pixels.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = static_cast<float>(i % 777);
+  written.channels = {{.name = "depth.Z", .values = depths}};
   save_checkpoint(written, path_);
   EXPECT_LT(std::filesystem::file_size(path_), written.sums.pixels.size() * 84 / 3);
-  EXPECT_EQ(load_checkpoint(path_).sums.pixels, written.sums.pixels);
+  const Checkpoint read = load_checkpoint(path_);
+  EXPECT_EQ(read.sums.pixels, written.sums.pixels);
+  ASSERT_EQ(read.channels.size(), 1U);
+  EXPECT_EQ(std::get<std::vector<float>>(read.channels[0].values), depths);
 }
 
 TEST_F(CheckpointFile, DamageBeforeTheDigestIsRefusedOrReadInBoundedMemory) {

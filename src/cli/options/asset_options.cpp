@@ -34,7 +34,7 @@ constexpr std::array kAssetOptions{
                "number, as in out_%04d.png",
            .default_value = "one picture",
            .samples = Samples::change,
-           .excludes = "--time --checkpoint --resume --progressive",
+           .excludes = "--time",
            .set = [](Arguments& a, const OptionValue& value) { a.frames = parse_frames(value); }},
     Option{.names = "--fps",
            .metavar = "N",

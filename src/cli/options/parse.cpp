@@ -137,6 +137,19 @@ std::filesystem::path default_output(const std::string& scene, bool has_frames) 
   return std::filesystem::path(scene).stem() += has_frames ? "_%04d.png" : ".png";
 }
 
+/// Checks that names of files contain the frame number if frames are rendered or merged.
+void check_patterns(const Arguments& a) {
+  if (!a.frames) return;
+  const auto check = [](const char* option, const std::filesystem::path& name) {
+    if (!name.empty()) check_pattern(option, name.string());
+  };
+  check("--output", a.output);
+  check("--sidecar", a.sidecar);
+  check("--checkpoint", a.sampling.checkpoint);
+  for (const std::filesystem::path& name : a.sampling.resume) check("--resume", name);
+  for (const std::filesystem::path& name : a.checkpoints) check("CHECKPOINT", name);
+}
+
 /// Checks rules that involve several options and sets values that depend on others.
 void complete(Arguments& a) {
   const CameraOptions& camera = a.camera;
@@ -148,10 +161,10 @@ void complete(Arguments& a) {
     refuse_usage("--animation requires --time or --frames");
   if (a.output.empty() && !a.validate && !a.sampling.shard)
     a.output = default_output(a.scene, a.frames.has_value());
-  if (a.sidecar.empty() && std::ranges::find(a.aovs.exact, Aov::id) != a.aovs.exact.end())
+  if (a.sidecar.empty() && !a.sampling.shard &&
+      std::ranges::find(a.aovs.exact, Aov::id) != a.aovs.exact.end())
     (a.sidecar = a.output) += ".json";
-  if (a.frames && !a.output.empty()) check_pattern("--output", a.output.string());
-  if (a.frames && !a.sidecar.empty()) check_pattern("--sidecar", a.sidecar.string());
+  check_patterns(a);
 }
 
 int print(const std::string& text) {
@@ -172,6 +185,7 @@ Parsed parse_arguments(Command command, int argc, char** argv) {
       for (const std::string& value : values) option->set(a, {std::string(option->name()), value});
     }
     if (command == Command::render) complete(a);
+    if (command == Command::merge) check_patterns(a);
     if (command == Command::dataset) identify_dataset(given, a.dataset);
     a.identity = identity_of(given);
   } catch (const CLI::CallForHelp&) {

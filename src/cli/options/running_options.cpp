@@ -123,6 +123,13 @@ constexpr std::array kMergeOptions{
         .samples = Samples::keep,
         .completion = Completion::files,
         .set = [](Arguments& a, const OptionValue& value) { a.sampling.checkpoint = value.text; }},
+    Option{.names = "--frames",
+           .metavar = "A:B",
+           .help = "merge the checkpoints of each frame from A to B; all names contain a "
+                   "placeholder for the frame number, as in part1_%04d",
+           .default_value = "one picture",
+           .samples = Samples::keep,
+           .set = [](Arguments& a, const OptionValue& value) { a.frames = parse_frames(value); }},
     Option{.names = "--partial",
            .help = "merge even if samples are missing, which is otherwise an error",
            .samples = Samples::keep,

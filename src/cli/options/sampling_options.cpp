@@ -110,15 +110,17 @@ constexpr std::array kCheckpointOptions{
            .is_repeatable = true,
            .set = [](Arguments& a,
                      const OptionValue& value) { a.sampling.resume.emplace_back(value.text); }},
-    Option{.names = "--shard",
-           .metavar = "I/N",
-           .help = "take only part I of N of the samples, save them to --checkpoint, and write no "
-                   "picture; microtrace merge makes the picture from all parts",
-           .samples = Samples::keep,
-           .needs = "--checkpoint",
-           .excludes = "--output --aov --sidecar --progressive --target-error",
-           .set = [](Arguments& a,
-                     const OptionValue& value) { a.sampling.shard = parse_shard(value); }},
+    Option{
+        .names = "--shard",
+        .metavar = "I/N",
+        .help =
+            "take only part I of N of the samples, save them to --checkpoint with the channels of "
+            "--aov, and write no picture; microtrace merge makes the picture from all parts",
+        .samples = Samples::keep,
+        .needs = "--checkpoint",
+        .excludes = "--output --sidecar --progressive --target-error",
+        .set = [](Arguments& a,
+                  const OptionValue& value) { a.sampling.shard = parse_shard(value); }},
     Option{.names = "--progressive",
            .help = "write the picture repeatedly while rendering",
            .samples = Samples::keep,

@@ -2,7 +2,9 @@
 
 #include <microtrace/error.hpp>
 
-#include <unordered_set>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
 
 namespace microtrace::cli {
 namespace {
@@ -11,10 +13,43 @@ std::string name_of(const std::filesystem::path& path) {
   return path == "-" ? "standard output" : path.string();
 }
 
+constexpr const char *kCheckpoint = "--checkpoint", *kResume = "--resume";
+
 [[noreturn]] void refuse_same(const Output& a, const Output& b) {
   throw Error(ErrorKind::usage, name_of(b.path),
               std::string("is named by both ") + a.option + " and " + b.option +
                   "; choose another file for one of them");
+}
+
+/// The option that names a file, and the index of the picture.
+struct Use {
+  const char* option;
+  std::uint32_t index;
+};
+
+/// Throws Error (usage) if the files of two pictures, or two files of one picture, are the same. A
+/// checkpoint may be continued.
+void check_frames_apart(const Sequence& sequence) {
+  std::unordered_map<std::string, Use> uses;
+  const auto add = [&](const Use& use, const std::filesystem::path& path) {
+    if (path.empty() || path == "-") return;
+    const std::string normal = std::filesystem::absolute(path).lexically_normal().string();
+    const auto [at, is_new] = uses.try_emplace(normal, use);
+    if (is_new) return;
+    const Use& other = at->second;
+    const bool is_output = other.option != kResume && other.option != kCheckpoint;
+    if (is_output || (other.option == kCheckpoint && other.index != use.index))
+      refuse_same({other.option, path}, {use.option, path});
+  };
+  const auto for_each = [&](const auto& f) {
+    for (std::uint32_t index = 0; index < sequence.count(); ++index) f(index);
+  };
+  for_each([&](auto index) { add({"--output", index}, sequence.picture(index)); });
+  for_each([&](auto index) { add({"--sidecar", index}, sequence.sidecar(index)); });
+  for_each([&](auto index) { add({kCheckpoint, index}, sequence.checkpoint(index)); });
+  for_each([&](auto index) {
+    for (const std::filesystem::path& path : sequence.resume(index)) add({kResume, index}, path);
+  });
 }
 
 }  // namespace
@@ -40,22 +75,14 @@ void check_outputs_differ(const std::vector<Output>& outputs) {
 }
 
 void check_paths(const ReadFiles& inputs, const Sequence& sequence) {
-  const auto normal = [](const std::filesystem::path& path) {
-    return std::filesystem::absolute(path).lexically_normal().string();
-  };
-  std::unordered_set<std::string> pictures;
   for (std::uint32_t index = 0; index < sequence.count(); ++index) {
     const Output picture{"--output", sequence.picture(index)};
     const Output sidecar{"--sidecar", sequence.sidecar(index)};
-    check_no_input_is_overwritten(inputs, {picture, sidecar});
+    check_no_input_is_overwritten(inputs,
+                                  {picture, sidecar, {"--checkpoint", sequence.checkpoint(index)}});
     check_outputs_differ({picture, sidecar});
-    if (!sidecar.path.empty() && sequence.count() > 1) pictures.insert(normal(picture.path));
   }
-  // Another frame's sidecar must not overwrite a picture either.
-  for (std::uint32_t index = 0; !pictures.empty() && index < sequence.count(); ++index) {
-    const Output sidecar{"--sidecar", sequence.sidecar(index)};
-    if (pictures.contains(normal(sidecar.path))) refuse_same({"--output", {}}, sidecar);
-  }
+  if (sequence.count() > 1) check_frames_apart(sequence);
 }
 
 }  // namespace microtrace::cli

@@ -23,7 +23,8 @@ void check_no_input_is_overwritten(const ReadFiles& inputs, const std::vector<Ou
 /// Throws Error (usage) if two of the outputs are the same file.
 void check_outputs_differ(const std::vector<Output>& outputs);
 
-/// Makes the checks of the other two functions for all pictures and sidecars of a sequence.
+/// Makes the checks of the other two functions for all pictures, sidecars and checkpoints of a
+/// sequence. Call it before checkpoints are read.
 void check_paths(const ReadFiles& inputs, const Sequence& sequence);
 
 }  // namespace microtrace::cli

@@ -68,13 +68,14 @@ std::function<bool(double)> shown_by(const std::function<void(double)>& progress
 Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize size,
                      const RenderOptions& options, const Arguments& arguments,
                      const PictureFiles& files) {
-  if (files.samples == nullptr || arguments.sampling.checkpoint.empty())
+  if (files.samples == nullptr || files.samples->checkpoint().empty())
     return render(scene, camera, size, options);
   std::optional<Film> film;
   {
     const DelayedSignals delay;
     try {
       film = render(scene, camera, size, options);
+      files.samples->keep(film->channels);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::canceled) throw;
     }
@@ -83,7 +84,7 @@ Film render_and_save(const PreparedScene& scene, const Camera& camera, ImageSize
   if (film && DelayedSignals::received() == 0) return std::move(*film);
   if (!arguments.quiet) {
     std::fprintf(stderr, "interrupted: the samples are saved in %s\n",
-                 printable(arguments.sampling.checkpoint.string()).c_str());
+                 printable(files.samples->checkpoint().string()).c_str());
   }
   throw Interruption{DelayedSignals::received()};
 }
@@ -97,7 +98,7 @@ std::function<void(double)> progress_of(const Arguments& arguments, std::uint32_
 
 void check_outputs(const Arguments& arguments, const Sequence& sequence) {
   const std::filesystem::path output = sequence.picture(0), sidecar = sequence.sidecar(0);
-  const std::filesystem::path& checkpoint = arguments.sampling.checkpoint;
+  const std::filesystem::path checkpoint = sequence.checkpoint(0);
   if (!checkpoint.empty()) check_checkpoint_path(checkpoint);
   if (arguments.sampling.shard) return;
   if (arguments.sampling.is_progressive && output == "-")
@@ -172,10 +173,9 @@ void render_picture(Scene scene, const Camera& camera, ImageSize size, const Arg
   if (!arguments.sampling.shard) save_picture(arguments, drawn, camera, film, files);
   watch.written();
   if (reports_files(arguments)) {
-    report_written(
-        {.main = arguments.sampling.shard ? arguments.sampling.checkpoint : files.picture,
-         .sidecar = files.sidecar},
-        film.size(), counts.samples_per_pixel, watch.seconds());
+    report_written({.main = arguments.sampling.shard ? files.samples->checkpoint() : files.picture,
+                    .sidecar = files.sidecar},
+                   film.size(), counts.samples_per_pixel, watch.seconds());
   }
   watch.report(arguments.statistics, drawn, film.size(), counts, options.threads, *options.memory);
 }

@@ -4,6 +4,7 @@
 #include <microtrace/version.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -12,44 +13,51 @@
 namespace microtrace::cli {
 namespace {
 
-/// Returns a string of all inputs on which samples depend: the program's version, the scene's files
-/// and the options.
-std::string identity_of(const Arguments& arguments, std::uint64_t files) {
-  return "version\t" MICROTRACE_VERSION_TEXT "\nscene files\t" + std::to_string(files) + "\n" +
-         arguments.identity;
+/// Returns a string of all inputs on which samples depend: the program's version, the scene's
+/// files, the options and the frame.
+std::string identity_of(const Arguments& arguments, std::uint64_t files,
+                        std::optional<std::uint32_t> frame) {
+  std::string identity = "version\t" MICROTRACE_VERSION_TEXT "\nscene files\t" +
+                         std::to_string(files) + "\n" + arguments.identity;
+  if (frame) identity += "frame\t" + std::to_string(*frame) + "\n";
+  return identity;
 }
 
-/// Returns the checkpoints to continue from, without duplicates.
-std::vector<std::filesystem::path> files_of(const SamplingOptions& sampling) {
-  std::vector<std::filesystem::path> files = sampling.resume;
+/// Adds the checkpoint to those to continue from if it exists and is not one of them.
+std::vector<std::filesystem::path> with_checkpoint(std::vector<std::filesystem::path> files,
+                                                   const std::filesystem::path& checkpoint) {
   std::error_code ignored;
   const bool is_new = std::ranges::none_of(files, [&](const std::filesystem::path& file) {
-    return std::filesystem::equivalent(file, sampling.checkpoint, ignored);
+    return std::filesystem::equivalent(file, checkpoint, ignored);
   });
-  if (std::filesystem::exists(sampling.checkpoint, ignored) && is_new)
-    files.push_back(sampling.checkpoint);
+  if (std::filesystem::exists(checkpoint, ignored) && is_new) files.push_back(checkpoint);
   return files;
 }
 
 }  // namespace
 
-void add_files(Checkpoint& all, std::span<const std::filesystem::path> files,
-               MemoryAccount& memory) {
+void add_files(Checkpoint& all, std::span<const std::filesystem::path> files, MemoryAccount& memory,
+               bool keeps_channels) {
   for (const std::filesystem::path& file : files) {
     MemoryAccount temporary(memory.budget());
     const MemoryScope scope(all.sums.pixels.empty() ? memory : temporary);
-    add_samples(all, load_checkpoint(file), file);
+    Checkpoint next = load_checkpoint(file);
+    if (!keeps_channels) next.channels.clear();
+    add_samples(all, std::move(next), file);
   }
 }
 
-SampleFiles::SampleFiles(const Arguments& arguments, std::uint64_t files)
+SampleFiles::SampleFiles(const Arguments& arguments, const Sequence& sequence, std::uint32_t index,
+                         std::uint64_t files)
     : arguments_(arguments),
-      samples_{.identity = identity_of(arguments, files),
+      checkpoint_(sequence.checkpoint(index)),
+      picture_(sequence.picture(index)),
+      samples_{.identity = identity_of(arguments, files, sequence.frame(index)),
                .has_alpha = arguments.environment.is_transparent(),
                .samples = arguments.sampling.samples},
       memory_(arguments.load.memory),
       saved_(std::chrono::steady_clock::now()) {
-  add_files(samples_, files_of(arguments.sampling), memory_);
+  add_files(samples_, with_checkpoint(sequence.resume(index), checkpoint_), memory_, false);
 }
 
 std::vector<Diagnostic> SampleFiles::warnings() const {
@@ -72,9 +80,15 @@ Passes SampleFiles::passes(const Display& display) {
           .after_each = [this](const SampleSums&) { save_if_due(); }};
 }
 
+void SampleFiles::keep(const std::vector<Channel>& channels) {
+  if (!arguments_.sampling.shard) return;
+  memory_.take(channels.size() * samples_.sums.pixels.size() * sizeof(float),
+               "the channels of a checkpoint");
+  samples_.channels = channels;
+}
+
 void SampleFiles::save() const {
-  const std::filesystem::path& file = arguments_.sampling.checkpoint;
-  if (!file.empty() && !samples_.sums.pixels.empty()) save_checkpoint(samples_, file);
+  if (!checkpoint_.empty() && !samples_.sums.pixels.empty()) save_checkpoint(samples_, checkpoint_);
 }
 
 void SampleFiles::save_if_due() {
@@ -82,7 +96,7 @@ void SampleFiles::save_if_due() {
   if (std::chrono::duration<double>(now - saved_).count() < arguments_.sampling.save_every) return;
   save();
   if (arguments_.sampling.is_progressive) {
-    save_image(picture_of(samples_), arguments_.output, arguments_.ppm);
+    save_image(picture_of(samples_), picture_, arguments_.ppm);
   }
   saved_ = std::chrono::steady_clock::now();
 }

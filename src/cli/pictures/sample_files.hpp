@@ -3,6 +3,7 @@
 
 #include "base/memory_account.hpp"
 #include "cli/arguments.hpp"
+#include "cli/pictures/sequence.hpp"
 
 #include <microtrace/checkpoint.hpp>
 #include <microtrace/render.hpp>
@@ -16,15 +17,16 @@
 namespace microtrace::cli {
 
 /// Reads these checkpoints and adds their samples to `all`. Charges the memory of `all` to `memory`
-/// if it has no samples yet.
-void add_files(Checkpoint& all, std::span<const std::filesystem::path> files,
-               MemoryAccount& memory);
+/// if it has no samples yet. `keeps_channels` is false if the channels are rendered again.
+void add_files(Checkpoint& all, std::span<const std::filesystem::path> files, MemoryAccount& memory,
+               bool keeps_channels);
 
 class SampleFiles {
  public:
-  /// Reads and combines the checkpoints that the options specify. `files` is a digest of all the
-  /// scene's files. `arguments` must outlive this object. Throws Error.
-  SampleFiles(const Arguments& arguments, std::uint64_t files);
+  /// Reads and combines the checkpoints of a picture of the sequence. `files` is a digest of all
+  /// the scene's files. `arguments` must outlive this object. Throws Error.
+  SampleFiles(const Arguments& arguments, const Sequence& sequence, std::uint32_t index,
+              std::uint64_t files);
   SampleFiles(const SampleFiles&) = delete;
   SampleFiles& operator=(const SampleFiles&) = delete;
 
@@ -35,13 +37,21 @@ class SampleFiles {
   /// --save-every seconds. Progressive pictures are encoded with `display`.
   [[nodiscard]] Passes passes(const Display& display);
 
-  /// Writes the checkpoint of --checkpoint if the option is given.
+  /// Adds the complete picture's channels to the checkpoint of a shard, which is all that is left
+  /// of the picture.
+  void keep(const std::vector<Channel>& channels);
+
+  /// Writes the checkpoint if there is one.
   void save() const;
+
+  /// The file of --checkpoint; empty if there is none.
+  [[nodiscard]] const std::filesystem::path& checkpoint() const { return checkpoint_; }
 
  private:
   void save_if_due();
 
   const Arguments& arguments_;
+  std::filesystem::path checkpoint_, picture_;
   Checkpoint samples_;
   MemoryAccount memory_;  ///< memory of samples that were read
   std::chrono::steady_clock::time_point saved_;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -20,10 +21,19 @@ class Sequence {
   [[nodiscard]] std::optional<double> time(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path picture(std::uint32_t index) const;
   [[nodiscard]] std::filesystem::path sidecar(std::uint32_t index) const;
+  [[nodiscard]] std::filesystem::path checkpoint(std::uint32_t index) const;
+  /// Returns the checkpoints to continue from.
+  [[nodiscard]] std::vector<std::filesystem::path> resume(std::uint32_t index) const;
+  /// Returns the checkpoints to merge.
+  [[nodiscard]] std::vector<std::filesystem::path> checkpoints(std::uint32_t index) const;
+  /// Returns the number of the frame; absent if there are no frames.
+  [[nodiscard]] std::optional<std::uint32_t> frame(std::uint32_t index) const;
 
  private:
   [[nodiscard]] std::filesystem::path path(const std::filesystem::path& name,
                                            std::uint32_t index) const;
+  [[nodiscard]] std::vector<std::filesystem::path> paths(
+      const std::vector<std::filesystem::path>& names, std::uint32_t index) const;
 
   const Arguments& arguments_;
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace microtrace {
@@ -53,6 +55,40 @@ bool decides_display(const Checkpoint& a, const Checkpoint& b) {
   return key(a) < key(b);
 }
 
+/// Compares the bits of values, because NaN may be among them.
+bool are_equal(const Channel& a, const Channel& b) {
+  if (is_computed_channel(a.name)) return true;
+  const auto bytes = [](const Channel& channel) {
+    return std::visit([](const auto& values) { return std::as_bytes(std::span(values)); },
+                      channel.values);
+  };
+  return a.values.index() == b.values.index() && std::ranges::equal(bytes(a), bytes(b));
+}
+
+/// Joins the channels of two checkpoints. Channels may depend on the number of requested samples,
+/// so those of the checkpoint with fewer are dropped. The order of channels is that of both
+/// checkpoints or, if they differ, of their names, so that the order of merging doesn't matter.
+/// Returns the name of a channel whose values differ; empty if there is none.
+std::string join_channels(Checkpoint& ours, Checkpoint& theirs) {
+  if (ours.samples > theirs.samples) return {};
+  if (ours.samples < theirs.samples) {
+    ours.channels = std::move(theirs.channels);
+    return {};
+  }
+  const bool is_same =
+      std::ranges::equal(ours.channels, theirs.channels, {}, &Channel::name, &Channel::name);
+  for (Channel& channel : theirs.channels) {
+    const auto found = std::ranges::find(ours.channels, channel.name, &Channel::name);
+    if (found == ours.channels.end()) {
+      ours.channels.push_back(std::move(channel));
+    } else if (!are_equal(*found, channel)) {
+      return channel.name;
+    }
+  }
+  if (!is_same) std::ranges::sort(ours.channels, {}, &Channel::name);
+  return {};
+}
+
 }  // namespace
 
 void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem::path& path) {
@@ -65,6 +101,7 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
     checkpoint.samples = std::max(checkpoint.samples, other.samples);
     checkpoint.display = other.display;
     checkpoint.sums = std::move(other.sums);
+    checkpoint.channels = std::move(other.channels);
     return;
   }
   const SampleSums &theirs = other.sums, &ours = checkpoint.sums;
@@ -77,6 +114,8 @@ void add_samples(Checkpoint& checkpoint, Checkpoint other, const std::filesystem
              std::to_string(range.last - 1) + ", some of which are already present");
     }
   }
+  if (const std::string name = join_channels(checkpoint, other); !name.empty())
+    refuse("holds other values of channel " + name);
   if (decides_display(other, checkpoint)) checkpoint.display = other.display;
   checkpoint.samples = std::max(checkpoint.samples, other.samples);
   checkpoint.sums += theirs;

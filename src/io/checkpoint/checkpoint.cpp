@@ -15,20 +15,25 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // The file contains a magic text, a version, the members in the order in which the functions below
-// read them, the pixels in blocks (pixel_blocks.hpp), each after its size in bytes, and a digest of
-// everything before it. All numbers are unsigned and little-endian. Floating-point numbers are
-// stored as their bits.
+// read them, and a digest of everything before it. Pixels and the values of channels are stored in
+// blocks (pixel_blocks.hpp), each after its size in bytes. All numbers are unsigned and
+// little-endian. Floating-point numbers are stored as their bits.
 
 namespace microtrace {
 namespace {
 
 constexpr std::string_view kMagic = "microtrace samples\n";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kMaxFileSize = std::size_t{1} << 36U;
 constexpr std::uint32_t kMostSamples = 65536;  // per pixel; sample ranges end at or below it
-constexpr std::uint32_t kMaxIdentity = 1U << 20U;
+constexpr std::uint32_t kMaxIdentity = 1U << 20U, kMaxChannels = 256, kMaxChannelName = 256;
+constexpr std::size_t kLeastBlock = 16;  // bytes
+
+/// How the values of a channel are stored.
+enum class Values : std::uint32_t { computed, floats, integers };
 
 std::string encode_head(const Checkpoint& checkpoint) {
   using io::append;
@@ -101,7 +106,6 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
   const ImageSize size = window.size();
   const std::uint64_t pixels = std::uint64_t{size.width} * size.height;
   // Refuses a small file that claims to have many pixels before it allocates memory for them.
-  constexpr std::size_t kLeastBlock = 16;
   const std::uint64_t blocks = pixels / io::kBlockPixels;
   if (reader.is_short() || pixels > kMaxImagePixels || reader.left() / kLeastBlock < blocks)
     fail_as_damaged(path);
@@ -111,29 +115,102 @@ Checkpoint decode_head(io::ByteReader& reader, const std::filesystem::path& path
   return checkpoint;
 }
 
+/// Writes the parts of a checkpoint to its file.
+class CheckpointWriter {
+ public:
+  explicit CheckpointWriter(const std::filesystem::path& path) : file_(path) {}
+
+  void write(std::string_view bytes) {
+    digest_.add(bytes);
+    file_.write(bytes);
+  }
+
+  template <class Value>
+  void write_blocks(const std::vector<Value>& values) {
+    io::for_each_block(std::span(values), [&](std::span<const Value> block) {
+      const std::string_view encoded = blocks_.encode(block);
+      std::string size;
+      io::append(size, static_cast<std::uint32_t>(encoded.size()));
+      write(size);
+      write(encoded);
+    });
+  }
+
+  void write(const Channel& channel) {
+    const bool is_computed = is_computed_channel(channel.name);
+    const bool is_float = std::holds_alternative<std::vector<float>>(channel.values);
+    std::string head;
+    io::append(head, static_cast<std::uint32_t>(channel.name.size()));
+    head += channel.name;
+    io::append(head, static_cast<std::uint32_t>(is_computed ? Values::computed
+                                                : is_float  ? Values::floats
+                                                            : Values::integers));
+    write(head);
+    if (!is_computed) std::visit([&](const auto& values) { write_blocks(values); }, channel.values);
+  }
+
+  void commit() {
+    std::string end;
+    io::append(end, digest_.value());
+    file_.write(end);
+    file_.commit();
+  }
+
+ private:
+  io::AtomicFile file_;
+  Digest digest_;
+  io::BlockWriter blocks_;
+};
+
+/// Reads blocks and channels.
+class BlocksOfFile {
+ public:
+  BlocksOfFile(io::ByteReader& reader, const std::filesystem::path& path)
+      : reader_(reader), path_(path), blocks_(path) {}
+
+  template <class Value>
+  void read(std::vector<Value>& values) {
+    io::for_each_block(std::span(values), [&](std::span<Value> block) {
+      const auto encoded = reader_.take(reader_.number<std::uint32_t>());
+      if (reader_.is_short() || !encoded || !blocks_.decode(*encoded, block))
+        fail_as_damaged(path_);
+    });
+  }
+
+  Channel read_channel(std::size_t pixels) {
+    const auto name = reader_.take(std::min(reader_.number<std::uint32_t>(), kMaxChannelName));
+    const auto kind = static_cast<Values>(reader_.number<std::uint32_t>());
+    const bool is_known = name && !reader_.is_short() && kind <= Values::integers &&
+                          is_computed_channel(*name) == (kind == Values::computed);
+    if (!is_known) fail_as_damaged(path_);
+    Channel channel{.name = std::string(*name), .values = {}};
+    if (kind == Values::computed) return channel;
+    if (reader_.left() / kLeastBlock < pixels / io::kBlockPixels) fail_as_damaged(path_);
+    take_memory(pixels * sizeof(float), "the channels of a checkpoint");
+    if (kind == Values::floats) {
+      read(channel.values.emplace<0>(pixels));
+    } else {
+      read(channel.values.emplace<1>(pixels));
+    }
+    return channel;
+  }
+
+ private:
+  io::ByteReader& reader_;
+  const std::filesystem::path& path_;
+  io::BlockReader blocks_;
+};
+
 }  // namespace
 
 void save_checkpoint(const Checkpoint& checkpoint, const std::filesystem::path& path) {
-  io::AtomicFile file(path);
-  Digest digest;
-  std::string bytes = encode_head(checkpoint);
-  const auto flush = [&] {
-    digest.add(bytes);
-    file.write(bytes);
-    bytes.clear();
-  };
-  flush();
-  io::BlockWriter blocks;
-  for (std::span<const PixelSum> left = checkpoint.sums.pixels; !left.empty();) {
-    const auto block = left.first(std::min(left.size(), io::kBlockPixels));
-    left = left.subspan(block.size());
-    const std::string_view encoded = blocks.encode(block);
-    io::append(bytes, static_cast<std::uint32_t>(encoded.size()));
-    bytes += encoded;
-    flush();
-  }
-  io::append(bytes, digest.value());
-  file.write(bytes);
+  CheckpointWriter file(path);
+  file.write(encode_head(checkpoint));
+  file.write_blocks(checkpoint.sums.pixels);
+  std::string count;
+  io::append(count, static_cast<std::uint32_t>(checkpoint.channels.size()));
+  file.write(count);
+  for (const Channel& channel : checkpoint.channels) file.write(channel);
   file.commit();
 }
 
@@ -159,14 +236,13 @@ Checkpoint load_checkpoint(const std::filesystem::path& path) {
   if (end.number<std::uint64_t>() != digest.value()) fail_as_damaged(path);
   reader = io::ByteReader(content.substr(kMagic.size() + sizeof(kVersion)));
   Checkpoint checkpoint = decode_head(reader, path);
-  io::BlockReader blocks(path);
-  for (std::span<PixelSum> left = checkpoint.sums.pixels; !left.empty();) {
-    const auto block = left.first(std::min(left.size(), io::kBlockPixels));
-    left = left.subspan(block.size());
-    const auto encoded = reader.take(reader.number<std::uint32_t>());
-    if (reader.is_short() || !encoded || !blocks.decode(*encoded, block)) fail_as_damaged(path);
-  }
-  if (reader.left() != 0) fail_as_damaged(path);
+  BlocksOfFile blocks(reader, path);
+  blocks.read(checkpoint.sums.pixels);
+  const auto channels = reader.number<std::uint32_t>();
+  if (channels > kMaxChannels) fail_as_damaged(path);
+  for (std::uint32_t i = 0; i < channels; ++i)
+    checkpoint.channels.push_back(blocks.read_channel(checkpoint.sums.pixels.size()));
+  if (reader.is_short() || reader.left() != 0) fail_as_damaged(path);
   return checkpoint;
 }
 
@@ -174,6 +250,8 @@ Film picture_of(const Checkpoint& checkpoint) {
   Film film = develop(checkpoint.sums,
                       checkpoint.has_alpha ? Film::Alpha::premultiplied : Film::Alpha::none);
   film.display = checkpoint.display;
+  film.channels = checkpoint.channels;
+  compute_channels(checkpoint.sums, film.channels);
   return film;
 }
 

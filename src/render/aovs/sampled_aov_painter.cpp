@@ -34,7 +34,37 @@ const Row& row_of(SampledAov aov) {
   return kRows[static_cast<std::size_t>(aov)];
 }
 
+/// The value of a quantity that depends only on a pixel's sums.
+float value_of(SampledAov aov, const PixelSum& sum, const Vec3& background) {
+  if (aov == SampledAov::variance) return static_cast<float>(sum.variance(background));
+  return static_cast<float>(sum.count);
+}
+
+constexpr std::array kAovsOfSums = {SampledAov::variance, SampledAov::samples};
+
+std::optional<SampledAov> aov_of_sums(std::string_view channel) {
+  const auto aov = sampled_aov_named(channel.substr(0, channel.find('.')));
+  const bool is_of_sums = aov && std::ranges::find(kAovsOfSums, *aov) != kAovsOfSums.end();
+  return is_of_sums ? aov : std::nullopt;
+}
+
 }  // namespace
+
+bool is_computed_channel(std::string_view name) {
+  return aov_of_sums(name).has_value();
+}
+
+void compute_channels(const SampleSums& sums, std::span<Channel> channels) {
+  for (Channel& channel : channels) {
+    const std::optional<SampledAov> aov = aov_of_sums(channel.name);
+    if (!aov) continue;
+    std::vector<float> values;
+    values.reserve(sums.pixels.size());
+    for (const PixelSum& pixel : sums.pixels)
+      values.push_back(value_of(*aov, pixel, sums.background));
+    channel.values = std::move(values);
+  }
+}
 
 std::string_view name_of(SampledAov aov) {
   return row_of(aov).name;
@@ -72,10 +102,9 @@ float& SampledAovPainter::value(SampledAov aov, std::size_t channel, std::size_t
 }
 
 void SampledAovPainter::set(std::size_t pixel, const PixelSum& sum, const Vec3& background) const {
-  if (has(SampledAov::variance))
-    value(SampledAov::variance, 0, pixel) = static_cast<float>(sum.variance(background));
-  if (has(SampledAov::samples))
-    value(SampledAov::samples, 0, pixel) = static_cast<float>(sum.count);
+  for (const SampledAov aov : kAovsOfSums) {
+    if (has(aov)) value(aov, 0, pixel) = value_of(aov, sum, background);
+  }
 }
 
 void SampledAovPainter::paint(const PixelRect& tile) const {
