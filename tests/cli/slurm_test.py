@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+"""Runs the array script for Slurm with the environment variables and signals of Slurm.
+
+usage: slurm_test.py PROGRAM SOURCE_FOLDER [unittest arguments]
+"""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, ProgramTest, environment
+
+SOURCE = Path(sys.argv[2]).resolve()
+SCRIPT = SOURCE / "clusters/slurm/shard.sbatch"
+SCENE = SOURCE / "scenes/perspective1.json"
+FIRST, STEP, COUNT = 3, 2, 4  # --array=3-9:2
+
+
+class Slurm(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        tools = self.folder / "tools"
+        tools.mkdir()
+        (tools / "scontrol").write_text(f'#!/bin/sh\necho "$@" >>{self.folder}/requeued\n')
+        (tools / "scontrol").chmod(0o755)
+        (tools / "microtrace").symlink_to(PROGRAM)
+        self.path = f"{tools}:{os.environ['PATH']}"
+
+    def start(self, index, *arguments, restarts=0):
+        """Starts task `index` of the array as Slurm does: in a process group of its own."""
+        return subprocess.Popen(
+            ["bash", SCRIPT, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+            start_new_session=True,
+            env={**environment(), "PATH": self.path, "SLURM_ARRAY_JOB_ID": "71",
+                 "SLURM_ARRAY_TASK_ID": str(FIRST + STEP * index), "SLURM_ARRAY_TASK_MIN": str(FIRST),
+                 "SLURM_ARRAY_TASK_MAX": str(FIRST + STEP * (COUNT - 1)), "SLURM_ARRAY_TASK_STEP": str(STEP),
+                 "SLURM_ARRAY_TASK_COUNT": str(COUNT), "SLURM_CPUS_PER_TASK": "1",
+                 "SLURM_RESTART_COUNT": str(restarts)})
+
+    def finish(self, task, code=0):
+        output = task.communicate(timeout=120)[0].decode()
+        self.assertEqual(task.returncode, code, output)
+        return output
+
+    def requeued(self):
+        record = self.folder / "requeued"
+        lines = record.read_text().splitlines() if record.exists() else []
+        record.unlink(missing_ok=True)
+        return lines
+
+    def contents(self, folder):
+        return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*")
+                if path.is_file() and not path.name.startswith(".microtrace-") and path.name != "dataset.json"}
+
+    def test_tasks_make_the_data_set_of_one_run(self):
+        command = ["dataset", SCENE, "--views", "orbit:10", "--size", "48x32", "--formats", "png,coco"]
+        self.assertEqual(self.run_program(*command, "-o", "one").returncode, 0)
+        for index in (2, 0, 3, 1):
+            self.finish(self.start(index, *command, "-o", "many"))
+        self.assertEqual(self.contents(self.folder / "one"), self.contents(self.folder / "many"))
+        self.assertEqual(self.requeued(), [])
+
+    def test_a_task_that_is_terminated_is_queued_again_and_continues(self):
+        command = [SCENE, "--integrator", "path", "--spp", "1000", "--size", "64x48"]
+        self.assertEqual(self.run_program(*command, "-o", "one.exr").returncode, 0)
+        (self.folder / "parts").mkdir()
+        for index in range(COUNT):
+            task = self.start(index, *command, "--checkpoint", "parts/{}")
+            if index == 1:
+                time.sleep(0.2)
+                task.send_signal(signal.SIGTERM)
+            self.finish(task)
+        # The task may have finished before the signal, on a fast machine.
+        requeued = self.requeued()
+        self.assertIn(requeued, ([], ["requeue 71_5"]))
+        if requeued:
+            self.finish(self.start(1, *command, "--checkpoint", "parts/{}", restarts=1))
+        parts = sorted((self.folder / "parts").iterdir())
+        self.assertEqual([part.name for part in parts], ["1", "2", "3", "4"])
+        merged = self.run_program("merge", *parts, "-o", "merged.exr")
+        self.assertEqual(merged.returncode, 0, merged.stderr)
+        self.assertEqual((self.folder / "merged.exr").read_bytes(), (self.folder / "one.exr").read_bytes())
+
+    def test_signals_before_the_first_sample_queue_the_task_again(self):
+        task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
+        time.sleep(0.5)
+        task.send_signal(signal.SIGTERM)
+        self.finish(task)
+        self.assertEqual(self.requeued(), ["requeue 71_3"])
+
+    def test_a_task_is_not_queued_forever(self):
+        task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}",
+                          restarts=10)
+        time.sleep(0.5)
+        task.send_signal(signal.SIGTERM)
+        self.finish(task, 143)
+        self.assertEqual(self.requeued(), [])
+
+    def test_wrong_options_and_scenes_are_not_tried_again(self):
+        self.assertIn("--no-such-option", self.finish(self.start(0, SCENE, "--no-such-option"), 2))
+        (self.folder / "broken.json").write_text("{")
+        self.finish(self.start(0, "dataset", "broken.json", "-o", "out", "--views", "orbit:4"), 3)
+        self.assertEqual(self.requeued(), [])
+
+    def test_a_full_disk_queues_the_task_again(self):
+        self.finish(self.start(0, "dataset", SCENE, "-o", "/dev/full/views", "--views", "orbit:4"))
+        self.assertEqual(self.requeued(), ["requeue 71_3"])
+
+    def test_a_task_whose_program_is_killed_is_queued_again(self):
+        task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
+        time.sleep(0.5)
+        os.kill(int(Path(f"/proc/{task.pid}/task/{task.pid}/children").read_text()), signal.SIGKILL)
+        self.finish(task)
+        self.assertEqual(self.requeued(), ["requeue 71_3"])
+
+    def test_a_killed_task_leaves_no_program(self):
+        task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
+        time.sleep(0.5)
+        children = Path(f"/proc/{task.pid}/task/{task.pid}/children").read_text().split()
+        self.assertEqual(len(children), 1)
+        task.kill()
+        task.communicate(timeout=30)
+        program = Path(f"/proc/{children[0]}/cmdline")
+        for _ in range(100):
+            if not program.exists() or not program.read_bytes():
+                return
+            time.sleep(0.1)
+        os.kill(int(children[0]), signal.SIGKILL)
+        self.fail("the program still runs")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
