@@ -35,6 +35,7 @@ RUN_ELSEWHERE = [
     r"scripts/setup python && python3 -m venv venv && venv/bin/pip install \.$",  # scripts/bare python
     r"import microtrace|\w+ = (mt|scene)\.|mt\.",  # python.tests
     r"(python3 )?(tests|bench)/[\w/]+\.(py|sh|txt)( .*)?$",  # see test_scripts_and_presets_exist
+    r"(array=\$\()?sbatch .*|kubectl apply -f clusters/kubernetes/dataset.yaml$",  # slurm, python.tests
     r"ffmpeg |assimp |ulimit |sudo apt",
     r"(find_package|target_link_libraries)\(|#include |(const )?auto |microtrace::|[\w.]+\.py FOLDER",  # package.consumer, docs.library
 ]
@@ -166,7 +167,7 @@ class Documentation(ProgramTest):
         cmake = "\n".join(path.read_text() for path in SOURCE.rglob("CMakeLists.txt") if "build" not in path.parts)
         count = 0
         for snippet in commands():
-            for script in re.findall(r"(?:^|\s)((?:\./|scripts/|tests/|bench/)[\w./]+)", snippet.text):
+            for script in re.findall(r"(?:^|\s)((?:\./|scripts/|tests/|bench/|clusters/)[\w./]+)", snippet.text):
                 self.assertTrue((SOURCE / script).exists(), f"{snippet.place}: there is no {script}")
                 count += 1
             for preset in re.findall(r"--preset (\w+)", snippet.text):
