@@ -32,7 +32,7 @@ struct DatasetView {
 };
 
 /// Reads a list of views; docs/datasets.md defines the format. Throws Error: io if the file can't
-/// be read, invalid_scene if it breaks the format.
+/// be read, invalid_scene if it violates the format.
 [[nodiscard]] MICROTRACE_EXPORT std::vector<DatasetView> read_views(
     const std::filesystem::path& path);
 

@@ -14,7 +14,7 @@ namespace microtrace {
 /// u = atan2(z, x) / (2 pi) + 1/2, v = acos(y) / pi, where (u, v) = (0, 0) is the upper left corner
 /// and (1, 1) the lower right one. Values between pixel centers are interpolated bilinearly.
 struct RadianceMap {
-  std::uint32_t width = 0, height = 0;  ///< pixels, each from 1 to 65536
+  std::uint32_t width = 0, height = 0;  ///< in pixels; each from 1 to 65536
   /// Linear Rec. 709, with components from 0 to kMaxRadiance; row by row from the upper left.
   std::vector<Vec3> pixels{};
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Bulk queries: all hits of rays, location of points inside or outside of closed meshes, and
+/// Bulk queries: all hits of rays, classification of points as inside or outside closed meshes, and
 /// nearest points on surfaces.
 
 #include <microtrace/bvh.hpp>

@@ -79,7 +79,7 @@ struct SamplingOptions {
   }
 };
 
-/// A kind of file that a data set has for each view.
+/// A format in which a data set stores its views.
 enum class DatasetFormat { png, exr, npz, coco, bop };
 
 struct DatasetOptions {

@@ -129,8 +129,9 @@ class Interaction {
     return at(o_ + (sure ? t : t_hit) * d_, direction_or(normal, facing()));
   }
 
-  /// Half the gradient at v, with its linear part multiplied by `weight`. With weight 2, the dot
-  /// product of the result and v is the polynomial's value without j.
+  /// Half the gradient at v, with the contribution of the polynomial's linear terms (g, h, i)
+  /// multiplied by `weight`. With weight 2, its dot product with v is the polynomial's value minus
+  /// j.
   static DVec3 half_gradient(const Quadric& q, const DVec3& v, double weight) {
     const double d = q.d, e = q.e, f = q.f;
     return {q.a * v.x + (d * v.y + e * v.z + weight * q.g) / 2,

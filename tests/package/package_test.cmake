@@ -10,7 +10,7 @@ function(run)
 endfunction()
 
 # run_alone(MODULE... -- COMMAND...) runs a command and checks in the dynamic linker's log that it loads the installed
-# modules and no object files from the build folder.
+# modules and no shared objects from the build folder.
 function(run_alone)
   list(FIND ARGN -- middle)
   list(SUBLIST ARGN 0 ${middle} modules)

@@ -38,7 +38,7 @@ Scene scene_of(Mesh mesh) {
   return scene;
 }
 
-// Packets of 64 rays with a common origin, and equally many incoherent rays, in a cube.
+// Packets of 64 rays with a common origin, and the same number of incoherent rays, in a cube.
 std::vector<Ray> rays_in_cube(float half_width) {
   Random random(31);
   std::vector<Ray> rays;

@@ -108,8 +108,8 @@ TEST_P(Next, OrdersLayersThatFloatsCannotDistinguish) {
   }
 }
 
-// Duplicates may start at another vertex or have the opposite winding. Other triangles have hits
-// with the same t.
+// Duplicates may start at another vertex or have the opposite winding. The scenes also contain
+// triangles that are no duplicates, but are hit at the same t.
 TEST_P(Next, FindsDuplicateTriangles) {
   Random random(23);
   std::size_t ties = 0;

@@ -362,7 +362,7 @@ TEST(RefitTree, IsNotMadeWhereATreeOfOtherPrimitivesWouldBe) {
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = {0, 0, 0}; }));  // a point
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit()[3] = mesh(s).triangles[4]; }));
   EXPECT_FALSE(refits([&](Scene& s) { mesh(s).triangles.edit().back() = {0, 1, 2}; }));
-  Scene one = still, other = still;  // equally many duplicates, but of other triangles
+  Scene one = still, other = still;  // as many duplicates, but of different triangles
   mesh(one).triangles.edit()[3] = mesh(one).triangles[4];
   mesh(other).triangles.edit()[5] = mesh(other).triangles[6];
   EXPECT_FALSE(is_refitted(*tree_of(other, tree_of(one))));

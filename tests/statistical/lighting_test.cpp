@@ -135,8 +135,8 @@ TEST(Lighting, PointsOnAnEmitterAreUniform) {
   std::mt19937 random(2);
   std::uniform_real_distribution<float> u(0, 0x0.ffffffp0F);
   constexpr int samples = 100000, side = 10, half = side / 2;
-  // Triangles are selected by their contribution at the context, so samples are counted separately
-  // for each triangle. Each square of the grid over the parallelogram has two cells of equal area.
+  // The probability of a triangle depends on its contribution at the context's point, so samples
+  // are counted separately for each triangle, in side x half cells of equal area.
   std::array<std::vector<double>, 2> counts{std::vector<double>(side * half),
                                             std::vector<double>(side * half)};
   std::array<double, 2> all{};

@@ -30,7 +30,7 @@ void fail(j_common_ptr info) {
   std::longjmp(reinterpret_cast<ErrorManager*>(info->err)->jump, 1);
 }
 
-/// Handles a message of libjpeg. Level -1 means damaged data, which is reported only once.
+/// Handles a message from libjpeg. Level -1 means damaged data, which is reported only once.
 void take_message(j_common_ptr info, int level) {
   if (level < 0 && info->err->num_warnings++ == 0) complain(info);
 }

@@ -20,10 +20,10 @@ struct QueryKernels {
   /// Returns the triangles that the ray's line does not certainly miss.
   unsigned (*passed)(const TriangleBlock& block, const LineInterval& ray);
   /// Computes the squared distances of the children's boxes from p; infinity for unused slots.
-  /// Relative errors are less than eight units of roundoff.
+  /// Relative errors are less than eight times the unit roundoff.
   void (*box_distances)(const WideNode& node, const double* p, double* squared);
   /// Computes lower bounds of the squared distances of triangles from p, also with relative errors
-  /// of less than eight units of roundoff. Unused lanes may have any result.
+  /// of less than eight times the unit roundoff. Unused lanes may have any result.
   void (*triangle_distances)(const TriangleBlock& block, const double* p, double* squared);
 };
 

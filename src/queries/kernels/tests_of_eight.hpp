@@ -32,7 +32,7 @@ inline Double<N> all_doubles(double x) {
 
 /// A ray meets a box if the greatest of the entry distances is at most the least of the exit
 /// distances. A distance (plane - o) / d has three roundings, and no result under- or overflows.
-/// The entry distance is not negative, so enlarging the exit distance by 16 units of roundoff
+/// The entry distance is not negative, so enlarging the exit distance by 16 times the unit roundoff
 /// covers the roundings of both.
 template <int N>
 unsigned entered(const WideNode& node, const LineInterval& ray) {

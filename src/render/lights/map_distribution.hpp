@@ -90,8 +90,9 @@ class MapDistribution {
     /// Sines of the angles to the y axis at the upper and lower corners.
     std::array<float, 2> sines;
     float floor;  ///< minimum weight
-    float pdf;    ///< mean pdf of a cell for each 2^-24 of its probability in the row, per unit of
-                  ///< longitude and angle to the axis; at the poles, per solid angle
+    /// A cell's mean pdf divided by the cell's probability within the row, in units of 2^-24. The
+    /// pdf is per longitude and polar angle, but per solid angle in polar rows.
+    float pdf;
   };
   [[nodiscard]] bool is_polar(std::uint32_t line) const { return line == 0 || line == height_; }
   /// The weight of a luminance, per solid angle.

@@ -51,8 +51,8 @@ inline void store_narrowed(const auto& v, Array& to, int i) {
   narrowed<N>(v.z, to[2] + i);
 }
 
-/// Handles the N lanes that start at `first`. Lanes without triangles repeat the first lane with
-/// one.
+/// Handles the N lanes that start at `first`. A lane without a triangle repeats the first
+/// lane that has one.
 template <int N>
 inline Lanes find_surfaces_from(int first, const Ray* rays, const SurfaceParts& parts,
                                 SurfaceBatch& batch) {

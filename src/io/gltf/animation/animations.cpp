@@ -27,7 +27,8 @@ std::vector<float> flattened(const std::vector<Vector>& vectors) {
   return result;
 }
 
-/// Returns the number of morph targets of a mesh. Each primitive has as many as the first one.
+/// Returns the number of morph targets of the mesh's first primitive. In glTF, all primitives of a
+/// mesh have the same number.
 std::size_t target_count(const Model& model, std::optional<std::size_t> mesh) {
   if (!mesh) return 0;
   const auto& primitives = model.meshes[*mesh].primitives;

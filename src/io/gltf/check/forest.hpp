@@ -28,8 +28,8 @@ class NodeForest {
  private:
   static constexpr std::size_t kNone = ~std::size_t{0};
 
-  /// A range of preorder numbers. The node and its descendants have the numbers from `first` to
-  /// `end`, exclusive.
+  /// The position of a node in its tree. The node and its descendants have the preorder numbers in
+  /// [first, end).
   struct Place {
     std::size_t parent = kNone, root = kNone, first = 0, end = 0;
   };

@@ -88,8 +88,8 @@ class SliceDecoder {
   }
 
  private:
-  /// Endpoint predictions for 2 x 2 blocks, 2 bits each. Stores those of the bottom two blocks for
-  /// the next row.
+  /// Decodes the endpoint predictions of 2 x 2 blocks, 2 bits each, and stores those of the bottom
+  /// two blocks for the next row.
   std::uint32_t even_row_prediction(std::uint32_t x) {
     constexpr std::uint32_t kRepeat = 256, kLeastRepeats = 3;
     if (repeats_ > 0) {
