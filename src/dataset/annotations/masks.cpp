@@ -1,5 +1,7 @@
 #include "dataset/annotations/masks.hpp"
 
+#include "dataset/annotations/overlaps.hpp"
+
 #include <microtrace/error.hpp>
 #include <microtrace/integrator.hpp>
 #include <microtrace/primitives.hpp>
@@ -34,28 +36,28 @@ void sort_without_duplicates(std::vector<Cover>& covers) {
 /// it gets the same rays as the AOVs and treats partly transparent surfaces in the same way.
 class CoverCollector final : public Integrator {
  public:
-  CoverCollector(std::uint32_t width, std::uint32_t first_row)
-      : width_(width), first_row_(first_row) {}
+  /// `window` is the strip.
+  CoverCollector(const Camera& camera, const PixelRect& window)
+      : camera_(camera), window_(window) {}
 
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override {
-    const RayHits all = intersect_all(world.bvh, rays, {.threads = 1});
+    std::call_once(is_counted_, [&] {
+      overlaps_.emplace(
+          parts_of_objects(world.bvh.primitives().scene(), camera_, world.camera, window_),
+          window_);
+    });
     std::vector<Cover> covers;
+    std::vector<Ray> single, several;                  // rays that can hit one object, or several
+    std::vector<std::uint32_t> of_single, of_several;  // their pixels
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const std::uint32_t pixel = (ids[i].y - first_row_) * width_ + ids[i].x;
-      std::optional<std::size_t> last;  // the previous visible hit's object
-      const std::span<const Hit> hits = all.of(i);
-      for (auto hit = hits.begin(); hit != hits.end(); ++hit) {
-        const std::size_t object = world.bvh.primitives().object_index(hit->id);
-        if (object == last) continue;
-        const std::optional<Hit> visible = world.first_visible(rays[i], *hit);
-        if (!visible) break;
-        hit = std::find_if(hit, hits.end(), [&](const Hit& h) { return h.id == visible->id; });
-        if (hit == hits.end()) break;
-        last = world.bvh.primitives().object_index(hit->id);
-        covers.push_back({.object = static_cast<std::uint32_t>(*last), .pixel = pixel});
-      }
+      const std::uint32_t count = overlaps_->at(ids[i].x, ids[i].y);
+      if (count == 0) continue;
+      (count == 1 ? single : several).push_back(rays[i]);
+      (count == 1 ? of_single : of_several).push_back(pixel_of(ids[i]));
     }
+    add_nearest(world, single, of_single, covers);
+    add_all(world, several, of_several, covers);
     sort_without_duplicates(covers);
     std::ranges::fill(samples, Sample{});
     const std::scoped_lock lock(mutex_);
@@ -71,7 +73,48 @@ class CoverCollector final : public Integrator {
   }
 
  private:
-  std::uint32_t width_, first_row_;
+  [[nodiscard]] std::uint32_t pixel_of(const SampleId& id) const {
+    return (id.y - window_.y0) * (window_.x1 - window_.x0) + (id.x - window_.x0);
+  }
+
+  /// Adds the objects that the rays see. All hits of each ray must be on one object.
+  static void add_nearest(const World& world, std::span<const Ray> rays,
+                          std::span<const std::uint32_t> pixels, std::vector<Cover>& covers) {
+    std::vector<std::optional<Hit>> hits(rays.size());
+    world.bvh.intersect(rays, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i]) hits[i] = world.first_visible(rays[i], hits[i]);
+      if (hits[i]) covers.push_back({.object = object_of(world, *hits[i]), .pixel = pixels[i]});
+    }
+  }
+
+  /// Adds all objects that the rays would see without the others.
+  static void add_all(const World& world, std::span<const Ray> rays,
+                      std::span<const std::uint32_t> pixels, std::vector<Cover>& covers) {
+    const RayHits all = intersect_all(world.bvh, rays, {.threads = 1});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      std::optional<std::uint32_t> last;  // the previous visible hit's object
+      const std::span<const Hit> hits = all.of(i);
+      for (auto hit = hits.begin(); hit != hits.end(); ++hit) {
+        if (object_of(world, *hit) == last) continue;
+        const std::optional<Hit> visible = world.first_visible(rays[i], *hit);
+        if (!visible) break;
+        hit = std::find_if(hit, hits.end(), [&](const Hit& h) { return h.id == visible->id; });
+        if (hit == hits.end()) break;
+        last = object_of(world, *hit);
+        covers.push_back({.object = *last, .pixel = pixels[i]});
+      }
+    }
+  }
+
+  static std::uint32_t object_of(const World& world, const Hit& hit) {
+    return static_cast<std::uint32_t>(world.bvh.primitives().object_index(hit.id));
+  }
+
+  const Camera& camera_;
+  PixelRect window_;
+  mutable std::once_flag is_counted_;
+  mutable std::optional<Overlaps> overlaps_;
   mutable std::mutex mutex_;
   mutable std::vector<Cover> covers_;
 };
@@ -122,10 +165,11 @@ Masks amodal_masks(const PreparedScene& scene, const Camera& camera, ImageSize s
   std::map<std::uint32_t, Mask> masks;
   for (std::uint32_t y = 0; y < size.height;) {
     const std::uint32_t end = y + std::min(rows, size.height - y);
-    CoverCollector collector(size.width, y);
+    const PixelRect strip{.x0 = 0, .y0 = y, .x1 = size.width, .y1 = end};
+    CoverCollector collector(camera, strip);
     RenderOptions render_options{.threads = options.threads, .run_threads = options.run_threads};
     render_options.integrator = &collector;
-    render_options.crop = PixelRect{.x0 = 0, .y0 = y, .x1 = size.width, .y1 = end};
+    render_options.crop = strip;
     if (options.progress) {
       render_options.progress = [&](double done) {
         return options.progress((y + done * (end - y)) / size.height);

@@ -1,11 +1,12 @@
 #include "render/aovs/aov_painter.hpp"
 
-#include "render/aovs/occupied_part.hpp"
 #include "render/tiles.hpp"
+#include "scene/occupied_part.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -33,13 +34,22 @@ std::vector<AovBuffer> add_channels(std::span<const Aov> aovs, Film& film) {
   return buffers;
 }
 
+namespace {
+
+PixelRect part_with_hits(const World& world, const Camera& camera, const PixelRect& window) {
+  const std::optional<Box> box = world.bvh.bounds();
+  return box ? occupied_part(camera, world.camera, box->lo, box->hi, window) : window;
+}
+
+}  // namespace
+
 AovPainter::AovPainter(const World& world, const Camera& camera, std::span<const AovBuffer> buffers,
                        const PixelRect& window)
     : world_(world),
       rays_(world.camera, world.scene),
       buffers_(buffers),
       window_(window),
-      occupied_(occupied_part(camera, world.camera, world.bvh, window)) {
+      occupied_(part_with_hits(world, camera, window)) {
   for (const AovBuffer& buffer : buffers) aovs_.add(buffer.aov);
 }
 

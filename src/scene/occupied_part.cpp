@@ -1,4 +1,4 @@
-#include "render/aovs/occupied_part.hpp"
+#include "scene/occupied_part.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -38,10 +38,9 @@ std::optional<Extent> extent_of(const DVec3& lo, const DVec3& hi, const RayGener
 
 }  // namespace
 
-PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Bvh& bvh,
-                        const PixelRect& window) {
-  const std::optional<Box> bounds = bvh.bounds();
-  if (!bounds || !std::holds_alternative<PerspectiveCamera>(camera)) return window;
+PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Vec3& lo,
+                        const Vec3& hi, const PixelRect& window) {
+  if (!std::holds_alternative<PerspectiveCamera>(camera)) return window;
   const CameraModel model = rays.model();
   const DVec3 position(model.world_from_camera[3]);
 
@@ -57,8 +56,7 @@ PixelRect occupied_part(const Camera& camera, const RayGenerator& rays, const Bv
 
   // Rounding also moves the ray's origin. Enlarging the box by the same amount allows for this.
   const DVec3 moved = glm::abs(DVec3(Vec3(position)) - position) + glm::abs(position) * 0x1p-50;
-  const auto extent =
-      extent_of(DVec3(bounds->lo) - moved, DVec3(bounds->hi) + moved, rays, position);
+  const auto extent = extent_of(DVec3(lo) - moved, DVec3(hi) + moved, rays, position);
   if (!extent) return window;
 
   // Centers of pixels outside the result are more than one pixel away from the extent.
