@@ -31,10 +31,11 @@ struct DatasetView {
   std::optional<double> environment_intensity{};  ///< a factor
 };
 
-/// Reads a list of views; docs/datasets.md defines the format. Throws Error: io if the file can't
-/// be read, invalid_scene if it violates the format.
+/// Reads a list of views, a JSON or .npz file; docs/datasets.md defines both formats. `image` is
+/// the size of the calibration images of a .npz file that contains none. Throws Error: io if the
+/// file can't be read, invalid_scene if it violates the format.
 [[nodiscard]] MICROTRACE_EXPORT std::vector<DatasetView> read_views(
-    const std::filesystem::path& path);
+    const std::filesystem::path& path, const std::optional<ImageSize>& image = std::nullopt);
 
 /// Returns `count` views around the scene at this elevation in degrees, equally spaced in azimuth
 /// and starting at azimuth 0.

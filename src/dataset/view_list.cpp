@@ -1,3 +1,4 @@
+#include "dataset/npz_views.hpp"
 #include "io/file.hpp"
 #include "io/json/reader.hpp"
 #include "io/scene_json/camera.hpp"
@@ -71,8 +72,10 @@ DatasetView read_view(const JsonReader& json, DatasetView view) {
 
 }  // namespace
 
-std::vector<DatasetView> read_views(const std::filesystem::path& path) {
+std::vector<DatasetView> read_views(const std::filesystem::path& path,
+                                    const std::optional<ImageSize>& image) {
   const std::string text = io::read_file(path, io::kMaxFileSize);
+  if (dataset::is_npz(text)) return dataset::read_npz_views(text, path.string(), image);
   const io::JsonDocument document(text, path.string());
   const JsonReader root(document);
   root.require_object({"defaults", "views"});

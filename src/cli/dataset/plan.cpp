@@ -1,5 +1,7 @@
 #include "cli/dataset/plan.hpp"
 
+#include "base/memory_account.hpp"
+
 #include <algorithm>
 #include <string_view>
 #include <tuple>
@@ -21,7 +23,12 @@ std::vector<DatasetView> listed_views(const Arguments& arguments) {
   const std::size_t colon = text.find(':');
   const std::string_view kind = std::string_view(text).substr(0, colon);
   const bool is_generated = kind == "orbit" || kind == "hemisphere" || kind == "random";
-  if (!is_generated || colon == text.npos) return read_views(text);
+  if (!is_generated || colon == text.npos) {
+    MemoryBudget budget(arguments.memory_limit.value_or(default_memory_limit()));
+    MemoryAccount memory(&budget);
+    const MemoryScope scope(memory);
+    return read_views(text, arguments.size);
+  }
   const std::vector<double> numbers = numbers_of(std::string_view(text).substr(colon + 1));
   const bool is_count = !numbers.empty() && numbers[0] >= 1 && numbers[0] <= kMaxViews &&
                         numbers[0] == static_cast<std::uint32_t>(numbers[0]);

@@ -43,10 +43,10 @@ constexpr std::array kDatasetOptions{
            .set = [](Arguments& a, const OptionValue& value) { a.output = value.text; }},
     Option{.names = "--views",
            .metavar = "VIEWS",
-           .help =
-               "the views: a JSON file (docs/datasets.md), or views that frame the scene from N "
-               "directions: orbit:N or orbit:N,ELEVATION in degrees, hemisphere:N, or random:N "
-               "(by --seed)",
+           .help = "the views: a JSON or .npz file (docs/datasets.md), or views that frame the "
+                   "scene from N "
+                   "directions: orbit:N or orbit:N,ELEVATION in degrees, hemisphere:N, or random:N "
+                   "(by --seed)",
            .default_value = "one view, or the --frames",
            .samples = Samples::change,
            .completion = Completion::files,

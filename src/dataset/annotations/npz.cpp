@@ -1,32 +1,16 @@
 #include "dataset/annotations/npz.hpp"
 
+#include "base/crc32.hpp"
 #include "dataset/annotations/little_endian.hpp"
 
 #include <microtrace/error.hpp>
 
-#include <array>
 #include <limits>
 #include <set>
 #include <string_view>
 
 namespace microtrace::dataset {
 namespace {
-
-/// Returns the checksum of ZIP archives, CRC-32 (ISO/IEC 13239).
-std::uint32_t checksum(std::string_view bytes) {
-  static const std::array<std::uint32_t, 256> table = [] {
-    std::array<std::uint32_t, 256> entries{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = value >> 1 ^ ((value & 1) != 0 ? 0xEDB88320U : 0U);
-      entries[i] = value;
-    }
-    return entries;
-  }();
-  std::uint32_t sum = 0xFFFFFFFF;
-  for (const char c : bytes) sum = table[(sum ^ static_cast<unsigned char>(c)) & 0xFF] ^ sum >> 8;
-  return ~sum;
-}
 
 template <class Number>
 constexpr std::string_view kType = "<f4";
@@ -78,7 +62,7 @@ std::string common_header(std::string_view name, std::string_view file) {
   for (const std::uint16_t number : {std::uint16_t{20}, kUtf8, std::uint16_t{0}, std::uint16_t{0},
                                      kFirstDay})  // version, flags, stored, time
     append_little(header, number);
-  append_little(header, checksum(file));
+  append_little(header, crc32(file));
   append_little(header, static_cast<std::uint32_t>(file.size()));
   append_little(header, static_cast<std::uint32_t>(file.size()));
   append_little(header, static_cast<std::uint16_t>(name.size()));

@@ -62,6 +62,7 @@ using MicrotraceCompress = std::size_t (*)(void* to, std::size_t capacity, const
 
 /// Decompresses Zstandard frames of `compressed` bytes. Returns 1 if they hold exactly `size`
 /// bytes, else 0.
+/// Decompressors of other formats have the same type.
 using MicrotraceDecompress = int (*)(void* to, std::size_t size, const void* from,
                                      std::size_t compressed);
 }
@@ -73,5 +74,6 @@ inline constexpr char kDecodeName[] = "microtrace_decode_v1";
 inline constexpr char kEncodePngName[] = "microtrace_encode_png_v3";
 inline constexpr char kCompressName[] = "microtrace_compress_v1";
 inline constexpr char kDecompressName[] = "microtrace_decompress_v1";
+inline constexpr char kInflateName[] = "microtrace_inflate_v1";  ///< raw deflate, RFC 1951
 
 }  // namespace microtrace::io

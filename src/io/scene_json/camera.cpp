@@ -61,15 +61,7 @@ DMat4 read_rigid_transform(const JsonReader& json) {
       }
     }
   }
-  // Tolerates calibrations that are stored with only seven digits.
-  constexpr double kTolerance = 1e-5;
-  const DVec3 x(out[0]), y(out[1]), z(out[2]);
-  const auto differ = [](double a, double b) { return !(std::abs(a - b) <= kTolerance); };
-  if (differ(glm::dot(x, x), 1) || differ(glm::dot(y, y), 1) || differ(glm::dot(z, z), 1) ||
-      differ(glm::dot(x, y), 0) || differ(glm::dot(y, z), 0) || differ(glm::dot(z, x), 0)) {
-    json.fail("must be a rotation in its first three columns and rows: perpendicular, unit length");
-  }
-  if (glm::dot(glm::cross(x, y), z) < 0) json.fail("must be a rotation, is a reflection");
+  if (const char* message = broken_rotation(out)) json.fail(message);
   return out;
 }
 
@@ -132,6 +124,18 @@ Camera read_kind(const JsonReader& json) {
 }
 
 }  // namespace
+
+const char* broken_rotation(const DMat4& transform) {
+  // Tolerates calibrations that are stored with only seven digits.
+  constexpr double kTolerance = 1e-5;
+  const DVec3 x(transform[0]), y(transform[1]), z(transform[2]);
+  const auto differ = [](double a, double b) { return !(std::abs(a - b) <= kTolerance); };
+  if (differ(glm::dot(x, x), 1) || differ(glm::dot(y, y), 1) || differ(glm::dot(z, z), 1) ||
+      differ(glm::dot(x, y), 0) || differ(glm::dot(y, z), 0) || differ(glm::dot(z, x), 0))
+    return "must be a rotation in its first three columns and rows: perpendicular, unit length";
+  if (glm::dot(glm::cross(x, y), z) < 0) return "must be a rotation, is a reflection";
+  return nullptr;
+}
 
 Camera read_camera(const JsonReader& json) {
   Camera camera = read_kind(json);

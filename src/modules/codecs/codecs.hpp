@@ -15,3 +15,6 @@ int encode_png(const MicrotracePng& picture);
 // Zstandard, see MicrotraceCompress and MicrotraceDecompress.
 std::size_t compress(void* to, std::size_t capacity, const void* from, std::size_t size);
 int decompress(void* to, std::size_t size, const void* from, std::size_t compressed);
+
+// Raw deflate, see kInflateName.
+int inflate_raw(void* to, std::size_t size, const void* from, std::size_t compressed);

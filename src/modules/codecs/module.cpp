@@ -1,7 +1,7 @@
-/// Decodes PNG, JPEG, WebP and KTX2, encodes PNG, and compresses checkpoints, behind the C
-/// interface of io/image/codec_abi.hpp. The library loads this module if a scene has images, the
-/// output is PNG or a checkpoint is read or written. It uses small libraries, because loading
-/// OpenImageIO would take a quarter of a second and 130 MB.
+/// Decodes PNG, JPEG, WebP and KTX2, encodes PNG, compresses checkpoints, and decompresses arrays,
+/// behind the C interface of io/image/codec_abi.hpp. The library loads this module if a scene has
+/// images, the output is PNG, a checkpoint is read or written, or compressed arrays are read. It
+/// uses small libraries, because loading OpenImageIO would take a quarter of a second and 130 MB.
 
 #include "modules/codecs/codecs.hpp"
 
@@ -46,5 +46,11 @@ __attribute__((visibility("default"))) int microtrace_decompress_v1(void* to, st
                                                                     const void* from,
                                                                     std::size_t compressed) {
   return decompress(to, size, from, compressed);
+}
+
+__attribute__((visibility("default"))) int microtrace_inflate_v1(void* to, std::size_t size,
+                                                                 const void* from,
+                                                                 std::size_t compressed) {
+  return inflate_raw(to, size, from, compressed);
 }
 }
