@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -38,10 +39,17 @@ class MICROTRACE_EXPORT ReadFiles {
   /// read.
   [[nodiscard]] std::optional<std::string> name_of(const std::filesystem::path& path) const;
 
-  void note(const FileIdentity& file, const std::string& name) { names_.emplace(file, name); }
+  /// Returns all names under which files were read, in ascending order.
+  [[nodiscard]] const std::set<std::string>& names() const { return names_; }
+
+  void note(const FileIdentity& file, const std::string& name) {
+    name_of_.emplace(file, name);
+    names_.insert(name);
+  }
 
  private:
-  std::map<FileIdentity, std::string> names_;
+  std::map<FileIdentity, std::string> name_of_;
+  std::set<std::string> names_;
   ReadFiles* former_;
 };
 

@@ -80,6 +80,15 @@ def as_size(value: Any) -> tuple[int, int]:
     return width, height
 
 
+def as_crop(value: Any, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """Returns x0, y0, x1, y1 of a part of a picture of this size, which must not be empty."""
+    if len(value) != 4:
+        raise ValueError(f"crop must be (x0, y0, x1, y1), not {value!r}")
+    x1, y1 = (as_integer(v, "crop", 1, n) for v, n in zip(value[2:], size))
+    x0, y0 = (as_integer(v, "crop", 0, n - 1) for v, n in zip(value[:2], (x1, y1)))
+    return x0, y0, x1, y1
+
+
 def as_threads(value: Any) -> int:
     """Returns a number of threads; 0 means all processors."""
     return as_integer(value, "threads", 0, 65536)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_color, as_integer, as_size, as_threads
+from ._arrays import as_color, as_crop, as_integer, as_size, as_threads
 from .cameras import Camera, PerspectiveCamera, Vector
 from .lights import Environment
 from .prepared import PreparedScene
@@ -195,6 +195,7 @@ def render(
     filter: Literal["box", "blackman-harris"] = "box",
     seed: int = 0,
     max_depth: int = 32,
+    crop: tuple[int, int, int, int] | None = None,
     threads: int = 0,
     progress: Callable[[float], bool | None] | bool = False,
 ) -> Picture:
@@ -216,6 +217,8 @@ def render(
         filter: the pixel filter.
         seed: random seed. Different seeds give different noise.
         max_depth: maximum path length. 1 shows only emission; 2 adds direct light.
+        crop: (x0, y0, x1, y1): renders only the pixels with x0 <= x < x1 and y0 <= y < y1 of the
+            picture. They equal those of the whole picture. Arrays have the size of this part.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
         progress: a function that is called with the finished fraction of the work, in (0, 1]. It
             cancels the rendering by returning False. True shows a progress bar if tqdm is
@@ -235,7 +238,11 @@ def render(
     else:
         is_stack = isinstance(camera, Sequence)
         cameras = list(camera) if isinstance(camera, Sequence) else [camera]
-    width, height = size
+    if crop is None:
+        width, height = size
+    else:
+        crop = as_crop(crop, size)
+        width, height = crop[2] - crop[0], crop[3] - crop[1]
     arrays: dict[str, Array] = {}
     for name in names:
         channels, is_integer = (
@@ -252,6 +259,7 @@ def render(
         "filter": filter,
         "seed": as_integer(seed, "seed", 0, 2**32 - 1),
         "max_depth": as_integer(max_depth, "max_depth", 1, 2**32 - 1),
+        "crop": crop,
         "threads": as_threads(threads),
     }
     display = (0.0, "none")
@@ -288,7 +296,9 @@ def _checked(aovs: Iterable[str]) -> list[str]:
 class _shown:
     """A context manager that provides the progress function; None if there is none."""
 
-    def __init__(self, progress: Callable[[float], bool | None] | bool, pictures: int) -> None:
+    def __init__(
+        self, progress: Callable[[float], bool | None] | bool, count: int, unit: str = "picture"
+    ) -> None:
         self._function = progress if callable(progress) else None
         self._bar: Any = None
         if progress is True:
@@ -296,7 +306,7 @@ class _shown:
                 from tqdm.auto import tqdm  # type: ignore[import-untyped,unused-ignore]
             except ImportError:
                 return
-            self._bar = tqdm(total=pictures, unit="picture")
+            self._bar = tqdm(total=count, unit=unit)
             self._function = self._advance
 
     def _advance(self, share: float) -> None:

@@ -38,5 +38,6 @@ void bind_scenes(nb::module_& module);
 void bind_rays(nb::module_& module);
 void bind_pictures(nb::module_& module);
 void bind_solids(nb::module_& module);
+void bind_datasets(nb::module_& module);
 
 }  // namespace microtrace::python

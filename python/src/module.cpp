@@ -15,4 +15,5 @@ NB_MODULE(_core, module) {
   bind_rays(module);
   bind_pictures(module);
   bind_solids(module);
+  bind_datasets(module);
 }

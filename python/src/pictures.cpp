@@ -197,6 +197,10 @@ nb::object render_into(const Prepared& self, const nb::object& camera_object,
   } else if (!self.has_background) {
     options.background = default_background(SceneFormat::gltf, integrator_options);
   }
+  if (const nb::object crop = arguments["crop"]; !crop.is_none()) {
+    const auto c = nb::cast<std::array<std::uint32_t, 4>>(crop);
+    options.crop = PixelRect{.x0 = c[0], .y0 = c[1], .x1 = c[2], .y1 = c[3]};
+  }
   const Outputs arrays(outputs);
   const bool has_samples = has_color || !arrays.sampled.empty();
   if (has_samples) {

@@ -156,8 +156,8 @@ ReadFiles::~ReadFiles() {
 
 std::optional<std::string> ReadFiles::name_of(const std::filesystem::path& path) const {
   const std::optional<FileIdentity> file = identity_of(path);
-  const auto found = file ? names_.find(*file) : names_.end();
-  return found != names_.end() ? std::optional(found->second) : std::nullopt;
+  const auto found = file ? name_of_.find(*file) : name_of_.end();
+  return found != name_of_.end() ? std::optional(found->second) : std::nullopt;
 }
 
 }  // namespace microtrace

@@ -1,7 +1,6 @@
 #include "cli/dataset/dataset.hpp"
 
 #include "cli/dataset/plan.hpp"
-#include "cli/dataset/view_renderer.hpp"
 #include "cli/pictures/render_picture.hpp"
 
 #include <microtrace/dataset.hpp>
@@ -11,7 +10,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <set>
+#include <string>
+#include <system_error>
+#include <tuple>
 
 namespace microtrace::cli {
 namespace {
@@ -41,33 +44,6 @@ DatasetIdentity identity_of(const Arguments& arguments, const std::vector<Datase
           .arguments = arguments.dataset.command_line};
 }
 
-/// Writes the files about all views. `scene` is that of the first view.
-void finish(const Arguments& arguments, const std::vector<DatasetView>& views,
-            const DatasetFolder& folder, const Scene& scene) {
-  const auto parts = [&](DatasetFormat format) {
-    std::vector<fs::path> paths;
-    for (std::uint32_t view = 0; view < views.size(); ++view)
-      paths.push_back(folder.path() / annotations_name(arguments, views[view], view, format));
-    return paths;
-  };
-  std::vector<std::string> more;
-  if (writes(arguments, DatasetFormat::coco)) {
-    more.emplace_back("coco.json");
-    join_coco(parts(DatasetFormat::coco), scene, arguments.dataset.coco.categories,
-              folder.path() / more.back());
-  }
-  if (writes(arguments, DatasetFormat::bop)) {
-    join_bop(parts(DatasetFormat::bop), folder.path() / kBopScene);
-    for (const char* name : {"scene_camera.json", "scene_gt.json", "scene_gt_info.json"})
-      more.push_back(std::string(kBopScene) + name);
-    for (const NamedFile& file : bop_models(scene)) {
-      more.push_back("bop/" + file.name);
-      write_dataset_file(folder.path() / more.back(), file.bytes);
-    }
-  }
-  folder.write_manifest(more);
-}
-
 void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
             std::uint32_t missing, double seconds) {
   if (arguments.quiet || arguments.progress == Progress::json) return;
@@ -80,32 +56,85 @@ void report(const Arguments& arguments, std::size_t rendered, std::size_t kept,
 
 }  // namespace
 
-void write_dataset(const Arguments& given) {
-  Arguments arguments = given;
-  const auto begin = std::chrono::steady_clock::now();
+Dataset::Dataset(const Arguments& arguments, std::vector<Diagnostic>* warnings,
+                 const Locate& locate)
+    : arguments_(arguments), warnings_(arguments, warnings) {
   if (arguments.scene == "-") refuse_usage("SCENE: a data set needs a file, not standard input");
-  ReadDigest digest;
-  const std::vector<DatasetView> views = views_of(arguments);
-  check_names(arguments, views);
-  Warnings warnings(arguments);
-  ViewRenderer renderer(arguments, warnings);
-  const std::vector<std::uint32_t> order = rendering_order(views, arguments.dataset.shard);
-  renderer.load(views.front());  // the same view in all shards, so that the digests agree
-  DatasetFolder folder(arguments.output, identity_of(arguments, views, digest.value()));
+  const ReadDigest digest;
+  views_ = views_of(arguments_);
+  for (DatasetView& view : views_) {
+    if (locate && view.environment) view.environment = locate(*view.environment);
+  }
+  check_names(arguments_, views_);
+  renderer_.emplace(arguments_, warnings_);
+  renderer_->load(views_.front());  // the same view in all shards, so that the digests agree
+  identity_ = identity_of(arguments_, views_, digest.value());
+}
+
+std::vector<std::uint32_t> Dataset::order() const {
+  return rendering_order(views_, arguments_.dataset.shard);
+}
+
+void Dataset::read_all() {
+  std::set<std::tuple<std::optional<std::string>, std::optional<std::string>>> read;
+  for (const DatasetView& view : views_) {
+    if (read.emplace(view.variant, view.environment).second) renderer_->load(view);
+  }
+}
+
+std::vector<std::string> Dataset::render(DatasetFolder& folder, std::uint32_t view) {
+  std::vector<std::string> names = renderer_->render(views_.at(view), view, folder.path());
+  folder.finish(view, names);
+  return names;
+}
+
+std::vector<std::string> Dataset::finish(const DatasetFolder& folder) {
+  renderer_->load(views_.front());
+  const Scene& scene = renderer_->scene();
+  const auto parts = [&](DatasetFormat format) {
+    std::vector<fs::path> paths;
+    for (std::uint32_t view = 0; view < views_.size(); ++view)
+      paths.push_back(folder.path() / annotations_name(arguments_, views_[view], view, format));
+    return paths;
+  };
+  std::vector<std::string> more;
+  if (writes(arguments_, DatasetFormat::coco)) {
+    more.emplace_back("coco.json");
+    join_coco(parts(DatasetFormat::coco), scene, arguments_.dataset.coco.categories,
+              folder.path() / more.back());
+  }
+  if (writes(arguments_, DatasetFormat::bop)) {
+    std::error_code error;  // writing the files reports failures
+    fs::create_directories(folder.path() / kBopScene, error);
+    join_bop(parts(DatasetFormat::bop), folder.path() / kBopScene);
+    for (const char* name : {"scene_camera.json", "scene_gt.json", "scene_gt_info.json"})
+      more.push_back(std::string(kBopScene) + name);
+    for (const NamedFile& file : bop_models(scene)) {
+      more.push_back("bop/" + file.name);
+      write_dataset_file(folder.path() / more.back(), file.bytes);
+    }
+  }
+  folder.write_manifest(more);
+  more.emplace_back("manifest.json");
+  return more;
+}
+
+void write_dataset(const Arguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  Dataset dataset(arguments);
+  const std::vector<std::uint32_t> order = dataset.order();
+  DatasetFolder folder(arguments.output, dataset.identity());
   const auto progress = progress_of(arguments, static_cast<std::uint32_t>(order.size()));
   std::size_t rendered = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (!folder.is_whole(order[i])) {
-      folder.finish(order[i], renderer.render(views[order[i]], order[i], folder.path()));
+      dataset.render(folder, order[i]);
       ++rendered;
     }
     if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(order.size()));
   }
   const std::uint32_t missing = folder.missing();
-  if (missing == 0) {
-    renderer.load(views.front());
-    finish(arguments, views, folder, renderer.scene());
-  }
+  if (missing == 0) dataset.finish(folder);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   report(arguments, rendered, order.size() - rendered, missing, seconds.count());
 }

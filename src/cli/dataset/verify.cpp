@@ -43,15 +43,14 @@ class TemporaryFolder {
 
 /// The arguments with which the data set was started.
 Arguments arguments_of(const DatasetIdentity& identity) {
-  std::vector<std::string> words{"microtrace dataset", "--output=."};
+  std::vector<std::string> words{"--output=."};
   words.insert(words.end(), identity.arguments.begin(), identity.arguments.end());
-  std::vector<char*> pointers;
-  pointers.reserve(words.size());
-  for (std::string& word : words) pointers.push_back(word.data());
-  Parsed parsed =
-      parse_arguments(Command::dataset, static_cast<int>(pointers.size()), pointers.data());
-  if (parsed.exit_code) throw Error(ErrorKind::usage, "dataset.json", "has invalid arguments");
-  return std::move(parsed.arguments);
+  try {
+    return parse_words(Command::dataset, std::move(words));
+  } catch (const Error& error) {
+    throw Error(ErrorKind::usage, "dataset.json",
+                std::string("has invalid arguments: ") + error.what());
+  }
 }
 
 /// Renders views again and compares their files with those of the data set.

@@ -173,21 +173,27 @@ int print(const std::string& text) {
   return static_cast<int>(ErrorKind::io);
 }
 
+/// Throws CLI::ParseError and Error (usage).
+Arguments parse_with(Parser& parser, Command command, int argc, char** argv) {
+  Arguments a;
+  const std::vector<Given> given = parser.parse(argc, argv);
+  for (const auto& [option, values] : given) {
+    for (const std::string& value : values) option->set(a, {std::string(option->name()), value});
+  }
+  if (command == Command::render) complete(a);
+  if (command == Command::merge) check_patterns(a);
+  if (command == Command::dataset) identify_dataset(given, a.dataset);
+  a.identity = identity_of(given);
+  return a;
+}
+
 }  // namespace
 
 Parsed parse_arguments(Command command, int argc, char** argv) {
   Parsed parsed;
-  Arguments& a = parsed.arguments;
   Parser parser(command);
   try {
-    const std::vector<Given> given = parser.parse(argc, argv);
-    for (const auto& [option, values] : given) {
-      for (const std::string& value : values) option->set(a, {std::string(option->name()), value});
-    }
-    if (command == Command::render) complete(a);
-    if (command == Command::merge) check_patterns(a);
-    if (command == Command::dataset) identify_dataset(given, a.dataset);
-    a.identity = identity_of(given);
+    parsed.arguments = parse_with(parser, command, argc, argv);
   } catch (const CLI::CallForHelp&) {
     parsed.exit_code = print(help_text(command));
   } catch (const CLI::CallForVersion& version) {
@@ -198,6 +204,23 @@ Parsed parse_arguments(Command command, int argc, char** argv) {
     parsed.exit_code = report_usage_error(command, error.what());
   }
   return parsed;
+}
+
+Arguments parse_words(Command command, std::vector<std::string> words) {
+  words.insert(words.begin(), program_name(command));
+  std::vector<char*> pointers;
+  pointers.reserve(words.size());
+  for (std::string& word : words) pointers.push_back(word.data());
+  Parser parser(command);
+  try {
+    return parse_with(parser, command, static_cast<int>(pointers.size()), pointers.data());
+  } catch (const CLI::CallForHelp&) {
+    refuse_usage("--help: not available here");
+  } catch (const CLI::CallForVersion&) {
+    refuse_usage("--version: not available here");
+  } catch (const CLI::ParseError& error) {
+    refuse_usage(message_of(command, parser.app(), error));
+  }
 }
 
 }  // namespace microtrace::cli

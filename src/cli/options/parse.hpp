@@ -3,6 +3,8 @@
 #include "cli/options/option.hpp"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace microtrace::cli {
 
@@ -14,5 +16,8 @@ struct Parsed {
 /// Parses the arguments of a command. Prints the output of --help and --version to standard output
 /// and usage errors to standard error; in these cases exit_code is present.
 [[nodiscard]] Parsed parse_arguments(Command command, int argc, char** argv);
+
+/// Parses the words that follow a command. Throws Error (usage), also for --help and --version.
+[[nodiscard]] Arguments parse_words(Command command, std::vector<std::string> words);
 
 }  // namespace microtrace::cli

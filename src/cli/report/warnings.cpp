@@ -53,6 +53,10 @@ Diagnostic warning_about(const Arguments& arguments, std::string message) {
 void Warnings::print(const Diagnostic& warning) const {
   if (is_strict_) throw Error(ErrorKind::invalid_scene, warning);
   if (is_quiet_) return;
+  if (collected_ != nullptr) {
+    collected_->push_back(warning);
+    return;
+  }
   const bool is_error = is_validating_ && warning.severity == Severity::error;
   std::fprintf(stderr, "%s: %s\n", is_error ? "error" : "warning", warning.text().c_str());
 }

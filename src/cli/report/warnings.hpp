@@ -19,8 +19,10 @@ namespace microtrace::cli {
 /// don't prevent rendering are reported as warnings, or as errors with --validate.
 class Warnings {
  public:
-  explicit Warnings(const Arguments& arguments)
-      : is_strict_(arguments.strict),
+  /// If `collected` is not null, appends warnings to it instead of printing them.
+  explicit Warnings(const Arguments& arguments, std::vector<Diagnostic>* collected = nullptr)
+      : collected_(collected),
+        is_strict_(arguments.strict),
         is_quiet_(arguments.quiet),
         is_validating_(arguments.validate) {}
 
@@ -37,6 +39,7 @@ class Warnings {
  private:
   void print(const Diagnostic& warning) const;
 
+  std::vector<Diagnostic>* collected_;
   bool is_strict_, is_quiet_, is_validating_, has_reported_picture_ = false;
   std::size_t errors_ = 0;
   std::set<std::string> printed_;

@@ -1,0 +1,87 @@
+"""Folders on file systems of fsspec."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import fsspec  # type: ignore[import-untyped,unused-ignore]
+
+
+class Store:
+    """A folder that a URL names."""
+
+    def __init__(self, url: str, options: Mapping[str, Any]) -> None:
+        self.url = url
+        self.options = dict(options)
+        with self._failures():
+            self._files, self._root = fsspec.core.url_to_fs(url, **self.options)
+        protocol = self._files.protocol
+        protocols = (protocol,) if isinstance(protocol, str) else protocol
+        #: The folder's path if it is a folder of this machine.
+        self.local: Path | None = Path(self._root) if "file" in protocols else None
+
+    def __reduce__(self) -> Any:
+        # Other machines have other working folders.
+        return (Store, (self.url if self.local is None else str(self.local), self.options))
+
+    @contextmanager
+    def _failures(self) -> Iterator[None]:
+        """Makes an OSError of each error, for clients of storage services have their own types."""
+        try:
+            yield
+        except (OSError, ImportError, ValueError):
+            raise
+        except Exception as error:
+            raise OSError(f"{self.url}: {type(error).__name__}: {error}") from error
+
+    def _path(self, name: str) -> str:
+        return f"{self._root.rstrip('/')}/{name}"
+
+    def read(self, name: str) -> bytes | None:
+        """Returns the bytes of a file; None if it doesn't exist."""
+        with self._failures():
+            try:
+                return bytes(self._files.cat_file(self._path(name)))
+            except FileNotFoundError:
+                return None
+
+    def is_empty(self) -> bool:
+        """Returns True if the folder has no files or doesn't exist."""
+        with self._failures():
+            self._files.invalidate_cache()
+            return not self._files.find(self._root, maxdepth=2)
+
+    def upload(self, folder: Path, names: Sequence[str]) -> None:
+        """Stores files of a folder of this machine under the same names, several at a time."""
+        with self._failures():
+            self._files.put([str(folder / n) for n in names], [self._path(n) for n in names])
+
+    def download(self, subfolder: str, folder: Path) -> None:
+        """Copies the files of a subfolder to the same names in a folder of this machine."""
+        with self._failures():
+            self._files.invalidate_cache()
+            paths = list(self._files.find(self._path(subfolder)))
+            start = len(self._path(""))
+            targets = [str(folder / path[start:]) for path in paths]
+            for parent in {Path(target).parent for target in targets}:
+                parent.mkdir(parents=True, exist_ok=True)
+            if paths:
+                self._files.get(paths, targets)
+
+    def is_whole(self, record: str) -> bool:
+        """Returns True if a view has a record and all its files have the right sizes."""
+        text = self.read(record)
+        if text is None:
+            return False
+        for file in json.loads(text)["files"]:
+            with self._failures():
+                try:
+                    if self._files.size(self._path(file["name"])) != file["size"]:
+                        return False
+                except FileNotFoundError:
+                    return False
+        return True

@@ -1,0 +1,268 @@
+"""Renders the views of a data set on workers."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+import threading
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from distributed import Client, get_worker
+
+from .. import _core
+from ..errors import Diagnostic, error_of, warn
+from ..pictures import _shown
+from ._ranges import Outcome, RangeRun
+from ._store import Store
+from ._worker import (
+    Job,
+    Stopwatch,
+    attempt,
+    broadcast,
+    made_from,
+    require_synchronous,
+    temporary_folder,
+)
+
+#: Options of the command `microtrace dataset` that dataset() has parameters for.
+_TAKEN = ("-o", "--output", "--shard", "--views", "--formats")
+#: Options whose values are paths.
+_PATHS = ("--env", "--views", "--allow-path")
+
+
+@dataclass(frozen=True)
+class Summary:
+    """What a call of dataset() did."""
+
+    views: int  #: number of views of the data set
+    rendered: int  #: number of views that were rendered; some possibly twice
+    kept: int  #: number of views that were finished before
+
+
+@dataclass(frozen=True)
+class _Content:
+    """What all tasks share."""
+
+    words: list[str]  #: arguments of `microtrace dataset`
+    folder: str  #: to which the paths in `words` are relative
+    order: npt.NDArray[np.uint32]  #: of the views
+    files: dict[str, bytes]  #: by absolute path, all files that are read
+    description: bytes  #: of the data set: dataset.json
+    store: Store
+    is_new: bool  #: True if no view was finished at the beginning
+
+
+def _record(view: int) -> str:
+    return f"records/{view:06d}.json"
+
+
+class _Views:
+    """A data set on a worker. Its files are copies, in a folder of the worker."""
+
+    def __init__(self, content: _Content, parent: str) -> None:
+        self.folder = temporary_folder(parent)
+        self.lock = threading.Lock()
+        self._store = content.store
+        self._is_new = content.is_new
+        self._description = content.description
+        try:
+            root = Path(self.folder, "files")
+            for path, data in content.files.items():
+                copy = Path(f"{root}{path}")
+                copy.parent.mkdir(parents=True, exist_ok=True)
+                copy.write_bytes(data)
+            words = _moved(content.words, content.folder, root)
+            if not any(word.startswith("--threads") for word in words):
+                words.append(f"--threads={get_worker().state.nthreads}")
+            self._core = _core.Dataset(words, content.folder, root)
+        except BaseException:
+            shutil.rmtree(self.folder, ignore_errors=True)
+            raise
+        self.order = content.order
+
+    def render(self, view: int) -> bool:
+        """Renders a view unless it is finished. Returns True if it was rendered."""
+        if self._store.local is not None:
+            if _core.is_whole_view(self._store.local, view):
+                return False
+            self._core.render(self._store.local, view)
+            return True
+        if not self._is_new and self._store.is_whole(_record(view)):
+            return False
+        with tempfile.TemporaryDirectory(dir=self.folder) as name:
+            folder = Path(name)
+            (folder / "dataset.json").write_bytes(self._description)
+            (folder / "records").mkdir()
+            names = self._core.render(folder, view)
+            self._store.upload(folder, names)
+            self._store.upload(folder, [_record(view)])
+        return True
+
+    def take_warnings(self) -> list[Diagnostic]:
+        """Returns new warnings, with the names of the client's files."""
+        root = str(Path(self.folder, "files"))
+        return [
+            replace(w, file=w.file.replace(root, ""), text=w.text.replace(root, ""))
+            for w in self._core.take_warnings()
+        ]
+
+
+def _moved(words: Sequence[str], folder: str, root: Path) -> list[str]:
+    """Returns arguments whose paths lead to the copies of files below `root`."""
+
+    def move(path: str) -> str:
+        copy = Path(f"{root}{os.path.normpath(os.path.join(folder, path))}")
+        return str(copy) if copy.exists() else path
+
+    moved, former = [move(words[0])], ""
+    for word in words[1:]:
+        name, equals, value = word.partition("=")
+        if equals and name in _PATHS:
+            word = f"{name}={move(value)}"
+        elif former in _PATHS:
+            word = move(word)
+        moved.append(word)
+        former = word
+    return moved
+
+
+def render_views(job: Job, first: int, last: int) -> Outcome:
+    """Renders views. This is the task."""
+
+    def work() -> tuple[float, Any]:
+        views: _Views = made_from(job.digest, _Views)
+        with views.lock:
+            watch = Stopwatch()
+            rendered = sum(views.render(int(views.order[i])) for i in range(first, last))
+            return watch.seconds(), (rendered, views.take_warnings())
+
+    return attempt(job, work)
+
+
+def dataset(
+    client: Client,
+    scene: str | PathLike[str],
+    url: str | PathLike[str],
+    *,
+    views: str | PathLike[str] | None = None,
+    formats: Sequence[str] = ("png",),
+    options: Sequence[str] = (),
+    storage_options: Mapping[str, Any] | None = None,
+    retries: int = 3,
+    progress: Callable[[float], bool | None] | bool = False,
+) -> Summary:
+    """Renders many views of a scene on the workers of a Dask cluster, into the files of the command
+    `microtrace dataset`, with the bytes of one run.
+
+    The files of the scene are sent once to each worker, where the scene is prepared once for each
+    of its poses. Tasks render some seconds of views. Their names begin with microtrace-dataset.
+    Views of slow tasks are divided and rendered again on idle workers, with the same bytes. The
+    same call continues a data set that was interrupted.
+
+    Args:
+        client: a synchronous client.
+        scene: a scene file.
+        url: the folder of the data set: a path or a URL of fsspec. A local folder must be the same
+            folder for the client and all workers. Of others, object stores such as s3:// are
+            suitable, because their files appear whole or not at all.
+        views: a file or a generator such as "orbit:36"; see `microtrace dataset --help`.
+        formats: the files of each view: "png", "exr", "npz", "coco", "bop".
+        options: further options of `microtrace dataset`, such as ["--size=320x240", "--amodal"].
+        storage_options: arguments for fsspec's file system. They are sent to the workers by way of
+            the scheduler.
+        retries: how often views are rendered again after errors that another worker may not have,
+            such as a full disk.
+        progress: see microtrace.render().
+
+    Returns:
+        The numbers of views.
+
+    Raises:
+        ValueError: an argument or the scene is invalid, the folder contains something else, or a
+            worker has another version of microtrace.
+        TypeError: the client is asynchronous, or an argument has the wrong type.
+        CanceledError: progress returned False. Finished views remain.
+        distributed.KilledWorker: workers died repeatedly while they rendered the same views.
+        OSError, MemoryError: a file can't be read, or all retries failed.
+    """
+    require_synchronous(client)
+    if isinstance(formats, str) or isinstance(options, str):
+        raise TypeError("formats and options must be sequences of strings")
+    for option in options:
+        if option.partition("=")[0] in _TAKEN:
+            raise ValueError(f"{option}: use the arguments url, views and formats instead")
+    words = [os.fspath(scene), "--formats=" + ",".join(formats), *options, "--output=."]
+    if views is not None:
+        words.append(f"--views={os.fspath(views)}")
+    warned: set[tuple[int, int, str]] = set()
+
+    def warn_once(warnings: Iterable[Diagnostic]) -> None:
+        for each in warnings:
+            # Of the warnings about pictures, which have no position, only the first counts.
+            key = (each.line, each.column, each.message if each.line or each.pointer else "")
+            if key not in warned:
+                warned.add(key)
+                warn([each])
+
+    core, names = _core.read_dataset(words)
+    warn_once(core.take_warnings())
+    store = Store(os.fspath(url), storage_options or {})
+    description, is_new = _create(core, store)
+    files = {os.path.abspath(name): Path(name).read_bytes() for name in names}
+    order = np.array(core.order(), np.uint32)
+    content = _Content(words, os.getcwd(), order, files, description, store, is_new)
+    count = len(order)
+    rendered = 0
+
+    def receive(first: int, last: int, value: Any) -> None:
+        nonlocal rendered
+        rendered += value[0]
+        warn_once(value[1])
+
+    with broadcast(client, content) as job, _shown(progress, count, "view") as show:
+        RangeRun(
+            client, "microtrace-dataset", render_views, job, count, receive, show, retries
+        ).run()
+    _finish(core, store, description)
+    return Summary(count, rendered, max(0, count - rendered))
+
+
+def _create(core: _core.Dataset, store: Store) -> tuple[bytes, bool]:
+    """Creates the folder or checks that it has this data set. Returns its description and whether
+    it is new."""
+    if store.local is not None:
+        core.create(store.local)
+        return (store.local / "dataset.json").read_bytes(), False
+    with tempfile.TemporaryDirectory(prefix="microtrace-") as name:
+        folder = Path(name)
+        known = store.read("dataset.json")
+        if known is not None:
+            (folder / "dataset.json").write_bytes(known)
+        elif not store.is_empty():
+            message = f"{store.url}: contains files that are not a data set; name another folder"
+            raise error_of(2, Diagnostic(store.url, 0, 0, "", message, message))
+        core.create(folder)
+        description = (folder / "dataset.json").read_bytes()
+        if known is None:
+            store.upload(folder, ["dataset.json"])
+        return description, known is None
+
+
+def _finish(core: _core.Dataset, store: Store, description: bytes) -> None:
+    """Writes the files about all views."""
+    if store.local is not None:
+        core.finish(store.local)
+        return
+    with tempfile.TemporaryDirectory(prefix="microtrace-") as name:
+        folder = Path(name)
+        (folder / "dataset.json").write_bytes(description)
+        store.download("records", folder)
+        store.download("annotations", folder)
+        store.upload(folder, core.finish(folder))

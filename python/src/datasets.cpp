@@ -1,0 +1,101 @@
+/// Binds the parts of the command `microtrace dataset`, for microtrace.distributed.
+
+#include "cli/dataset/dataset.hpp"
+#include "cli/options/parse.hpp"
+#include "common.hpp"
+#include "float_environment.hpp"
+
+#include <filesystem>
+#include <memory>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace microtrace::python {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A data set and the warnings about it. Only one thread may use it at a time.
+class Dataset {
+ public:
+  /// If `root` is not empty, files are looked for below it first, by their absolute names. Names in
+  /// the list of views are relative to `folder`.
+  Dataset(std::vector<std::string> words, const fs::path& folder, const fs::path& root)
+      : dataset_(cli::parse_words(cli::Command::dataset, std::move(words)), &warnings_,
+                 [&](const std::string& name) {
+                   const fs::path copy = root / (folder / name).lexically_normal().relative_path();
+                   std::error_code error;
+                   return !root.empty() && fs::exists(copy, error) ? copy.string() : name;
+                 }) {}
+
+  cli::Dataset& dataset() { return dataset_; }
+
+  nb::list take_warnings() {
+    nb::list result;
+    for (const Diagnostic& warning : std::exchange(warnings_, {}))
+      result.append(to_python(warning));
+    return result;
+  }
+
+ private:
+  std::vector<Diagnostic> warnings_;
+  cli::Dataset dataset_;
+};
+
+/// Reads the files of a data set. Returns the names of all files that were read.
+nb::tuple read(std::vector<std::string> words) {
+  std::vector<std::string> names;
+  std::unique_ptr<Dataset> dataset = [&] {
+    const nb::gil_scoped_release release;
+    const FloatEnvironment environment;
+    const ReadFiles files;
+    auto read = std::make_unique<Dataset>(std::move(words), fs::path(), fs::path());
+    read->dataset().read_all();
+    names.assign(files.names().begin(), files.names().end());
+    return read;
+  }();
+  return nb::make_tuple(std::move(dataset), names);
+}
+
+std::vector<std::string> render(Dataset& self, const fs::path& path, std::uint32_t view) {
+  const nb::gil_scoped_release release;
+  const FloatEnvironment environment;
+  DatasetFolder folder(path);
+  return self.dataset().render(folder, view);
+}
+
+std::vector<std::string> finish(Dataset& self, const fs::path& path) {
+  const nb::gil_scoped_release release;
+  const FloatEnvironment environment;
+  return self.dataset().finish(DatasetFolder(path));
+}
+
+bool is_whole(const fs::path& path, std::uint32_t view) {
+  const nb::gil_scoped_release release;
+  return DatasetFolder(path).is_whole(view);
+}
+
+}  // namespace
+
+void bind_datasets(nb::module_& module) {
+  nb::class_<Dataset>(module, "Dataset")
+      .def(nb::init<std::vector<std::string>, fs::path, fs::path>(),
+           nb::call_guard<nb::gil_scoped_release, FloatEnvironment>())
+      .def("order", [](Dataset& self) { return self.dataset().order(); })
+      .def("create",
+           [](Dataset& self, const fs::path& path) {
+             const DatasetFolder created(path, self.dataset().identity());
+           })
+      .def("render", &render)
+      .def("finish", &finish)
+      .def("take_warnings", &Dataset::take_warnings);
+  module.def("read_dataset", &read);
+  module.def("is_whole_view", &is_whole);
+}
+
+}  // namespace microtrace::python
