@@ -20,11 +20,9 @@ from pathlib import Path
 from typing import Any
 
 import fsspec
-from cluster import Accidents, Cluster
-from distributed import Client
-
 import microtrace as mt
 import microtrace.distributed as md
+from cluster import Accidents, Cluster
 
 SCENE = Path(__file__).parents[2] / "scenes" / "gltf" / "materials.glb"
 OPTIONS = ["--size=64x48", "--spp=16", "--aov=depth,id"]

@@ -1,0 +1,152 @@
+"""Tests microtrace.distributed with real schedulers, workers and an object server."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import chaos
+import microtrace as mt
+import microtrace.distributed as md
+import numpy as np
+import pytest
+from chaos import FORMATS, OPTIONS, SCENE
+from cluster import Cluster
+from conftest import SCENES
+from microtrace.distributed.pictures import parts_of, tiles_of
+
+pytestmark = pytest.mark.filterwarnings("ignore::microtrace.SceneWarning")
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory):
+    with Cluster(tmp_path_factory.mktemp("cluster")) as cluster:
+        cluster.worker("a")
+        cluster.worker("b")
+        with cluster.client() as client:
+            client.wait_for_workers(2, timeout=60)
+            yield client
+
+
+@pytest.mark.parametrize("size", [(1, 1), (8, 8), (17, 23), (64, 9)])
+def test_ranges_of_tiles_cover_pictures(size):
+    count = 3 * tiles_of(*size)
+    for first in range(0, count, max(1, count // 9)):
+        for last in range(first + 1, count + 1, max(1, count // 7)):
+            seen = np.zeros((3, size[1], size[0]), int)
+            for begin, end in ((0, first), (first, last), (last, count)):
+                for picture, (x0, y0, x1, y1) in parts_of(begin, end, *size):
+                    seen[picture, y0:y1, x0:x1] += 1
+            assert (seen == 1).all()
+
+
+@pytest.mark.parametrize(
+    "scene, arguments",
+    [
+        ("gltf/materials.glb", {"size": (83, 47), "spp": 4, "aovs": ["color", "id", "variance"]}),
+        ("gltf/materials.glb", {"size": (83, 47), "aovs": ["depth", "uv"]}),
+        ("perspective1.json", {}),
+    ],
+)
+def test_pictures_equal_those_of_one_process(client, scene, arguments):
+    if "id" in arguments.get("aovs", ()):
+        arguments = {**arguments, "aovs": ["color", "object", "variance"], "transparent": True}
+    loaded = mt.load(SCENES / scene)
+    shares = []
+    far = md.render(client, loaded, progress=shares.append, **arguments)
+    near = mt.render(loaded, **arguments)
+    assert list(far) == list(near)
+    for name in near:
+        assert far[name].dtype == near[name].dtype
+        assert far[name].shape == near[name].shape
+        assert far[name].tobytes() == near[name].tobytes(), name
+    if "color" in near:
+        assert np.array_equal(far.tonemap(), near.tonemap())
+    assert shares == sorted(shares) and shares[-1] == 1
+
+
+def test_several_cameras_make_a_stack(client):
+    scene = mt.load(SCENES / "perspective1.json").prepare()
+    cameras = [mt.frame(scene, azimuth) for azimuth in (0, 90)]
+    far = md.render(client, scene, cameras, (40, 30))
+    near = mt.render(scene, cameras, (40, 30))
+    assert far.color.tobytes() == near.color.tobytes()
+    assert far.color.shape == (2, 30, 40, 3)
+
+
+def test_a_part_of_a_picture_equals_the_whole():
+    scene = mt.load(SCENES / "perspective1.json").prepare()
+    whole = mt.render(scene, size=(40, 30), aovs=["color", "depth"])
+    part = mt.render(scene, size=(40, 30), aovs=["color", "depth"], crop=(3, 5, 20, 30))
+    depth = mt.render(scene, size=(40, 30), aovs=["depth"], crop=(3, 5, 20, 30))
+    assert np.array_equal(part.color, whole.color[5:30, 3:20])
+    assert np.array_equal(part.depth, whole.depth[5:30, 3:20])
+    assert np.array_equal(depth.depth, whole.depth[5:30, 3:20])
+    for crop in [(0, 0, 41, 30), (5, 0, 5, 30), (-1, 0, 5, 5), (0, 0, 5)]:
+        with pytest.raises(ValueError, match="crop"):
+            mt.render(scene, size=(40, 30), crop=crop)
+
+
+def test_the_program_accepts_the_data_set(client, program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    expected = chaos.single_run(program, tmp_path / "one", 3)
+    arguments = {"views": "random:3", "formats": FORMATS, "options": OPTIONS}
+    assert md.dataset(client, SCENE, "many", **arguments) == md.Summary(3, 3, 0)
+    assert chaos.files_of(tmp_path / "many") == expected
+    (tmp_path / "many" / "000001.exr").write_bytes(b"damaged")
+    assert md.dataset(client, SCENE, "many", **arguments) == md.Summary(3, 1, 2)
+    assert chaos.files_of(tmp_path / "many") == expected
+    subprocess.run([program, "verify", "many", "--quiet"], check=True)
+    with pytest.raises(mt.UsageError, match="another number of views|other options"):
+        md.dataset(client, SCENE, "many", **{**arguments, "views": "random:2"})
+
+
+def test_files_of_the_scene_and_environments_reach_the_workers(
+    client, program, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "views.json").write_text(
+        '{"views": [{"environment": {"light": "sky.exr"}}, {"environment": {"light": "studio"}}]}'
+    )
+    mt.render(mt.load(SCENES / "perspective1.json"), size=(16, 8)).save("sky.exr")
+    (tmp_path / "scene.glb").write_bytes(SCENE.read_bytes())
+    options = ["--size=16x12", "--spp=1", "--env", "sky.exr"]
+    words = ["scene.glb", "-o", "one", "--views", "views.json", "--formats", "png", *options]
+    subprocess.run([program, "dataset", *words, "--quiet"], check=True)
+    md.dataset(client, "scene.glb", "many", views="views.json", options=options)
+    assert chaos.files_of(tmp_path / "many") == chaos.files_of(tmp_path / "one")
+
+
+def test_wrong_arguments(client, tmp_path):
+    scene = SCENES / "perspective1.json"
+    with pytest.raises(ValueError, match="--shard"):
+        md.dataset(client, scene, tmp_path, options=["--shard=1/2"])
+    with pytest.raises(mt.UsageError, match="--bogus"):
+        md.dataset(client, scene, tmp_path, options=["--bogus"])
+    with pytest.raises(FileNotFoundError):
+        md.dataset(client, "missing.glb", tmp_path / "set")
+    with pytest.raises(TypeError, match="Client"):
+        md.render(None, mt.load(scene))
+    with pytest.raises(ValueError, match="spp"):
+        md.render(client, mt.load(scene), spp=0)
+    with pytest.raises(mt.CanceledError):
+        md.render(client, mt.load(scene), size=(64, 64), progress=lambda share: False)
+
+
+def test_workers_may_die_stop_and_have_full_disks(program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    expected = chaos.single_run(program, tmp_path / "one", 6)
+    server, _, options = chaos.object_server()
+    try:
+        chaos.fsspec.filesystem("s3", **options).mkdir("chaos")
+        chaos.chaos_round(tmp_path, 1, 6, expected, "s3://chaos/set", options)
+    finally:
+        server.stop()
+
+
+def test_dask_is_optional():
+    code = "import sys, microtrace; assert not {'dask', 'distributed', 'fsspec'} & set(sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+    code = "import sys; sys.modules['distributed'] = None; import microtrace.distributed"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert "pip install 'microtrace[distributed]'" in result.stderr
