@@ -26,6 +26,14 @@ struct ImageSize {
   std::uint32_t width = 640, height = 480;  ///< pixels, at least 1
 };
 
+/// Pixels [x0, x1) x [y0, y1), counted from the picture's upper left corner.
+struct PixelRect {
+  std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  [[nodiscard]] ImageSize size() const { return {.width = x1 - x0, .height = y1 - y0}; }
+  [[nodiscard]] bool operator==(const PixelRect&) const = default;
+};
+
 /// A camera's position and orientation, in scene coordinates for the cameras of a Scene. direction
 /// and up may have any nonzero length and must not be parallel; up need not be perpendicular to
 /// direction.

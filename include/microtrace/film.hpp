@@ -14,14 +14,6 @@
 
 namespace microtrace {
 
-/// Pixels [x0, x1) x [y0, y1), counted from the picture's upper left corner.
-struct PixelRect {
-  std::uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-
-  [[nodiscard]] ImageSize size() const { return {.width = x1 - x0, .height = y1 - y0}; }
-  [[nodiscard]] bool operator==(const PixelRect&) const = default;
-};
-
 /// How 8-bit formats show a film's values; float formats store the values themselves.
 struct Display {
   bool srgb = true;  ///< true: values are linear light and are encoded by the sRGB curve; false: a

@@ -2,7 +2,6 @@
 /// Finds the part of a picture that a box can cover.
 
 #include <microtrace/camera.hpp>
-#include <microtrace/film.hpp>
 #include <microtrace/math.hpp>
 
 namespace microtrace {

@@ -3,7 +3,6 @@
 /// each other.
 
 #include <microtrace/camera.hpp>
-#include <microtrace/film.hpp>
 #include <microtrace/scene.hpp>
 
 #include <algorithm>
