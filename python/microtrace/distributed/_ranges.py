@@ -241,7 +241,6 @@ class RangeRun:
 
     def _divide_slow(self) -> None:
         """Submits the ranges of slow tasks again, in parts, while workers are idle."""
-        idle = self._slots() - sum(not flight.is_divided for flight in self._flights.values())
         now = time.monotonic()
         cost = self._seconds_per_item()
         slow = [
@@ -250,12 +249,17 @@ class RangeRun:
             if not flight.is_divided
             and now - flight.begin > 1 + 3 * cost * (flight.last - flight.first)
         ]
-        if idle <= 0 and len(slow) < len(self._flights):
+        if not slow:
             return
-        owners: dict[Any, str] = {}
-        if slow:
-            for worker, keys in self.client.processing().items():
-                owners.update((key, worker) for key in keys)
+        processing = self.client.processing()
+        idle = sum(
+            max(0, threads - len(processing.get(worker, ())))
+            for worker, threads in self._workers.items()
+            if worker not in self._avoided
+        )
+        if idle == 0:
+            return
+        owners = {key: worker for worker, keys in processing.items() for key in keys}
         for key, flight in slow:
             flight.is_divided = True
             owner = frozenset({owners[key]} if key in owners else ())
