@@ -14,14 +14,13 @@
 namespace microtrace {
 namespace {
 
-using namespace build;
-
 constexpr int kBinsForPreview = 8;
 
 // Minimum number of references for which starting threads pays off.
 constexpr std::size_t kWorthThreads = 20000;
 
-void plan(BinaryTree& binary, WorkerPool& pool) {
+void plan(build::BinaryTree& binary, build::WorkerPool& pool) {
+  using namespace build;
   const AreaMeasure area(binary.root.box);
   const auto plan_node = [&](BinaryNode& node) { plan_collapse(node, area); };
   pool.run(binary.subtrees.size(),
@@ -37,7 +36,8 @@ constexpr PrimitiveId kFewPrimitives = 16;
 constexpr std::ptrdiff_t kWorthKernels = 4;
 
 /// Takes primitives that are tested faster one by one out of a scene with few primitives.
-void take_out_few(References& references) {
+void take_out_few(build::References& references) {
+  using namespace build;
   const auto begin = references.bounded.begin(), end = references.bounded.end();
   const auto others = std::stable_partition(
       begin, end, [](const Reference& r) { return r.weight() == kTriangleWeight; });
@@ -50,6 +50,7 @@ void take_out_few(References& references) {
 }  // namespace
 
 Tree build_tree(const Primitives& primitives, BuildOptions options) {
+  using namespace build;
   References references = gather(primitives);
   Duplicates duplicates(references, primitives);
   references.hashes = {};

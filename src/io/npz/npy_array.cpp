@@ -16,7 +16,7 @@ namespace microtrace::io {
 namespace {
 
 /// The header of an array: a Python dictionary with three entries.
-struct Header {
+struct NpyHeader {
   std::optional<std::string> type;
   std::optional<bool> is_fortran;
   std::optional<std::vector<std::size_t>> shape;
@@ -27,7 +27,7 @@ class HeaderParser {
  public:
   explicit HeaderParser(std::string_view text) : text_(text) {}
 
-  bool parse(Header& header) {
+  bool parse(NpyHeader& header) {
     if (!accept("{")) return false;
     while (!accept("}")) {
       std::string key;
@@ -52,7 +52,7 @@ class HeaderParser {
     return accept(text_.substr(0, end + 1));
   }
 
-  bool value(const std::string& key, Header& header) {
+  bool value(const std::string& key, NpyHeader& header) {
     if (key == "descr" && !header.type) return string(header.type.emplace());
     if (key == "fortran_order" && !header.is_fortran) {
       header.is_fortran = text_.starts_with("True");
@@ -125,7 +125,7 @@ NpyArray read_npy(std::string_view bytes, const std::string& file, const std::st
   const std::size_t size =
       major == 1 ? reader.number<std::uint16_t>() : reader.number<std::uint32_t>();
   const auto text = reader.take(size);
-  Header header;
+  NpyHeader header;
   if (magic != kMagic || major < 1 || major > 3 || reader.is_short() || !text)
     fail("is not in the format .npy; write it with numpy.savez");
   if (!HeaderParser(*text).parse(header))
