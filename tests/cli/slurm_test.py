@@ -41,6 +41,17 @@ class Slurm(ProgramTest):
                  "SLURM_ARRAY_TASK_COUNT": str(COUNT), "SLURM_CPUS_PER_TASK": "1",
                  "SLURM_RESTART_COUNT": str(restarts)})
 
+    def program_of(self, task):
+        """Waits until the task has started the program, and returns the program's process."""
+        children = Path(f"/proc/{task.pid}/task/{task.pid}/children")
+        for _ in range(600):
+            found = children.read_text().split()
+            if found and Path(f"/proc/{found[0]}/exe").resolve() == Path(PROGRAM).resolve():
+                time.sleep(0.2)  # until the script has set its trap, and rendering has begun
+                return int(found[0])
+            time.sleep(0.05)
+        self.fail("the program doesn't start")
+
     def finish(self, task, code=0):
         output = task.communicate(timeout=120)[0].decode()
         self.assertEqual(task.returncode, code, output)
@@ -71,7 +82,7 @@ class Slurm(ProgramTest):
         for index in range(COUNT):
             task = self.start(index, *command, "--checkpoint", "parts/{}")
             if index == 1:
-                time.sleep(0.2)
+                self.program_of(task)
                 task.send_signal(signal.SIGTERM)
             self.finish(task)
         # The task may have finished before the signal, on a fast machine.
@@ -87,7 +98,7 @@ class Slurm(ProgramTest):
 
     def test_signals_before_the_first_sample_queue_the_task_again(self):
         task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
-        time.sleep(0.5)
+        self.program_of(task)
         task.send_signal(signal.SIGTERM)
         self.finish(task)
         self.assertEqual(self.requeued(), ["requeue 71_3"])
@@ -95,7 +106,7 @@ class Slurm(ProgramTest):
     def test_a_task_is_not_queued_forever(self):
         task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}",
                           restarts=10)
-        time.sleep(0.5)
+        self.program_of(task)
         task.send_signal(signal.SIGTERM)
         self.finish(task, 143)
         self.assertEqual(self.requeued(), [])
@@ -112,24 +123,21 @@ class Slurm(ProgramTest):
 
     def test_a_task_whose_program_is_killed_is_queued_again(self):
         task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
-        time.sleep(0.5)
-        os.kill(int(Path(f"/proc/{task.pid}/task/{task.pid}/children").read_text()), signal.SIGKILL)
+        os.kill(self.program_of(task), signal.SIGKILL)
         self.finish(task)
         self.assertEqual(self.requeued(), ["requeue 71_3"])
 
     def test_a_killed_task_leaves_no_program(self):
         task = self.start(0, SCENE, "--integrator", "path", "--spp", "60000", "--size", "800x600", "--checkpoint", "part{}")
-        time.sleep(0.5)
-        children = Path(f"/proc/{task.pid}/task/{task.pid}/children").read_text().split()
-        self.assertEqual(len(children), 1)
+        process = self.program_of(task)
         task.kill()
         task.communicate(timeout=30)
-        program = Path(f"/proc/{children[0]}/cmdline")
+        program = Path(f"/proc/{process}/cmdline")
         for _ in range(100):
             if not program.exists() or not program.read_bytes():
                 return
             time.sleep(0.1)
-        os.kill(int(children[0]), signal.SIGKILL)
+        os.kill(process, signal.SIGKILL)
         self.fail("the program still runs")
 
 
