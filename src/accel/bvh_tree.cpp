@@ -10,6 +10,10 @@
 namespace microtrace {
 namespace {
 
+// In scenes with at most this number of primitives, testing each primitive that is not a triangle
+// is faster than traversal.
+constexpr PrimitiveId kFew = 16;
+
 // Upper bound of the memory per primitive during the build, including pieces of split triangles.
 constexpr std::uint64_t kBytesOfPrimitive = 120;
 
@@ -32,7 +36,8 @@ Tree make_tree(const Primitives& primitives, BvhOptions& options) {
   const MemoryAccount room = room_for_build(primitives.count(), options);
   BuildOptions build{.fast = options.fast_build,
                      .threads = options.threads,
-                     .max_cost_growth = options.max_cost_growth};
+                     .max_cost_growth = options.max_cost_growth,
+                     .few = kFew};
   if (const BvhTree* const previous = options.previous.get())
     build.previous = {std::move(options.previous), &previous->tree};
   return build_tree(primitives, std::move(build));

@@ -29,9 +29,6 @@ void plan(build::BinaryTree& binary, build::WorkerPool& pool) {
   plan_node(binary.root);
 }
 
-/// In scenes with at most this number of primitives, testing each primitive that is not a triangle
-/// is faster than traversal.
-constexpr PrimitiveId kFewPrimitives = 16;
 /// Beside other primitives, the kernels need at least this number of triangles to pay off.
 constexpr std::ptrdiff_t kWorthKernels = 4;
 
@@ -54,7 +51,7 @@ Tree build_tree(const Primitives& primitives, BuildOptions options) {
   References references = gather(primitives);
   Duplicates duplicates(references, primitives);
   references.hashes = {};
-  if (primitives.count() <= kFewPrimitives) take_out_few(references);
+  if (primitives.count() <= options.few) take_out_few(references);
   WorkerPool pool(references.bounded.size() < kWorthThreads ? 1 : options.threads);
   Tree tree;
   if (const Tree* const previous = options.previous.get();

@@ -24,6 +24,9 @@ struct BuildOptions {
   /// most by the factor max_cost_growth. Otherwise this tree is released before a new one is built.
   std::shared_ptr<const Tree> previous{};
   double max_cost_growth = 1;
+  /// In scenes with at most this number of primitives, those that are tested faster one by one are
+  /// kept out of the tree.
+  PrimitiveId few = 0;
 };
 
 /// A closed bounding box in scene coordinates; empty if lo > hi.
