@@ -227,12 +227,14 @@ class StreamWalk {
   // Always inlined, because GCC removes calls of a function that only prefetches.
   __attribute__((always_inline)) void fetch(ChildRef child) const {
     const Place& slot = slots_[child >> 30U];
-    const char* p = slot.begin + (child & slot.mask) * slot.scale;
-    __builtin_prefetch(p);
-    __builtin_prefetch(p + 64);
-    __builtin_prefetch(p + 128);
-    __builtin_prefetch(p + 192);
-    __builtin_prefetch(p + slot.last);
+    // A number instead of a pointer, because `begin` is null if there is no data of this kind.
+    const std::uintptr_t p =
+        reinterpret_cast<std::uintptr_t>(slot.begin) + (child & slot.mask) * slot.scale;
+    __builtin_prefetch(reinterpret_cast<const void*>(p));
+    __builtin_prefetch(reinterpret_cast<const void*>(p + 64));
+    __builtin_prefetch(reinterpret_cast<const void*>(p + 128));
+    __builtin_prefetch(reinterpret_cast<const void*>(p + 192));
+    __builtin_prefetch(reinterpret_cast<const void*>(p + slot.last));
   }
 
   const TreeView& tree_;
