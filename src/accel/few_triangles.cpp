@@ -24,15 +24,15 @@ std::unique_ptr<const FewTriangles> few_triangles(const Tree& tree) {
   for (std::size_t slot = 0; slot < tree.blocks.size() * kWidth; ++slot) {
     const TriangleBlock& block = tree.blocks[slot / kWidth];
     const std::size_t k = slot % kWidth;
-    if (std::isnan(block.a_x[k])) continue;
+    if (std::isnan(block.a[0][k])) continue;
     const auto known = std::span(result->entries).first(static_cast<std::size_t>(result->count));
     // Large triangles can be in several leaves.
     if (std::ranges::find(known, block.id[k], &FewTriangles::Entry::id) != known.end()) continue;
     if (result->count == FewTriangles::kMost) return nullptr;
     FewTriangles::Entry& entry = result->entries[result->count++];
-    const Vec3 a(block.a_x[k], block.a_y[k], block.a_z[k]);
-    const Vec3 b(block.b_x[k], block.b_y[k], block.b_z[k]);
-    const Vec3 c(block.c_x[k], block.c_y[k], block.c_z[k]);
+    const Vec3 a(block.a[0][k], block.a[1][k], block.a[2][k]);
+    const Vec3 b(block.b[0][k], block.b[1][k], block.b[2][k]);
+    const Vec3 c(block.c[0][k], block.c[1][k], block.c[2][k]);
     const Vec3 e1 = b - a, e2 = c - a;
     put(entry.vertices[0], a);
     put(entry.vertices[1], b);

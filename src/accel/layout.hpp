@@ -26,9 +26,7 @@ static_assert(sizeof(WideNode) == 256);  // 224 bytes of data and padding to fou
 /// rotated so that a is the vertex between the two shorter edges, which keeps the error bounds of
 /// thin triangles small. Unused slots have NaN in a and are never hit.
 struct alignas(64) TriangleBlock {
-  float a_x[kWidth], a_y[kWidth], a_z[kWidth];
-  float b_x[kWidth], b_y[kWidth], b_z[kWidth];
-  float c_x[kWidth], c_y[kWidth], c_z[kWidth];
+  float a[3][kWidth], b[3][kWidth], c[3][kWidth];  ///< x, y and z of each slot
   float largest_edge;  ///< upper bound of every |component| of e1 = fl(b - a) and e2 = fl(c - a)
   float edge_product;  ///< upper bound of every |component of e1| times |component of e2|
   std::uint32_t id[kWidth];  ///< PrimitiveIds, mostly in a cache line that is read only for hits

@@ -103,7 +103,7 @@ void NearestSearch::search_tree(const Vec3& p, Poll& poll) {
       const TriangleBlock& block = target_.tree.blocks[k];
       target_.kernels.triangle_distances(block, &point.x, distances.data());
       for (std::size_t i = 0; i < kWidth; ++i) {
-        const bool is_used = block.a_x[i] == block.a_x[i];
+        const bool is_used = block.a[0][i] == block.a[0][i];
         if (is_used && !(distances[i] > limit_)) consider(block.id[i], triangle_in(block, i), p);
       }
     }

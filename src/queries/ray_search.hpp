@@ -52,9 +52,9 @@ void for_each_candidate(const TreeTarget& target, const Ray& ray, const OnBlock&
 /// Returns the triangle in a lane of a block. The order of its vertices may differ from the
 /// scene's.
 [[nodiscard]] inline Triangle triangle_in(const TriangleBlock& block, std::size_t lane) {
-  return {.a = {block.a_x[lane], block.a_y[lane], block.a_z[lane]},
-          .b = {block.b_x[lane], block.b_y[lane], block.b_z[lane]},
-          .c = {block.c_x[lane], block.c_y[lane], block.c_z[lane]}};
+  return {.a = {block.a[0][lane], block.a[1][lane], block.a[2][lane]},
+          .b = {block.b[0][lane], block.b[1][lane], block.b[2][lane]},
+          .c = {block.c[0][lane], block.c[1][lane], block.c[2][lane]}};
 }
 
 }  // namespace microtrace

@@ -106,12 +106,12 @@ struct BlockTest {
     const float limit = t_limit < kFarthestHit ? t_limit : kFarthestHit;
     maybe = certain = 0;
     for (int i = 0; i < kWidth; i += N) {
-      const F x = load<N>(block.a_x + i), y = load<N>(block.a_y + i), z = load<N>(block.a_z + i);
+      const F x = load<N>(block.a[0] + i), y = load<N>(block.a[1] + i), z = load<N>(block.a[2] + i);
       const F a[3] = {x - ray.o[0], y - ray.o[1], z - ray.o[2]};
-      const F e1[3] = {load<N>(block.b_x + i) - x, load<N>(block.b_y + i) - y,
-                       load<N>(block.b_z + i) - z};
-      const F e2[3] = {load<N>(block.c_x + i) - x, load<N>(block.c_y + i) - y,
-                       load<N>(block.c_z + i) - z};
+      const F e1[3] = {load<N>(block.b[0] + i) - x, load<N>(block.b[1] + i) - y,
+                       load<N>(block.b[2] + i) - z};
+      const F e2[3] = {load<N>(block.c[0] + i) - x, load<N>(block.c[1] + i) - y,
+                       load<N>(block.c[2] + i) - z};
       const VolumeTest<N, float> test(a, e1, e2, ray.d, block.largest_edge, block.edge_product,
                                       ray.d_sum, ray.t_begin, limit);
       maybe |= test.maybe << i;

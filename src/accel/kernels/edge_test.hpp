@@ -23,11 +23,11 @@ struct NearTriangle {
   double a[3], e1[3], e2[3];
 
   NearTriangle(const TriangleBlock& block, int k, const float* o)
-      : a{double{block.a_x[k]} - o[0], double{block.a_y[k]} - o[1], double{block.a_z[k]} - o[2]},
-        e1{double{block.b_x[k]} - block.a_x[k], double{block.b_y[k]} - block.a_y[k],
-           double{block.b_z[k]} - block.a_z[k]},
-        e2{double{block.c_x[k]} - block.a_x[k], double{block.c_y[k]} - block.a_y[k],
-           double{block.c_z[k]} - block.a_z[k]} {}
+      : a{double{block.a[0][k]} - o[0], double{block.a[1][k]} - o[1], double{block.a[2][k]} - o[2]},
+        e1{double{block.b[0][k]} - block.a[0][k], double{block.b[1][k]} - block.a[1][k],
+           double{block.b[2][k]} - block.a[2][k]},
+        e2{double{block.c[0][k]} - block.a[0][k], double{block.c[1][k]} - block.a[1][k],
+           double{block.c[2][k]} - block.a[2][k]} {}
 };
 
 inline double sum_of_magnitudes(const double (&x)[3]) {

@@ -174,11 +174,11 @@ class OcclusionPacketWalk {
       const F begin = load<N>(stream_.t_begin + at), t_max = load<N>(stream_.best_hi + at);
       const F limit = lesser(t_max, all<N>(kFarthestHit)), d_sum = load<N>(stream_.d_sum + at);
       for (int k = 0; k < kWidth; ++k) {
-        const float x = block.a_x[k], y = block.a_y[k], z = block.a_z[k];
+        const float x = block.a[0][k], y = block.a[1][k], z = block.a[2][k];
         if (!(x == x)) break;  // unused slots of the block have NaN
         const F a[3] = {x - o[0], y - o[1], z - o[2]};
-        const float e1[3] = {block.b_x[k] - x, block.b_y[k] - y, block.b_z[k] - z};
-        const float e2[3] = {block.c_x[k] - x, block.c_y[k] - y, block.c_z[k] - z};
+        const float e1[3] = {block.b[0][k] - x, block.b[1][k] - y, block.b[2][k] - z};
+        const float e2[3] = {block.c[0][k] - x, block.c[1][k] - y, block.c[2][k] - z};
         const VolumeTest<N, F> test(a, e1, e2, d, block.largest_edge, block.edge_product, d_sum,
                                     begin, limit);
         Lanes maybe = test.maybe & lanes;

@@ -59,12 +59,12 @@ struct PacketView {
   }
 
   void look_at(const TriangleBlock& block, const KernelPacket& packet, int i) {
-    const Vector corner{load<N>(block.a_x + i), load<N>(block.a_y + i), load<N>(block.a_z + i)};
+    const Vector corner{load<N>(block.a[0] + i), load<N>(block.a[1] + i), load<N>(block.a[2] + i)};
     const Vector a{corner.x - packet.o[0], corner.y - packet.o[1], corner.z - packet.o[2]};
-    const Vector e1{load<N>(block.b_x + i) - corner.x, load<N>(block.b_y + i) - corner.y,
-                    load<N>(block.b_z + i) - corner.z};
-    const Vector e2{load<N>(block.c_x + i) - corner.x, load<N>(block.c_y + i) - corner.y,
-                    load<N>(block.c_z + i) - corner.z};
+    const Vector e1{load<N>(block.b[0] + i) - corner.x, load<N>(block.b[1] + i) - corner.y,
+                    load<N>(block.b[2] + i) - corner.z};
+    const Vector e2{load<N>(block.c[0] + i) - corner.x, load<N>(block.c[1] + i) - corner.y,
+                    load<N>(block.c[2] + i) - corner.z};
     Vector normal = cross(e1, e2), p = cross(e2, a), q = cross(a, e1);
     F h = normal.x * a.x + normal.y * a.y + normal.z * a.z;
     // Each triangle has its own error bounds. With a common bound, one huge triangle in the block

@@ -125,9 +125,9 @@ class PacketRounding {
       const TriangleBlock& block = tree_.blocks[slot / kWidth];
       const std::uint32_t k = slot % kWidth;
       plane_ = {o_,
-                {block.a_x[k], block.a_y[k], block.a_z[k]},
-                {block.b_x[k], block.b_y[k], block.b_z[k]},
-                {block.c_x[k], block.c_y[k], block.c_z[k]}};
+                {block.a[0][k], block.a[1][k], block.a[2][k]},
+                {block.b[0][k], block.b[1][k], block.b[2][k]},
+                {block.c[0][k], block.c[1][k], block.c[2][k]}};
       const double sum = greater(greater(plane_.sum.x, plane_.sum.y), plane_.sum.z);
       size_error_ = kSlopeRoundings * kRounding * (sum * double{packet_.d_sum}) + kUnderflow;
     }
@@ -137,19 +137,22 @@ class PacketRounding {
   // Rounds t for N rays that may hit different triangles. Rays without a hit use the triangle
   // `other`.
   Lanes round_several(std::uint32_t other, int i) const {
-    float corner[9][N];
+    float a[3][N], b[3][N], c[3][N];
     for (int lane = 0; lane < N; ++lane) {
       const std::uint32_t at = packet_.best_slot[i + lane], slot = at == kNoSlot ? other : at;
-      const float* p = tree_.blocks[slot / kWidth].a_x + slot % kWidth;
-      for (int k = 0; k < 9; ++k) corner[k][lane] = p[k * kWidth];
+      const TriangleBlock& block = tree_.blocks[slot / kWidth];
+      for (int axis = 0; axis < 3; ++axis) {
+        a[axis][lane] = block.a[axis][slot % kWidth];
+        b[axis][lane] = block.b[axis][slot % kWidth];
+        c[axis][lane] = block.c[axis][slot % kWidth];
+      }
     }
-    const auto vertex = [&](int k) {
-      return Double3<Double<N>>{widened<N>(corner[k]), widened<N>(corner[k + 1]),
-                                widened<N>(corner[k + 2])};
+    const auto vertex = [](const float(&p)[3][N]) {
+      return Double3<Double<N>>{widened<N>(p[0]), widened<N>(p[1]), widened<N>(p[2])};
     };
     const Double<N> zero{};
-    const SeenPlane<Double<N>> plane({zero + o_.x, zero + o_.y, zero + o_.z}, vertex(0), vertex(3),
-                                     vertex(6));
+    const SeenPlane<Double<N>> plane({zero + o_.x, zero + o_.y, zero + o_.z}, vertex(a), vertex(b),
+                                     vertex(c));
     return round_t<N>(plane, d(i), size_error<N>(plane, d(i)), t_ + i);
   }
 

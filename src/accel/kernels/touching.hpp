@@ -35,11 +35,9 @@ inline Lanes touched_triangles(const TriangleBlock& block, const BoxQuery& box) 
   Lanes lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     Lanes touched = kAllLanes<N>;
-    const float* axes[3] = {block.a_x + i, block.a_y + i, block.a_z + i};
     for (int axis = 0; axis < 3; ++axis) {
-      // The arrays of a, b and c are consecutive in memory.
-      const Float<N> a = load<N>(axes[axis]), b = load<N>(axes[axis] + 3 * kWidth),
-                     c = load<N>(axes[axis] + 6 * kWidth);
+      const Float<N> a = load<N>(block.a[axis] + i), b = load<N>(block.b[axis] + i),
+                     c = load<N>(block.c[axis] + i);
       touched &= overlapping<N>(lesser(lesser(b, c), a), greater(greater(b, c), a), box, axis);
     }
     lanes |= touched << i;
@@ -52,12 +50,12 @@ template <int N>
 inline Lanes omitted_triangles(const TriangleBlock& block, const BoxQuery& query) {
   Lanes lanes = lanes_within(block.id, query.omitted_id, query.omitted_id);
   if (query.plane_axis < 0) return lanes;
-  const float* coordinates = block.a_x + query.plane_axis * kWidth;
+  const float(*vertices[])[kWidth] = {block.a, block.b, block.c};
   const Float<N> plane = all<N>(query.plane_at);
   for (int i = 0; i < kWidth; i += N) {
     Lanes within = kAllLanes<N>;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Float<N> x = load<N>(coordinates + 3 * kWidth * corner + i);
+    for (const auto* vertex : vertices) {
+      const Float<N> x = load<N>(vertex[query.plane_axis] + i);
       within &= less_equal<N>(x, plane) & less_equal<N>(plane, x);
     }
     lanes |= within << i;
@@ -119,10 +117,10 @@ struct BlockVertices {
   Float<N> at[3][3];
 
   BlockVertices(const TriangleBlock& block, int i) {
-    // The arrays of the vertices are consecutive.
-    for (int corner = 0; corner < 3; ++corner) {
-      for (int axis = 0; axis < 3; ++axis)
-        at[corner][axis] = load<N>(block.a_x + (3 * corner + axis) * kWidth + i);
+    for (int axis = 0; axis < 3; ++axis) {
+      at[0][axis] = load<N>(block.a[axis] + i);
+      at[1][axis] = load<N>(block.b[axis] + i);
+      at[2][axis] = load<N>(block.c[axis] + i);
     }
   }
 };

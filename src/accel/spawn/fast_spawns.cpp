@@ -13,9 +13,9 @@ namespace {
 Triangle triangle_at(const TreeView& tree, std::uint32_t slot) {
   const TriangleBlock& block = tree.blocks[slot / kWidth];
   const std::uint32_t i = slot % kWidth;
-  return {.a = {block.a_x[i], block.a_y[i], block.a_z[i]},
-          .b = {block.b_x[i], block.b_y[i], block.b_z[i]},
-          .c = {block.c_x[i], block.c_y[i], block.c_z[i]}};
+  return {.a = {block.a[0][i], block.a[1][i], block.a[2][i]},
+          .b = {block.b[0][i], block.b[1][i], block.b[2][i]},
+          .c = {block.c[0][i], block.c[1][i], block.c[2][i]}};
 }
 
 void put_vector(SpawnFloats (&lanes)[3], std::size_t lane, const Vec3& v) {

@@ -30,7 +30,7 @@ void for_each_touching(const Tree& tree, const Bounds& box, const F& f) {
       for (std::uint32_t b = first; b < first + count; ++b) {
         const TriangleBlock& block = tree.blocks[b];
         for (int i = 0; i < kWidth; ++i) {
-          const bool used = block.a_x[i] == block.a_x[i];  // unused slots have NaN
+          const bool used = block.a[0][i] == block.a[0][i];  // unused slots have NaN
           if (used) f(block.id[i]);
         }
       }

@@ -67,15 +67,14 @@ unsigned entered(const WideNode& node, const LineInterval& ray) {
 template <int N>
 unsigned passed(const TriangleBlock& block, const LineInterval& ray) {
   using V = Double<N>;
-  const float *const a = block.a_x, *const b = block.b_x, *const c = block.c_x;
   const double d_sum = magnitude(ray.d[0]) + magnitude(ray.d[1]) + magnitude(ray.d[2]);
   unsigned lanes = 0;
   for (int i = 0; i < kWidth; i += N) {
     V p[3], q[3], r[3], size{};
     for (int axis = 0; axis < 3; ++axis) {
-      p[axis] = widened<N>(a + kWidth * axis + i) - ray.o[axis];
-      q[axis] = widened<N>(b + kWidth * axis + i) - ray.o[axis];
-      r[axis] = widened<N>(c + kWidth * axis + i) - ray.o[axis];
+      p[axis] = widened<N>(block.a[axis] + i) - ray.o[axis];
+      q[axis] = widened<N>(block.b[axis] + i) - ray.o[axis];
+      r[axis] = widened<N>(block.c[axis] + i) - ray.o[axis];
       size = greater(magnitude(p[axis]), size);
       size = greater(magnitude(q[axis]), size);
       size = greater(magnitude(r[axis]), size);
@@ -116,13 +115,12 @@ void box_distances(const WideNode& node, const double* p, double* squared) {
 template <int N>
 void triangle_distances(const TriangleBlock& block, const double* p, double* squared) {
   using V = Double<N>;
-  const float *const a = block.a_x, *const b = block.b_x, *const c = block.c_x;
   for (int i = 0; i < kWidth; i += N) {
     V sum{}, size{}, from_a{}, from_b{}, from_c{}, squared_g{};
     for (int axis = 0; axis < 3; ++axis) {
-      const V x = widened<N>(a + kWidth * axis + i) - p[axis];
-      const V y = widened<N>(b + kWidth * axis + i) - p[axis];
-      const V z = widened<N>(c + kWidth * axis + i) - p[axis];
+      const V x = widened<N>(block.a[axis] + i) - p[axis];
+      const V y = widened<N>(block.b[axis] + i) - p[axis];
+      const V z = widened<N>(block.c[axis] + i) - p[axis];
       const V least = lesser(x, lesser(y, z)), greatest = greater(x, greater(y, z));
       const V gap = greater(greater(least, -greatest), V{});
       sum += gap * gap;

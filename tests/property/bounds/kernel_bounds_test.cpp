@@ -46,13 +46,13 @@ class OneTriangle {
         scene_(scene_of(triangle_)),
         primitives_(scene_),
         root_(exact::first_hit(triangle_, ray_)) {
-    std::fill(block_.a_x, block_.a_x + kWidth, std::nanf(""));
-    const auto put = [](const Vec3& p, float* x) {
-      for (int k = 0; k < 3; ++k) x[k * kWidth] = p[k];
+    std::ranges::fill(block_.a[0], std::nanf(""));
+    const auto put = [](const Vec3& p, float(&x)[3][kWidth]) {
+      for (int k = 0; k < 3; ++k) x[k][0] = p[k];
     };
-    put(triangle_.a, block_.a_x);
-    put(triangle_.b, block_.b_x);
-    put(triangle_.c, block_.c_x);
+    put(triangle_.a, block_.a);
+    put(triangle_.b, block_.b);
+    put(triangle_.c, block_.c);
     const float e1 = largest_component(triangle_.b - triangle_.a),
                 e2 = largest_component(triangle_.c - triangle_.a);
     block_.largest_edge = std::max(e1, e2);

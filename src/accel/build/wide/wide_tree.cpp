@@ -62,7 +62,7 @@ TriangleBlock empty_block() {
   TriangleBlock block{};
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (int i = 0; i < kWidth; ++i) {
-    block.a_x[i] = block.a_y[i] = block.a_z[i] = nan;
+    block.a[0][i] = block.a[1][i] = block.a[2][i] = nan;
     block.id[i] = std::numeric_limits<PrimitiveId>::max();
   }
   return block;
@@ -71,15 +71,11 @@ TriangleBlock empty_block() {
 void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& unturned) {
   const Triangle t = turned(unturned);
   const Vec3 e1 = t.b - t.a, e2 = t.c - t.a;
-  block.a_x[slot] = t.a.x;
-  block.a_y[slot] = t.a.y;
-  block.a_z[slot] = t.a.z;
-  block.b_x[slot] = t.b.x;
-  block.b_y[slot] = t.b.y;
-  block.b_z[slot] = t.b.z;
-  block.c_x[slot] = t.c.x;
-  block.c_y[slot] = t.c.y;
-  block.c_z[slot] = t.c.z;
+  for (int axis = 0; axis < 3; ++axis) {
+    block.a[axis][slot] = t.a[axis];
+    block.b[axis][slot] = t.b[axis];
+    block.c[axis][slot] = t.c[axis];
+  }
   block.id[slot] = id;
   const float largest1 = largest_component(e1), largest2 = largest_component(e2);
   block.largest_edge = std::max({block.largest_edge, largest1, largest2});

@@ -43,7 +43,7 @@ struct LeafEntries {
 /// Stores a triangle in a slot of a block. Slots are filled in order.
 void put(TriangleBlock& block, std::size_t slot, PrimitiveId id, const Triangle& triangle);
 [[nodiscard]] inline bool is_used(const TriangleBlock& block, std::size_t slot) {
-  return block.a_x[slot] == block.a_x[slot];  // unused slots have NaN
+  return block.a[0][slot] == block.a[0][slot];  // unused slots have NaN
 }
 
 /// True if two blocks have the same bits for the vertices of all triangles.
