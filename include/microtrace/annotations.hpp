@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,14 +39,7 @@ struct CocoOptions {
   bool amodal = false;
 };
 
-/// Returns the annotations of one picture for join_coco(). Throws Error: usage if `ids` doesn't
-/// have one value per pixel; limit if memory runs out.
-[[nodiscard]] MICROTRACE_EXPORT std::string coco_annotations(const PreparedScene& scene,
-                                                             const AnnotatedPicture& picture,
-                                                             const CocoOptions& options,
-                                                             unsigned threads = 0);
-
-/// Joins the results of coco_annotations(), stored in the files parts[i], into one file. Numbers
+/// Joins Annotations::coco, stored in the files parts[i], into one file. Numbers
 /// the annotations from 1 in the order of the parts. Keeps one part in memory at a time. The
 /// categories are those of `scene`. Throws Error (io).
 MICROTRACE_EXPORT void join_coco(std::span<const std::filesystem::path> parts, const Scene& scene,
@@ -64,14 +58,27 @@ struct BopAnnotations {
   std::vector<Diagnostic> warnings;
 };
 
-/// Returns the annotations of one picture; the picture's index is the im_id. Depths are stored in
-/// steps of `depth_scale` millimeters; a unit of the scene is a meter. Throws Error: usage if the
-/// camera is neither a perspective camera nor a calibrated camera without distortion; unsupported
-/// if the module for PNG is not installed; limit if memory runs out.
-[[nodiscard]] MICROTRACE_EXPORT BopAnnotations bop_annotations(const PreparedScene& scene,
-                                                               const AnnotatedPicture& picture,
-                                                               double depth_scale = 0.1,
-                                                               unsigned threads = 0);
+/// The formats that annotate() makes.
+struct AnnotationFormats {
+  std::optional<CocoOptions> coco{};
+  /// The step in which BOP stores depths, in millimeters. A unit of the scene is a meter.
+  std::optional<double> bop_depth_scale{};
+};
+
+/// The annotations of one picture. Formats that were not requested are empty.
+struct Annotations {
+  std::string coco;  ///< for join_coco()
+  BopAnnotations bop;
+};
+
+/// Makes the annotations of one picture. In BOP, the picture's index is the im_id. Throws Error:
+/// usage if `ids` or, for BOP, `depth` doesn't have one value per pixel, or if the camera for BOP
+/// is neither a perspective camera nor a calibrated camera without distortion; unsupported if BOP
+/// is requested but the module for PNG is not installed; limit if memory runs out.
+[[nodiscard]] MICROTRACE_EXPORT Annotations annotate(const PreparedScene& scene,
+                                                     const AnnotatedPicture& picture,
+                                                     const AnnotationFormats& formats,
+                                                     unsigned threads = 0);
 
 /// Joins BopAnnotations::part, stored in the files parts[i], into scene_camera.json, scene_gt.json
 /// and scene_gt_info.json in `folder`. Keeps one part in memory at a time. Throws Error (io).

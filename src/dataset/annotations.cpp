@@ -46,13 +46,6 @@ dataset::DrawnView view_of(const PreparedScene& scene, const AnnotatedPicture& p
           .color_file = picture.file};
 }
 
-dataset::Masks amodal_masks_of(const PreparedScene& scene, const AnnotatedPicture& picture,
-                               unsigned threads) {
-  QueryOptions options;
-  options.threads = threads;
-  return dataset::amodal_masks(scene, picture.camera, picture.size, options);
-}
-
 auto reader_of(std::span<const fs::path> parts) {
   return [parts](std::size_t i) { return io::read_file(parts[i], io::kMaxFileSize); };
 }
@@ -67,14 +60,31 @@ void write_joined(const fs::path& path, const Join& join) {
 
 }  // namespace
 
-std::string coco_annotations(const PreparedScene& scene, const AnnotatedPicture& picture,
-                             const CocoOptions& options, unsigned threads) {
+Annotations annotate(const PreparedScene& scene, const AnnotatedPicture& picture,
+                     const AnnotationFormats& formats, unsigned threads) {
   const std::vector<std::uint32_t> objects = objects_of(picture);
   const dataset::DrawnView view = view_of(scene, picture, objects);
+  const dataset::Masks visible = dataset::visible_masks(view);
   dataset::Masks amodal;
-  if (options.amodal) amodal = amodal_masks_of(scene, picture, threads);
-  return dataset::coco_part(view, categories_of(scene.scene(), options.categories),
-                            dataset::visible_masks(view), options.amodal ? &amodal : nullptr);
+  if (formats.bop_depth_scale || (formats.coco && formats.coco->amodal)) {
+    QueryOptions options;
+    options.threads = threads;
+    amodal = dataset::amodal_masks(view, options);
+  }
+  Annotations result;
+  if (formats.coco) {
+    result.coco = dataset::coco_part(view, categories_of(scene.scene(), formats.coco->categories),
+                                     visible, formats.coco->amodal ? &amodal : nullptr);
+  }
+  if (formats.bop_depth_scale) {
+    dataset::BopView bop = dataset::bop_view(view, dataset::BopFrames(scene.scene()), visible,
+                                             amodal, {.depth_scale = *formats.bop_depth_scale});
+    result.bop.part = std::move(bop.part);
+    result.bop.warnings = std::move(bop.warnings);
+    for (dataset::NamedBytes& file : bop.files)
+      result.bop.files.push_back({std::move(file.name), std::move(file.bytes)});
+  }
+  return result;
 }
 
 void join_coco(std::span<const fs::path> parts, const Scene& scene, CocoCategories categories,
@@ -82,20 +92,6 @@ void join_coco(std::span<const fs::path> parts, const Scene& scene, CocoCategori
   write_joined(output, [&](const auto& out) {
     dataset::join_coco(categories_of(scene, categories), parts.size(), reader_of(parts), out);
   });
-}
-
-BopAnnotations bop_annotations(const PreparedScene& scene, const AnnotatedPicture& picture,
-                               double depth_scale, unsigned threads) {
-  const std::vector<std::uint32_t> objects = objects_of(picture);
-  const dataset::DrawnView view = view_of(scene, picture, objects);
-  dataset::BopView bop =
-      dataset::bop_view(view, dataset::BopFrames(scene.scene()), dataset::visible_masks(view),
-                        amodal_masks_of(scene, picture, threads), {.depth_scale = depth_scale});
-  BopAnnotations result{
-      .part = std::move(bop.part), .files = {}, .warnings = std::move(bop.warnings)};
-  for (dataset::NamedBytes& file : bop.files)
-    result.files.push_back({std::move(file.name), std::move(file.bytes)});
-  return result;
 }
 
 void join_bop(std::span<const fs::path> parts, const fs::path& folder) {

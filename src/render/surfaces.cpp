@@ -115,10 +115,21 @@ bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
          shows_front(one, ray.d) == shows_front(other, ray.d);
 }
 
+bool Surfaces::is_visible(const World& world, const Ray& ray, const Hit& hit) const {
+  switch (visibility(primitives_.object_index(hit.id))) {
+    case Visibility::always:
+      return true;
+    case Visibility::in_front:
+      return is_front(ray, hit);
+    case Visibility::varies:
+      break;
+  }
+  return base_color(world, ray, hit).w > 0;
+}
+
 std::optional<Hit> Surfaces::first_visible(const World& world, const Ray& ray,
                                            std::optional<Hit> hit) const {
-  while (hit && !plain_color(ray, *hit) && base_color(world, ray, *hit).w <= 0)
-    hit = world.bvh.next(ray, *hit);
+  while (hit && !is_visible(world, ray, *hit)) hit = world.bvh.next(ray, *hit);
   return hit;
 }
 

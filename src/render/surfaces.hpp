@@ -71,6 +71,7 @@ class Surfaces {
 
   void make_map(std::uint32_t index, SharedTables& tables);
   [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
+  [[nodiscard]] bool is_visible(const World& world, const Ray& ray, const Hit& hit) const;
   [[nodiscard]] DVec4 texel(const World& world, const TextureUse& use, const Ray& ray,
                             const SurfaceInteraction& at) const;
 

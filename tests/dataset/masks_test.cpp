@@ -196,8 +196,8 @@ TEST(Masks, AmodalMasksDoNotDependOnThreadsOrStrips) {
 
 TEST(Masks, ProgressGrowsAndCancels) {
   const Scene scene = adversarial_scene(1);
-  const PreparedScene prepared(scene);
   const ImageSize size{.width = 1024, .height = 200};  // four strips
+  const RenderedView rendered(scene, cameras()[0], size);
   double last = 0;
   QueryOptions options{.threads = 1};
   options.progress = [&](double done) {
@@ -205,10 +205,10 @@ TEST(Masks, ProgressGrowsAndCancels) {
     last = done;
     return true;
   };
-  static_cast<void>(amodal_masks(prepared, cameras()[0], size, options));
+  static_cast<void>(amodal_masks(rendered.view(), options));
   EXPECT_EQ(last, 1);
   options.progress = [](double) { return false; };
-  EXPECT_THROW(static_cast<void>(amodal_masks(prepared, cameras()[0], size, options)), Error);
+  EXPECT_THROW(static_cast<void>(amodal_masks(rendered.view(), options)), Error);
 }
 
 }  // namespace

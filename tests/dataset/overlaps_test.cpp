@@ -31,13 +31,20 @@ TEST(Overlaps, CountThePartsThatContainAPixel) {
               .y1 = std::uint32_t(random() % 40)};
     }
     const Overlaps overlaps(parts, window);
+    PixelRect several{.x0 = window.x1, .y0 = window.y1, .x1 = window.x0, .y1 = window.y0};
     for (std::uint32_t y = window.y0; y < window.y1; ++y) {
       for (std::uint32_t x = window.x0; x < window.x1; ++x) {
         const auto expected = std::ranges::count_if(
             parts, [&](const PixelRect& part) { return contains(part, x, y); });
         ASSERT_EQ(overlaps.at(x, y), expected) << x << ", " << y;
+        if (expected < 2) continue;
+        several = {.x0 = std::min(several.x0, x),
+                   .y0 = std::min(several.y0, y),
+                   .x1 = std::max(several.x1, x + 1),
+                   .y1 = std::max(several.y1, y + 1)};
       }
     }
+    EXPECT_EQ(overlaps.several(), several);
   }
 }
 

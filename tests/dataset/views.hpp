@@ -42,7 +42,7 @@ class RenderedView {
   }
   [[nodiscard]] Masks visible() const { return visible_masks(view()); }
   [[nodiscard]] Masks amodal(unsigned threads = 1) const {
-    return amodal_masks(scene_, camera_, size_, {.threads = threads});
+    return amodal_masks(view(), {.threads = threads});
   }
 
  private:

@@ -102,28 +102,27 @@ std::string ViewRenderer::save_picture(Film& film, const std::string& name,
   return name;
 }
 
-std::string ViewRenderer::save_coco(const DatasetView& view, AnnotatedPicture picture,
-                                    const fs::path& folder) const {
-  const bool is_exr =
-      writes(arguments_, DatasetFormat::exr) && !writes(arguments_, DatasetFormat::png);
-  picture.file = stem_of(arguments_, view, picture.index) + (is_exr ? ".exr" : ".png");
-  std::string name = annotations_name(arguments_, view, picture.index, DatasetFormat::coco);
-  write_dataset_file(folder / name, coco_annotations(*prepared_, picture, arguments_.dataset.coco,
-                                                     arguments_.threads));
-  return name;
-}
-
-void ViewRenderer::save_bop(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
-                            const fs::path& folder, std::vector<std::string>& names) {
-  const BopAnnotations bop =
-      bop_annotations(*prepared_, picture, arguments_.dataset.depth_scale, arguments_.threads);
-  for (const Diagnostic& warning : bop.warnings) warnings_.report_picture(warning);
+void ViewRenderer::save_annotations(const DatasetView& view, const AnnotatedPicture& picture,
+                                    Film& film, const fs::path& folder,
+                                    std::vector<std::string>& names) {
+  const bool is_coco = writes(arguments_, DatasetFormat::coco),
+             is_bop = writes(arguments_, DatasetFormat::bop);
+  AnnotationFormats formats;
+  if (is_coco) formats.coco = arguments_.dataset.coco;
+  if (is_bop) formats.bop_depth_scale = arguments_.dataset.depth_scale;
+  const Annotations annotations = annotate(*prepared_, picture, formats, arguments_.threads);
+  for (const Diagnostic& warning : annotations.bop.warnings) warnings_.report_picture(warning);
   const auto save = [&](const std::string& name, const std::string& bytes) {
     write_dataset_file(folder / name, bytes);
     names.push_back(name);
   };
-  for (const NamedFile& file : bop.files) save(kBopScene + file.name, file.bytes);
-  save(annotations_name(arguments_, view, picture.index, DatasetFormat::bop), bop.part);
+  const auto save_part = [&](DatasetFormat format, const std::string& part) {
+    save(annotations_name(arguments_, view, picture.index, format), part);
+  };
+  if (is_coco) save_part(DatasetFormat::coco, annotations.coco);
+  if (!is_bop) return;
+  for (const NamedFile& file : annotations.bop.files) save(kBopScene + file.name, file.bytes);
+  save_part(DatasetFormat::bop, annotations.bop.part);
   const std::string color = dataset_file_name("rgb/{view:06d}.png", "", picture.index, "");
   names.push_back(save_picture(film, kBopScene + color, folder));
 }
@@ -155,27 +154,30 @@ std::vector<std::string> ViewRenderer::render(const DatasetView& view, std::uint
     options.aovs.push_back(aov);
     hidden.push_back(aov);
   };
-  const bool is_bop = writes(arguments_, DatasetFormat::bop);
-  if (is_bop || writes(arguments_, DatasetFormat::coco)) need(Aov::id);
+  const bool is_bop = writes(arguments_, DatasetFormat::bop),
+             is_annotated = is_bop || writes(arguments_, DatasetFormat::coco);
+  if (is_annotated) need(Aov::id);
   if (is_bop) need(Aov::depth);
   const Camera camera = camera_of(view, size);
   Film film = microtrace::render(*prepared_, camera, size, options);
   apply_display(film, arguments_.display);
   std::vector<std::string> names;
-  AnnotatedPicture picture{.index = index, .camera = camera, .size = size};
+  const bool is_exr =
+      writes(arguments_, DatasetFormat::exr) && !writes(arguments_, DatasetFormat::png);
+  const std::string stem = stem_of(arguments_, view, index);
+  AnnotatedPicture picture{
+      .index = index, .file = stem + (is_exr ? ".exr" : ".png"), .camera = camera, .size = size};
   for (const Channel& channel : film.channels) {
     if (channel.name == "id.instance")
       picture.ids = std::get<std::vector<std::uint32_t>>(channel.values);
     if (channel.name == "depth.Z") picture.depth = std::get<std::vector<float>>(channel.values);
   }
-  if (writes(arguments_, DatasetFormat::coco)) names.push_back(save_coco(view, picture, folder));
-  if (is_bop) save_bop(view, picture, film, folder, names);
+  if (is_annotated) save_annotations(view, picture, film, folder, names);
   for (const Aov aov : hidden) {
     std::erase_if(film.channels, [&](const Channel& c) {
       return c.name.starts_with(std::string(name_of(aov)) + ".");
     });
   }
-  const std::string stem = stem_of(arguments_, view, index);
   if (writes(arguments_, DatasetFormat::png))
     names.push_back(save_picture(film, stem + ".png", folder));
   if (writes(arguments_, DatasetFormat::exr))

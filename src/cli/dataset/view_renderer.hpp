@@ -45,10 +45,10 @@ class ViewRenderer {
   void load_environment(const DatasetView& view, std::vector<Diagnostic>& warnings);
   std::string save_picture(Film& film, const std::string& name,
                            const std::filesystem::path& folder) const;
-  std::string save_coco(const DatasetView& view, AnnotatedPicture picture,
-                        const std::filesystem::path& folder) const;
-  void save_bop(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
-                const std::filesystem::path& folder, std::vector<std::string>& names);
+  /// Saves the annotations of a rendered view and the pictures that belong to them. Adds the names
+  /// of the files to `names`.
+  void save_annotations(const DatasetView& view, const AnnotatedPicture& picture, Film& film,
+                        const std::filesystem::path& folder, std::vector<std::string>& names);
 
   Arguments& arguments_;
   Warnings& warnings_;

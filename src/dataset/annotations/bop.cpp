@@ -194,8 +194,11 @@ BopView bop_view(const DrawnView& view, const BopFrames& frames, const Masks& vi
             .member("visib_fract", static_cast<double>(area) / static_cast<double>(mask.area()))
             .text());
     const std::string name = number + "_" + six_digits(index++) + ".png";
-    result.files.push_back({.name = "mask/" + name, .bytes = mask_png(&mask, view.size)});
-    result.files.push_back({.name = "mask_visib/" + name, .bytes = mask_png(seen, view.size)});
+    std::string whole = mask_png(&mask, view.size);
+    // The visible mask is a part of the amodal one, so they are equal if their areas are.
+    std::string visible_part = area == mask.area() ? whole : mask_png(seen, view.size);
+    result.files.push_back({.name = "mask/" + name, .bytes = std::move(whole)});
+    result.files.push_back({.name = "mask_visib/" + name, .bytes = std::move(visible_part)});
   }
   // The scene's origin is at (0, 0, 0) in scene coordinates, so world space begins at -origin.
   result.part = std::to_string(view.index) + "\n" +

@@ -19,10 +19,33 @@
 namespace microtrace::dataset {
 namespace {
 
-/// A pixel, and an object that covers it. Pixels are numbered row by row from the first row of a
-/// strip.
+/// Finds the pixels in which a ray can hit several objects. It is an integrator, because
+/// integrators get the scene that is rendered, which may be translated.
+class OverlapFinder final : public Integrator {
+ public:
+  OverlapFinder(const Camera& camera, ImageSize size)
+      : camera_(camera), window_{.x0 = 0, .y0 = 0, .x1 = size.width, .y1 = size.height} {}
+
+  void trace(const World& world, std::span<const Ray> /*rays*/, std::span<const SampleId> /*ids*/,
+             std::span<Sample> samples) const override {
+    std::ranges::fill(samples, Sample{});
+    overlaps_.emplace(
+        parts_of_objects(world.bvh.primitives().scene(), camera_, world.camera, window_), window_);
+  }
+
+  /// Must be called after one pixel has been rendered.
+  [[nodiscard]] const Overlaps& overlaps() const { return overlaps_.value(); }
+
+ private:
+  const Camera& camera_;
+  PixelRect window_;
+  mutable std::optional<Overlaps> overlaps_;
+};
+
+/// A pixel, numbered row by row from the first row of the picture, and an object that covers it.
 struct Cover {
-  std::uint32_t object, pixel;
+  std::uint64_t pixel;
+  std::uint32_t object;
 
   [[nodiscard]] auto operator<=>(const Cover&) const = default;
 };
@@ -32,34 +55,29 @@ void sort_without_duplicates(std::vector<Cover>& covers) {
   covers.erase(std::unique(covers.begin(), covers.end()), covers.end());
 }
 
-/// Collects the objects that the camera rays of a strip of the picture hit. It is an integrator, so
-/// it gets the same rays as the AOVs and treats partly transparent surfaces in the same way.
+std::uint32_t object_of(const World& world, const Hit& hit) {
+  return static_cast<std::uint32_t>(world.bvh.primitives().object_index(hit.id));
+}
+
+/// Collects the objects that camera rays hit in pixels in which they can hit several. It is an
+/// integrator, so it gets the same rays as the AOVs and treats partly transparent surfaces in the
+/// same way.
 class CoverCollector final : public Integrator {
  public:
-  /// `window` is the strip.
-  CoverCollector(const Camera& camera, const PixelRect& window)
-      : camera_(camera), window_(window) {}
+  CoverCollector(const Overlaps& overlaps, ImageSize size) : overlaps_(overlaps), size_(size) {}
 
   void trace(const World& world, std::span<const Ray> rays, std::span<const SampleId> ids,
              std::span<Sample> samples) const override {
-    std::call_once(is_counted_, [&] {
-      overlaps_.emplace(
-          parts_of_objects(world.bvh.primitives().scene(), camera_, world.camera, window_),
-          window_);
-    });
-    std::vector<Cover> covers;
-    std::vector<Ray> single, several;                  // rays that can hit one object, or several
-    std::vector<std::uint32_t> of_single, of_several;  // their pixels
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const std::uint32_t count = overlaps_->at(ids[i].x, ids[i].y);
-      if (count == 0) continue;
-      (count == 1 ? single : several).push_back(rays[i]);
-      (count == 1 ? of_single : of_several).push_back(pixel_of(ids[i]));
-    }
-    add_nearest(world, single, of_single, covers);
-    add_all(world, several, of_several, covers);
-    sort_without_duplicates(covers);
     std::ranges::fill(samples, Sample{});
+    std::vector<Ray> asked;
+    std::vector<std::uint64_t> pixels;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (overlaps_.at(ids[i].x, ids[i].y) < 2) continue;
+      asked.push_back(rays[i]);
+      pixels.push_back(std::uint64_t{ids[i].y} * size_.width + ids[i].x);
+    }
+    std::vector<Cover> covers;
+    add_all(world, asked, pixels, covers);
     const std::scoped_lock lock(mutex_);
     covers_.insert(covers_.end(), covers.begin(), covers.end());
   }
@@ -69,28 +87,13 @@ class CoverCollector final : public Integrator {
   /// Returns all covers so far, in order.
   [[nodiscard]] std::vector<Cover> take() {
     sort_without_duplicates(covers_);
-    return std::move(covers_);
+    return std::exchange(covers_, {});
   }
 
  private:
-  [[nodiscard]] std::uint32_t pixel_of(const SampleId& id) const {
-    return (id.y - window_.y0) * (window_.x1 - window_.x0) + (id.x - window_.x0);
-  }
-
-  /// Adds the objects that the rays see. All hits of each ray must be on one object.
-  static void add_nearest(const World& world, std::span<const Ray> rays,
-                          std::span<const std::uint32_t> pixels, std::vector<Cover>& covers) {
-    std::vector<std::optional<Hit>> hits(rays.size());
-    world.bvh.intersect(rays, hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (hits[i]) hits[i] = world.first_visible(rays[i], hits[i]);
-      if (hits[i]) covers.push_back({.object = object_of(world, *hits[i]), .pixel = pixels[i]});
-    }
-  }
-
   /// Adds all objects that the rays would see without the others.
   static void add_all(const World& world, std::span<const Ray> rays,
-                      std::span<const std::uint32_t> pixels, std::vector<Cover>& covers) {
+                      std::span<const std::uint64_t> pixels, std::vector<Cover>& covers) {
     const RayHits all = intersect_all(world.bvh, rays, {.threads = 1});
     for (std::size_t i = 0; i < rays.size(); ++i) {
       std::optional<std::uint32_t> last;  // the previous visible hit's object
@@ -102,28 +105,49 @@ class CoverCollector final : public Integrator {
         hit = std::find_if(hit, hits.end(), [&](const Hit& h) { return h.id == visible->id; });
         if (hit == hits.end()) break;
         last = object_of(world, *hit);
-        covers.push_back({.object = *last, .pixel = pixels[i]});
+        covers.push_back({.pixel = pixels[i], .object = *last});
       }
     }
   }
 
-  static std::uint32_t object_of(const World& world, const Hit& hit) {
-    return static_cast<std::uint32_t>(world.bvh.primitives().object_index(hit.id));
-  }
-
-  const Camera& camera_;
-  PixelRect window_;
-  mutable std::once_flag is_counted_;
-  mutable std::optional<Overlaps> overlaps_;
+  const Overlaps& overlaps_;
+  ImageSize size_;
   mutable std::mutex mutex_;
   mutable std::vector<Cover> covers_;
 };
 
-Masks in_order(std::map<std::uint32_t, Mask>&& masks) {
-  Masks result;
-  result.reserve(masks.size());
-  for (auto& [object, mask] : masks) result.push_back({.object = object, .mask = std::move(mask)});
-  return result;
+/// Adds pixels to the masks of objects. Each object's pixels must be added row by row.
+class MaskMaker {
+ public:
+  void add(std::uint32_t object, std::uint32_t x, std::uint32_t y) {
+    if (mask_ == nullptr || object != last_) mask_ = &masks_[object];
+    last_ = object;
+    mask_->add(x, y);
+  }
+
+  /// Returns the masks in the order of the objects.
+  [[nodiscard]] Masks take() {
+    Masks result;
+    result.reserve(masks_.size());
+    for (auto& [object, mask] : masks_)
+      result.push_back({.object = object, .mask = std::move(mask)});
+    return result;
+  }
+
+ private:
+  std::map<std::uint32_t, Mask> masks_;
+  std::uint32_t last_ = kNoObject;
+  Mask* mask_ = nullptr;  // of last_
+};
+
+void check(const DrawnView& view) {
+  if (view.objects.size() != std::size_t{view.size.width} * view.size.height)
+    throw Error(ErrorKind::usage, view.name,
+                "a view needs the index of an object for each of its pixels");
+  for (const std::uint32_t object : view.objects) {
+    if (object != kNoObject && object >= view.scene->scene().objects.size())
+      throw Error(ErrorKind::usage, view.name, "the scene has no object " + std::to_string(object));
+  }
 }
 
 }  // namespace
@@ -134,58 +158,69 @@ const Mask* find_mask(const Masks& masks, std::uint32_t object) {
 }
 
 Masks visible_masks(const DrawnView& view) {
-  if (view.objects.size() != std::size_t{view.size.width} * view.size.height)
-    throw Error(ErrorKind::usage, view.name,
-                "a view needs the index of an object for each of its pixels");
-  std::map<std::uint32_t, Mask> masks;
-  std::uint32_t last = kNoObject;
-  Mask* mask = nullptr;  // of `last`
+  check(view);
+  MaskMaker masks;
   std::size_t pixel = 0;
   for (std::uint32_t y = 0; y < view.size.height; ++y) {
     for (std::uint32_t x = 0; x < view.size.width; ++x) {
       const std::uint32_t object = view.objects[pixel++];
-      if (object == kNoObject) continue;
-      if (object != last) {
-        if (object >= view.scene->scene().objects.size())
-          throw Error(ErrorKind::usage, view.name,
-                      "the scene has no object " + std::to_string(object));
-        mask = &masks[object];
-      }
-      last = object;
-      mask->add(x, y);
+      if (object != kNoObject) masks.add(object, x, y);
     }
   }
-  return in_order(std::move(masks));
+  return masks.take();
 }
 
-Masks amodal_masks(const PreparedScene& scene, const Camera& camera, ImageSize size,
-                   const QueryOptions& options) {
+Masks amodal_masks(const DrawnView& view, const QueryOptions& options) {
+  check(view);
+  const ImageSize size = view.size;
+  RenderOptions render_options{.threads = options.threads, .run_threads = options.run_threads};
+  const OverlapFinder finder(*view.camera, size);
+  render_options.integrator = &finder;
+  render_options.crop = PixelRect{.x0 = 0, .y0 = 0, .x1 = 1, .y1 = 1};
+  static_cast<void>(render(*view.scene, *view.camera, size, render_options));
+  const Overlaps& overlaps = finder.overlaps();
+  const PixelRect& several = overlaps.several();
+
+  CoverCollector collector(overlaps, size);
+  render_options.integrator = &collector;
   constexpr std::uint32_t kPixels = 1U << 16, kTile = 8;
   const std::uint32_t rows = std::max(kTile, kPixels / std::max(size.width, 1U) / kTile * kTile);
-  std::map<std::uint32_t, Mask> masks;
-  for (std::uint32_t y = 0; y < size.height;) {
-    const std::uint32_t end = y + std::min(rows, size.height - y);
-    const PixelRect strip{.x0 = 0, .y0 = y, .x1 = size.width, .y1 = end};
-    CoverCollector collector(camera, strip);
-    RenderOptions render_options{.threads = options.threads, .run_threads = options.run_threads};
-    render_options.integrator = &collector;
-    render_options.crop = strip;
+  MaskMaker masks;
+  std::size_t pixel = 0;
+  for (std::uint32_t y0 = 0; y0 < size.height;) {
+    const std::uint32_t y1 = y0 + std::min(rows, size.height - y0);
     if (options.progress) {
       render_options.progress = [&](double done) {
-        return options.progress((y + done * (end - y)) / size.height);
+        return options.progress((y0 + done * (y1 - y0)) / size.height);
       };
     }
-    static_cast<void>(render(scene, camera, size, render_options));
-    std::uint32_t last = kNoObject;
-    Mask* mask = nullptr;  // of `last`
-    for (const Cover& cover : collector.take()) {
-      if (cover.object != last) mask = &masks[cover.object];
-      last = cover.object;
-      mask->add(cover.pixel % size.width, y + cover.pixel / size.width);
+    const PixelRect traced{.x0 = several.x0,
+                           .y0 = std::max(y0, several.y0),
+                           .x1 = several.x1,
+                           .y1 = std::min(y1, several.y1)};
+    std::vector<Cover> covers;
+    if (traced.x0 < traced.x1 && traced.y0 < traced.y1) {
+      render_options.crop = traced;
+      static_cast<void>(render(*view.scene, *view.camera, size, render_options));
+      covers = collector.take();
+    } else if (options.progress && !options.progress(static_cast<double>(y1) / size.height)) {
+      throw Error(ErrorKind::canceled, view.name, "canceled");
     }
-    y = end;
+    auto cover = covers.begin();
+    for (std::uint32_t y = y0; y < y1; ++y) {
+      for (std::uint32_t x = 0; x < size.width; ++x, ++pixel) {
+        if (overlaps.at(x, y) < 2) {
+          // Without another object that could hide it, the object is visible.
+          if (view.objects[pixel] != kNoObject) masks.add(view.objects[pixel], x, y);
+        } else {
+          for (; cover != covers.end() && cover->pixel == pixel; ++cover)
+            masks.add(cover->object, x, y);
+        }
+      }
+    }
+    y0 = y1;
   }
-  return in_order(std::move(masks));
+  return masks.take();
 }
 
 }  // namespace microtrace::dataset

@@ -30,9 +30,8 @@ using Masks = std::vector<ObjectMask>;
 /// objects. The ray through the pixel's center hits the object at a point that is neither a culled
 /// back face nor removed by an alpha mask; other surfaces may be in front of it. The visible mask
 /// is a part of the amodal mask. Pixels outside the picture don't count. The memory needed is that
-/// of the masks and of the hits of some 65 000 pixels. Throws Error: limit if memory runs out,
-/// canceled if options.progress returns false.
-[[nodiscard]] Masks amodal_masks(const PreparedScene& scene, const Camera& camera, ImageSize size,
-                                 const QueryOptions& options = {});
+/// of the masks and of the hits of some 65 000 pixels. Throws Error: usage as visible_masks(),
+/// limit if memory runs out, canceled if options.progress returns false.
+[[nodiscard]] Masks amodal_masks(const DrawnView& view, const QueryOptions& options = {});
 
 }  // namespace microtrace::dataset

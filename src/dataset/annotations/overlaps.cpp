@@ -63,6 +63,16 @@ Overlaps::Overlaps(const std::vector<PixelRect>& parts, const PixelRect& window)
   for (std::uint32_t y = window.y0 + 1; y < window.y1; ++y) {
     for (std::uint32_t x = window.x0; x < window.x1; ++x) at(x, y) += at(x, y - 1);
   }
+  several_ = {.x0 = window.x1, .y0 = window.y1, .x1 = window.x0, .y1 = window.y0};
+  for (std::uint32_t y = window.y0; y < window.y1; ++y) {
+    for (std::uint32_t x = window.x0; x < window.x1; ++x) {
+      if (at(x, y) < 2) continue;
+      several_ = {.x0 = std::min(several_.x0, x),
+                  .y0 = std::min(several_.y0, y),
+                  .x1 = std::max(several_.x1, x + 1),
+                  .y1 = y + 1};
+    }
+  }
 }
 
 }  // namespace microtrace::dataset

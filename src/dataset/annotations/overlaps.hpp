@@ -28,8 +28,11 @@ class Overlaps {
     return counts_[std::size_t{y - window_.y0} * (width_ + 1) + (x - window_.x0)];
   }
 
+  /// Returns a rectangle that contains all pixels that two or more parts contain. It may be empty.
+  [[nodiscard]] const PixelRect& several() const { return several_; }
+
  private:
-  PixelRect window_;
+  PixelRect window_, several_;
   std::uint32_t width_;
   std::vector<std::uint32_t> counts_;  // row by row; each row has an additional column
 };
