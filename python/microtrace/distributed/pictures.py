@@ -131,8 +131,9 @@ def render(
     Args:
         client: a synchronous client.
         scene: the scene.
-        camera, size, spp, aovs, integrator, environment, background, transparent, filter, seed,
-            max_depth: see microtrace.render().
+        camera, size, spp, aovs: see microtrace.render().
+        integrator, environment, background, transparent: see microtrace.render().
+        filter, seed, max_depth: see microtrace.render().
         threads: number of threads of each task; 0 means all processors of the worker's machine.
         retries: how often a part of a picture is rendered again after errors that another worker
             may not have, such as a lack of memory.
