@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -21,8 +22,10 @@ class RayMeshIntersector:
 
     The mesh's center is subtracted from vertices and ray origins in float64. Then they are rounded
     to float32, and so are directions. Hits are those of real arithmetic on these numbers, so rays
-    never slip between triangles. Hits at a ray's origin don't count. If the mesh has changed, the
-    next query prepares it again.
+    never slip between triangles. As in trimesh, hits at a ray's origin count, and triangles in
+    whose plane the ray lies are not hit; rays still hit their neighbors at the common edges. Of
+    several triangles that a ray hits at a common vertex or edge, only one counts. If the mesh has
+    changed, the next query prepares it again.
     """
 
     def __init__(self, mesh: Any, **_: Any) -> None:
@@ -46,29 +49,16 @@ class RayMeshIntersector:
             ray_directions: (m, 3) real numbers of any nonzero length.
             multiple_hits: False returns only the first hit of each ray.
             max_hits: maximum number of hits per ray; None means all hits.
-            return_locations: also returns positions. Of several triangles that a ray hits at one
-                point, such as those at an edge, returns only the first.
+            return_locations: also returns positions.
 
         Returns:
             index_tri (h,) int64, index_ray (h,) int64 and, if requested, locations (h, 3) float64.
         """
         rays = self._rays(ray_origins, ray_directions)
-        prepared = self._prepared()
-        if multiple_hits:
-            found = prepared.intersect_all(rays)
-            t, tri, ray = found.t, found.primitive, found.ray
-            if return_locations:
-                is_new = np.ones(len(t), bool)
-                is_new[1:] = (ray[1:] != ray[:-1]) | (t[1:] != t[:-1])
-                t, tri, ray = t[is_new], tri[is_new], ray[is_new]
-            if max_hits is not None and len(ray):
-                first = np.searchsorted(ray, ray)
-                few = np.arange(len(ray)) - first < max_hits
-                t, tri, ray = t[few], tri[few], ray[few]
-        else:
-            nearest = prepared.intersect(rays, fields=("t", "primitive"))
-            ray = np.nonzero(nearest.primitive >= 0)[0]
-            t, tri = nearest.t[ray], nearest.primitive[ray]
+        t, tri, ray = self._all(rays) if multiple_hits else self._nearest(rays)
+        if multiple_hits and max_hits is not None and len(ray):
+            few: Array = np.arange(len(ray)) - np.searchsorted(ray, ray) < max_hits
+            t, tri, ray = t[few], tri[few], ray[few]
         index_tri, index_ray = tri.astype(np.int64), ray.astype(np.int64)
         if not return_locations:
             return index_tri, index_ray
@@ -93,14 +83,16 @@ class RayMeshIntersector:
     ) -> Array:
         """Returns the first triangle that each ray hits, (m,) int64; -1 for misses."""
         rays = self._rays(ray_origins, ray_directions)
-        hits = self._prepared().intersect(rays, fields=("primitive",))
-        return hits.primitive.astype(np.int64)
+        tri, ray = self._nearest(rays)[1:]
+        first = np.full(len(rays), -1, np.int64)
+        first[ray] = tri
+        return first
 
     def intersects_any(
         self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, **_: Any
     ) -> npt.NDArray[np.bool_]:
         """Returns True for each ray that hits anything, (m,) bool."""
-        return self._prepared().occluded(self._rays(ray_origins, ray_directions))
+        return self.intersects_first(ray_origins, ray_directions) >= 0
 
     def contains_points(self, points: npt.ArrayLike) -> npt.NDArray[np.bool_]:
         """Returns True for points inside the mesh or on it, (n,) bool. Results for closed meshes
@@ -130,11 +122,58 @@ class RayMeshIntersector:
             finite = vertices[np.isfinite(vertices).all(axis=1)]
             center = np.zeros(3) if len(finite) == 0 else (finite.min(0) + finite.max(0)) / 2
             self._center = center
+            faces = np.asarray(self.mesh.faces).reshape(-1, 3)
+            with np.errstate(over="ignore"):
+                self._vertices = (vertices - center).astype(np.float32)
             scene = Scene()
-            scene.add_mesh(vertices - center, np.asarray(self.mesh.faces).reshape(-1, 3))
+            scene.add_mesh(self._vertices, faces)
             self._prepared_scene = scene.prepare()
             self._key = key
         return self._prepared_scene
+
+    def _all(self, rays: Array) -> tuple[Array, Array, Array]:
+        """Returns t, triangles and rays of all hits."""
+        found = self._prepared().intersect_all(rays, t_min=0)
+        counts = ~self._is_edge_on(rays[found.ray, 3:], found.primitive)
+        t, tri, ray = found.t[counts], found.primitive[counts], found.ray[counts]
+        is_new = np.ones(len(t), bool)
+        same = 1 + np.nonzero((ray[1:] == ray[:-1]) & (t[1:] == t[:-1]))[0]
+        corners = self._vertices[np.asarray(self.mesh.faces)[tri[same]]]
+        previous = self._vertices[np.asarray(self.mesh.faces)[tri[same - 1]]]
+        # Compares positions, because vertices with different indices coincide at seams.
+        equal = (corners[:, :, None] == previous[:, None]).all(axis=3)
+        is_new[same] = ~equal.any(axis=(1, 2))
+        return t[is_new], tri[is_new], ray[is_new]
+
+    def _nearest(self, rays: Array) -> tuple[Array, Array, Array]:
+        """Returns t, triangles and rays of the nearest hits."""
+        hits = self._prepared().intersect(rays, t_min=0, fields=("t", "primitive"))
+        ray = np.nonzero(hits.primitive >= 0)[0]
+        t, tri = hits.t[ray], hits.primitive[ray]
+        edge_on = self._is_edge_on(rays[ray, 3:], tri)
+        if not edge_on.any():
+            return t, tri, ray
+        asked = ray[edge_on]
+        more_t, more_tri, of = self._all(rays[asked])
+        of, first = np.unique(of, return_index=True)
+        ray = np.concatenate([ray[~edge_on], asked[of]])
+        order = np.argsort(ray)
+        t = np.concatenate([t[~edge_on], more_t[first]])
+        tri = np.concatenate([tri[~edge_on], more_tri[first]])
+        return t[order], tri[order], ray[order]
+
+    def _is_edge_on(self, directions: Array, tri: Array) -> npt.NDArray[np.bool_]:
+        """Returns True for triangles that are exactly parallel to a direction, by exact arithmetic
+        where float64 can't decide."""
+        corners = self._vertices[np.asarray(self.mesh.faces)[tri]]
+        d = directions.astype(np.float32).astype(np.float64)
+        a, b, c = corners.astype(np.float64).transpose(1, 0, 2)
+        slope = (np.cross(b - a, c - a) * d).sum(axis=1)
+        size = np.abs(b - a).max(axis=1, initial=0) * np.abs(c - a).max(axis=1, initial=0)
+        edge_on: npt.NDArray[np.bool_] = np.abs(slope) <= 1e-12 * size
+        for i in np.nonzero(edge_on)[0]:
+            edge_on[i] = _volume(corners[i], d[i]) == 0
+        return edge_on
 
     def _rays(self, origins: npt.ArrayLike, directions: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Returns rays relative to the mesh's center. Scales directions so that their greatest
@@ -165,6 +204,14 @@ class RayMeshIntersector:
             is_near = np.abs(exact - rough) <= 1e-5 * np.abs(rough)
         parameter = np.where(is_near, exact, rough)
         return np.asarray(o + parameter[:, None] * d + self._center)
+
+
+def _volume(corners: Array, direction: Array) -> Fraction:
+    """Returns the exact product (b - a) x (c - a) . direction."""
+    a, b, c = ([Fraction(float(x)) for x in corner] for corner in corners)
+    d = [Fraction(float(x)) for x in direction]
+    u, v = [x - y for x, y in zip(b, a)], [x - y for x, y in zip(c, a)]
+    return sum((d[i] * (u[i - 2] * v[i - 1] - u[i - 1] * v[i - 2]) for i in range(3)), Fraction(0))
 
 
 def install() -> None:

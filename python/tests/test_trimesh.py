@@ -64,10 +64,65 @@ def test_corners_and_edges_count_once():
     assert engine.intersects_any(origins, targets).all()
     _, index_ray, _ = engine.intersects_location(origins, targets)
     assert (np.bincount(index_ray, minlength=len(targets)) == 1).all()
-    index_tri, _ = engine.intersects_id(origins, targets)
-    assert len(index_tri) > len(targets)  # includes all triangles that share the targets
-    few, ray = engine.intersects_id(origins, targets, max_hits=1)
-    assert len(few) == len(targets) and np.array_equal(ray, np.arange(len(targets)))
+    for more in ({}, {"max_hits": 1}, {"multiple_hits": False}):
+        _, index_ray = engine.intersects_id(origins, targets, **more)
+        assert np.array_equal(index_ray, np.arange(len(targets)))
+
+
+def test_hits_at_one_point_count_once():
+    """The rays of the grid hit edges and the centers of the caps of the cylinder."""
+    mesh = trimesh.creation.cylinder(radius=1, height=4, sections=32)
+    x = np.linspace(-0.6, 0.6, 17)
+    origins = np.stack(np.meshgrid(x, x, [-5.0]), axis=-1).reshape(-1, 3)
+    directions = np.tile([0.0, 0.0, 1.0], (len(origins), 1))
+    _, ray = RayMeshIntersector(mesh).intersects_id(origins, directions)
+    assert np.array_equal(np.bincount(ray, minlength=len(origins)), np.full(len(origins), 2))
+
+
+def test_close_surfaces_count_twice():
+    """Two squares whose distances from the origin round to the same t."""
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], np.float64)
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    gap = [0, 0, 2.0**-30]
+    mesh = trimesh.Trimesh(
+        np.concatenate([square, square + gap]), np.concatenate([faces, faces + 4]), process=False
+    )
+    for x in (0.25, 0.5):
+        tri, _, locations = RayMeshIntersector(mesh).intersects_id(
+            [[x, 0.5, -3]], [[0, 0, 1]], return_locations=True
+        )
+        assert len(tri) == len(locations) == 2
+
+
+@pytest.mark.parametrize("scale", [1e-4, 0.1, 1, 10, 1e4, 1e8])
+def test_hits_at_the_origin_count(scale):
+    mesh = trimesh.creation.box().subdivide().subdivide()
+    mesh.apply_scale(scale)
+    engine = RayMeshIntersector(mesh)
+    origins = np.array([[0, 0, scale / 2]])
+    for z, hits in ((-1.0, 2), (1.0, 1)):
+        tri, _ = engine.intersects_id(origins, [[0, 0, z]])
+        assert len(tri) == hits
+        assert engine.intersects_any(origins, [[0, 0, z]]).all()
+
+
+def test_parallel_triangles_are_not_hit():
+    corners = np.array([[0, 0, 0], [0.125, 0, 0], [0.125, 0.5, 0], [0, 0.5, 0]])
+    faces = np.array([[0, 1, 2], [0, 2, 3]])
+    flat = RayMeshIntersector(trimesh.Trimesh(corners, faces, process=False))
+    ray = [[-0.5, 0.125, 0]], [[1, 0, 0]]
+    locations, index_ray, index_tri = flat.intersects_location(*ray, multiple_hits=False)
+    assert locations.shape == (0, 3) and len(index_ray) == len(index_tri) == 0
+    assert not flat.intersects_any(*ray)[0]
+    assert flat.intersects_first(*ray)[0] == -1
+    # The least possible slope is a hit.
+    assert flat.intersects_any([[-0.9375, 0.125, -(2.0**-149)]], [[1, 0, 2.0**-149]])[0]
+    # A ray along a face of a box enters and leaves through the neighboring faces.
+    box = RayMeshIntersector(trimesh.creation.box())
+    tri, _, locations = box.intersects_id([[-3, 0.25, 0.5]], [[1, 0, 0]], return_locations=True)
+    assert np.array_equal(np.sort(locations[:, 0]), [-0.5, 0.5])
+    assert box.intersects_first([[-3, 0.25, 0.5]], [[1, 0, 0]])[0] == tri[0]
+    assert (np.abs(box.mesh.face_normals[tri, 0]) == 1).all()
 
 
 def test_contains():
