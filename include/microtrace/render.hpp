@@ -74,7 +74,7 @@ struct RenderOptions {
   /// and return when all calls have returned. A single call of work() also completes the rendering.
   /// work() does not throw. If null, render() starts its own threads.
   std::function<void(unsigned threads, const std::function<void()>& work)> run_threads{};
-  /// Called with the fraction of the picture that is done, in (0, 1]. Calls come from one thread at
+  /// Called with the fraction of the picture that is done, in [0, 1]. Calls come from one thread at
   /// a time, but not always from the caller's. If the callback returns false, render() stops at
   /// once and throws Error (canceled).
   std::function<bool(double)> progress{};

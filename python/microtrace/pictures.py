@@ -220,7 +220,7 @@ def render(
         crop: (x0, y0, x1, y1): renders only the pixels with x0 <= x < x1 and y0 <= y < y1 of the
             picture. They equal those of the whole picture. Arrays have the size of this part.
         threads: number of threads; 0 means all processors. It has no effect on the arrays.
-        progress: a function that is called with the finished fraction of the work, in (0, 1]. It
+        progress: a function that is called with the finished fraction of the work, in [0, 1]. It
             cancels the rendering by returning False. True shows a progress bar if tqdm is
             installed.
 

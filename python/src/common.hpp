@@ -34,6 +34,7 @@ void for_each_block(std::size_t count, unsigned threads,
 void bind_errors(nb::module_& module);
 void bind_images(nb::module_& module);
 void bind_memory(nb::module_& module);
+void bind_threads(nb::module_& module);
 void bind_scenes(nb::module_& module);
 void bind_rays(nb::module_& module);
 void bind_pictures(nb::module_& module);

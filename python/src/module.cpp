@@ -11,6 +11,7 @@ NB_MODULE(_core, module) {
   bind_errors(module);
   bind_images(module);
   bind_memory(module);
+  bind_threads(module);
   bind_scenes(module);
   bind_rays(module);
   bind_pictures(module);

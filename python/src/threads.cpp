@@ -20,9 +20,56 @@ constexpr std::chrono::milliseconds kPatience{50};
 /// The number of items that a thread takes at a time.
 constexpr std::size_t kBlock = 4096;
 
+/// The calls of run_interruptible() that are running. The interpreter must not exit before they
+/// end, because it ends the threads that need its lock.
+class Calls {
+ public:
+  void add(int change) {
+    const std::scoped_lock lock(mutex_);
+    count_ += change;
+    changed_.notify_all();
+  }
+
+  /// Cancels all calls, also future ones. Waits until none is running, but only for some seconds.
+  void cancel() {
+    is_canceled_ = true;
+    std::unique_lock lock(mutex_);
+    // The objects that threads use at the exit remain.
+    if (count_ != 0) nb::set_leak_warnings(false);
+    changed_.wait_for(lock, std::chrono::seconds(5), [&] { return count_ == 0; });
+  }
+  [[nodiscard]] bool is_canceled() const { return is_canceled_; }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int count_ = 0;
+  std::atomic<bool> is_canceled_ = false;
+};
+
+Calls calls;
+
+/// A running call.
+class Call {
+ public:
+  Call() { calls.add(1); }
+  ~Call() { calls.add(-1); }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+};
+
 }  // namespace
 
+void bind_threads(nb::module_& module) {
+  module.def("_cancel_all", [] {
+    const nb::gil_scoped_release release;
+    calls.cancel();
+  });
+  nb::module_::import_("atexit").attr("register")(module.attr("_cancel_all"));
+}
+
 void run_interruptible(const std::function<void(const std::function<bool()>&)>& f) {
+  const Call call;  // until this thread has the interpreter's lock again
   std::atomic<bool> is_canceled = false;
   const std::function<bool()> cancel = [&] { return is_canceled.load(); };
   std::mutex mutex;
@@ -47,7 +94,9 @@ void run_interruptible(const std::function<void(const std::function<bool()>&)>& 
     std::unique_lock lock(mutex);
     while (!ended.wait_for(lock, kPatience, [&] { return is_done; })) {
       lock.unlock();
-      if (!is_interrupted) {
+      if (calls.is_canceled()) {
+        is_canceled = true;
+      } else if (!is_interrupted) {
         const nb::gil_scoped_acquire acquire;
         is_interrupted = PyErr_CheckSignals() != 0;
         if (is_interrupted) is_canceled = true;

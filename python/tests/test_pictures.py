@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import subprocess
+import sys
 import threading
 import time
 
@@ -194,6 +195,22 @@ def test_interrupt():
     with pytest.raises(KeyboardInterrupt):
         mt.render(prepared, size=(1920, 1080), spp=4096)
     assert time.monotonic() - start < 30  # stopped before the end, which would take hours
+
+
+def test_exit_while_a_thread_renders():
+    program = f"""
+import threading, time
+import microtrace as mt
+prepared = mt.load({str(KNOT)!r}).prepare()
+started = threading.Event()
+def render():
+    mt.render(prepared, size=(8, 8), spp=65536, progress=lambda share: started.set())
+threading.Thread(target=render, daemon=True).start()
+assert started.wait(60)
+"""
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    assert "terminate" not in result.stderr and "leaked" not in result.stderr
 
 
 def looks_alike(a: mt.Picture, b: mt.Picture) -> bool:

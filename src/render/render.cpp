@@ -139,7 +139,7 @@ Film draw(const std::shared_ptr<const PreparedScene::Content>& content, const Ca
                    film, paint_channels);
   } else {
     const TilePainter colors(world, integrator, options, window, film);
-    const auto draw = [&](const PixelRect& tile) {
+    const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
       colors.paint(tile);
       paint_channels(tile);
     };

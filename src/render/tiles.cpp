@@ -7,11 +7,20 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 
 namespace microtrace {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The exception that stops a thread after another one has ended the work.
+struct Ended {};
+
+/// The time after which a thread reports its progress.
+constexpr std::chrono::milliseconds kPatience{20};
 
 std::size_t tiles_across(std::uint32_t pixels) {
   return (std::size_t{pixels} + kTileEdge - 1) / kTileEdge;
@@ -37,8 +46,7 @@ PixelRect tile_at(std::size_t index, const PixelRect& window) {
           .y1 = std::min(y0 + kTileEdge, window.y1)};
 }
 
-void for_each_tile(const PixelRect& window, Threads& threads,
-                   const std::function<void(const PixelRect&)>& draw,
+void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& draw,
                    const std::function<bool(double)>& progress) {
   const std::uint64_t count = tile_count(window);
   // A thread takes several consecutive tiles at a time: enough to avoid contention for the counter,
@@ -50,22 +58,34 @@ void for_each_tile(const PixelRect& window, Threads& threads,
   std::mutex report;
 
   const auto tell = [&] {
+    if (tiles.is_ended()) throw Ended{};
     if (!progress) return;
     const std::scoped_lock lock(report);
-    if (tiles.is_ended()) return;
+    if (tiles.is_ended()) throw Ended{};
     if (progress(static_cast<double>(done) / static_cast<double>(count))) return;
     tiles.end();
     throw Error(ErrorKind::canceled, "", "the rendering was canceled");
   };
-  const auto draw_run = [&](std::uint64_t first, std::uint64_t last) {
-    for (std::uint64_t index = first; index < last && !tiles.is_ended(); ++index)
-      draw(tile_at(index, window));
-    done += last - first;
-    tell();
-  };
   const auto work = [&] {
     const StageCounts before = stage_counts();
-    tiles.take(draw_run);
+    auto told = Clock::now();
+    const std::function<void()> poll = [&] {
+      if (Clock::now() - told < kPatience) return;
+      tell();
+      told = Clock::now();
+    };
+    tiles.take([&](std::uint64_t first, std::uint64_t last) {
+      try {
+        for (std::uint64_t index = first; index < last; ++index) {
+          poll();
+          draw(tile_at(index, window), poll);
+          ++done;
+        }
+        tell();
+      } catch (const Ended&) {
+        // Another thread has ended the range, and keeps the reason.
+      }
+    });
     const std::scoped_lock lock(report);
     threads.stages += stage_counts() - before;
   };

@@ -37,11 +37,13 @@ struct Threads {
   StageCounts stages{};  ///< counts summed over the rendered tiles
 };
 
+/// Draws a tile. It should call `poll` every few milliseconds and must let its exceptions pass.
+using DrawTile = std::function<void(const PixelRect& tile, const std::function<void()>& poll)>;
+
 /// Calls `draw` once for every tile of the window on `threads`, and `progress` with the finished
-/// fraction after tiles. The first exception that `draw` throws stops the work and is rethrown. If
-/// `progress` returns false, the work stops with Error (canceled).
-void for_each_tile(const PixelRect& window, Threads& threads,
-                   const std::function<void(const PixelRect&)>& draw,
+/// fraction after tiles and every few milliseconds. The first exception that `draw` throws stops
+/// the work and is rethrown. If `progress` returns false, the work stops with Error (canceled).
+void for_each_tile(const PixelRect& window, Threads& threads, const DrawTile& draw,
                    const std::function<bool(double)>& progress);
 
 }  // namespace microtrace

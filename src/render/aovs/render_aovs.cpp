@@ -50,7 +50,8 @@ void render_aovs(const PreparedScene& scene, const Camera& camera, ImageSize siz
   const World world = view.world(1);
   const AovPainter painter(world, camera, buffers, window);
   for_each_tile(
-      window, threads, [&](const PixelRect& tile) { painter.paint(tile); }, options.progress);
+      window, threads, [&](const PixelRect& tile, const auto& /*poll*/) { painter.paint(tile); },
+      options.progress);
   if (options.counts != nullptr) {
     const ImageSize part = window.size();
     *options.counts = {.samples = std::uint64_t{part.width} * part.height,

@@ -35,6 +35,9 @@ void prepare(SampleSums& sums, const RandomDrawing& drawing, ImageSize whole,
     throw Error(ErrorKind::usage, "", "passes.sums belong to another picture");
 }
 
+/// The number of samples of each pixel of a tile that take some milliseconds.
+constexpr std::uint32_t kSamplesPerPoll = 64;
+
 }  // namespace
 
 void draw_at_random(const RandomDrawing& drawing, Film& film,
@@ -60,7 +63,7 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     run_passes(painter, options.passes->part.value_or(all), *options.passes, drawing.start,
                drawing.threads, options.progress, sums);
     samples_per_pixel = sums.count();
-    const auto finish = [&](const PixelRect& tile) {
+    const auto finish = [&](const PixelRect& tile, const auto& /*poll*/) {
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums.at(x, y));
       }
@@ -69,9 +72,12 @@ void draw_at_random(const RandomDrawing& drawing, Film& film,
     };
     for_each_tile(window, drawing.threads, finish, nullptr);
   } else {
-    const auto draw = [&](const PixelRect& tile) {
+    const auto draw = [&](const PixelRect& tile, const auto& poll) {
       std::array<PixelSum, kTilePixels> sums{};
-      painter.add(tile, all, sums);
+      for (SampleRange part{.first = 0, .last = 0}; part.last < all.last; poll()) {
+        part = {.first = part.last, .last = std::min(part.last + kSamplesPerPoll, all.last)};
+        painter.add(tile, part, sums);
+      }
       std::size_t pixel = 0;
       for (std::uint32_t y = tile.y0; y < tile.y1; ++y) {
         for (std::uint32_t x = tile.x0; x < tile.x1; ++x) set(x, y, sums[pixel++]);

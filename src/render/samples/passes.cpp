@@ -101,14 +101,16 @@ void run_passes(const RandomPainter& painter, const SampleRange& wanted, const P
     SampleRange range = sums.missing(wanted).front();
     range.last = std::min(range.last, range.first + std::clamp(done, 1U, kSamplesPerPass));
     range = stops.until_check(range);
-    const auto draw = [&](const PixelRect& tile) {
+    const auto draw = [&](const PixelRect& tile, const auto& /*poll*/) {
       if (!stops.at(tile_index(tile, sums.window))) add_tile(painter, tile, range, target);
     };
     const auto tell = [&](double share) { return progress((done + share * range.size()) / to_do); };
     for_each_tile(sums.window, threads, draw,
                   progress ? std::function<bool(double)>(tell) : nullptr);
     if (&target == &pass) {
-      const auto move = [&](const PixelRect& tile) { move_tile(tile, pass, sums); };
+      const auto move = [&](const PixelRect& tile, const auto& /*poll*/) {
+        move_tile(tile, pass, sums);
+      };
       for_each_tile(sums.window, threads, move, nullptr);
     }
     sums.note(range);

@@ -51,9 +51,9 @@ TEST(Render, ProgressEndsAtOne) {
   double last = 0;
   int calls = 0;
   const auto progress = [&](double share) {
-    EXPECT_GT(share, 0);
+    EXPECT_GE(share, last);
     EXPECT_LE(share, 1);
-    last = std::max(last, share);
+    last = share;
     ++calls;
     return true;
   };
@@ -61,6 +61,19 @@ TEST(Render, ProgressEndsAtOne) {
                {.threads = 2, .progress = progress});
   EXPECT_EQ(last, 1);
   EXPECT_GT(calls, 10);
+}
+
+TEST(Render, StopsWithinATile) {
+  const PathIntegrator path;
+  for (const unsigned threads : {1U, 3U}) {
+    RenderOptions options{.threads = threads, .integrator = &path, .samples = kMaxSamples};
+    options.progress = [](double share) {
+      EXPECT_EQ(share, 0);
+      return false;
+    };
+    EXPECT_THROW((void)render(Scene{}, PerspectiveCamera{}, {.width = 8, .height = 8}, options),
+                 Error);
+  }
 }
 
 TEST(Render, ExceptionsOfThreadsReachTheCaller) {
