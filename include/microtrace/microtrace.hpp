@@ -12,6 +12,7 @@
 #include <microtrace/digest.hpp>
 #include <microtrace/environment.hpp>
 #include <microtrace/error.hpp>
+#include <microtrace/explain.hpp>
 #include <microtrace/export.hpp>
 #include <microtrace/film.hpp>
 #include <microtrace/film_view.hpp>

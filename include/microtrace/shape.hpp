@@ -7,8 +7,9 @@
 /// filter in src/accel/filters, its boxes in src/accel/build, its ray origins in src/accel/spawn,
 /// its bounds in src/scene/support.hpp, its surface in src/scene/surface_interaction.cpp, its rules
 /// in src/scene/validate/validate.cpp, its reader in src/io/scene_json/shape.cpp, its name in
-/// src/io/sidecar/describe_picture.cpp, its members in docs/scene.schema.json and
-/// docs/scene-format.md, a scene in scenes, and an oracle test in tests/oracle.
+/// src/scene/shape_name.hpp, its numbers in src/explain/numbers.cpp, its members in
+/// docs/scene.schema.json and docs/scene-format.md, a scene in scenes, and an oracle test in
+/// tests/oracle.
 
 #include <microtrace/array.hpp>
 #include <microtrace/math.hpp>

@@ -67,7 +67,10 @@ namespace {
 std::optional<Hit> test_all(const Primitives& primitives, const Ray& ray) {
   if (!exact::is_valid(ray)) return std::nullopt;
   RayPacket packet(primitives, std::span(&ray, 1));
-  primitives.for_each([&](PrimitiveId id, const auto& shape) { packet.test(id, shape); });
+  primitives.for_each([&](PrimitiveId id, const auto& shape) {
+    ++fallback_stages.filters;
+    packet.test(id, shape);
+  });
   return packet.hit(0);
 }
 

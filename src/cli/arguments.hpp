@@ -10,6 +10,7 @@
 #include <microtrace/io.hpp>
 #include <microtrace/math.hpp>
 #include <microtrace/path.hpp>
+#include <microtrace/ray.hpp>
 #include <microtrace/render.hpp>
 
 #include <cstdint>
@@ -95,6 +96,13 @@ struct DatasetOptions {
   std::vector<std::string> command_line{};
 };
 
+struct ExplainArguments {
+  std::optional<DVec2> pixel{};  ///< as in RayGenerator
+  std::optional<Ray> ray{};      ///< in world space
+  bool is_json = false;
+  bool is_all = false;
+};
+
 enum class Statistics { none, text, json };
 enum class Progress { none, bar, json };
 
@@ -140,6 +148,9 @@ struct Arguments {
 
   // For the commands dataset and verify only:
   DatasetOptions dataset{};
+
+  // For the command explain only:
+  ExplainArguments explain{};
 };
 
 /// Sets options that are absent to the library's defaults for scenes of this format. Throws Error

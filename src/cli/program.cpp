@@ -3,6 +3,7 @@
 #include "base/printable.hpp"
 #include "cli/arguments.hpp"
 #include "cli/dataset/dataset.hpp"
+#include "cli/explain.hpp"
 #include "cli/merge.hpp"
 #include "cli/options/completion.hpp"
 #include "cli/options/help.hpp"
@@ -125,6 +126,7 @@ constexpr std::array kNamedCommands{
     NamedCommand{cli::Command::merge, cli::merge_samples},
     NamedCommand{cli::Command::dataset, cli::write_dataset},
     NamedCommand{cli::Command::verify, cli::verify_dataset},
+    NamedCommand{cli::Command::explain, cli::explain_ray},
 };
 
 }  // namespace

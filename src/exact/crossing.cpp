@@ -18,8 +18,8 @@ Crossing crossing(const CornersOf<Number>& corners, const VectorOf<Number>& d) {
   if (last < 0) return Crossing::none;
   if (first <= 0) return Crossing::origin;
   const auto& [a, b, c] = corners;
-  const bool is_inside = dot(d, cross(b, c)).sign() != 0 && dot(d, cross(c, a)).sign() != 0 &&
-                         dot(d, cross(a, b)).sign() != 0;
+  const bool is_inside = edge_volume(d, b, c).sign() != 0 && edge_volume(d, c, a).sign() != 0 &&
+                         edge_volume(d, a, b).sign() != 0;
   return is_inside ? Crossing::proper : Crossing::grazing;
 }
 

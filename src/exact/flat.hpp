@@ -19,6 +19,14 @@ struct CornersOf {
 template <class Number>
 using Volume = decltype(Number() * Number() * Number());
 
+/// Returns d . (p x q), six times the signed volume spanned by a line's direction d and a segment.
+/// Its sign tells on which side the line through (0, 0, 0) passes the segment.
+template <class Number>
+[[nodiscard]] Volume<Number> edge_volume(const VectorOf<Number>& d, const VectorOf<Number>& p,
+                                         const VectorOf<Number>& q) {
+  return dot(d, cross(p, q));
+}
+
 /// The interval [lo, hi] of t for which the point o + t d of a line is in a triangle.
 template <class Number>
 struct StretchOf {
@@ -77,9 +85,9 @@ template <class Number>
   // plane has the barycentric coordinates u : v : w.
   const auto b_cross_c = cross(b, c);
   const Form u = dot(d, b_cross_c);
-  const Form v = dot(d, cross(c, a));
+  const Form v = edge_volume(d, c, a);
   if (u.sign() * v.sign() < 0) return std::nullopt;
-  const Form w = dot(d, cross(a, b));
+  const Form w = edge_volume(d, a, b);
   if (u.sign() * w.sign() < 0 || v.sign() * w.sign() < 0) return std::nullopt;
 
   if (u.sign() != 0 || v.sign() != 0 || w.sign() != 0) {

@@ -15,6 +15,14 @@ namespace microtrace::exact {
 /// Returns true if the ray is valid (see Ray). Invalid rays hit nothing.
 [[nodiscard]] bool is_valid(const Ray& ray);
 
+/// Returns true if the shape has no points: a number is not finite, the radius is negative or the
+/// normal is zero.
+[[nodiscard]] bool is_empty(const Sphere& sphere);
+[[nodiscard]] bool is_empty(const Plane& plane);
+[[nodiscard]] bool is_empty(const Disc& disc);
+[[nodiscard]] bool is_empty(const Triangle& triangle);
+[[nodiscard]] bool is_empty(const Quadric& quadric);
+
 /// Returns the least t in the closed interval [t_min, t_max] for which o + t d lies in the shape's
 /// closed point set. Returns nothing if there is none, if the ray is invalid, or if the shape is
 /// empty. A ray that lies within a flat shape or a quadric hits at the first point of the shape in

@@ -1,3 +1,5 @@
+#include "exact/planar.hpp"
+
 #include "exact/intersect.hpp"
 #include "exact/numbers/vector.hpp"
 #include "exact/queries.hpp"
@@ -14,9 +16,25 @@ bool is_normal(const Vec3& n) {
 
 }  // namespace
 
+bool is_empty(const Plane& plane) {
+  return !is_finite(plane.point) || !is_normal(plane.normal);
+}
+
+bool is_empty(const Disc& disc) {
+  return !is_finite(disc.center) || !is_normal(disc.normal) || !std::isfinite(disc.radius) ||
+         disc.radius < 0;
+}
+
+Dyadic squared_offset(const Disc& disc, const Ray& ray, const Dyadic& distance,
+                      const Dyadic& speed) {
+  const Vector m = vector(ray.o) - vector(disc.center);
+  const Vector offset = speed * m + distance * vector(ray.d);
+  return dot(offset, offset);
+}
+
 std::optional<Root> first_hit(const Plane& plane, const Ray& ray) {
   ++queries.dyadic;
-  if (!is_valid(ray) || !is_finite(plane.point) || !is_normal(plane.normal)) return std::nullopt;
+  if (!is_valid(ray) || is_empty(plane)) return std::nullopt;
   const Vector n = vector(plane.normal);
   const Dyadic distance = dot(n, vector(plane.point) - vector(ray.o));
   const Dyadic speed = dot(n, vector(ray.d));
@@ -27,10 +45,7 @@ std::optional<Root> first_hit(const Plane& plane, const Ray& ray) {
 
 std::optional<Root> first_hit(const Disc& disc, const Ray& ray) {
   ++queries.dyadic;
-  if (!is_valid(ray) || !is_finite(disc.center) || !is_normal(disc.normal) ||
-      !std::isfinite(disc.radius) || disc.radius < 0) {
-    return std::nullopt;
-  }
+  if (!is_valid(ray) || is_empty(disc)) return std::nullopt;
   const Vector n = vector(disc.normal), d = vector(ray.d);
   const Vector m = vector(ray.o) - vector(disc.center);
   const Dyadic r_squared = square(disc.radius);
@@ -38,8 +53,8 @@ std::optional<Root> first_hit(const Disc& disc, const Ray& ray) {
   const Dyadic speed = dot(n, d);
   if (speed.sign() != 0) {
     // Tests |m + (distance / speed) d| <= r, multiplied by |speed| and squared.
-    const Vector offset = speed * m + distance * d;
-    if (compare(dot(offset, offset), r_squared * square(speed)) > 0) return std::nullopt;
+    if (compare(squared_offset(disc, ray, distance, speed), r_squared * square(speed)) > 0)
+      return std::nullopt;
     return first_in_range(rational(distance, speed), ray);
   }
   if (distance.sign() != 0) return std::nullopt;

@@ -17,11 +17,6 @@ std::optional<Root> first_root(const Dyadic& a, const Dyadic& b, const Dyadic& c
   return in_range(roots->lo, ray) ? roots->lo : first_in_range(roots->hi, ray);
 }
 
-bool is_finite(const Quadric& q) {
-  const std::array coefficients{q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j};
-  return std::ranges::all_of(coefficients, [](float x) { return std::isfinite(x); });
-}
-
 /// Returns the sum of the quadric's terms of degree two at p: a x^2 + b y^2 + c z^2 + d xy + e xz +
 /// f yz.
 Dyadic quadratic_part(const Quadric& q, const Vector& p) {
@@ -43,12 +38,18 @@ Dyadic bilinear_part(const Quadric& q, const Vector& p, const Vector& r) {
 
 }  // namespace
 
+bool is_empty(const Sphere& sphere) {
+  return !is_finite(sphere.center) || !std::isfinite(sphere.radius) || sphere.radius < 0;
+}
+
+bool is_empty(const Quadric& q) {
+  const std::array coefficients{q.a, q.b, q.c, q.d, q.e, q.f, q.g, q.h, q.i, q.j};
+  return !std::ranges::all_of(coefficients, [](float x) { return std::isfinite(x); });
+}
+
 std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
   ++queries.dyadic;
-  if (!is_valid(ray) || !is_finite(sphere.center) || !std::isfinite(sphere.radius) ||
-      sphere.radius < 0) {
-    return std::nullopt;
-  }
+  if (!is_valid(ray) || is_empty(sphere)) return std::nullopt;
   const Vector d = vector(ray.d);
   const Vector m = vector(ray.o) - vector(sphere.center);
   return first_root(dot(d, d), dot(d, m), dot(m, m) - square(sphere.radius), ray);
@@ -56,7 +57,7 @@ std::optional<Root> first_hit(const Sphere& sphere, const Ray& ray) {
 
 std::optional<Root> first_hit(const Quadric& quadric, const Ray& ray) {
   ++queries.dyadic;
-  if (!is_valid(ray) || !is_finite(quadric)) return std::nullopt;
+  if (!is_valid(ray) || is_empty(quadric)) return std::nullopt;
   const Vector o = vector(ray.o), d = vector(ray.d);
   // F(o + t d) = alpha t^2 + beta t + gamma.
   const Dyadic alpha = quadratic_part(quadric, d);

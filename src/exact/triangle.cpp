@@ -5,12 +5,13 @@
 
 namespace microtrace::exact {
 
+bool is_empty(const Triangle& triangle) {
+  return !is_finite(triangle.a) || !is_finite(triangle.b) || !is_finite(triangle.c);
+}
+
 std::optional<Root> first_hit(const Triangle& triangle, const Ray& ray) {
   ++queries.dyadic;
-  if (!is_valid(ray) || !is_finite(triangle.a) || !is_finite(triangle.b) ||
-      !is_finite(triangle.c)) {
-    return std::nullopt;
-  }
+  if (!is_valid(ray) || is_empty(triangle)) return std::nullopt;
   const Vector o = vector(ray.o);
   const auto stretch = meet(
       vector(ray.d),

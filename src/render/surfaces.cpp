@@ -79,25 +79,26 @@ DVec4 Surfaces::texel(const World& world, const TextureUse& use, const Ray& ray,
                       {.dx = uv_step(step.o_dx, step.d_dx), .dy = uv_step(step.o_dy, step.d_dy)});
 }
 
-Vec4 Surfaces::base_color(const World& world, const Ray& ray, const Hit& hit) const {
+BaseColor Surfaces::base_color(const World& world, const Ray& ray, const Hit& hit) const {
   const Material& material = material_of(scene_, primitives_.object(hit.id));
   const SurfaceInteraction at = interact(primitives_, ray, hit);
-  if (!at.front && !material.double_sided) return Vec4(0);
+  if (!at.front && !material.double_sided) return {.is_culled = true};
   DVec4 product = DVec4(material.base_color) * at.color();
   if (material.base_color_texture) product *= texel(world, *material.base_color_texture, ray, at);
   Vec4 color(product);
+  const float alpha = color.w;
   switch (material.alpha_mode) {
     case AlphaMode::opaque:
       color.w = 1;
       break;
     case AlphaMode::mask:
-      color.w = color.w >= material.alpha_cutoff ? 1 : 0;
+      color.w = alpha >= material.alpha_cutoff ? 1 : 0;
       break;
     case AlphaMode::blend:
-      color.w = std::clamp(color.w, 0.0F, 1.0F);
+      color.w = std::clamp(alpha, 0.0F, 1.0F);
       break;
   }
-  return color;
+  return {.color = color, .alpha = alpha};
 }
 
 bool Surfaces::is_same_point(const Ray& ray, const Hit& a, const Hit& b) const {
@@ -124,7 +125,7 @@ bool Surfaces::is_visible(const World& world, const Ray& ray, const Hit& hit) co
     case Visibility::varies:
       break;
   }
-  return base_color(world, ray, hit).w > 0;
+  return base_color(world, ray, hit).color.w > 0;
 }
 
 std::optional<Hit> Surfaces::first_visible(const World& world, const Ray& ray,
@@ -134,7 +135,7 @@ std::optional<Hit> Surfaces::first_visible(const World& world, const Ray& ray,
 }
 
 Vec4 World::base_color(const Ray& ray, const Hit& hit) const {
-  return surfaces.base_color(*this, ray, hit);
+  return surfaces.base_color(*this, ray, hit).color;
 }
 
 std::optional<Hit> World::first_visible(const Ray& ray, std::optional<Hit> hit) const {

@@ -29,6 +29,14 @@ enum class Visibility : std::uint8_t {
   varies,    ///< depending on the point
 };
 
+/// The base color at a hit, and how its alpha was found.
+struct BaseColor {
+  Vec4 color{0};    ///< see World::base_color
+  float alpha = 0;  ///< the product of factor, texture and vertex color, to which the alpha mode
+                    ///< applies; 0 if the hit is culled
+  bool is_culled = false;  ///< true on the back of a one-sided surface
+};
+
 /// Immutable; any number of threads may use it.
 class Surfaces {
  public:
@@ -41,8 +49,7 @@ class Surfaces {
     return entries_[object].visibility;
   }
 
-  /// See World::base_color.
-  [[nodiscard]] Vec4 base_color(const World& world, const Ray& ray, const Hit& hit) const;
+  [[nodiscard]] BaseColor base_color(const World& world, const Ray& ray, const Hit& hit) const;
 
   /// A faster base_color() for surfaces without textures and vertex colors, which are the most
   /// common ones. Null for other surfaces.
@@ -56,6 +63,9 @@ class Surfaces {
   /// True if two hits of a ray are the same point of one surface. This happens on an edge or vertex
   /// shared by two triangles of a mesh that both face the ray with the same side.
   [[nodiscard]] bool is_same_point(const Ray& ray, const Hit& a, const Hit& b) const;
+
+  /// True if a hit has coverage above 0.
+  [[nodiscard]] bool is_visible(const World& world, const Ray& ray, const Hit& hit) const;
 
   /// See World::first_visible.
   [[nodiscard]] std::optional<Hit> first_visible(const World& world, const Ray& ray,
@@ -71,7 +81,6 @@ class Surfaces {
 
   void make_map(std::uint32_t index, SharedTables& tables);
   [[nodiscard]] bool is_front(const Ray& ray, const Hit& hit) const;
-  [[nodiscard]] bool is_visible(const World& world, const Ray& ray, const Hit& hit) const;
   [[nodiscard]] DVec4 texel(const World& world, const TextureUse& use, const Ray& ray,
                             const SurfaceInteraction& at) const;
 

@@ -96,14 +96,14 @@ def small(command):
     command = re.sub(r"--size \S+", "", command)
     command = re.sub(r"(--spp|--samples) (\d+)", lambda m: f"{m[1]} {min(int(m[2]), 4)}", command)
     command = re.sub(r"(orbit|hemisphere|random):\d+", r"\1:2", command)
-    if re.match(r"microtrace (merge|completion|verify)|microtrace --", command):
+    if re.match(r"microtrace (merge|completion|verify|explain)|microtrace --", command):
         return command
     command += " --size 32x24"
     has_one_sample = re.search(r"--integrator (?!path)|--spp|--samples", command)
     return command if has_one_sample else command + " --spp 2"
 
 
-COMMANDS = [[], ["merge"], ["dataset"], ["verify"]]
+COMMANDS = [[], ["merge"], ["dataset"], ["verify"], ["explain"]]
 
 
 class Documentation(ProgramTest):

@@ -20,6 +20,7 @@ MAY_INCLUDE = {
     "accel": {"base", "simd", "exact", "scene"},
     "queries": {"base", "simd", "exact", "scene", "accel"},
     "render": {"base", "simd", "scene"},
+    "explain": {"base", "exact", "scene", "accel", "render"},
     "io": {"base", "scene"},
     "dataset": {"base", "scene", "queries", "io"},
     "cli": {"base", "scene"},
@@ -38,6 +39,7 @@ HIDDEN = {
     "accel": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
     "queries": {"camera", "film", "io", "render", "integrator", "aov", "sidecar"},
     "render": {"io", "sidecar"},
+    "explain": {"io", "sidecar", "aov"},
     "io": {"render", "bvh", "integrator", "aov"},
 }
 # Libraries that only these folders may include.

@@ -16,6 +16,7 @@ Usage: microtrace [OPTIONS] SCENE
        microtrace merge [OPTIONS] CHECKPOINT...
        microtrace dataset [OPTIONS] SCENE -o FOLDER
        microtrace verify [OPTIONS] FOLDER
+       microtrace explain [OPTIONS] SCENE --pixel x,y
        microtrace completion bash|zsh|fish
 )";
 
@@ -34,6 +35,12 @@ constexpr std::string_view kVerifyUsage =
 Usage: microtrace verify [OPTIONS] FOLDER
 )";
 
+constexpr std::string_view kExplainUsage =
+    R"(microtrace explain: lists what a ray meets, with the numbers that decide, and what is visible
+Usage: microtrace explain [OPTIONS] SCENE --pixel x,y
+       microtrace explain [OPTIONS] SCENE --ray ox,oy,oz,dx,dy,dz
+)";
+
 std::string_view usage_of(Command command) {
   switch (command) {
     case Command::render:
@@ -44,6 +51,8 @@ std::string_view usage_of(Command command) {
       return kDatasetUsage;
     case Command::verify:
       return kVerifyUsage;
+    case Command::explain:
+      return kExplainUsage;
   }
   return {};
 }
@@ -59,6 +68,7 @@ Examples:
   microtrace model.glb --aov id,depth,normal --background transparent -o model.exr
   microtrace scene.json -o - | other-program
   microtrace merge CHECKPOINT... -o picture.png
+  microtrace explain scenes/perspective1.json --pixel 320,240
 )";
 
 /// Breaks the text into lines that fit the right column. Indents all lines but the first.
@@ -112,6 +122,8 @@ std::string_view name_of(Command command) {
       return "dataset";
     case Command::verify:
       return "verify";
+    case Command::explain:
+      return "explain";
   }
   return {};
 }

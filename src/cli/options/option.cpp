@@ -48,6 +48,16 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Running", rows(running_options(), "--threads", "--memory-limit")},
             {"Messages and help", common_options()}};
   }
+  if (command == Command::explain) {
+    return {{"Explanation", explain_options()},
+            {"Camera", rows(picture_options(), "--size", "--size")},
+            {"Camera", camera_options()},
+            {"glTF assets", rows(asset_options(), "--time", "--animation")},
+            {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
+            {"Running", rows(running_options(), "--threads", "--memory-limit")},
+            {"Running", rows(running_options(), "--strict", "--strict")},
+            {"Messages and help", common_options()}};
+  }
   return {{"Picture", picture_options()},
           {"Camera", camera_options()},
           {"Integrator and samples", sampling_options()},

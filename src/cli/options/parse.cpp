@@ -150,8 +150,8 @@ void check_patterns(const Arguments& a) {
   for (const std::filesystem::path& name : a.checkpoints) check("CHECKPOINT", name);
 }
 
-/// Checks rules that involve several options and sets values that depend on others.
-void complete(Arguments& a) {
+/// Checks rules about options of cameras and animations.
+void check_view(const Arguments& a) {
   const CameraOptions& camera = a.camera;
   const bool has_position = camera.eye || (camera.orbit && camera.orbit->distance);
   if (camera.target && !has_position)
@@ -159,6 +159,11 @@ void complete(Arguments& a) {
   if (camera.vertical_fov && camera.is_of_scene()) refuse_usage("--fov requires --view or --eye");
   if (!a.load.animation.empty() && !a.load.time && !a.frames)
     refuse_usage("--animation requires --time or --frames");
+}
+
+/// Checks rules that involve several options and sets values that depend on others.
+void complete(Arguments& a) {
+  check_view(a);
   if (a.output.empty() && !a.validate && !a.sampling.shard)
     a.output = default_output(a.scene, a.frames.has_value());
   if (a.sidecar.empty() && !a.sampling.shard &&
@@ -182,6 +187,10 @@ Arguments parse_with(Parser& parser, Command command, int argc, char** argv) {
   }
   if (command == Command::render) complete(a);
   if (command == Command::merge) check_patterns(a);
+  if (command == Command::explain) {
+    check_view(a);
+    if (!a.explain.pixel && !a.explain.ray) refuse_usage("explain needs --pixel or --ray");
+  }
   if (command == Command::dataset) identify_dataset(given, a.dataset);
   a.identity = identity_of(given);
   return a;

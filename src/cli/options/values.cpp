@@ -91,6 +91,31 @@ PixelRect parse_crop(const OptionValue& value) {
   return {.x0 = sides[0], .y0 = sides[1], .x1 = sides[2], .y1 = sides[3]};
 }
 
+DVec2 parse_pixel(const OptionValue& value) {
+  const std::vector<double> numbers = numbers_of(value.text);
+  if (numbers.size() != 2) value.refuse("two numbers x,y");
+  return DVec2(numbers[0], numbers[1]) + 0.5;
+}
+
+Ray parse_ray(const OptionValue& value) {
+  std::vector<float> numbers;
+  for (const std::string_view part : split_at_commas(value.text)) {
+    const auto number = parse_float(part);
+    const bool may_be_infinite = numbers.size() == 7;  // t_max
+    if (!number || std::isnan(*number) || (std::isinf(*number) && !may_be_infinite))
+      value.refuse("numbers of float32, of which only t_max may be inf");
+    numbers.push_back(*number);
+  }
+  if (numbers.size() != 6 && numbers.size() != 8)
+    value.refuse("six numbers ox,oy,oz,dx,dy,dz, or eight with t_min,t_max");
+  Ray ray{.o = {numbers[0], numbers[1], numbers[2]}, .d = {numbers[3], numbers[4], numbers[5]}};
+  if (ray.d == Vec3(0)) refuse_usage(value.option + ": the direction must not be 0");
+  if (numbers.size() == 8) ray.t_min = numbers[6], ray.t_max = numbers[7];
+  if (!(0 <= ray.t_min && ray.t_min <= ray.t_max))
+    refuse_usage(value.option + ": must have 0 <= t_min <= t_max");
+  return ray;
+}
+
 OrbitView parse_view(const OptionValue& value) {
   for (const auto& [name, view] : kViews) {
     if (name == value.text) return {.view = view};

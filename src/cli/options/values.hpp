@@ -9,6 +9,7 @@
 #include <microtrace/film.hpp>
 #include <microtrace/framing.hpp>
 #include <microtrace/math.hpp>
+#include <microtrace/ray.hpp>
 #include <microtrace/sampled_aov.hpp>
 
 #include <filesystem>
@@ -26,6 +27,12 @@ namespace microtrace::cli {
 [[nodiscard]] ImageSize parse_size(const OptionValue& value);
 /// Parses x0,y0,x1,y1.
 [[nodiscard]] PixelRect parse_crop(const OptionValue& value);
+
+/// Parses x,y, where 0,0 is the center of the first pixel. Returns pixel coordinates as in
+/// RayGenerator.
+[[nodiscard]] DVec2 parse_pixel(const OptionValue& value);
+/// Parses ox,oy,oz,dx,dy,dz or, with the interval, ox,oy,oz,dx,dy,dz,t_min,t_max.
+[[nodiscard]] Ray parse_ray(const OptionValue& value);
 
 /// The viewing direction of --view.
 struct OrbitView {

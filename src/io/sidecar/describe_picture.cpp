@@ -1,5 +1,6 @@
 #include "float_environment.hpp"
 #include "io/sidecar/seen_pixels.hpp"
+#include "scene/shape_name.hpp"
 #include "scene/support.hpp"
 #include "scene/validate/validate.hpp"
 
@@ -102,18 +103,11 @@ std::string camera_text(const Camera& camera, ImageSize size, const DVec3& origi
   return text += "\n  }";
 }
 
-std::string_view type_of(const Shape& shape) {
-  constexpr std::array<std::string_view, 6> kTypes = {"sphere",   "plane",   "disc",
-                                                      "triangle", "quadric", "mesh"};
-  static_assert(std::variant_size_v<Shape> == kTypes.size());
-  return kTypes[shape.index()];
-}
-
 std::string object_text(const Object& object, std::size_t id, const io::SeenPixels* seen,
                         const DVec3& origin) {
   std::string text = "{\"id\": " + std::to_string(id);
   text.append(", \"name\": ").append(quoted(object.name));
-  text.append(", \"type\": \"").append(type_of(object.shape)).append("\"");
+  text.append(", \"type\": \"").append(type_name(object.shape)).append("\"");
   text.append(", \"material\": ")
       .append(std::to_string(object.material ? *object.material + 1 : 0));
   if (seen != nullptr) {

@@ -1,0 +1,71 @@
+#include "cli/explain.hpp"
+
+#include "base/printable.hpp"
+#include "cli/options/option_value.hpp"
+#include "cli/pictures/camera.hpp"
+#include "cli/report/explanation_text.hpp"
+#include "cli/report/warnings.hpp"
+
+#include <microtrace/explain.hpp>
+#include <microtrace/io.hpp>
+#include <microtrace/memory.hpp>
+#include <microtrace/prepared_scene.hpp>
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace microtrace::cli {
+namespace {
+
+/// Returns the name of the camera that the options select; empty if it is not one of the scene.
+std::string name_of_camera(const Scene& scene, const CameraOptions& options) {
+  if (!options.is_of_scene() || scene.cameras.empty()) return {};
+  if (options.camera.empty()) return scene.cameras.front().name;
+  for (const NamedCamera& camera : scene.cameras) {
+    if (camera.name == options.camera) return camera.name;
+  }
+  const auto index = whole_number(options.camera);
+  return index && *index < scene.cameras.size() ? scene.cameras[*index].name : std::string();
+}
+
+Explanation explain_pixel(const PreparedScene& scene, const Arguments& arguments,
+                          const ExplainOptions& options) {
+  const ImageSize size = arguments.size.value_or(scene.scene().size);
+  const Camera camera = choose_camera(scene.scene(), arguments.camera, size);
+  const DVec2 at = *arguments.explain.pixel;
+  if (!(at.x >= 0 && at.x < size.width && at.y >= 0 && at.y < size.height)) {
+    refuse_usage("--pixel: must be within the picture, from 0,0 to " +
+                 std::to_string(size.width - 1) + "," + std::to_string(size.height - 1));
+  }
+  Explanation result = explain(scene, camera, size, at.x, at.y, options);
+  result.pixel->camera = name_of_camera(scene.scene(), arguments.camera);
+  return result;
+}
+
+}  // namespace
+
+void explain_ray(const Arguments& arguments) {
+  MemoryBudget memory(arguments.memory_limit.value_or(default_memory_limit()));
+  LoadOptions load = arguments.load;
+  load.memory = &memory;
+  load.detail = SurfaceDetail::shape_and_color;
+  SceneFile file(arguments.scene, load);
+  LoadedScene loaded = file.at(load.time);
+  Warnings(arguments).report(loaded.warnings);
+  const PreparedScene scene(std::move(loaded.scene),
+                            {.threads = arguments.threads, .memory = &memory});
+  ExplainOptions options;
+  if (arguments.explain.is_all)
+    options.max_hits = options.max_misses = std::numeric_limits<std::size_t>::max();
+  const Explanation explanation = arguments.explain.ray
+                                      ? explain(scene, *arguments.explain.ray, options)
+                                      : explain_pixel(scene, arguments, options);
+  const std::string text =
+      arguments.explain.is_json ? explanation_json(explanation) : explanation_text(explanation);
+  if (std::fputs(text.c_str(), stdout) == EOF || std::fflush(stdout) != 0)
+    throw Error(ErrorKind::io, "standard output", "can't be written");
+}
+
+}  // namespace microtrace::cli
