@@ -78,9 +78,8 @@ def two_squares(material):
 
 class Explain(ProgramTest):
     def explain(self, scene, *options):
-        result = self.run_program("explain", scene, "--json", *options)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stderr, b"")
+        result = self.run_program("explain", scene, "--json", "-q", *options)
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
         explanation = json.loads(result.stdout)
         self.check(explanation)
         return explanation
@@ -111,6 +110,8 @@ class Explain(ProgramTest):
             self.assertTrue(low <= hit["exact_t"] <= high)
             self.assertTrue(0 <= hit["alpha"]["coverage"] <= 1)
             self.assertEqual(hit["alpha"]["coverage"] == 0, hit["verdict"] in ("culled", "masked", "transparent"))
+            if hit["numbers"].get("stretch"):
+                continue  # the position of a triangle seen edge-on is on its longest edge
             at = [a + b + hit["t"] * c for a, b, c in zip(e["ray"]["scene_origin"], e["ray"]["origin"], e["ray"]["direction"])]
             for a, b in zip(at, hit["position"]):
                 self.assertAlmostEqual(a, b, delta=1e-5 * (1 + abs(hit["t"]) + abs(a)))
@@ -210,7 +211,7 @@ class Explain(ProgramTest):
         coefficients = [1, 0.5, -0.25, 0.1, 0.2, -0.3, 0.4, 0.5, 0.6, -0.7]
         normal, a, b, c = [0.3, 1, -0.4], [-1, 0.1, 0.2], [1, -0.3, 0.4], [0.1, 0.9, -0.8]
         scene = self.scene_of({"name": "sphere", "type": "sphere", "center": center, "radius": radius},
-                              {"name": "quadric", "type": "quadric", **dict(zip("abcdefghij", coefficients))},
+                              {"name": "quadric", "type": "quadric", "coefficients": dict(zip("abcdefghij", coefficients))},
                               {"name": "plane", "type": "plane", "point": center, "normal": normal},
                               {"name": "disc", "type": "disc", "center": center, "normal": normal, "radius": radius},
                               {"name": "triangle", "type": "triangle", "a": a, "b": b, "c": c})
@@ -260,8 +261,8 @@ class Explain(ProgramTest):
         self.assertEqual(e["misses"][0]["reason"], "the discriminant is negative")
 
     def test_linear_and_constant_equations(self):
-        scene = self.scene_of({"name": "cone", "type": "quadric", "a": 1, "b": 1, "c": -1},
-                              {"name": "tube", "type": "quadric", "a": 1, "b": 1, "j": -1})
+        scene = self.scene_of({"name": "cone", "type": "quadric", "coefficients": {"a": 1, "b": 1, "c": -1}},
+                              {"name": "tube", "type": "quadric", "coefficients": {"a": 1, "b": 1, "j": -1}})
         items = self.all_items(self.explain_ray(scene, [1.0, 0.0, 3.0], [1.0, 0.0, 1.0]))
         self.check_quadratic(items["cone"], 0, -4, Fraction(-8))
         e = self.explain_ray(scene, [1.0, 0.0, 0.0], [0.0, 0.0, 1.0])
@@ -271,10 +272,13 @@ class Explain(ProgramTest):
         self.assertEqual((miss["name"], miss["reason"]), ("tube", "a and b are 0, but c is not"))
 
     def test_numbers_beyond_float64_are_strings(self):
-        scene = self.scene_of({"name": "q", "type": "quadric", "a": 3e38, "b": 1, "c": 1, "j": -1})
-        e = self.explain_ray(scene, [1e38, 0.0, 0.0], [3e38, 0.0, 0.0])
-        numbers = self.all_items(e)["q"]
-        self.assertEqual((numbers["discriminant"], float(numbers["discriminant"])), ("Infinity", math.inf))
+        # The crossing is at t = 1e152, at a distance of 1e190 from the center.
+        scene = self.scene_of({"name": "disc", "type": "disc", "center": [0, 0, 0], "normal": [1e-38, 0, 1e38], "radius": 1})
+        e = self.explain_ray(scene, [0.0, 0.0, -1e38], [1e-38, 1e38, 0.0])
+        numbers = e["misses"][0]["numbers"]
+        self.assertEqual((numbers["squared_distance"], float(numbers["squared_distance"])), ("Infinity", math.inf))
+        self.assertAlmostEqual(numbers["plane"]["t"] / 1e152, 1, places=5)
+        self.assertEqual(numbers["side"], 1)
         self.assertEqual(e["ray"]["t_max"], "Infinity")
 
     # Special positions
@@ -334,7 +338,7 @@ class Explain(ProgramTest):
     def verdicts(self, material, z=1.0):
         scene = self.write("quad.gltf", two_squares(material))
         e = self.explain_ray(scene, [0.5, 0.25, z], [0.0, 0.0, -z])
-        return {hit["name"]: hit for hit in e["hits"]}
+        return {re.match(r"mesh\d", hit["name"])[0]: hit for hit in e["hits"]}
 
     def test_alpha_and_sides(self):
         def color(alpha):
@@ -374,7 +378,7 @@ class Explain(ProgramTest):
     # Bounds and errors
 
     def test_nothing_to_see(self):
-        e = self.explain_ray(self.write("empty.json", {"version": 1, "objects": []}), [0.0, 0.0, 0.0], [1.0, 0.0, 0.0])
+        e = self.explain_ray(self.write("empty.gltf", {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{}]}), [0.0, 0.0, 0.0], [1.0, 0.0, 0.0])
         self.assertEqual((e["primitives"], e["hits"], e["crossings"], e["misses"]), (0, [], [], []))
         e = self.explain_ray(self.square(), [5.0, 5.0, 5.0], [1.0, 0.0, 0.5])
         self.assertEqual((e["hits"], e["visible"], len(e["misses"])), ([], None, 2))
@@ -423,7 +427,7 @@ class Explain(ProgramTest):
         ray = "--ray=0,0,9,0,0,-1"
         for options, message in (
                 ([], "explain needs --pixel or --ray"),
-                (["--pixel", "1,2", ray], "--ray can't be combined with --pixel"),
+                (["--pixel", "1,2", ray], "--pixel can't be combined with --ray"),
                 ([ray, "--size", "20x15"], "can't be combined"),
                 ([ray, "--view", "front"], "can't be combined"),
                 (["--pixel", "640,0"], "--pixel: must be within the picture, from 0,0 to 639,479"),
@@ -447,7 +451,7 @@ class Explain(ProgramTest):
                 (["--ray", "0,0,0,0,0,1,0,nan"], "only t_max may be inf"),
                 (["--ray", "0,0,0,0,0"], "expects six numbers"),
                 (["--ray", "0,0,0,0,0,1,2"], "expects six numbers"),
-                (["--ray", ",".join(["1"] * 100000)], "expects six numbers"),
+                (["--ray", ",".join(["1"] * 10000)], "expects six numbers"),
                 (["--ray", "0,0,0,0,0,1,2,1"], "0 <= t_min <= t_max"),
                 (["--ray", "0,0,0,0,0,1,-1,1"], "0 <= t_min <= t_max"),
                 (["--pixel", "1,2", "-c", "nobody"], "there is no camera nobody"),

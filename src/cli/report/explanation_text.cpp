@@ -89,7 +89,10 @@ std::string text_of(const TriangleNumbers& n) {
     edges.append(i > 0 ? ", " : "").append(kEdges[i]).append(": ");
     edges.append(n.signs[i] == 0 ? "exactly 0" : number(n.volumes[i]));
   }
-  std::string text = text_of(n.plane) + line("edges", edges) + line("place", place_in_triangle(n));
+  const std::string place = place_in_triangle(n);
+  std::string text = text_of(n.plane) + line("edges", edges);
+  // The reason of a miss already tells where the line passes outside.
+  if (!place.starts_with("outside")) text += line("place", place);
   if (n.stretch) {
     text += line("stretch", "t from " + number((*n.stretch)[0]) + " to " + number((*n.stretch)[1]));
   }
