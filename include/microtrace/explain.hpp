@@ -171,7 +171,7 @@ struct Explanation {
   std::optional<std::vector<ExplainedMiss>> misses{};
 };
 
-/// Limits of an explanation, because each primitive in it takes about 20 microseconds and 1 KiB.
+/// Limits of an explanation, because each primitive in it takes about 100 microseconds and 1 KiB.
 struct ExplainOptions {
   std::size_t max_hits = 1000;  ///< maximum number of hits, and of crossings before and after them
   std::size_t max_misses = 64;  ///< misses are explained in scenes of at most this many primitives

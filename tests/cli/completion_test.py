@@ -15,7 +15,7 @@ import option_table
 from program import PROGRAM, ProgramTest
 
 
-COMMANDS = ("merge", "dataset", "verify")
+COMMANDS = ("merge", "dataset", "verify", "explain")
 
 
 class Completion(ProgramTest):
