@@ -122,7 +122,7 @@ TEST(Explain, NamesTheStageThatDecided) {
   EXPECT_EQ(stage({.o = {9, 9, 1}}), Stage::float32);
   EXPECT_EQ(stage({.o = {1, 0x1p-40F, 1}}), Stage::float64);
   EXPECT_EQ(stage({.o = {1, 0, 1}}), Stage::grid);
-  EXPECT_EQ(stage({.o = {1, 0, 1}, .d = {0x1p-149F, 0, -0x1p30F}}), Stage::dyadic);
+  EXPECT_EQ(stage({.o = {1, 0, 1}, .d = {0x1p-149F, 0, -0x1p100F}}), Stage::dyadic);
   const PreparedScene ball(scene_of({Sphere{}}));
   EXPECT_EQ(explain(ball, {.o = {0, 0, 5}}).hits.front().primitive.decided_by, Stage::float64);
   EXPECT_EQ(explain(ball, {.o = {1, 0, 5}}).hits.front().primitive.decided_by, Stage::dyadic);
