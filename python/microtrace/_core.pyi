@@ -59,6 +59,14 @@ class Prepared:
         outputs: dict[str, Array],
         threads: int,
     ) -> None: ...
+    def explain(
+        self,
+        ray: Array,
+        t_min: Array | None,
+        t_max: Array | None,
+        max_hits: int,
+        max_misses: int,
+    ) -> str: ...
     def occluded(
         self, rays: Array, t_min: Array | None, t_max: Array | None, result: Array, threads: int
     ) -> None: ...

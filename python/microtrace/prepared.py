@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -96,6 +97,40 @@ class PreparedScene:
         outputs = output_arrays(fields, len(flat))
         self._core.intersect(flat, low, high, outputs, as_threads(threads))
         return Hits(**{k: v.reshape(shape + v.shape[1:]) for k, v in outputs.items()})
+
+    def explain(
+        self,
+        ray: npt.ArrayLike,
+        *,
+        t_min: float | None = None,
+        t_max: float | None = None,
+        max_hits: int = 1000,
+        max_misses: int = 64,
+    ) -> dict[str, Any]:
+        """Explains what a single ray meets: all hits in exact order, the numbers that decide each
+        of them, the stage that decided, and why a hit is visible or not.
+
+        Returns the JSON of `microtrace explain --json` as a dict; docs/explain.md describes the
+        members. Infinite numbers are the strings "Infinity" and "-Infinity", which float()
+        converts. "pixel" and "depth" are None.
+
+        Args:
+            ray: six real numbers: origin and direction.
+            t_min: least t of hits. Default: the least float32 above 0.
+            t_max: greatest t of hits. Default: infinity.
+            max_hits: maximum number of hits, and of crossings before and after them.
+            max_misses: misses are explained in scenes of at most this many primitives.
+        """
+        flat, shape, low, high = _rays(ray, t_min, t_max)
+        if shape != ():
+            raise ValueError(f"explain() takes one ray of shape (6,), not {(*shape, 6)}")
+        for name, limit in (("max_hits", max_hits), ("max_misses", max_misses)):
+            if limit < 0:
+                raise ValueError(f"{name} must not be negative, is {limit}")
+        explanation: dict[str, Any] = json.loads(
+            self._core.explain(flat, low, high, max_hits, max_misses)
+        )
+        return explanation
 
     def occluded(
         self,

@@ -40,6 +40,16 @@ void occluded(const Prepared& self, const AnyArray& array, const nb::object& t_m
   });
 }
 
+/// Returns the explanation of a single ray as JSON text.
+std::string explain_ray(const Prepared& self, const AnyArray& array, const nb::object& t_min,
+                        const nb::object& t_max, std::size_t max_hits, std::size_t max_misses) {
+  std::vector<Ray> rays;
+  Rays(array, t_min, t_max, DVec3(0)).get(0, 1, rays);
+  const nb::gil_scoped_release release;
+  return explanation_json(
+      explain(self.scene, rays.front(), {.max_hits = max_hits, .max_misses = max_misses}));
+}
+
 /// All hits of rays. The rays are processed in pieces, so that they are not copied all at once.
 struct AllHits {
   std::vector<std::uint64_t> offsets{0};
@@ -122,6 +132,8 @@ void bind_rays(nb::module_& module) {
   auto& type = static_cast<nb::class_<Prepared>&>(prepared);
   type.def("intersect", &intersect, nb::arg("rays"), nb::arg("t_min").none(),
            nb::arg("t_max").none(), nb::arg("outputs"), nb::arg("threads"));
+  type.def("explain", &explain_ray, nb::arg("ray"), nb::arg("t_min").none(),
+           nb::arg("t_max").none(), nb::arg("max_hits"), nb::arg("max_misses"));
   type.def("occluded", &occluded, nb::arg("rays"), nb::arg("t_min").none(), nb::arg("t_max").none(),
            nb::arg("result"), nb::arg("threads"));
   nb::class_<AllHits>(module, "AllHits").def("__len__", [](const AllHits& all) {

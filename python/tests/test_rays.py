@@ -252,3 +252,31 @@ def test_interrupt(rng):
         for _ in range(1000):
             prepared.intersect(rays, threads=1)
     assert time.monotonic() - start < 30  # stopped before the end, typically 0.1 s after the signal
+
+
+def test_explanations() -> None:
+    scene = mt.Scene()
+    scene.add_sphere([0, 0, 0], 1, name="ball")
+    scene.add_plane([0, 0, -2], [0, 0, 1], name="wall")
+    prepared = scene.prepare()
+    explanation = prepared.explain([0, 0, 5, 0, 0, -2])
+    assert [(hit["name"], hit["t"], hit["verdict"]) for hit in explanation["hits"]] == [
+        ("ball", 2, "visible"),
+        ("wall", 3.5, "hidden"),
+    ]
+    numbers = explanation["hits"][0]["numbers"]
+    assert (numbers["a"], numbers["b"], numbers["c"]) == (4, -20, 24)
+    assert numbers["roots"] == [2, 3]
+    assert explanation["misses"] == []
+    assert float(explanation["ray"]["t_max"]) == np.inf
+    limited = prepared.explain([0, 0, 5, 0, 0, -2], t_min=2.5, t_max=3, max_misses=1)
+    assert [hit["t"] for hit in limited["hits"]] == [3]
+    assert [(c["name"], c["t"]) for c in limited["crossings"]] == [("ball", 2), ("wall", 3.5)]
+    assert limited["misses"] is None
+    for rays in (np.zeros((1, 6)), np.zeros((2, 6)), np.zeros(5)):
+        with pytest.raises(ValueError):
+            prepared.explain(rays)
+    with pytest.raises(ValueError, match="max_hits must not be negative"):
+        prepared.explain([0, 0, 5, 0, 0, -2], max_hits=-1)
+    assert not prepared.explain([0, 0, 5, 0, 0, 0])["ray"]["valid"]
+    assert not prepared.explain([np.nan, 0, 5, 0, 0, 1])["ray"]["valid"]
