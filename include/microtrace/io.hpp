@@ -83,6 +83,16 @@ struct LoadOptions {
                                                         const std::filesystem::path& folder,
                                                         const LoadOptions& options = {});
 
+/// What can be selected in a scene file by LoadOptions. JSON scenes have neither.
+struct SceneChoices {
+  struct Animation {
+    std::string name;  ///< may be empty
+    double end = 0;    ///< time of the last keyframe in seconds
+  };
+  std::vector<std::string> variants{};  ///< names, which may be empty
+  std::vector<Animation> animations{};
+};
+
 /// A scene file that is read and checked once and can then be evaluated at many animation times.
 /// For a JSON scene, the geometry of meshes is loaded again for each call of at().
 class MICROTRACE_EXPORT SceneFile {
@@ -94,6 +104,7 @@ class MICROTRACE_EXPORT SceneFile {
   SceneFile& operator=(SceneFile&& other) noexcept;
 
   [[nodiscard]] SceneFormat format() const;
+  [[nodiscard]] SceneChoices choices() const;
 
   /// Returns the scene at an animation time, equal to the result of load_scene() with this
   /// options.time. Throws Error as load_scene() does.

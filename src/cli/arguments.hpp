@@ -103,6 +103,15 @@ struct ExplainArguments {
   bool is_all = false;
 };
 
+struct ViewOptions {
+  std::uint16_t port = 0;  ///< 0: any free port
+  bool opens_browser = true;
+  std::string other_scene{};   ///< a scene file to compare with; may be empty
+  std::string allowed_host{};  ///< a host name in the page's address besides the loopback's
+  /// The given options that change the picture, as words of a command line.
+  std::vector<std::string> words{};
+};
+
 enum class Statistics { none, text, json };
 enum class Progress { none, bar, json };
 
@@ -151,6 +160,9 @@ struct Arguments {
 
   // For the command explain only:
   ExplainArguments explain{};
+
+  // For the command view only:
+  ViewOptions view{};
 };
 
 /// Sets options that are absent to the library's defaults for scenes of this format. Throws Error

@@ -16,6 +16,7 @@
 #include "cli/report/statistics.hpp"
 #include "cli/report/validation_result.hpp"
 #include "cli/signals.hpp"
+#include "cli/view/view.hpp"
 #include "float_environment.hpp"
 
 #include <microtrace/digest.hpp>
@@ -127,6 +128,7 @@ constexpr std::array kNamedCommands{
     NamedCommand{cli::Command::dataset, cli::write_dataset},
     NamedCommand{cli::Command::verify, cli::verify_dataset},
     NamedCommand{cli::Command::explain, cli::explain_ray},
+    NamedCommand{cli::Command::view, cli::view_scene},
 };
 
 }  // namespace

@@ -137,6 +137,11 @@ SceneFormat SceneFile::format() const {
                                                                  : SceneFormat::json;
 }
 
+SceneChoices SceneFile::choices() const {
+  const auto* gltf = std::get_if<io::GltfFile>(&*content_->reader);
+  return gltf != nullptr ? gltf->choices() : SceneChoices{};
+}
+
 LoadedScene SceneFile::at(std::optional<double> time) {
   const FloatEnvironment environment;
   LoadOptions options = content_->options;

@@ -23,7 +23,7 @@ MAY_INCLUDE = {
     "explain": {"base", "exact", "scene", "accel", "render"},
     "io": {"base", "scene"},
     "dataset": {"base", "scene", "queries", "io"},
-    "cli": {"base", "scene"},
+    "cli": {"base", "scene", "io"},
     "capi": {"base", "scene"},
     "modules": {"io"},
 }
@@ -46,12 +46,13 @@ HIDDEN = {
 LIBRARIES = {
     r"CGAL/|gmp": ["tests/oracle"],
     r"tiny_gltf": ["src/io/gltf/document/model.cpp"],
-    r"nlohmann/": ["src/io/json", "src/io/sidecar", "tests"],
+    r"nlohmann/": ["src/io/json", "src/io/sidecar", "src/cli/view", "tests"],
     r"OpenImageIO/": ["src/modules/openimageio", "tests/image"],
     r"Imf": ["src/modules/openexr"],
     r"draco/|meshoptimizer\.h": ["src/modules", "tests/gltf"],
     r"png\.h|jpeglib\.h|webp/|zstd\.h": ["src/modules/codecs"],
     r"CLI/": ["src/cli"],
+    r"boost/": ["src/modules/http"],
     r"embree|benchmark/": ["bench"],
     r"\w*mmintrin\.h": ["src/simd/vectors.hpp", "src/accel/kernels/simd.hpp"],
 }

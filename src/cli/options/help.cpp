@@ -17,6 +17,7 @@ Usage: microtrace [OPTIONS] SCENE
        microtrace dataset [OPTIONS] SCENE -o FOLDER
        microtrace verify [OPTIONS] FOLDER
        microtrace explain [OPTIONS] SCENE --pixel x,y
+       microtrace view [OPTIONS] SCENE
        microtrace completion bash|zsh|fish
 )";
 
@@ -41,6 +42,11 @@ Usage: microtrace explain [OPTIONS] SCENE --pixel x,y
        microtrace explain [OPTIONS] SCENE --ray ox,oy,oz,dx,dy,dz
 )";
 
+constexpr std::string_view kViewUsage =
+    R"(microtrace view: shows a scene on a page in the browser
+Usage: microtrace view [OPTIONS] SCENE
+)";
+
 std::string_view usage_of(Command command) {
   switch (command) {
     case Command::render:
@@ -53,6 +59,8 @@ std::string_view usage_of(Command command) {
       return kVerifyUsage;
     case Command::explain:
       return kExplainUsage;
+    case Command::view:
+      return kViewUsage;
   }
   return {};
 }
@@ -124,6 +132,8 @@ std::string_view name_of(Command command) {
       return "verify";
     case Command::explain:
       return "explain";
+    case Command::view:
+      return "view";
   }
   return {};
 }

@@ -58,6 +58,18 @@ std::vector<OptionGroup> option_groups(Command command) {
             {"Running", rows(running_options(), "--strict", "--strict")},
             {"Messages and help", common_options()}};
   }
+  if (command == Command::view) {
+    return {{"Page", view_options()},
+            {"Picture", rows(picture_options(), "--size", "--background")},
+            {"Camera", camera_options()},
+            {"Integrator and samples", sampling_options()},
+            {"Light", light_options()},
+            {"Display", rows(display_options(), "--exposure", "--tonemap")},
+            {"glTF assets", rows(asset_options(), "--time", "--animation")},
+            {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
+            {"Running", rows(running_options(), "--threads", "--memory-limit")},
+            {"Messages and help", common_options()}};
+  }
   return {{"Picture", picture_options()},
           {"Camera", camera_options()},
           {"Integrator and samples", sampling_options()},

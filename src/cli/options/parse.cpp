@@ -111,15 +111,21 @@ std::string identity_of(const std::vector<Given>& given) {
   return identity;
 }
 
+bool is_of(const Option& option, std::span<const Option> table) {
+  return std::ranges::find(table, option.names, &Option::names) != table.end();
+}
+
+/// Returns true if the option only changes where and how the program runs.
+bool is_of_run(const Option& option) {
+  return is_of(option, running_options()) || is_of(option, common_options());
+}
+
 /// Sets the identity of a data set: all options but those that change where and how the program
 /// runs.
 void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) {
-  const auto is_of = [](const Option& option, std::span<const Option> table) {
-    return std::ranges::find(table, option.names, &Option::names) != table.end();
-  };
   for (const auto& [option, values] : given) {
     if (option->name() == "--output" || option->name() == "--shard") continue;
-    if (is_of(*option, running_options()) || is_of(*option, common_options())) continue;
+    if (is_of_run(*option)) continue;
     for (const std::string& value : values) {
       std::string argument = value;
       if (!option->is_positional()) {
@@ -130,6 +136,19 @@ void identify_dataset(const std::vector<Given>& given, DatasetOptions& dataset) 
       dataset.command_line.push_back(std::move(argument));
     }
   }
+}
+
+/// Returns the given options that change the picture, as words of a command line.
+std::vector<std::string> picture_words(const std::vector<Given>& given) {
+  std::vector<std::string> words;
+  for (const auto& [option, values] : given) {
+    if (is_of_run(*option) || is_of(*option, view_options())) continue;
+    for (const std::string& value : values) {
+      words.emplace_back(option->name());
+      if (!option->metavar.empty()) words.push_back(value);
+    }
+  }
+  return words;
 }
 
 std::filesystem::path default_output(const std::string& scene, bool has_frames) {
@@ -187,6 +206,10 @@ Arguments parse_with(Parser& parser, Command command, int argc, char** argv) {
   }
   if (command == Command::render) complete(a);
   if (command == Command::merge) check_patterns(a);
+  if (command == Command::view) {
+    check_view(a);
+    a.view.words = picture_words(given);
+  }
   if (command == Command::explain) {
     check_view(a);
     if (!a.explain.pixel && !a.explain.ray) refuse_usage("explain needs --pixel or --ray");

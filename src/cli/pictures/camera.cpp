@@ -27,7 +27,14 @@ PerspectiveCamera camera_of(const Framing& framing, const CameraOptions& options
 Camera choose_camera(const Scene& scene, const CameraOptions& options, ImageSize size) {
   if (!options.is_of_scene()) {
     Framing framing(options.view(), size);
-    framing.add(scene);
+    if (options.eye && options.target) {
+      // The bounds of the shapes, whose computation may take longer than a preview, don't matter.
+      Scene empty;
+      empty.origin = scene.origin;
+      framing.add(empty);
+    } else {
+      framing.add(scene);
+    }
     return camera_of(framing, options);
   }
   const std::string& wanted = options.camera;

@@ -41,6 +41,7 @@ struct MicrotracePng {
   std::uint32_t channels;  ///< 1: gray, 3: rgb, 4: rgb and unassociated alpha
   std::uint32_t depth;     ///< bits per sample, 8 or 16, in native byte order
   std::uint32_t is_srgb;   ///< if 0, the file states no color space
+  std::uint32_t is_fast;   ///< if not 0, compresses less in a fraction of the time
   const MicrotracePngText* texts;
   std::size_t text_count;
   void* context;  ///< passed to the functions
@@ -71,7 +72,7 @@ namespace microtrace::io {
 
 inline constexpr char kCodecModuleFileName[] = "microtrace_codecs.so";
 inline constexpr char kDecodeName[] = "microtrace_decode_v1";
-inline constexpr char kEncodePngName[] = "microtrace_encode_png_v3";
+inline constexpr char kEncodePngName[] = "microtrace_encode_png_v4";
 inline constexpr char kCompressName[] = "microtrace_compress_v1";
 inline constexpr char kDecompressName[] = "microtrace_decompress_v1";
 inline constexpr char kInflateName[] = "microtrace_inflate_v1";  ///< raw deflate, RFC 1951

@@ -63,6 +63,10 @@ int encode_png(const MicrotracePng& picture) {
       png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
       png_set_compression_strategy(png, Z_RLE);
     }
+    if (picture.is_fast != 0) {
+      png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+      png_set_compression_level(png, 1);
+    }
     png_write_info(png, info);
     if (picture.depth == 16 && std::endian::native == std::endian::little) png_set_swap(png);
     for (std::uint32_t y = 0; y < picture.height; ++y) {

@@ -31,7 +31,7 @@ __attribute__((visibility("default"))) int microtrace_decode_v1(const void* data
   return 0;
 }
 
-__attribute__((visibility("default"))) int microtrace_encode_png_v3(const MicrotracePng* picture) {
+__attribute__((visibility("default"))) int microtrace_encode_png_v4(const MicrotracePng* picture) {
   return encode_png(*picture);
 }
 

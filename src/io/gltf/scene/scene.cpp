@@ -21,6 +21,7 @@
 #include "io/gltf/pose/nodes.hpp"
 #include "io/gltf/pose/posing.hpp"
 #include "io/gltf/scene/cameras.hpp"
+#include "io/gltf/scene/choices.hpp"
 #include "io/gltf/scene/lights.hpp"
 #include "io/gltf/scene/object_maker.hpp"
 #include "io/gltf/scene/placed_bounds.hpp"
@@ -211,6 +212,10 @@ GltfFile::GltfFile(std::string_view bytes, const std::string& name,
 GltfFile::~GltfFile() = default;
 GltfFile::GltfFile(GltfFile&& other) noexcept = default;
 GltfFile& GltfFile::operator=(GltfFile&& other) noexcept = default;
+
+SceneChoices GltfFile::choices() const {
+  return gltf::choices_of(content_->asset);
+}
 
 LoadedScene GltfFile::at(std::optional<double> time) {
   return guarded(content_->name, [&] {

@@ -26,6 +26,8 @@ class GltfFile {
   GltfFile(GltfFile&& other) noexcept;
   GltfFile& operator=(GltfFile&& other) noexcept;
 
+  [[nodiscard]] SceneChoices choices() const;
+
   /// Returns the scene at a time (see LoadOptions). Transforms are composed in float64. Each vertex
   /// is rounded to float32 once, relative to Scene::origin. Throws Error.
   [[nodiscard]] LoadedScene at(std::optional<double> time);

@@ -57,7 +57,7 @@ void take_reason(void* context, const char* text) {
 
 }  // namespace
 
-PngEncoder::PngEncoder(std::string file) : file_(std::move(file)) {
+PngEncoder::PngEncoder(std::string file, Speed speed) : file_(std::move(file)), speed_(speed) {
   const ModuleFunction function = find_module_function(kCodecModuleFileName, kEncodePngName);
   if (function.address == nullptr) {
     throw Error(
@@ -95,6 +95,7 @@ void PngEncoder::encode(const Film& film, const std::function<void(std::string_v
 void PngEncoder::encode(MicrotracePng picture, const std::function<const void*(std::uint32_t)>& row,
                         const std::function<void(std::string_view)>& out) const {
   Streams streams{row, out};
+  picture.is_fast = speed_ == Speed::fast ? 1 : 0;
   picture.context = &streams;
   picture.row = row_of;
   picture.take = take_bytes;

@@ -15,9 +15,14 @@ namespace microtrace::io {
 
 class PngEncoder {
  public:
+  enum class Speed {
+    small_files,
+    fast,  ///< several times as fast, for larger files with the same samples
+  };
+
   /// Loads the module. Messages name `file`. Throws an Error(unsupported) that lists the searched
   /// folders.
-  explicit PngEncoder(std::string file);
+  explicit PngEncoder(std::string file, Speed speed = Speed::small_files);
 
   /// Passes the file to `out` in parts. It has 8 bits per sample according to the film's display
   /// settings, and alpha if the film has it. Throws the exceptions of `out`, and Error(io).
@@ -30,6 +35,7 @@ class PngEncoder {
 
  private:
   std::string file_;
+  Speed speed_;
   MicrotraceEncodePng encode_ = nullptr;
 };
 

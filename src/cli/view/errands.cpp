@@ -1,0 +1,24 @@
+#include "cli/view/errands.hpp"
+
+#include "base/start_threads.hpp"
+#include "float_environment.hpp"
+
+#include <utility>
+
+namespace microtrace::cli {
+
+bool Errands::run(std::function<void()> work) {
+  errands_.remove_if([](const Errand& errand) { return errand.is_done->load(); });
+  if (errands_.size() >= kMost) return false;
+  const auto is_done = std::make_shared<std::atomic<bool>>(false);
+  std::vector<std::jthread> thread = start_threads(1, [is_done, work = std::move(work)] {
+    const FloatEnvironment environment;
+    work();
+    *is_done = true;
+  });
+  if (thread.empty()) return false;
+  errands_.push_back({.is_done = is_done, .thread = std::move(thread)});
+  return true;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,76 @@
+// The options of one picture, as the words of a command line, and the controls that change them.
+
+/** Options with their values; flags have the value null. */
+export class Options {
+  #values = new Map();
+
+  constructor(words) {
+    for (let i = 0; i < words.length; ++i) {
+      const hasValue = i + 1 < words.length && !words[i + 1].startsWith("--");
+      this.#values.set(words[i], hasValue ? words[++i] : null);
+    }
+  }
+
+  get(name) {
+    return this.#values.get(name);
+  }
+
+  /** Sets an option; an empty value removes it. */
+  set(name, value) {
+    if (value === "" || value === undefined) this.#values.delete(name);
+    else this.#values.set(name, value);
+  }
+
+  get words() {
+    return [...this.#values].flatMap(([name, value]) => (value === null ? [name] : [name, value]));
+  }
+
+  copy() {
+    return new Options(this.words);
+  }
+}
+
+/** Quotes a word for a shell if necessary. */
+function quoted(word) {
+  return /^[\w@%+=:,./-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}
+
+export function commandLine(scene, words) {
+  return ["microtrace", scene, ...words].map(quoted).join(" ");
+}
+
+/** Fills a selection with values, after one for the default. */
+export function fill(select, values, defaultText = "default") {
+  const option = (text, value) => Object.assign(document.createElement("option"), { textContent: text, value });
+  select.replaceChildren(option(defaultText, ""), ...values.map(([value, text]) => option(text ?? value, value)));
+}
+
+const controls = () => document.querySelectorAll("[data-option]");
+
+function showNumber(control) {
+  const text = control.nextElementSibling;
+  if (control.type === "range" && text !== null) text.textContent = control.value;
+}
+
+/** Shows the options in the controls with the attribute data-option. */
+export function showOptions(options) {
+  for (const control of controls()) {
+    const value = options.get(control.dataset.option);
+    if (control.type === "range") control.value = value ?? 0;
+    else control.value = value ?? "";
+    showNumber(control);
+  }
+}
+
+/** Calls change(name, value, isFinal) when the user changes a control; isFinal is false while a slider moves. */
+export function onChange(change) {
+  for (const control of controls()) {
+    const report = (isFinal) => {
+      showNumber(control);
+      const isDefault = control.type === "range" && Number(control.value) === 0;
+      change(control.dataset.option, isDefault ? "" : control.value.trim(), isFinal);
+    };
+    control.addEventListener("change", () => report(true));
+    if (control.type === "range") control.addEventListener("input", () => report(false));
+  }
+}

@@ -1,0 +1,117 @@
+#include "cli/view/scene_source.hpp"
+
+#include "cli/options/option_value.hpp"
+#include "cli/pictures/environment.hpp"
+
+#include <microtrace/framing.hpp>
+#include <microtrace/read_files.hpp>
+#include <microtrace/threads.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace microtrace::cli {
+
+ShownScene with_extent(ShownScene shown) {
+  const Scene& scene = shown.prepared.scene();
+  Framing framing(View{}, scene.size);
+  framing.add(scene);
+  shown.center = framing.center() + framing.origin();
+  shown.distance = glm::length(framing.camera().pose.position - framing.center());
+  return shown;
+}
+
+SceneSource::SceneSource(const Arguments& arguments)
+    : memory_(arguments.memory_limit.value_or(default_memory_limit())),
+      options_(arguments.load),
+      path_(arguments.scene),
+      threads_(arguments.threads != 0 ? arguments.threads : default_threads()),
+      files_{arguments.scene} {
+  options_.detail = SurfaceDetail::all;  // the page selects the integrator
+  options_.memory = &memory_;
+}
+
+SceneSource::SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene)
+    : SceneSource(arguments) {
+  fixed_ = std::move(scene);
+  files_.clear();
+}
+
+std::shared_ptr<const ShownScene> SceneSource::get(const LoadOptions& wanted) {
+  const Key key{
+      .variant = wanted.variant, .animation = wanted.animation, .time = wanted.time};
+  if (fixed_) {
+    if (key != Key{}) refuse_usage("--time and --variant need a scene file");
+    return fixed_;
+  }
+  const std::scoped_lock lock(mutex_);
+  const std::uint64_t revision = revision_;
+  if (revision != loaded_revision_) {
+    file_.reset();
+    scenes_.clear();
+    environments_.clear();
+    loaded_revision_ = revision;
+  }
+  const auto known = std::ranges::find(scenes_, key, [](const auto& entry) { return entry.first; });
+  if (known != scenes_.end()) return known->second;
+  std::shared_ptr<const ShownScene> scene = load(key);
+  scenes_.emplace_front(key, scene);
+  if (scenes_.size() > kScenes) scenes_.pop_back();
+  return scene;
+}
+
+std::shared_ptr<const ShownScene> SceneSource::load(const Key& key) {
+  const ReadFiles reading;
+  const auto note_files = [&] { files_.insert(reading.names().begin(), reading.names().end()); };
+  try {
+    if (!file_ || file_key_.variant != key.variant || file_key_.animation != key.animation) {
+      LoadOptions options = options_;
+      options.variant = key.variant;
+      options.animation = key.animation;
+      file_.emplace(path_, options);
+      file_key_ = key;
+    }
+    LoadedScene loaded = file_->at(key.time);
+    note_files();
+    PrepareOptions prepare{.threads = threads_, .memory = &memory_};
+    // Refitting the tree of the previous time is faster than building another one.
+    if (!scenes_.empty()) prepare.tables = scenes_.front().second->prepared.tables();
+    return std::make_shared<const ShownScene>(
+        with_extent({.prepared = PreparedScene(std::move(loaded.scene), prepare),
+                     .format = loaded.format,
+                     .warnings = std::move(loaded.warnings),
+                     .choices = file_->choices()}));
+  } catch (...) {
+    note_files();
+    file_.reset();
+    throw;
+  }
+}
+
+std::optional<Environment> SceneSource::environment(const EnvironmentOptions& options) {
+  std::vector<Diagnostic> warnings;  // about repaired values in the map
+  const auto* file =
+      options.source ? std::get_if<std::filesystem::path>(&*options.source) : nullptr;
+  if (file == nullptr) return load_environment(options, warnings, memory_);
+  const std::scoped_lock lock(mutex_);
+  const std::string name = file->string();
+  const auto known =
+      std::ranges::find(environments_, name, [](const auto& entry) { return entry.first; });
+  if (known != environments_.end()) return known->second;
+  files_.insert(name);
+  std::optional<Environment> environment = load_environment(options, warnings, memory_);
+  environments_.emplace_front(name, *environment);
+  if (environments_.size() > kEnvironments) environments_.pop_back();
+  return environment;
+}
+
+void SceneSource::discard() {
+  ++revision_;
+}
+
+std::set<std::string> SceneSource::files() const {
+  const std::scoped_lock lock(mutex_);
+  return files_;
+}
+
+}  // namespace microtrace::cli

@@ -1,0 +1,27 @@
+#include "cli/view/view.hpp"
+
+#include "base/printable.hpp"
+#include "cli/signals.hpp"
+#include "cli/view/browser.hpp"
+#include "cli/view/view_server.hpp"
+
+#include <cstdio>
+#include <string>
+
+namespace microtrace::cli {
+
+void view_scene(const Arguments& arguments) {
+  if (arguments.scene == "-") refuse_usage("SCENE: standard input can't be read again; name a file");
+  ViewServer server(arguments);
+  if (!arguments.quiet) {
+    std::fprintf(stderr, "%s is shown at\n", printable(arguments.scene).c_str());
+    std::printf("%s\n", server.address().c_str());
+    std::fflush(stdout);
+    std::fprintf(stderr, "Press Ctrl-C to end.\n");
+  }
+  if (arguments.view.opens_browser) open_browser(server.address());
+  const DelayedSignals delay;
+  server.run([] { return DelayedSignals::received() == 0; });
+}
+
+}  // namespace microtrace::cli
