@@ -60,13 +60,14 @@ std::vector<OptionGroup> option_groups(Command command) {
   }
   if (command == Command::view) {
     return {{"Page", view_options()},
-            {"Picture", rows(picture_options(), "--size", "--background")},
+            {"Picture", rows(picture_options(), "--size", "--aov")},
             {"Camera", camera_options()},
             {"Integrator and samples", sampling_options()},
             {"Light", light_options()},
             {"Display", rows(display_options(), "--exposure", "--tonemap")},
             {"glTF assets", rows(asset_options(), "--time", "--animation")},
             {"glTF assets", rows(asset_options(), "--variant", "--allow-path")},
+            {"Long renderings", rows(checkpoint_options(), "--target-error", "--time-limit")},
             {"Running", rows(running_options(), "--threads", "--memory-limit")},
             {"Messages and help", common_options()}};
   }

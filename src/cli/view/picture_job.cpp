@@ -81,16 +81,16 @@ bool shows_variance(const PictureJob& job) {
 
 Film deviation_picture(const Film& film) {
   const auto& variances = std::get<std::vector<float>>(film.channels.front().values);
+  std::vector<float> deviations(variances.size());
+  std::ranges::transform(variances, deviations.begin(), [](float v) { return std::sqrt(v); });
   Film picture(film.size());
-  float most = 0;
   for (std::uint32_t y = 0, i = 0; y < film.size().height; ++y) {
-    for (std::uint32_t x = 0; x < film.size().width; ++x) {
-      const float deviation = std::sqrt(variances[i++]);
-      picture.at(x, y) = Vec3(deviation);
-      most = std::max(most, deviation);
-    }
+    for (std::uint32_t x = 0; x < film.size().width; ++x) picture.at(x, y) = Vec3(deviations[i++]);
   }
-  picture.display = {.srgb = false, .scale = Vec3(most > 0 ? 1 / most : 1)};
+  // A few pixels with rare bright samples would make all others black.
+  const auto most = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 49 / 50);
+  std::ranges::nth_element(deviations, most);
+  picture.display = {.srgb = false, .scale = Vec3(*most > 0 ? 1 / *most : 1)};
   return picture;
 }
 

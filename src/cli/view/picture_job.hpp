@@ -38,8 +38,8 @@ struct PictureJob {
 /// Returns true if the page shows the variance of the samples instead of colors.
 [[nodiscard]] bool shows_variance(const PictureJob& job);
 
-/// Returns a gray picture of the standard deviations of the pixels' means: white at the greatest.
-/// The variances are in the first channel of `film`.
+/// Returns a gray picture of the standard deviations of the pixels' means; the greatest 2 %
+/// are white. The variances are in the first channel of `film`.
 [[nodiscard]] Film deviation_picture(const Film& film);
 
 }  // namespace microtrace::cli

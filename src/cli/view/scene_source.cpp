@@ -34,7 +34,7 @@ SceneSource::SceneSource(const Arguments& arguments)
 SceneSource::SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene)
     : SceneSource(arguments) {
   fixed_ = std::move(scene);
-  files_.clear();
+  if (fixed_) files_.clear();
 }
 
 std::shared_ptr<const ShownScene> SceneSource::get(const LoadOptions& wanted) {

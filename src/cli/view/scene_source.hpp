@@ -39,7 +39,7 @@ class SceneSource {
  public:
   /// Reads the scene file of the arguments when it is needed.
   explicit SceneSource(const Arguments& arguments);
-  /// Always returns the given scene.
+  /// Always returns the given scene, unless it is null.
   SceneSource(const Arguments& arguments, std::shared_ptr<const ShownScene> scene);
 
   /// Returns the scene with the variant and at the time that the arguments select. Throws Error.

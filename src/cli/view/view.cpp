@@ -13,6 +13,7 @@ namespace microtrace::cli {
 void view_scene(const Arguments& arguments) {
   if (arguments.scene == "-") refuse_usage("SCENE: standard input can't be read again; name a file");
   ViewServer server(arguments);
+  server.load();
   if (!arguments.quiet) {
     std::fprintf(stderr, "%s is shown at\n", printable(arguments.scene).c_str());
     std::printf("%s\n", server.address().c_str());

@@ -86,6 +86,10 @@ ViewServer::~ViewServer() {
   is_ending_ = true;
 }
 
+void ViewServer::load() {
+  for (const auto& source : sources_) static_cast<void>(make_job(*source, arguments_));
+}
+
 std::string ViewServer::address() const {
   return "http://127.0.0.1:" + std::to_string(port()) + "/" + token_ + "/";
 }

@@ -30,6 +30,10 @@ class ViewServer {
   ViewServer& operator=(const ViewServer&) = delete;
   ~ViewServer();
 
+  /// Loads the scene with the program's options, so that the first page shows it sooner. Throws
+  /// Error.
+  void load();
+
   /// The address of the page. It contains the token that all requests need.
   [[nodiscard]] std::string address() const;
   /// The port of 127.0.0.1, and the path of the page.

@@ -1,0 +1,410 @@
+"""Tests the server of `microtrace view` without a browser: what it refuses, and that its pictures are the program's.
+
+usage: server_test.py PROGRAM SOURCE_FOLDER [unittest options]
+"""
+
+import json
+import os
+import random
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from viewer import Viewer, read_png, wait_until
+
+PROGRAM, SOURCE = os.path.abspath(sys.argv[1]), Path(sys.argv[2]).absolute()
+SCENES = SOURCE / "scenes"
+SMALL = ["--size", "64x48", "--spp", "4"]
+FUZZ_SECONDS = float(os.environ.get("MICROTRACE_FUZZ_SECONDS", "60"))
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, **options)
+
+
+def raw(viewer, request, timeout=30):
+    """Sends bytes and returns what comes back until the server closes the connection or the time is over."""
+    with socket.create_connection(("127.0.0.1", viewer.port), timeout=timeout) as connection:
+        try:
+            connection.sendall(request)
+            connection.shutdown(socket.SHUT_WR)
+        except OSError:
+            pass  # the server has already refused
+        answer = b""
+        try:
+            while part := connection.recv(65536):
+                answer += part
+        except OSError:
+            pass
+        return answer
+
+
+def status(answer):
+    return int(answer.split()[1]) if answer.startswith(b"HTTP/1.1 ") else None
+
+
+class Access(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.viewer = Viewer(PROGRAM, SCENES / "perspective1.json")
+        cls.addClassCleanup(cls.viewer.__exit__)
+
+    def test_page_and_all_files_that_it_names(self):
+        page = self.viewer.request("GET", "")
+        self.assertEqual((page.status, page.headers["Content-Type"]), (200, "text/html; charset=utf-8"))
+        names = set(re.findall(r'(?:src|href)="([^":]+)"', page.body.decode()))
+        self.assertIn("app.js", names)
+        seen = set()
+        while names - seen:
+            name = (names - seen).pop()
+            seen.add(name)
+            file = self.viewer.request("GET", name)
+            self.assertEqual(file.status, 200, name)
+            names |= set(re.findall(r'from "\./([^"]+)"', file.body.decode()))
+        self.assertGreaterEqual(len(seen), 7)
+        self.assertNotIn("http", re.sub(r"http://www\.w3\.org", "", page.body.decode()))
+        policy = page.headers["Content-Security-Policy"]
+        self.assertTrue(policy.startswith("default-src 'none'; script-src 'self';"), policy)
+        self.assertEqual(page.headers["Referrer-Policy"], "no-referrer")
+        self.assertEqual(page.headers["Cache-Control"], "no-store")
+
+    def test_only_the_loopback_listens(self):
+        listening = [line.split()[1] for line in Path("/proc/net/tcp").read_text().splitlines()[1:]
+                     if line.split()[3] == "0A" and line.split()[1].endswith(f":{self.viewer.port:04X}")]
+        self.assertEqual(listening, [f"0100007F:{self.viewer.port:04X}"])
+
+    def test_token(self):
+        token = self.viewer.token
+        self.assertRegex(token, "^[0-9a-f]{32}$")
+        wrong = [f"/{token[:-1]}{'0' if token[-1] != '0' else '1'}/", f"/{token[:-1]}/", f"/{token}0/", "/", "//", f"//{token}/",
+                 f"/x/{token}/", "/favicon.ico", f"/{token.upper()}x/", f"{token}/", "*", f"/%30{token[1:]}/"]
+        for path in wrong:
+            for method, body in (("GET", None), ("POST", "")):
+                answer = self.viewer.request(method, "", body, whole_path=path)
+                self.assertIn(answer.status, (400, 403), path)
+                self.assertNotIn(token.encode(), answer.body)
+        redirection = self.viewer.request("GET", "", whole_path=f"/{token}")
+        self.assertEqual((redirection.status, redirection.headers["Location"]), (301, f"{token}/"))
+        with Viewer(PROGRAM, SCENES / "sphere.json") as other:
+            self.assertNotEqual(other.token, token)
+
+    def test_host(self):
+        def answer(*headers):
+            lines = "".join(f"{header}\r\n" for header in headers)
+            return status(raw(self.viewer, f"GET /{self.viewer.token}/ HTTP/1.1\r\n{lines}Connection: close\r\n\r\n".encode()))
+        for host in ("localhost", "127.0.0.1", "[::1]", "LocalHost:99", f"127.0.0.1:{self.viewer.port}", "[::1]:80"):
+            self.assertEqual(answer(f"Host: {host}"), 200, host)
+        for host in ("example.org", "127.0.0.1.example.org", "localhost.", "localhost:80:80", "localhost:", "localhost:x", "", "127.1", "[::1",
+                     "localhost@example.org", "example.org:80"):
+            self.assertEqual(answer(f"Host: {host}"), 403, host)
+        self.assertEqual(answer(), 403)
+        self.assertEqual(answer("Host: localhost", "Host: example.org"), 403)
+
+    def test_origin(self):
+        own = f"http://127.0.0.1:{self.viewer.port}"
+        for origin, expected in ((own, 200), ("http://localhost:1", 403), ("http://example.org", 403), ("null", 403), (own + ".org", 403),
+                                 ("ftp://127.0.0.1", 403)):
+            answer = self.viewer.request("POST", "scene", "", {"Origin": origin})
+            self.assertEqual(answer.status, expected, origin)
+
+    def test_allowed_host(self):
+        with Viewer(PROGRAM, SCENES / "sphere.json", "--allow-host", "hub.example.org") as viewer:
+            for host, expected in (("hub.example.org", 200), ("hub.example.org:443", 200), ("localhost", 200), ("example.org", 403)):
+                self.assertEqual(viewer.request("GET", "", headers={"Host": host}).status, expected, host)
+
+    def test_methods_and_addresses(self):
+        for method, path, expected in (("POST", "", 405), ("GET", "scene", 405), ("DELETE", "pictures", 405), ("GET", "nothing", 404),
+                                       ("GET", "../", 404), ("GET", "pictures/99?after=0", 410), ("BREW", "", 405), ("HEAD", "style.css", 200)):
+            self.assertEqual(self.viewer.request(method, path).status, expected, (method, path))
+        self.assertEqual(self.viewer.request("HEAD", "style.css").body, b"")
+
+    def test_oversize_and_malformed_requests(self):
+        start = f"POST /{self.viewer.token}/scene HTTP/1.1\r\nHost: localhost\r\n".encode()
+        cases = [
+            (start + b"Content-Length: 70000\r\n\r\n" + b"x" * 70000, 413),
+            (start + b"Content-Length: 18446744073709551615\r\n\r\n", 413),
+            (start + b"Transfer-Encoding: chunked\r\n\r\n" + b"ffff\r\n" + b"x" * 0xFFFF + b"\r\nffff\r\n" + b"x" * 0xFFFF, 413),
+            (start + b"X: " + b"x" * 20000 + b"\r\n\r\n", 431),
+            (start + b"X: x\r\n" * 100000, 431),
+            (start + b"Content-Length: -1\r\n\r\n", 400),
+            (start + b"Content-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n", 400),
+            (start + b"Transfer-Encoding: chunked\r\n\r\nxyz\r\n", 400),
+            (b"GET /" + b"a" * 20000 + b" HTTP/1.1\r\n\r\n", 431),
+            (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(100), 400),
+            (b"GET / HTTP/9.9\r\n\r\n", 400),
+            (b"GET\r\n\r\n", 400),
+            (b"\x00" * 1000 + b"\r\n\r\n", 400),
+        ]
+        for request, expected in cases:
+            self.assertEqual(status(raw(self.viewer, request)), expected, request[:100])
+        self.assertEqual(raw(self.viewer, b""), b"")
+        self.assertEqual(self.viewer.request("GET", "").status, 200)
+
+    def test_many_and_slow_connections(self):
+        waiting = []
+        for _ in range(200):
+            connection = socket.create_connection(("127.0.0.1", self.viewer.port), timeout=10)
+            connection.sendall(b"GET / HT")
+            waiting.append(connection)
+        for connection in waiting:
+            connection.close()
+        wait_until(lambda: self.viewer.request("GET", "").status == 200)
+
+    def test_fuzz(self):
+        choices = random.Random(2026)
+        token = self.viewer.token.encode()
+        picture = self.viewer.open().encode()
+        seeds = [b"GET /%s/ HTTP/1.1\r\nHost: localhost\r\n\r\n" % token,
+                 b"POST /%s/scene HTTP/1.1\r\nHost: localhost\r\nContent-Length: 12\r\n\r\n--spp\n4\n--up" % token,
+                 b"PUT /%s/%s HTTP/1.1\r\nHost: localhost\r\nContent-Length: 20\r\n\r\n--size\n9x9\n--eye\n1,2" % (token, picture),
+                 b"GET /%s/%s?after=0 HTTP/1.1\r\nHost: localhost\r\n\r\n" % (token, picture),
+                 b"POST /%s/explanation?x=1&y=2&scene=0 HTTP/1.1\r\nHost: localhost\r\nContent-Length: 0\r\n\r\n" % token,
+                 b"POST /%s/file?format=png HTTP/1.1\r\nHost: localhost\r\nContent-Length: 11\r\n\r\n--size\n4x4\n" % token,
+                 b"POST /%s/pictures HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n5\r\nabcde\r\n0\r\n\r\n" % token]
+        parts = [b"\r\n", b"\x00", b"%", b"%2", b"&", b"=", b"?", b"/", b"--", b"\n", b"1e999", b"-1", b"99999999999999999999", b"\xff\xfe", b" ",
+                 b":", b"x=", b"--size\n1x1\n", b"--env\nstudio\n", b"--time\n1\n", b"--integrator\nid\n", b"--camera\n0\n", b"nan", b"inf"]
+        end, count, before = time.monotonic() + FUZZ_SECONDS, 0, self.viewer.memory()
+        while time.monotonic() < end:
+            request = bytearray(choices.choice(seeds))
+            for _ in range(choices.randint(1, 6)):
+                at = choices.randrange(len(request) + 1)
+                kind = choices.randrange(4)
+                if kind == 0:
+                    request[at:at] = choices.choice(parts)
+                elif kind == 1:
+                    del request[at:at + choices.randint(1, 8)]
+                elif kind == 2 and at < len(request):
+                    request[at] = choices.randrange(256)
+                else:
+                    request[at:at] = request[at:at + choices.randint(1, 40)]
+            # Long polls would wait for their 10 s.
+            answer = raw(self.viewer, bytes(request), timeout=0.5)
+            count += 1
+            if answer:
+                self.assertIn(status(answer), (200, 204, 301, 400, 403, 404, 405, 410, 413, 422, 431, 500, 503), request)
+                # Only limits, such as pictures that are too large, are failures of the server.
+                if status(answer) == 500:
+                    self.assertRegex(answer, b"memory|large|limit", request)
+            self.assertIsNone(self.viewer.process.poll(), request)
+        print(f"fuzz: {count} requests, memory {before >> 20} to {self.viewer.memory() >> 20} MiB", file=sys.stderr)
+        self.assertGreater(count, FUZZ_SECONDS)
+        self.assertLess(self.viewer.memory(), 400 << 20)
+        wait_until(lambda: self.viewer.request("GET", "").status == 200)
+
+
+class Pictures(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(self.scratch.cleanup)
+        self.folder = Path(self.scratch.name)
+
+    def program_picture(self, scene, words, name="expected.png"):
+        result = run(scene, *words, "-o", self.folder / name, "-q")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return (self.folder / name).read_bytes()
+
+    def test_pictures_are_the_programs(self):
+        cases = {
+            "perspective1.json": [["--size", "64x48"], SMALL, ["--size", "32x24", "--integrator", "path", "--spp", "3"],
+                                  ["--size", "64x48", "--integrator", "depth"], ["--size", "64x48", "--integrator", "id"],
+                                  ["--size", "64x48", "--background", "transparent"], ["--size", "64x48", "--crop", "8,8,40,30"],
+                                  ["--size", "64x48", "--eye", "-3,2,9", "--target", "0,0,0", "--fov", "50"]],
+            "gltf/materials.glb": [SMALL, [*SMALL, "--env", "#8090ff", "--env-rotation", "30"], [*SMALL, "--env", "studio", "--background", "env"],
+                                   [*SMALL, "--exposure", "1.5", "--tonemap", "aces"], [*SMALL, "--target-error", "0.5"],
+                                   [*SMALL, "--view", "front", "--filter", "blackman-harris", "--seed", "7"]],
+            "gltf/moving.glb": [[*SMALL, "--time", "0.5"], [*SMALL, "--time", "0.75", "--integrator", "flat"]],
+            "gltf/far.glb": [SMALL, ["--size", "64x48", "--integrator", "normal"]],
+            "sky.json": [[*SMALL, "--integrator", "path"]],
+        }
+        for scene, options in cases.items():
+            with Viewer(PROGRAM, SCENES / scene) as viewer:
+                path = viewer.open()
+                for words in options:
+                    with self.subTest(scene=scene, words=words):
+                        expected = self.program_picture(SCENES / scene, words)
+                        last = viewer.draw(words, path)[-1]
+                        self.assertEqual(last.headers["Content-Type"], "image/png", last.body)
+                        self.assertEqual(read_png(last.body), read_png(expected))
+                        saved = viewer.request("POST", "file?format=png", "\n".join(words))
+                        self.assertEqual(saved.body, expected)
+                        self.assertIn(f'filename="{Path(scene).stem}.png"', saved.headers["Content-Disposition"])
+
+    def test_exr_with_channels(self):
+        words = [*SMALL, "--aov", "depth,id"]
+        with Viewer(PROGRAM, SCENES / "gltf/cube.glb") as viewer:
+            saved = viewer.request("POST", "file?format=exr", "\n".join(words))
+            self.assertEqual(saved.body, self.program_picture(SCENES / "gltf/cube.glb", words, "expected.exr"))
+            for extension in ("txt", "", "../png", "PNG"):
+                self.assertEqual(viewer.request("POST", f"file?format={extension}", "\n".join(SMALL)).status, 422, extension)
+            refused = viewer.request("POST", "file?format=png", "\n".join(words))
+            self.assertEqual((refused.status, "channels" in refused.json["error"]), (422, True))
+
+    def test_options_of_the_program_are_those_of_the_page(self):
+        with Viewer(PROGRAM, SCENES / "gltf/cube.glb", "--spp", "3", "--size", "40x30", "--view", "front", "-t", "1") as viewer:
+            scene = viewer.request("POST", "scene", "").json
+            self.assertEqual(scene["words"], ["--size", "40x30", "--view", "front", "--spp", "3"])
+
+    def test_moving_camera(self):
+        with Viewer(PROGRAM, SCENES / "gltf/materials.glb") as viewer:
+            path = viewer.open()
+            viewer.draw(["--size", "640x480"], path, moving=True)
+            first = viewer.draw(["--size", "640x480", "--view", "front"], path, moving=True)[0]
+            self.assertEqual((first.picture["preview"], first.picture["samples"]), (True, 1))
+            self.assertEqual((first.picture["width"], first.picture["height"]), (640, 480))
+            width, _, _ = read_png(first.body)
+            self.assertLess(width, 640)
+
+    def test_passes_grow_and_the_sequence_increases(self):
+        with Viewer(PROGRAM, SCENES / "gltf/materials.glb") as viewer:
+            responses = viewer.draw(["--size", "320x240", "--spp", "64"])
+            samples = [r.picture["samples"] for r in responses if not r.picture["preview"]]
+            self.assertEqual(samples[-1], 64)
+            self.assertGreater(len(samples), 1)
+            self.assertEqual(samples, sorted(set(samples)))
+            sequence = [r.picture["sequence"] for r in responses]
+            self.assertEqual(sequence, sorted(set(sequence)))
+
+    def test_variance(self):
+        with Viewer(PROGRAM, SCENES / "gltf/lamps.glb") as viewer:
+            words = ["--size", "64x48", "--spp", "16", "--integrator", "path", "--aov", "variance"]
+            _, _, samples = read_png(viewer.draw(words)[-1].body)
+            self.assertEqual(samples[0::3], samples[1::3])
+            self.assertGreater(max(samples), 200)
+            self.assertGreater(len(set(samples)), 50)
+
+    def test_explanation_is_the_programs(self):
+        for scene, words in (("perspective1.json", []), ("gltf/textures.glb", ["--view", "30,20"])):
+            with Viewer(PROGRAM, SCENES / scene) as viewer:
+                for x, y in ((320, 240), (200, 300), (0, 0), (639, 479)):
+                    expected = json.loads(run("explain", SCENES / scene, *words, "--pixel", f"{x},{y}", "--json").stdout)
+                    answer = viewer.request("POST", f"explanation?x={x + 0.5}&y={y + 0.5}", "\n".join(words)).json
+                    expected["pixel"]["camera"] = answer["pixel"]["camera"]  # the page doesn't name it
+                    self.assertEqual(answer, expected)
+                for query in ("x=640.5&y=1", "x=-1&y=1", "x=nan&y=1", "y=1", "x=1&y=1&scene=1", "x=1&y=1&scene=-1"):
+                    self.assertEqual(viewer.request("POST", f"explanation?{query}", "").status, 422, query)
+
+    def test_errors_are_the_programs(self):
+        with Viewer(PROGRAM, SCENES / "perspective1.json") as viewer:
+            path = viewer.open()
+            for words in (["--sp", "4"], ["--spp", "0"], ["--help"], ["--output", "x.png"], ["x.json"], ["--port", "1"], ["--spp"],
+                          ["--eye", "1,2"], ["--target", "0,0,0"]):
+                answer = viewer.request("PUT", path, "\n".join(words))
+                allowed = 200 if words[0] == "--port" else 422
+                self.assertEqual(answer.status, allowed, words)
+                if allowed == 422:
+                    self.assertTrue(answer.json["error"], words)
+            last = viewer.draw(["--camera", "nobody"], path)[-1]
+            self.assertEqual(last.headers["Content-Type"], "application/json")
+            self.assertIn("there is no camera nobody; the scene has 0 (camera1)", last.json["error"])
+            self.assertEqual(viewer.draw(["--size", "16x12"], path)[-1].headers["Content-Type"], "image/png")
+
+    def test_description_of_an_asset(self):
+        with Viewer(PROGRAM, SCENES / "gltf/moving.glb") as viewer:
+            scene = viewer.request("POST", "scene", "").json
+            self.assertEqual(scene["format"], "gltf")
+            self.assertGreater(scene["animations"][0]["end"], 0)
+            self.assertGreater(scene["distance"], 0)
+        with Viewer(PROGRAM, SCENES / "perspective1.json", "--compare", SCENES / "sphere.json") as viewer:
+            names = [viewer.request("POST", f"scene?scene={i}", "").json for i in (0, 1)]
+            self.assertEqual([Path(scene["name"]).name for scene in names], ["perspective1.json", "sphere.json"])
+            self.assertEqual([scene["scenes"] for scene in names], [2, 2])
+            other = viewer.draw(["--size", "64x48"], viewer.open(scene=1))[-1]
+            self.assertEqual(read_png(other.body), read_png(self.program_picture(SCENES / "sphere.json", ["--size", "64x48"])))
+
+    def test_files_are_read_again_when_they_change(self):
+        scene = self.folder / "scene.json"
+        shutil.copy(SCENES / "perspective1.json", scene)
+        text = scene.read_text()
+        with Viewer(PROGRAM, scene) as viewer:
+            path = viewer.open()
+            first = viewer.draw(["--size", "64x48"], path)[-1]
+
+            def next_after(response):
+                number = response.picture["sequence"]
+                return wait_until(lambda: (r := viewer.request("GET", f"{path}?after={number}")).status == 200 and r)
+
+            # A broken file: the message names the line and shows it with a caret.
+            scene.write_text(text.replace('"radius"', '"radiu"', 1))
+            broken = next_after(first)
+            self.assertEqual(broken.headers["Content-Type"], "application/json")
+            self.assertRegex(broken.json["error"], r"scene\.json:\d+:\d+: /")
+            self.assertIn("^", broken.json["error"])
+            self.assertEqual(viewer.request("POST", "scene", "").status, 422)
+            # Another picture, by a new file of the same name, as editors write it.
+            changed = re.sub(r'("radius":\s*)[\d.]+', r"\g<1>0.3", text)
+            self.assertNotEqual(changed, text)
+            (self.folder / "new").write_text(changed)
+            os.replace(self.folder / "new", scene)
+            second = next_after(broken)
+            self.assertEqual(second.headers["Content-Type"], "image/png")
+            self.assertGreater(second.picture["revision"], first.picture["revision"])
+            self.assertEqual(read_png(second.body), read_png(self.program_picture(scene, ["--size", "64x48"])))
+            self.assertNotEqual(read_png(second.body), read_png(first.body))
+            # A missing file, and the first one again.
+            scene.unlink()
+            missing = next_after(second)
+            self.assertIn("scene.json", missing.json["error"])
+            scene.write_text(text)
+            self.assertEqual(read_png(next_after(missing).body), read_png(first.body))
+
+    def test_pictures_are_independent_and_limited(self):
+        with Viewer(PROGRAM, SCENES / "perspective1.json") as viewer:
+            paths = [viewer.open() for _ in range(8)]
+            expected = {view: read_png(self.program_picture(SCENES / "perspective1.json", ["--size", "32x24", "--view", view]))
+                        for view in ("front", "top")}
+            for path, view in zip(paths, ["front", "top"] * 4, strict=True):
+                self.assertEqual(viewer.request("PUT", path, f"--size\n32x24\n--view\n{view}").status, 200)
+            for path, view in zip(paths, ["front", "top"] * 4, strict=True):
+                after, response = 0, None
+                while response is None or not response.picture["done"]:
+                    response = viewer.request("GET", f"{path}?after={after}")
+                    after = response.picture["sequence"]
+                self.assertEqual(read_png(response.body), expected[view])
+            ninth = viewer.open()
+            self.assertEqual(viewer.request("GET", f"{paths[0]}?after=0").status, 410)  # was not asked for the longest time
+            self.assertEqual(viewer.request("DELETE", ninth).status, 204)
+            self.assertEqual(viewer.request("GET", f"{ninth}?after=0").status, 410)
+
+
+class Ends(unittest.TestCase):
+    def test_page_ends_the_program(self):
+        with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
+            # While a long picture is being drawn and awaited.
+            path = viewer.open()
+            viewer.request("PUT", path, "--integrator\npath\n--spp\n65536")
+            self.assertEqual(viewer.request("POST", "end", "").status, 200)
+            self.assertEqual(viewer.process.wait(timeout=10), 0)
+
+    def test_signals(self):
+        for signal in (2, 15):
+            with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
+                path = viewer.open()
+                viewer.request("PUT", path, "--integrator\npath\n--spp\n65536")
+                viewer.process.send_signal(signal)
+                self.assertEqual(viewer.process.wait(timeout=10), 0)
+
+    def test_usage(self):
+        with Viewer(PROGRAM, SCENES / "sphere.json") as viewer:
+            busy = run("view", SCENES / "sphere.json", "--no-browser", "--port", viewer.port, timeout=30)
+            self.assertEqual(busy.returncode, 5)
+            self.assertIn(f"port {viewer.port} of 127.0.0.1 can't be used: Address already in use; choose another one", busy.stderr.decode())
+        for arguments, code in ((["missing.json"], 5), (["-"], 2), ([SCENES / "sphere.json", "--port", "0"], 2), ([], 2),
+                                ([SCENES / "sphere.json", "--camera", "nobody"], 2), ([SCENES / "sphere.json", "-o", "x.png"], 2),
+                                ([SCENES / "sphere.json", "--compare", "missing.json"], 5)):
+            result = run("view", *arguments, "--no-browser", timeout=30)
+            self.assertEqual(result.returncode, code, (arguments, result.stderr))
+
+    def test_module_is_missing(self):
+        result = run("view", SCENES / "sphere.json", env=dict(os.environ, MICROTRACE_MODULE_PATH="/nowhere"), timeout=30)
+        self.assertEqual(result.returncode, 4)
+        self.assertIn(b"microtrace_http", result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
